@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee {
+
+/// A piece of XML kept as plain data: what a sensor's or plugin's own parser reads once its kind is known.
+struct Element {
+  std::string name;
+  std::string text;  // trimmed
+  std::map<std::string, std::string> attributes;
+  std::vector<Element> children;
+  Source source;
+
+  /// The first child of that name, or nullptr.
+  const Element* child(const std::string& child_name) const;
+};
+
+}  // namespace ardee

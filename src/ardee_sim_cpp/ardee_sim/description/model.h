@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/description/element.h"
+#include "ardee_sim/description/geometry.h"
+#include "ardee_sim/description/material.h"
+
+namespace ardee {
+
+/// How a body meets others. Friction as in ODE: mu along fdir1 (or the first axis of the friction pyramid), mu2 across it.
+/// kp (N/m) and kd (N s/m) are the contact's spring and damper. Defaults: SDF 1.6.
+struct Surface {
+  double mu = 1.0;
+  double mu2 = 1.0;
+  Eigen::Vector3d fdir1{0, 0, 0};  // in the collision's frame; zero: none
+  double slip1 = 0.0;
+  double slip2 = 0.0;
+  double kp_n_per_m = 1e12;
+  double kd_n_s_per_m = 1.0;
+  double soft_cfm = 0.0;
+  double soft_erp = 0.2;
+  double max_correcting_velocity_m_per_s = 0.01;
+  double min_depth_m = 0.0;
+  double restitution = 0.0;
+  double bounce_threshold_m_per_s = 1e5;
+  int max_contacts = 10;
+};
+
+struct Collision {
+  std::string name;
+  Pose X_LC;
+  Geometry geometry;
+  Surface surface;
+  double laser_retro = 0.0;
+};
+
+struct Visual {
+  std::string name;
+  Pose X_LV;
+  Geometry geometry;
+  std::optional<Material> material;  // none: the mesh file's own, or grey
+  bool cast_shadows = true;
+  double transparency = 0.0;
+  double laser_retro = 0.0;
+};
+
+/// Mass and inertia about the centre of mass, in the axes of X_LI.
+struct Inertial {
+  double mass_kg = 0.0;
+  Pose X_LI;
+  Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
+};
+
+/// A plugin block as written; the registry that knows `filename` reads `element`.
+struct PluginDescription {
+  std::string name;
+  std::string filename;
+  Element element;
+};
+
+/// A <sensor> as written: what all kinds share is read here, the rest by the sensor's own parser from `element`.
+struct SensorDescription {
+  std::string name;
+  std::string type;
+  double update_rate_hz = 0.0;
+  Pose X_LS;
+  Element element;
+  std::vector<PluginDescription> plugins;
+};
+
+struct Link {
+  std::string name;
+  Pose X_ML;
+  std::optional<Inertial> inertial;  // none: massless (URDF); the SDF reader fills in SDF's default
+  std::vector<Collision> collisions;
+  std::vector<Visual> visuals;
+  std::vector<SensorDescription> sensors;
+  bool gravity = true;
+  bool kinematic = false;
+  bool self_collide = false;
+  Source source;
+};
+
+enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kBall, kUniversal, kRevolute2, kScrew };
+
+/// One axis of a joint, with what acts along it. SI units: rad or m, N m or N.
+struct JointAxis {
+  Eigen::Vector3d axis{0, 0, 1};  // unit, in the joint's frame
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double effort = std::numeric_limits<double>::infinity();
+  double velocity = std::numeric_limits<double>::infinity();
+  double damping = 0.0;
+  double friction = 0.0;
+  double spring_stiffness = 0.0;
+  double spring_reference = 0.0;
+};
+
+struct Joint {
+  std::string name;
+  JointType type = JointType::kFixed;
+  std::string parent;  // link name, or "world"
+  std::string child;
+  Pose X_CJ;  // joint frame in the child link's frame
+  JointAxis axis;
+  JointAxis axis2;              // universal, revolute2
+  double thread_pitch_m = 0.0;  // screw: metres a turn
+  // ODE's own: softness and correction at the stops and of the joint itself (negative: the world's).
+  double stop_cfm = -1.0;
+  double stop_erp = -1.0;
+  Source source;
+};
+
+struct Model;
+
+/// A model placed somewhere: many instances share one description.
+struct Instance {
+  std::shared_ptr<const Model> model;
+  std::string name;
+  Pose pose;  // in the frame of what holds it
+  double scale = 1.0;
+  std::uint32_t label = 0;  // class for segmentation; 0: none
+  bool is_static = false;
+};
+
+/// A model as described: const after load, shared by its instances.
+struct Model {
+  std::string name;
+  Source source;
+  bool is_static = false;
+  bool self_collide = false;
+  std::vector<Link> links;
+  std::vector<Joint> joints;
+  std::vector<PluginDescription> plugins;
+  std::vector<Instance> instances;  // static models included by this one; non-static ones are merged into links and joints
+  std::string canonical_link;       // the link whose pose stands for the model's; the first
+
+  const Link* find_link(const std::string& link_name) const;
+  const Joint* find_joint(const std::string& joint_name) const;
+};
+
+}  // namespace ardee

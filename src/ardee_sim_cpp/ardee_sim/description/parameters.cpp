@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/description/parameters.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace ardee {
+namespace {
+
+std::string quoted(const std::string& text) {
+  constexpr std::size_t kLongest = 80;
+  return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
+}
+
+}  // namespace
+
+double parse_number(const std::string& text, const Source& source) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0.0;
+  std::string rest;
+  if (!(stream >> value) || (stream >> rest) || !std::isfinite(value)) {
+    throw Error(source, "found " + quoted(text) + ", expected a finite number");
+  }
+  return value;
+}
+
+bool parse_boolean(const std::string& text, const Source& source) {
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (lower == "true" || lower == "1") return true;
+  if (lower == "false" || lower == "0") return false;
+  throw Error(source, "found " + quoted(text) + ", expected true or false");
+}
+
+Eigen::Vector3d parse_vector3(const std::string& text, const Source& source) {
+  std::istringstream stream(text);
+  std::string x, y, z, rest;
+  if (!(stream >> x >> y >> z) || (stream >> rest)) {
+    throw Error(source, "found " + quoted(text) + ", expected three numbers");
+  }
+  return {parse_number(x, source), parse_number(y, source), parse_number(z, source)};
+}
+
+const Element* Parameters::find(const std::string& key) {
+  known_.insert(key);
+  return element_.child(key);
+}
+
+bool Parameters::has(const std::string& key) { return find(key) != nullptr; }
+
+std::string Parameters::text(const std::string& key, const std::string& fallback) {
+  const Element* child = find(key);
+  return child ? child->text : fallback;
+}
+
+std::string Parameters::required_text(const std::string& key) {
+  const Element* child = find(key);
+  if (!child || child->text.empty()) {
+    throw Error(element_.source, "found no <" + key + ">, expected one");
+  }
+  return child->text;
+}
+
+double Parameters::number(const std::string& key, double fallback, double low, double high) {
+  const Element* child = find(key);
+  if (!child) return fallback;
+  const double value = parse_number(child->text, child->source);
+  if (value < low || value > high) {
+    std::ostringstream what;
+    what << "found " << value << ", expected a number in [" << low << ", " << high << "]";
+    throw Error(child->source, what.str());
+  }
+  return value;
+}
+
+int Parameters::integer(const std::string& key, int fallback, int low, int high) {
+  const double value = number(key, fallback, low, high);
+  if (value != std::floor(value)) throw error(key, "expected a whole number");
+  return static_cast<int>(value);
+}
+
+bool Parameters::boolean(const std::string& key, bool fallback) {
+  const Element* child = find(key);
+  return child ? parse_boolean(child->text, child->source) : fallback;
+}
+
+Eigen::Vector3d Parameters::vector3(const std::string& key, const Eigen::Vector3d& fallback) {
+  const Element* child = find(key);
+  return child ? parse_vector3(child->text, child->source) : fallback;
+}
+
+const Element* Parameters::block(const std::string& key) { return find(key); }
+
+void Parameters::finish(Log& log) const {
+  for (const Element& child : element_.children) {
+    if (known_.count(child.name) == 0) {
+      log.warn(child.source.to_string() + ": unknown key, ignored");
+    }
+  }
+}
+
+Error Parameters::error(const std::string& key, const std::string& what) const {
+  const Element* child = element_.child(key);
+  if (!child) return Error(element_.source, "<" + key + ">: " + what);
+  return Error(child->source, "found " + quoted(child->text) + ", " + what);
+}
+
+}  // namespace ardee

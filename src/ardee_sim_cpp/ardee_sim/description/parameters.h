@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/description/element.h"
+
+namespace ardee {
+
+/// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers which keys were asked
+/// for, so that finish() can name the ones that nobody reads. A value that does not parse or lies outside its bounds is an
+/// Error with file, line and element; an unknown key is a warning.
+class Parameters {
+ public:
+  explicit Parameters(const Element& element) : element_(element) {}
+
+  bool has(const std::string& key);
+  std::string text(const std::string& key, const std::string& fallback);
+  std::string required_text(const std::string& key);
+  /// Finite number within [low, high].
+  double number(const std::string& key, double fallback,
+                double low = -std::numeric_limits<double>::max(),
+                double high = std::numeric_limits<double>::max());
+  int integer(const std::string& key, int fallback, int low, int high);
+  /// true/false/1/0, in any case.
+  bool boolean(const std::string& key, bool fallback);
+  Eigen::Vector3d vector3(const std::string& key, const Eigen::Vector3d& fallback);
+  /// The child element itself, for a nested block; nullptr if absent.
+  const Element* block(const std::string& key);
+  /// Marks keys as known without reading them (keys that Gazebo's plugins accept and ignore).
+  void ignore(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }
+  /// Warns once for each key that was never asked for.
+  void finish(Log& log) const;
+  const Source& source() const { return element_.source; }
+  Error error(const std::string& key, const std::string& what) const;
+
+ private:
+  const Element* find(const std::string& key);
+
+  const Element& element_;
+  std::set<std::string> known_;
+};
+
+/// The one parser of numbers: accepts a finite decimal number with nothing after it, or says so.
+double parse_number(const std::string& text, const Source& source);
+bool parse_boolean(const std::string& text, const Source& source);
+Eigen::Vector3d parse_vector3(const std::string& text, const Source& source);
+
+}  // namespace ardee

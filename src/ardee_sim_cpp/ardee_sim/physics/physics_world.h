@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/description/scenery.h"
+#include "ardee_sim/description/world.h"
+
+namespace ardee {
+
+/// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness * (angle - reference) (thesis
+/// eq. 4.1), integrated implicitly, so that it is stable at any step.
+struct JointSpring {
+  double stiffness = 0.0;  // N m/rad (N/m)
+  double damping = 0.0;    // N m s/rad (N s/m)
+  double reference = 0.0;  // rad (m)
+};
+
+/// The moving state of one dynamic model. Links and joints are addressed by their index in the description. Links joined by
+/// fixed joints move as one body but keep their frames.
+class PhysicsModel {
+ public:
+  virtual ~PhysicsModel() = default;
+
+  virtual const Model& description() const = 0;
+  /// Pose of the model's frame, carried by its canonical link.
+  virtual Pose pose() const = 0;
+  /// Moves the whole model, joints as they are; velocities are kept.
+  virtual void set_pose(const Pose& X_WM) = 0;
+  /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world axes).
+  virtual void set_twist(const Twist& twist_W) = 0;
+  virtual Pose link_pose(std::size_t link) const = 0;
+  /// Velocity of the link frame's origin, and angular velocity, in world axes.
+  virtual Twist link_twist(std::size_t link) const = 0;
+
+  /// Angle (rad, continuous over turns) or displacement (m) of the joint's first axis.
+  virtual double joint_position(std::size_t joint) const = 0;
+  virtual double joint_velocity(std::size_t joint) const = 0;
+  /// Moves the child side of the joint, all that hangs on it included; limits are respected.
+  virtual void set_joint_position(std::size_t joint, double position) = 0;
+  /// Drives the joint towards `velocity` with at most `max_effort`; max_effort 0 lets it coast. Holds until changed.
+  virtual void set_joint_motor(std::size_t joint, double velocity, double max_effort) = 0;
+  /// Replaces the spring, damper of the description. Holds until changed.
+  virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
+  virtual void set_joint_limits(std::size_t joint, double lower, double upper) = 0;
+  /// Adds a force (N, world axes) at a world point and a torque (N m) for the next step only.
+  virtual void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
+                            const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) = 0;
+  /// Adds an effort along the joint's axis for the next step only.
+  virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
+};
+
+/// ODE behind plain data: dynamic models, and scenery in a uniform grid so that the cost of a step does not depend on the
+/// size of the field.
+class PhysicsWorld {
+ public:
+  PhysicsWorld(const PhysicsParams& params, Log log);
+  ~PhysicsWorld();
+
+  const PhysicsParams& params() const;
+  /// Takes effect with the next step.
+  void set_params(const PhysicsParams& params);
+
+  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind.
+  PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM);
+  void remove_model(PhysicsModel& model);
+
+  using SceneryId = std::uint32_t;
+  SceneryId add_scenery(const std::vector<Placement>& placements);
+  void remove_scenery(SceneryId id);
+
+  /// One step of params().step_s. Throws Error naming model and link if a state is not finite.
+  void step();
+  /// ODE's solver shuffles with a global random number: called on each reset.
+  void reset_random(std::uint64_t seed);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ardee

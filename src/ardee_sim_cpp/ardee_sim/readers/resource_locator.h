@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee {
+
+/// Finds the file behind a URI: model://, package://, file://, an absolute path, or a path beside the referring file.
+class ResourceLocator {
+ public:
+  using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
+
+  /// GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ROS_PACKAGE_PATH of the environment.
+  static ResourceLocator from_environment();
+
+  void add_model_path(const std::string& folder) { model_paths_.push_back(folder); }
+  void add_resource_path(const std::string& folder) { resource_paths_.push_back(folder); }
+  void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
+
+  /// The existing file or folder that `uri` names. Throws Error at `source` with the places searched.
+  std::string resolve(const std::string& uri, const Source& source) const;
+  /// The .sdf file of the model folder that `uri` names (model.config's <sdf>, highest version up to 1.6 first).
+  std::string resolve_model(const std::string& uri, const Source& source) const;
+
+ private:
+  std::vector<std::string> model_paths_;
+  std::vector<std::string> resource_paths_;
+  PackageFinder find_package_;
+};
+
+}  // namespace ardee
