@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+# Sourced by every script here: the workspace's root, a sane environment, and how to print.
+# shellcheck shell=bash
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+# Debian's own ROS nodes start with `env python3`, and catkin looks python3 up on PATH: it must be the system's.
+export PATH="/usr/bin:$PATH"
+# The machine's own name need not resolve, as in a container.
+export ROS_IP="${ROS_IP:-127.0.0.1}"
+unset ROS_HOSTNAME
+
+heading() { printf '\n== %s\n' "$*"; }
+note() { printf '   %s\n' "$*"; }
+die() {
+  printf '%s: %s\n' "$(basename "$0")" "$*" >&2
+  exit 2
+}
+
+# Print the comment block below the first two lines of the calling script: its usage.
+usage() { awk 'NR > 2 && /^#/ { sub(/^# ?/, ""); print; next } NR > 2 { exit }' "$0"; }
+
+# Source a set-up file of ROS; they read variables that need not be set.
+source_ros() {
+  set +u
+  # shellcheck disable=SC1090
+  source "$1"
+  set -u
+}
+
+# ROS below this workspace: /opt/ros/noetic where there is one, else Debian's packages, which need no set-up file.
+source_underlay() {
+  if [[ -f /opt/ros/noetic/setup.bash ]]; then
+    source_ros /opt/ros/noetic/setup.bash
+    export PATH="/usr/bin:$PATH"
+  fi
+}
+
+# This workspace as built.
+source_workspace() {
+  [[ -f $root/devel/setup.bash ]] || die "not built yet: run scripts/build"
+  source_ros "$root/devel/setup.bash"
+  export PATH="/usr/bin:$PATH"
+}

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+"""Print how many tests of a JUnit file passed and how many failed, as two numbers; a skipped test is neither."""
+import sys
+import xml.etree.ElementTree as tree
+from typing import Tuple
+
+
+def count(path: str) -> Tuple[int, int]:
+    """Passed and failed test cases of the JUnit file at `path`."""
+    passed = failed = 0
+    for case in tree.parse(path).getroot().iter("testcase"):
+        if case.find("failure") is not None or case.find("error") is not None:
+            failed += 1
+        elif case.find("skipped") is None and case.get("status") not in ("notrun", "disabled"):
+            passed += 1
+    return passed, failed
+
+
+if __name__ == "__main__":
+    print(*count(sys.argv[1]))
