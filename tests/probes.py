@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""What tests ask of a running graph; each function runs in a process of its own (RosGraph.call)."""
+import importlib
+import time
+from typing import Any, Dict, List, Optional, Tuple
+
+import rospy
+from ros_graph import wait_until
+
+
+def _type(name: str) -> Any:
+    """Class of a message `package/Type`, or of a service `package/Type` where there is no such message."""
+    package, kind = name.split("/")
+    for part in ("msg", "srv"):
+        try:
+            return getattr(importlib.import_module(f"{package}.{part}"), kind)
+        except (ImportError, AttributeError):
+            continue
+    raise ValueError(f"no message or service {name}")
+
+
+def _start() -> None:
+    rospy.init_node("probe", anonymous=True, disable_signals=True)
+
+
+def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[Any]:
+    """The next `count` messages of a topic."""
+    _start()
+    messages = []  # type: List[Any]
+    rospy.Subscriber(topic, _type(kind), messages.append, queue_size=1000)
+    wait_until(lambda: len(messages) >= count, f"{count} messages on {topic}", timeout_s)
+    return messages[:count]
+
+
+def call_service(name: str, kind: str, fields: Dict[str, Any], timeout_s: float = 30.0) -> Any:
+    """The answer of a service."""
+    return call_services([(name, kind, fields)], timeout_s)[0]
+
+
+def call_services(
+    calls: List[Tuple[str, str, Dict[str, Any]]], timeout_s: float = 30.0
+) -> List[Any]:
+    """The answers of several services, called one after the other."""
+    _start()
+    answers = []
+    for name, kind, fields in calls:
+        rospy.wait_for_service(name, timeout_s)
+        answers.append(rospy.ServiceProxy(name, _type(kind))(**fields))
+    return answers
+
+
+def topics(namespace: str = "/") -> Dict[str, str]:
+    """Names and types of the published topics below a namespace."""
+    _start()
+    return dict(rospy.get_published_topics(namespace))
+
+
+def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 30.0) -> List[str]:
+    """All published topics, once those of the first list are there and those of the second are not."""
+    _start()
+
+    def names() -> Optional[List[str]]:
+        found = {name for name, _ in rospy.get_published_topics()}
+        return sorted(found) if found.issuperset(present) and found.isdisjoint(absent) else None
+
+    return wait_until(names, f"topics {present} and none of {absent}", timeout_s)
+
+
+def drive(
+    cmd_topic: str, odom_topic: str, forward_m_s: float, turn_rad_s: float, sim_time_s: float
+) -> Tuple[Any, Any]:
+    """First and last odometry of a drive at constant command for a while of simulated time."""
+    from geometry_msgs.msg import Twist
+    from nav_msgs.msg import Odometry
+
+    _start()
+    odometry = []  # type: List[Any]
+    rospy.Subscriber(odom_topic, Odometry, odometry.append, queue_size=1000)
+    publisher = rospy.Publisher(cmd_topic, Twist, queue_size=1)
+    wait_until(lambda: odometry and publisher.get_num_connections(), f"odometry on {odom_topic}")
+    command = Twist()
+    command.linear.x, command.angular.z = forward_m_s, turn_rad_s
+    first = odometry[-1]
+    end = first.header.stamp + rospy.Duration.from_sec(sim_time_s)
+
+    def arrived() -> bool:
+        publisher.publish(command)
+        return odometry[-1].header.stamp >= end
+
+    wait_until(arrived, f"{sim_time_s} s of simulated driving", 60.0)
+    last = odometry[-1]
+    publisher.publish(Twist())
+    return first, last
+
+
+def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
+    """The latest transform from `child` to `parent`, once tf knows one."""
+    import tf2_ros
+
+    _start()
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer)
+    zero = rospy.Time(0)
+    wait_until(
+        lambda: buffer.can_transform(parent, child, zero), f"tf {parent} <- {child}", timeout_s
+    )
+    return buffer.lookup_transform(parent, child, zero)
+
+
+def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
+    """The simulated time [s], once it has reached a value."""
+    _start()
+    return wait_until(
+        lambda: rospy.get_time() >= sim_time_s and rospy.get_time(),
+        f"{sim_time_s} s of simulated time",
+        timeout_s,
+    )
+
+
+def clock_stands_still(wall_time_s: float = 0.5) -> bool:
+    """Does no new /clock time appear for a while of wall time, once messages on their way have arrived?"""
+    _start()
+    from rosgraph_msgs.msg import Clock
+
+    times = []  # type: List[Any]
+    rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock), queue_size=1000)
+    time.sleep(wall_time_s)
+    return len(set(times[1:])) <= 1

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: MIT
+"""One ROS graph a test: a master on a port that the kernel picks, processes around it, and nothing left behind."""
+import os
+import pathlib
+import queue
+import signal
+import subprocess
+import time
+from multiprocessing import get_context
+from typing import Any, Callable, Dict, List, Optional, Tuple
+
+MASTER = (
+    "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
+    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
+)
+Probe = Callable[..., Any]
+
+
+def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers: Any) -> None:
+    """Body of a probe's process: put (worked, value or message) into `answers`."""
+    os.environ.update(env)
+    try:
+        answers.put((True, probe(*args)))
+    except BaseException as error:
+        answers.put((False, f"{type(error).__name__}: {error}"))
+
+
+def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0) -> Any:
+    """The first true value of `condition`, asked again and again; fails after `timeout_s` of wall time."""
+    deadline = time.monotonic() + timeout_s
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {timeout_s} s in vain: {what}")
+        time.sleep(0.05)
+
+
+class Process:
+    """A process of the graph, with its output in a file."""
+
+    def __init__(self, command: List[str], env: Dict[str, str], log: pathlib.Path) -> None:
+        self.command, self.log = command, log
+        with log.open("wb") as output:
+            self._popen = subprocess.Popen(
+                command,
+                env=env,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+        self.pid = self._popen.pid
+
+    def output(self) -> str:
+        """What it printed so far, on both streams."""
+        return self.log.read_text(errors="replace")
+
+    def exit_code(self) -> Optional[int]:
+        """Its exit code, None while it runs."""
+        return self._popen.poll()
+
+    def wait(self, timeout_s: float = 60.0) -> int:
+        """Its exit code, once it has ended."""
+        try:
+            return self._popen.wait(timeout_s)
+        except subprocess.TimeoutExpired:
+            raise AssertionError(f"{self.command} still runs:\n{self.output()[-3000:]}") from None
+
+    def interrupt(self) -> None:
+        """What Ctrl-C in its terminal does."""
+        if self.exit_code() is None:
+            os.killpg(self.pid, signal.SIGINT)
+
+    def stop(self) -> None:
+        """End it: by Ctrl-C, and ever harder if that does not help."""
+        for sig, patience_s in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
+            if self.exit_code() is not None:
+                return
+            os.killpg(self.pid, sig)
+            try:
+                self._popen.wait(patience_s)
+            except subprocess.TimeoutExpired:
+                pass
+
+
+class RosGraph:
+    """A ROS master and all that a test starts around it."""
+
+    def __init__(self, folder: pathlib.Path) -> None:
+        self.folder, self.processes = folder, []  # type: pathlib.Path, List[Process]
+        self.env = dict(
+            os.environ,
+            ROS_IP="127.0.0.1",
+            ROS_HOME=str(folder),
+            ROS_LOG_DIR=str(folder / "log"),
+            ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
+            PYTHONUNBUFFERED="1",
+        )
+        for name in ("ROS_HOSTNAME", "ROS_NAMESPACE", "DISPLAY"):
+            self.env.pop(name, None)
+        self._master = subprocess.Popen(
+            ["/usr/bin/python3", "-c", MASTER],
+            env=self.env,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        self.env["ROS_MASTER_URI"] = self.uri = self._master.stdout.readline().strip()
+
+    def spawn(self, *command: str, **env: str) -> Process:
+        """Start a command, with more environment if wanted."""
+        words = [str(word) for word in command]
+        log = self.folder / f"{len(self.processes):02d}_{os.path.basename(words[0])}.log"
+        process = Process(words, dict(self.env, **env), log)
+        self.processes.append(process)
+        return process
+
+    def launch(self, package: str, file: str, *args: str) -> Process:
+        """Start a launch file."""
+        return self.spawn("roslaunch", package, file, *args)
+
+    def run(self, *command: str, timeout_s: float = 60.0) -> str:
+        """What a command prints; it has to succeed."""
+        process = self.spawn(*command)
+        code = process.wait(timeout_s)
+        assert code == 0, f"{command} exited with {code}:\n{process.output()}\n{self.logs()}"
+        return process.output()
+
+    def call(self, probe: Probe, *args: Any, timeout_s: float = 90.0) -> Any:
+        """probe(*args) in a process of its own: rospy can be initialised only once in each."""
+        context = get_context("spawn")
+        answers = context.Queue()
+        process = context.Process(target=_run_probe, args=(self.env, probe, args, answers))
+        process.start()
+        try:
+            worked, value = answers.get(timeout=timeout_s)
+        except queue.Empty:
+            worked, value = False, f"no answer in {timeout_s} s"
+        process.join(10)
+        if process.is_alive():
+            process.kill()
+            process.join()
+        assert worked, f"{probe.__name__}{args}: {value}\n{self.logs()}"
+        return value
+
+    def logs(self) -> str:
+        """The ends of all outputs, for the message of a failed test."""
+        return "\n".join(f"--- {p.log.name}\n{p.output()[-3000:]}" for p in self.processes)
+
+    def alive(self) -> Dict[int, str]:
+        """Every process but the master that speaks to this graph, by the environment it was started with."""
+        marker, found = f"ROS_MASTER_URI={self.uri}".encode(), {}
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if marker not in (folder / "environ").read_bytes().split(b"\0"):
+                    continue
+                words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode().strip()
+            except OSError:
+                continue  # gone meanwhile, or not ours to read
+            if words:  # empty: ended, waiting to be reaped
+                found[int(folder.name)] = words
+        found.pop(os.getpid(), None)
+        return found
+
+    def close(self) -> Dict[int, str]:
+        """End everything; returns what was still there after all was asked to stop."""
+        for process in reversed(self.processes):
+            process.stop()
+        deadline = time.monotonic() + 5.0
+        while self.alive() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        left = self.alive()
+        for pid in left:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        self._master.stdin.close()
+        try:
+            self._master.wait(5)
+        except subprocess.TimeoutExpired:
+            self._master.kill()
+            self._master.wait()
+        self._master.stdout.close()
+        return left
