@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <locale>
 #include <sstream>
 
 namespace ardee {
@@ -18,14 +18,17 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 double parse_number(const std::string& text, const Source& source) {
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
+  constexpr const char* kSpace = " \t\r\n";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  const std::size_t last = text.find_last_not_of(kSpace);
   double value = 0.0;
-  std::string rest;
-  if (!(stream >> value) || (stream >> rest) || !std::isfinite(value)) {
-    throw Error(source, "found " + quoted(text) + ", expected a finite number");
+  if (first != std::string::npos) {
+    const char* begin = text.data() + first + (text[first] == '+' ? 1 : 0);
+    const char* end = text.data() + last + 1;
+    const auto [stop, status] = std::from_chars(begin, end, value);
+    if (status == std::errc() && stop == end && std::isfinite(value)) return value;
   }
-  return value;
+  throw Error(source, "found " + quoted(text) + ", expected a finite number");
 }
 
 bool parse_boolean(const std::string& text, const Source& source) {

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/reading.h"
+#include "ardee_sim/devices/robot.h"
+#include "ardee_sim/raycast/ray_scene.h"
+
+namespace ardee {
+
+/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading variant.
+struct Output {
+  std::string topic;
+  std::size_t kind = 0;
+  bool demanded = true;  // false: nobody listens, the device need not measure
+};
+
+/// Something a device takes: velocity commands on a topic.
+struct Input {
+  std::string topic;
+  std::function<void(const Twist&)> on_command;
+};
+
+/// The ray scenes, made when first asked for and brought up to the present state of the world when used.
+class RayScenes {
+ public:
+  using Eye = std::function<Eigen::Vector3d()>;
+
+  virtual ~RayScenes() = default;
+  /// Announces a point that rays will start from, as long as the returned token lives: ground near it is kept ready.
+  virtual std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) = 0;
+  /// The scene as of this step.
+  virtual const RayScene& now(SceneKind kind) = 0;
+};
+
+/// Receives what devices measure; the ROS node publishes it, a test records it.
+class ReadingSink {
+ public:
+  virtual ~ReadingSink() = default;
+  virtual void on_reading(const Output& output, const Reading& reading) = 0;
+};
+
+/// What a device is given when it is made. All references outlive the device.
+struct DeviceContext {
+  Robot& robot;
+  RayScenes& scenes;
+  Log& log;
+  std::uint64_t seed = 0;            // of this robot's streams
+  std::string robot_namespace;       // where plugins without one of their own put their topics
+  TimeNs step_ns = 0;
+  /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
+  std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+};
+
+/// Something active on a robot: a controller, a sensor, a publisher of state.
+class Device {
+ public:
+  explicit Device(std::string name) : name_(std::move(name)) {}
+  virtual ~Device() = default;
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::deque<Output>& outputs() { return outputs_; }
+  std::deque<Input>& inputs() { return inputs_; }
+
+  /// Before physics: controllers act.
+  virtual void before_step(TimeNs /*now_ns*/) {}
+  /// After physics, at the new time: sensors measure.
+  virtual void after_step(TimeNs /*now_ns*/, ReadingSink& /*sink*/) {}
+  /// State goes back to what it was when the device was made; commands are forgotten.
+  virtual void reset(TimeNs now_ns) = 0;
+
+ protected:
+  /// Addresses of outputs stay valid as more are added.
+  Output& add_output(const std::string& topic, std::size_t kind);
+  void add_input(const std::string& topic, std::function<void(const Twist&)> on_command);
+
+ private:
+  std::string name_;
+  std::deque<Output> outputs_;
+  std::deque<Input> inputs_;
+};
+
+/// Position of type T in the Reading variant.
+template <typename T, std::size_t kIndex = 0>
+constexpr std::size_t reading_kind() {
+  if constexpr (std::is_same_v<std::variant_alternative_t<kIndex, Reading>, T>) {
+    return kIndex;
+  } else {
+    return reading_kind<T, kIndex + 1>();
+  }
+}
+
+}  // namespace ardee

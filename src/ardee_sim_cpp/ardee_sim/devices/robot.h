@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "ardee_sim/description/model.h"
+#include "ardee_sim/physics/physics_world.h"
+
+namespace ardee {
+
+/// A model in the world as its devices see it: its description, and where its links are now. A static model stands still and
+/// has no dynamics.
+class Robot {
+ public:
+  Robot(std::string name, std::shared_ptr<const Model> model, std::uint32_t entity)
+      : name_(std::move(name)), model_(std::move(model)), entity_(entity) {}
+
+  const std::string& name() const { return name_; }
+  const Model& model() const { return *model_; }
+  std::shared_ptr<const Model> shared_model() const { return model_; }
+  /// What the ray scenes call it.
+  std::uint32_t entity() const { return entity_; }
+
+  bool is_dynamic() const { return dynamics_ != nullptr; }
+  /// Throws Error if the model is static.
+  PhysicsModel& dynamics() const;
+  /// The moving state; nullptr and a fixed pose for a static model.
+  void attach(PhysicsModel* dynamics) { dynamics_ = dynamics; }
+  void place(const Pose& X_WM) { fixed_pose_ = X_WM; }
+
+  Pose pose() const { return dynamics_ ? dynamics_->pose() : fixed_pose_; }
+  Pose link_pose(std::size_t link) const;
+  Twist link_twist(std::size_t link) const;
+  std::size_t link_index(const std::string& link_name, const Source& source) const;
+  std::size_t joint_index(const std::string& joint_name, const Source& source) const;
+
+ private:
+  std::string name_;
+  std::shared_ptr<const Model> model_;
+  std::uint32_t entity_;
+  PhysicsModel* dynamics_ = nullptr;
+  Pose fixed_pose_;
+};
+
+}  // namespace ardee

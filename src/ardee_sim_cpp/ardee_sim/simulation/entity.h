@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/description/scenery.h"
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/robot.h"
+
+namespace ardee {
+
+/// A model of the world: a robot with its devices, or a piece of scenery with all that it includes.
+struct Entity {
+  Instance instance;  // as it was spawned: name, model, initial pose
+  std::string robot_namespace;
+  std::map<std::string, double> joint_positions;
+  std::unique_ptr<Robot> robot;
+  std::vector<std::unique_ptr<Device>> devices;
+  std::vector<Placement> placements;  // static: what stands where; the k-th has the ray entity robot->entity() + k
+  PhysicsWorld::SceneryId scenery = 0;
+
+  const std::string& name() const { return instance.name; }
+  bool is_static() const { return instance.is_static; }
+};
+
+}  // namespace ardee

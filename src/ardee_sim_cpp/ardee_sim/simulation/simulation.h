@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/description/world.h"
+#include "ardee_sim/devices/registry.h"
+#include "ardee_sim/simulation/entity.h"
+#include "ardee_sim/simulation/ray_scenes.h"
+#include "ardee_sim/simulation/wrenches.h"
+
+namespace ardee {
+
+struct SimulationOptions {
+  std::uint64_t seed = 0;
+  RayOptions rays;
+  std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+};
+
+struct SpawnRequest {
+  std::string name;
+  std::shared_ptr<const Model> model;
+  Pose X_WM;
+  std::string robot_namespace;
+  std::map<std::string, double> joint_positions;  // rad or m, by joint name
+  bool is_static = false;                         // makes a model static whose description is not
+  double scale = 1.0;                             // of static models
+  std::uint32_t label = 0;
+};
+
+/// Pose and velocity of something relative to something.
+struct RelativeState {
+  Pose pose;
+  Twist twist;
+};
+
+/// A world with its robots: load, spawn, remove, reset, step. Not thread-safe: one thread owns it, and services act between
+/// steps.
+class Simulation {
+ public:
+  /// Throws Error if something in the world cannot be built.
+  Simulation(const World& world, const SimulationOptions& options, LogSink log_sink);
+  ~Simulation();
+
+  /// Receives all readings from now on; nullptr: nobody.
+  void set_sink(ReadingSink* sink) { sink_ = sink; }
+
+  /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then leaves nothing behind.
+  Entity& spawn(const SpawnRequest& request);
+  void remove(const std::string& name);
+  /// The entity of that name, or nullptr.
+  Entity* find(const std::string& name);
+  /// In the order in which they came.
+  const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
+
+  void step();
+  TimeNs now_ns() const { return now_ns_; }
+  std::uint64_t step_count() const { return step_count_; }
+
+  /// All models back to where they were spawned, at rest; models stay that were spawned, the clock goes on.
+  void reset_world();
+  /// As reset_world, and the clock, random streams and frame counters start again.
+  void reset_simulation();
+
+  const World& world() const { return world_; }
+  const PhysicsParams& physics() const { return physics_.params(); }
+  void set_physics(const PhysicsParams& params);
+
+  /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such name; "" and "world"
+  /// name the world. Throws Error for an unknown name.
+  RelativeState state(const std::string& name, const std::string& reference) const;
+  /// Moves a model; `state` is relative to `reference`.
+  void set_state(const std::string& model, const RelativeState& state, const std::string& reference);
+  Wrenches& wrenches() { return wrenches_; }
+  /// Rays into the present world, for tools (pictures, labels).
+  RayScenes& scenes() { return scenes_; }
+
+ private:
+  void apply_commands();
+  void run_controllers();
+  void step_physics();
+  void sample_devices();
+  void build_devices(Entity& entity);
+  void restore(Entity& entity);
+  void reset_entities();
+  RelativeState state_in_world(const std::string& name) const;
+
+  World world_;
+  SimulationOptions options_;
+  Log log_;
+  Registry registry_;
+  PhysicsWorld physics_;
+  std::vector<std::unique_ptr<Entity>> entities_;
+  SceneSet scenes_;
+  Wrenches wrenches_;
+  ReadingSink* sink_ = nullptr;
+  TimeNs now_ns_ = 0;
+  TimeNs step_ns_ = 0;
+  std::uint64_t step_count_ = 0;
+  std::uint32_t next_entity_ = 0;
+};
+
+}  // namespace ardee

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/robot.h"
+
+namespace ardee {
+
+/// A push on a link for a while; forces in world axes (N, N m), the point in the link's frame (m).
+struct Wrench {
+  Robot* robot = nullptr;
+  std::size_t link = 0;
+  Eigen::Vector3d force_W{0, 0, 0};
+  Eigen::Vector3d torque_W{0, 0, 0};
+  Eigen::Vector3d point_L{0, 0, 0};
+  TimeNs start_ns = 0;
+  TimeNs duration_ns = 0;  // negative: until cleared
+};
+
+/// The pushes in force; several on one body add up.
+class Wrenches {
+ public:
+  void add(const Wrench& wrench) { wrenches_.push_back(wrench); }
+  void clear(const Robot& robot, std::size_t link);
+  void clear(const Robot& robot);
+  void clear_all() { wrenches_.clear(); }
+  /// Applies those in force at `now_ns` and forgets those that are over.
+  void apply(TimeNs now_ns);
+
+ private:
+  std::vector<Wrench> wrenches_;
+};
+
+}  // namespace ardee
