@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Procedural crops and terrains, written as Gazebo model directories."""

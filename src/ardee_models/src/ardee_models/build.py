@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""What the build generates: crop variants, terrains, textures, and the static models beside them."""
+
+import argparse
+import io
+import shutil
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from ardee_models.config import config_dir, from_mapping, read_yaml
+from ardee_models.crops import make_crop
+from ardee_models.errors import GeneratorError
+from ardee_models.output import model_directory, write_file
+from ardee_models.terrain import TerrainParams, generate_terrain
+from ardee_models.textures import media_textures
+from ardee_models.variants import Variant
+from ardee_models.writers.terrain import write_terrain
+
+_TERRAIN_SEED = 1
+_MEDIA_SEED = 1
+
+
+def build_crops(models: Path) -> None:
+    """The variants of config/corn_variants.yaml."""
+    path = config_dir() / "corn_variants.yaml"
+    for name, entry in read_yaml(path).items():
+        variant = from_mapping(Variant, entry, f"{path}: {name}")
+        make_crop(variant.species, variant.stage, variant.seed, name, models)
+
+
+def build_terrains(models: Path) -> None:
+    """heightmap_ground with ridges and bumps, heightmap_flat."""
+    ground, flat = TerrainParams(), TerrainParams(ridge_height_m=0.0, bump_sd_m=0.0)
+    for params, name, image in ((ground, "heightmap_ground", "corn_rows"), (flat, "heightmap_flat", "flat")):
+        terrain = generate_terrain(params, np.random.default_rng(_TERRAIN_SEED))
+        write_terrain(terrain, params.friction_mu, name, image, models)
+
+
+def build_media(media: Path) -> None:
+    """Textures named by terrain models."""
+    for stem, pixels in media_textures(np.random.default_rng(_MEDIA_SEED)).items():
+        buffer = io.BytesIO()
+        Image.fromarray(pixels).save(buffer, format="PNG", optimize=True)
+        write_file(media / "materials" / "textures" / f"{stem}.png", buffer.getvalue())
+
+
+def copy_static(source: Path, models: Path) -> None:
+    """Models that are kept by hand (ground_plane, sun)."""
+    for model in sorted(path for path in source.iterdir() if path.is_dir()):
+        with model_directory(models, model.name) as folder:
+            shutil.copytree(model, folder, dirs_exist_ok=True)
+
+
+def main() -> int:
+    """`python3 -m ardee_models.build --share DIR --static DIR`."""
+    parser = argparse.ArgumentParser(prog="ardee_models.build", description=__doc__)
+    parser.add_argument("--share", type=Path, required=True, help="folder to fill with models/ and media/")
+    parser.add_argument("--static", type=Path, required=True, help="folder of hand-kept models")
+    args = parser.parse_args()
+    try:
+        copy_static(args.static, args.share / "models")
+        build_crops(args.share / "models")
+        build_terrains(args.share / "models")
+        build_media(args.share / "media")
+    except GeneratorError as error:
+        parser.exit(2, f"{parser.prog}: {error}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

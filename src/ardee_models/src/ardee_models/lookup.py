@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""Reading models back: where a model is, how tall its plant is, what ground its heightmap makes."""
+
+import json
+import os
+import xml.etree.ElementTree as ElementTree
+from dataclasses import dataclass
+from pathlib import Path
+from typing import List, Sequence
+
+import numpy as np
+from PIL import Image
+
+from ardee_models.errors import GeneratorError
+from ardee_models.terrain import Terrain
+from ardee_models.writers.crop import METRICS_FILE
+
+
+@dataclass(frozen=True)
+class CropModel:
+    """What a field generator needs to know of a crop model."""
+
+    name: str
+    height_m: float
+    stalk_radius_m: float
+    label: int
+
+
+def search_path(extra: Sequence[Path] = ()) -> List[Path]:
+    """Folders of models: `extra`, then GAZEBO_MODEL_PATH."""
+    entries = os.environ.get("GAZEBO_MODEL_PATH", "").split(":")
+    return [*extra, *(Path(entry) for entry in entries if entry)]
+
+
+def find_model(name: str, folders: Sequence[Path]) -> Path:
+    """The first folder/name that is a model directory."""
+    for folder in folders:
+        if (folder / name / "model.config").is_file():
+            return folder / name
+    looked = ":".join(map(str, folders)) or "nothing (GAZEBO_MODEL_PATH is empty)"
+    raise GeneratorError(f"model {name!r}: not found, looked in {looked}")
+
+
+def _sdf_root(model: Path) -> ElementTree.Element:
+    path = model / "model.sdf"
+    try:
+        return ElementTree.parse(path).getroot()
+    except OSError as error:
+        raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
+    except ElementTree.ParseError as error:
+        raise GeneratorError(f"{path}: not valid XML: {error}") from error
+
+
+def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) -> List[float]:
+    text = element.findtext(tag, "")
+    try:
+        values = [float(word) for word in text.split()]
+    except ValueError:
+        values = []
+    if len(values) != count or not np.isfinite(values).all():
+        raise GeneratorError(f"{where}/model.sdf: <{tag}>: found {text!r}, expected {count} number(s)")
+    return values
+
+
+def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
+    """Figures of a crop model from its metrics file, else from the cylinder it collides with."""
+    model = find_model(name, folders)
+    path = model / METRICS_FILE
+    if not path.is_file():
+        cylinder = _sdf_root(model).find(".//collision/geometry/cylinder")
+        if cylinder is None:
+            raise GeneratorError(f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height")
+        height, radius = _numbers(cylinder, "length", 1, model)[0], _numbers(cylinder, "radius", 1, model)[0]
+        data = {"height_m": height, "stalk_radius_m": radius, "label": 1}
+    else:
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+            data = {key: float(data[key]) for key in ("height_m", "stalk_radius_m", "label")}
+        except (ValueError, KeyError, TypeError) as error:
+            raise GeneratorError(f"{path}: expected numbers height_m, stalk_radius_m, label: {error!r}") from error
+    if not (0.0 < data["height_m"] < 100.0 and 0.0 < data["stalk_radius_m"] < 10.0):
+        raise GeneratorError(f"{model}: found height {data['height_m']} m, radius {data['stalk_radius_m']} m")
+    return CropModel(name, data["height_m"], data["stalk_radius_m"], int(data["label"]))
+
+
+def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
+    """The ground of a heightmap model: height = pos.z + pixel / largest value of the pixel type * size.z."""
+    model = find_model(name, folders)
+    heightmap = _sdf_root(model).find(".//collision/geometry/heightmap")
+    if heightmap is None:
+        raise GeneratorError(f"{model}/model.sdf: no <heightmap> in a collision")
+    uri = heightmap.findtext("uri", "").strip()
+    size, pos = _numbers(heightmap, "size", 3, model), _numbers(heightmap, "pos", 3, model)
+    image_path = model.parent / uri.split("://", 1)[-1]
+    if size[0] != size[1] or size[0] <= 0 or pos[:2] != [0.0, 0.0]:
+        raise GeneratorError(f"{model}/model.sdf: <heightmap>: expected a square size, and pos 0 0 z")
+    try:
+        with Image.open(image_path) as image:
+            pixels = np.array(image)
+            largest = 255 if image.mode == "L" else 65535
+    except (OSError, ValueError) as error:
+        raise GeneratorError(f"{image_path}: not a readable image: {error}") from error
+    if pixels.ndim != 2 or pixels.shape[0] != pixels.shape[1] or pixels.shape[0] < 2:
+        raise GeneratorError(f"{image_path}: found shape {pixels.shape}, expected a square grey image")
+    return Terrain(pos[2] + pixels.astype(float) / largest * size[2], size[0])

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""A generated plant as plain data: organs of triangles, and the figures that describe it."""
+
+from dataclasses import dataclass
+from typing import Tuple
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles with per-vertex normals and texture coordinates; metres, z up, v = 0 at the image's lower edge."""
+
+    vertices: np.ndarray
+    normals: np.ndarray
+    texcoords: np.ndarray
+    triangles: np.ndarray
+
+    def area_m2(self) -> float:
+        """Sum of the triangles' areas, one side."""
+        a, b, c = (self.vertices[self.triangles[:, i]] for i in range(3))
+        return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+@dataclass(frozen=True)
+class Organ:
+    """A named part of the plant: one submesh of the model, one material, one texture."""
+
+    name: str
+    visual: str
+    texture: str
+    mesh: Mesh
+
+
+@dataclass(frozen=True)
+class Plant:
+    """All that the writers need of one plant."""
+
+    species: str
+    stage: str
+    material_prefix: str
+    label: int
+    senescence: float
+    stalk_height_m: float
+    stalk_radius_m: float
+    leaf_count: int
+    organs: Tuple[Organ, ...]
+
+    def height_m(self) -> float:
+        """Height of the highest vertex above the ground."""
+        return float(max(organ.mesh.vertices[:, 2].max() for organ in self.organs))
+
+    def triangle_count(self) -> int:
+        """Triangles in all organs."""
+        return int(sum(len(organ.mesh.triangles) for organ in self.organs))
+
+    def leaf_area_m2(self) -> float:
+        """Area of one side of all blades."""
+        return sum(organ.mesh.area_m2() for organ in self.organs if organ.name.startswith("Leaves"))
