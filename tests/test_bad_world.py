@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""A simulator that is given no good world says so once and ends."""
+import pathlib
+
+import pytest
+from ros_graph import RosGraph
+
+DATA = pathlib.Path(__file__).parent / "data"
+PLANE = (DATA / "plane.world").read_text()
+
+BAD_WORLDS = {
+    "cut off": (PLANE[: len(PLANE) // 2], "bad.world"),
+    "not XML": ("a field of corn", "bad.world"),
+    "empty": ("", "bad.world"),
+    "no world": ("<sdf version='1.5'><model name='m'/></sdf>", "world"),
+    "unknown model": (
+        PLANE.replace("</world>", "<include><uri>model://no_such_plant</uri></include></world>"),
+        "no_such_plant",
+    ),
+    "step that is no number": (PLANE.replace(">0.005<", ">soon<"), "soon"),
+    "negative step": (PLANE.replace(">0.005<", ">-0.005<"), "max_step_size"),
+    "box without size": (PLANE.replace("1 20 2", "1 -20 2"), "size"),
+}
+
+
+@pytest.mark.parametrize("what", BAD_WORLDS)
+def test_one_message_and_an_exit_code(graph: RosGraph, tmp_path: pathlib.Path, what: str) -> None:
+    text, named = BAD_WORLDS[what]
+    file = tmp_path / "bad.world"
+    file.write_text(text)
+    simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file))
+    assert simulator.wait(20.0) not in (0, -6, -11, 134, 139), simulator.output()
+    lines = [line for line in simulator.output().splitlines() if "bad.world" in line]
+    assert len(lines) == 1, simulator.output()
+    assert named in lines[0]
+
+
+def test_a_missing_file(graph: RosGraph) -> None:
+    simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", "/nowhere/no.world")
+    assert simulator.wait(20.0) not in (0, -6, -11, 134, 139)
+    assert simulator.output().count("/nowhere/no.world") == 1

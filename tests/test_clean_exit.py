@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""Ctrl-C ends everything that a launch file started."""
+import pathlib
+
+import probes
+from ros_graph import RosGraph, wait_until
+
+PLANE = str(pathlib.Path(__file__).parent / "data" / "plane.world")
+
+
+def test_ctrl_c_on_the_launch_files_leaves_no_process(graph: RosGraph) -> None:
+    world = graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
+    graph.call(probes.clock_at_least, 0.2)
+    robot = graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
+    graph.call(probes.wait_for_topics, ["/odom"], [])
+    assert len(graph.alive()) >= 4  # two roslaunches, the simulator, robot_state_publisher
+    for process in (robot, world):
+        process.interrupt()
+        process.wait()
+    assert "escalating" not in robot.output() + world.output()
+    wait_until(lambda: not graph.alive(), f"all ended; left: {graph.alive()}", 10.0)
+
+
+def test_ctrl_c_ends_the_simulator_at_once_and_with_exit_0(graph: RosGraph) -> None:
+    executable = graph.run("catkin_find", "--first-only", "--libexec", "ardee_sim_cpp", "simulator")
+    simulator = graph.spawn(executable.strip(), PLANE)
+    graph.call(probes.clock_at_least, 0.1)
+    simulator.interrupt()
+    assert simulator.wait(10.0) == 0, simulator.output()
