@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: MIT
+"""Expand the robot's xacro files and read what comes out: joints, frames, inertials, plugins."""
+import os
+import pathlib
+import re
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from typing import Dict, Optional
+
+import numpy as np
+
+PACKAGE = pathlib.Path(__file__).resolve().parents[1]
+SOURCES = PACKAGE.parent
+XACRO = SOURCES.parent / "compat/xacro/scripts/xacro"
+
+
+def ros_environment() -> dict:
+    """Environment in which rospkg finds the packages of this tree, built or not."""
+    paths = [str(SOURCES), str(SOURCES.parent / "compat"), os.environ.get("ROS_PACKAGE_PATH", "")]
+    return dict(os.environ, ROS_PACKAGE_PATH=os.pathsep.join(p for p in paths if p))
+
+
+def run_xacro(file: pathlib.Path, **arguments: str) -> subprocess.CompletedProcess:
+    """Run xacro on the file with `name:=value` arguments."""
+    command = ["/usr/bin/python3", str(XACRO), str(file)]
+    command += [f"{name}:={value}" for name, value in arguments.items()]
+    return subprocess.run(command, env=ros_environment(), capture_output=True, text=True)
+
+
+def expand(file: pathlib.Path, **arguments: str) -> str:
+    """The URDF text that xacro makes of the file; any complaint on stderr is a failure."""
+    done = run_xacro(file, **arguments)
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    return done.stdout
+
+
+def mesh_path(uri: str) -> pathlib.Path:
+    """File of a package:// URI in this tree."""
+    match = re.fullmatch(r"package://([^/]+)/(.+)", uri)
+    assert match, f"{uri}: expected package://<package>/<path>"
+    return SOURCES / match[1] / match[2]
+
+
+def numbers(text: Optional[str]) -> np.ndarray:
+    """Blank-separated numbers; three zeros where there is no text."""
+    return np.array([float(word) for word in (text or "0 0 0").split()])
+
+
+def rotation(rpy: np.ndarray) -> np.ndarray:
+    """Rotation matrix of URDF's fixed-axis roll, pitch, yaw (rad)."""
+    return (
+        turn(np.array([0, 0, 1]), rpy[2])
+        @ turn(np.array([0, 1, 0]), rpy[1])
+        @ turn(np.array([1, 0, 0]), rpy[0])
+    )
+
+
+def turn(axis: np.ndarray, angle_rad: float) -> np.ndarray:
+    """Rotation matrix about a unit axis (Rodrigues)."""
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle_rad) * cross + (1 - np.cos(angle_rad)) * cross @ cross
+
+
+def pose(element: Optional[ElementTree.Element]) -> np.ndarray:
+    """4 x 4 pose of the <origin> inside an element."""
+    origin = element.find("origin") if element is not None else None
+    matrix = np.eye(4)
+    if origin is not None:
+        matrix[:3, :3] = rotation(numbers(origin.get("rpy")))
+        matrix[:3, 3] = numbers(origin.get("xyz"))
+    return matrix
+
+
+class Robot:
+    """A parsed URDF with its kinematics."""
+
+    def __init__(self, text: str):
+        self.text = text
+        self.root = ElementTree.fromstring(text)
+        self.links = {link.get("name"): link for link in self.root.findall("link")}
+        self.joints = {joint.get("name"): joint for joint in self.root.findall("joint")}
+        self.joint_of = {joint.find("child").get("link"): joint for joint in self.joints.values()}
+
+    def plugins(self, filename: str) -> list:
+        """Plugin elements of a library, wherever they are."""
+        return [p for p in self.root.iter("plugin") if p.get("filename") == filename]
+
+    def frame(self, link: str, positions: Optional[Dict[str, float]] = None) -> np.ndarray:
+        """Pose of a link in the root link, joints at `positions` (rad), 0 where not given."""
+        joint = self.joint_of.get(link)
+        if joint is None:
+            return np.eye(4)
+        moved = np.eye(4)
+        if joint.get("type") in ("revolute", "continuous"):
+            angle = (positions or {}).get(joint.get("name"), 0.0)
+            moved[:3, :3] = turn(numbers(joint.find("axis").get("xyz")), angle)
+        return self.frame(joint.find("parent").get("link"), positions) @ pose(joint) @ moved
+
+    def mass(self, link: str) -> float:
+        """Mass of a link, kg."""
+        return float(self.links[link].find("inertial/mass").get("value"))
+
+    def inertia(self, link: str) -> np.ndarray:
+        """Inertia matrix of a link about its centre of mass, kg m^2."""
+        values = self.links[link].find("inertial/inertia").attrib
+        i = {key: float(value) for key, value in values.items()}
+        return np.array(
+            [
+                [i["ixx"], i["ixy"], i["ixz"]],
+                [i["ixy"], i["iyy"], i["iyz"]],
+                [i["ixz"], i["iyz"], i["izz"]],
+            ]
+        )
+
+    def center_of_mass(self, link: str, positions: Optional[Dict[str, float]] = None) -> np.ndarray:
+        """Centre of mass of a link in the root link, m."""
+        return (self.frame(link, positions) @ pose(self.links[link].find("inertial")))[:3, 3]
