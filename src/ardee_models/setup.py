@@ -4,5 +4,7 @@ from distutils.core import setup
 from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
-    **generate_distutils_setup(packages=["ardee_models", "ardee_models.writers"], package_dir={"": "src"})
+    **generate_distutils_setup(
+        packages=["ardee_models", "ardee_models.writers"], package_dir={"": "src"}
+    )
 )

@@ -33,7 +33,10 @@ def build_crops(models: Path) -> None:
 def build_terrains(models: Path) -> None:
     """heightmap_ground with ridges and bumps, heightmap_flat."""
     ground, flat = TerrainParams(), TerrainParams(ridge_height_m=0.0, bump_sd_m=0.0)
-    for params, name, image in ((ground, "heightmap_ground", "corn_rows"), (flat, "heightmap_flat", "flat")):
+    for params, name, image in (
+        (ground, "heightmap_ground", "corn_rows"),
+        (flat, "heightmap_flat", "flat"),
+    ):
         terrain = generate_terrain(params, np.random.default_rng(_TERRAIN_SEED))
         write_terrain(terrain, params.friction_mu, name, image, models)
 
@@ -56,7 +59,9 @@ def copy_static(source: Path, models: Path) -> None:
 def main() -> int:
     """`python3 -m ardee_models.build --share DIR --static DIR`."""
     parser = argparse.ArgumentParser(prog="ardee_models.build", description=__doc__)
-    parser.add_argument("--share", type=Path, required=True, help="folder to fill with models/ and media/")
+    parser.add_argument(
+        "--share", type=Path, required=True, help="folder to fill with models/ and media/"
+    )
     parser.add_argument("--static", type=Path, required=True, help="folder of hand-kept models")
     args = parser.parse_args()
     try:

@@ -32,16 +32,26 @@ def run(parser: argparse.ArgumentParser, work: Callable[[argparse.Namespace], Pa
 
 
 def _output_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--seed", type=seed_number, default=0, help="root of all random numbers (default 0)")
+    parser.add_argument(
+        "--seed", type=seed_number, default=0, help="root of all random numbers (default 0)"
+    )
     parser.add_argument("--name", required=True, help="name of the model")
-    parser.add_argument("--output", type=Path, required=True, help="folder of models to write it in")
+    parser.add_argument(
+        "--output", type=Path, required=True, help="folder of models to write it in"
+    )
 
 
 def generate_crop_main() -> int:
     """`generate_crop --species corn --stage V8 --seed 7 --name my_corn --output DIR`."""
-    parser = argparse.ArgumentParser(prog="generate_crop", description="Write a crop plant as a Gazebo model directory.")
-    parser.add_argument("--species", default="corn", help="species with a parameter file (default corn)")
-    parser.add_argument("--stage", required=True, help="growth stage in the parameter file, such as V8")
+    parser = argparse.ArgumentParser(
+        prog="generate_crop", description="Write a crop plant as a Gazebo model directory."
+    )
+    parser.add_argument(
+        "--species", default="corn", help="species with a parameter file (default corn)"
+    )
+    parser.add_argument(
+        "--stage", required=True, help="growth stage in the parameter file, such as V8"
+    )
     parser.add_argument("--params", type=Path, help="parameter file instead of the package's own")
     _output_arguments(parser)
     return run(parser, lambda a: make_crop(a.species, a.stage, a.seed, a.name, a.output, a.params))
@@ -64,7 +74,8 @@ def _make_terrain(args: argparse.Namespace) -> Path:
 def generate_terrain_main() -> int:
     """`generate_terrain --name heightmap_ground --seed 1 --output DIR`."""
     parser = argparse.ArgumentParser(
-        prog="generate_terrain", description="Write a field terrain as a Gazebo model directory. Rows run along x."
+        prog="generate_terrain",
+        description="Write a field terrain as a Gazebo model directory. Rows run along x.",
     )
     usual = TerrainParams()
     numbers = (
@@ -77,7 +88,9 @@ def generate_terrain_main() -> int:
     )
     for flag, value, text in numbers:
         parser.add_argument(flag, type=float, default=value, help=f"{text} (default {value:g})")
-    parser.add_argument("--samples", type=int, default=usual.samples, help="pixels a side, 2^n + 1 (default 257)")
+    parser.add_argument(
+        "--samples", type=int, default=usual.samples, help="pixels a side, 2^n + 1 (default 257)"
+    )
     parser.add_argument("--image", default="terrain", help="stem of the image's file name")
     _output_arguments(parser)
     return run(parser, _make_terrain)

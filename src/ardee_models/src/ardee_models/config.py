@@ -24,7 +24,9 @@ def config_dir() -> Path:
     for candidate in candidates:
         if candidate.is_dir():
             return candidate
-    raise GeneratorError(f"no config folder of ardee_models, looked in {candidates[0]} and {candidates[1]}")
+    raise GeneratorError(
+        f"no config folder of ardee_models, looked in {candidates[0]} and {candidates[1]}"
+    )
 
 
 def read_yaml(path: Path) -> dict:
@@ -36,7 +38,9 @@ def read_yaml(path: Path) -> dict:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise GeneratorError(f"{path}: not valid YAML: {error}") from error
     if not isinstance(data, dict):
-        raise GeneratorError(f"{path}: found {type(data).__name__}, expected a mapping of keys to values")
+        raise GeneratorError(
+            f"{path}: found {type(data).__name__}, expected a mapping of keys to values"
+        )
     return data
 
 
@@ -45,7 +49,9 @@ def _number(value: Any, kind: type, where: str, limits: Optional[tuple]) -> Any:
     if not is_number or not math.isfinite(value) or (kind is int and int(value) != value):
         raise GeneratorError(f"{where}: found {value!r}, expected a finite {kind.__name__}")
     if limits and not limits[0] <= value <= limits[1]:
-        raise GeneratorError(f"{where}: found {value!r}, expected a value in [{limits[0]}, {limits[1]}]")
+        raise GeneratorError(
+            f"{where}: found {value!r}, expected a value in [{limits[0]}, {limits[1]}]"
+        )
     return kind(value)
 
 
@@ -71,7 +77,9 @@ def from_mapping(cls: type, data: Any, where: str) -> Any:
     unknown = sorted(str(k) for k in data.keys() - fields.keys())
     missing = sorted(fields.keys() - data.keys())
     if unknown:
-        raise GeneratorError(f"{where}: unknown key {unknown[0]!r}, known: {', '.join(sorted(fields))}")
+        raise GeneratorError(
+            f"{where}: unknown key {unknown[0]!r}, known: {', '.join(sorted(fields))}"
+        )
     if missing:
         raise GeneratorError(f"{where}: missing key {missing[0]!r}")
     values = {

@@ -28,7 +28,9 @@ def _draw(axes: "pyplot.Axes", dae: Path) -> None:
             normal /= np.linalg.norm(normal, axis=1, keepdims=True)
             shade = 0.55 + 0.45 * np.abs(normal @ _LIGHT)
             colour = np.array({**_COLOURS, **_OTHER}.get(geometry.original.name, (0.5, 0.5, 0.5)))
-            axes.add_collection3d(Poly3DCollection(corners, facecolors=np.clip(shade[:, None] * colour, 0, 1)))
+            axes.add_collection3d(
+                Poly3DCollection(corners, facecolors=np.clip(shade[:, None] * colour, 0, 1))
+            )
 
 
 def draw_contact_sheet(models: List[Path], output: Path, height_m: float) -> None:

@@ -48,7 +48,9 @@ def _stalk(heights: np.ndarray, base_radius: float, top_radius: float, swelling:
 def _leaf_lengths(ranks: np.ndarray, shape: Architecture, rng: np.random.Generator) -> np.ndarray:
     area = relative_leaf_area(ranks / shape.leaf_number, shape.rank_of_largest, shape.area_skew)
     vigour = np.exp(rng.normal(0.0, shape.leaf_length_cv))
-    return shape.leaf_length_max_m * vigour * np.sqrt(area) * np.exp(rng.normal(0.0, 0.03, len(ranks)))
+    return (
+        shape.leaf_length_max_m * vigour * np.sqrt(area) * np.exp(rng.normal(0.0, 0.03, len(ranks)))
+    )
 
 
 def _blades(params: CropParams, heights: np.ndarray, rng: np.random.Generator) -> List[Blade]:
@@ -67,13 +69,19 @@ def _blades(params: CropParams, heights: np.ndarray, rng: np.random.Generator) -
         in_whorl = i - collared
         age = i / max(collared - 1, 1)
         z = heights[min(i, collared - 1)]
-        mean_insertion = shape.insertion_angle_deg + age * (shape.insertion_angle_top_deg - shape.insertion_angle_deg)
+        mean_insertion = shape.insertion_angle_deg + age * (
+            shape.insertion_angle_top_deg - shape.insertion_angle_deg
+        )
         curvature, width = shape.curvature_deg, shape.width_to_length * lengths[i]
         length = lengths[i]
         if in_whorl >= 0:
             mean_insertion = _WHORL_ERECT_DEG
             fraction = shape.whorl_length_fractions[in_whorl]
-            length, width, curvature = length * fraction, width * (0.4 + 0.4 * fraction), 0.45 * curvature * fraction
+            length, width, curvature = (
+                length * fraction,
+                width * (0.4 + 0.4 * fraction),
+                0.45 * curvature * fraction,
+            )
         radius = base + (top - base) * z / heights[-1]
         offset = 0.0 if in_whorl >= 0 else 0.8 * radius
         blade = Blade(

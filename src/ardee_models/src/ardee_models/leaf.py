@@ -29,7 +29,7 @@ class Blade:
 
 
 def width_profile(s: np.ndarray, klig: float, s_wmax: float) -> np.ndarray:
-    """Relative width at relative length s: parabolic from klig to 1 at s_wmax, then to the tip (after Dornbusch 2011)."""
+    """Relative width at relative length s: parabola from klig to 1 at s_wmax, then to the tip (Dornbusch 2011)."""
     base = klig + (1.0 - klig) * (1.0 - (1.0 - s / s_wmax) ** 2)
     beyond = np.clip((s - s_wmax) / (1.0 - s_wmax), 0.0, 1.0)
     tip = (1.0 - beyond**2) ** 0.8
@@ -44,7 +44,9 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
     def direction(s: np.ndarray) -> np.ndarray:
         angle = blade.insertion_rad + blade.curvature_rad * s**power
         azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
-        return np.stack((np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1)
+        return np.stack(
+            (np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1
+        )
 
     steps = direction(middle) * (blade.length_m / len(middle))
     path = np.concatenate((np.zeros((1, 3)), np.cumsum(steps, axis=0))) + blade.origin

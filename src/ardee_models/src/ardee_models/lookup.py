@@ -58,7 +58,9 @@ def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) ->
     except ValueError:
         values = []
     if len(values) != count or not np.isfinite(values).all():
-        raise GeneratorError(f"{where}/model.sdf: <{tag}>: found {text!r}, expected {count} number(s)")
+        raise GeneratorError(
+            f"{where}/model.sdf: <{tag}>: found {text!r}, expected {count} number(s)"
+        )
     return values
 
 
@@ -69,17 +71,26 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
     if not path.is_file():
         cylinder = _sdf_root(model).find(".//collision/geometry/cylinder")
         if cylinder is None:
-            raise GeneratorError(f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height")
-        height, radius = _numbers(cylinder, "length", 1, model)[0], _numbers(cylinder, "radius", 1, model)[0]
+            raise GeneratorError(
+                f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height"
+            )
+        height, radius = (
+            _numbers(cylinder, "length", 1, model)[0],
+            _numbers(cylinder, "radius", 1, model)[0],
+        )
         data = {"height_m": height, "stalk_radius_m": radius, "label": 1}
     else:
         try:
             data = json.loads(path.read_text(encoding="utf-8"))
             data = {key: float(data[key]) for key in ("height_m", "stalk_radius_m", "label")}
         except (ValueError, KeyError, TypeError) as error:
-            raise GeneratorError(f"{path}: expected numbers height_m, stalk_radius_m, label: {error!r}") from error
+            raise GeneratorError(
+                f"{path}: expected numbers height_m, stalk_radius_m, label: {error!r}"
+            ) from error
     if not (0.0 < data["height_m"] < 100.0 and 0.0 < data["stalk_radius_m"] < 10.0):
-        raise GeneratorError(f"{model}: found height {data['height_m']} m, radius {data['stalk_radius_m']} m")
+        raise GeneratorError(
+            f"{model}: found height {data['height_m']} m, radius {data['stalk_radius_m']} m"
+        )
     return CropModel(name, data["height_m"], data["stalk_radius_m"], int(data["label"]))
 
 
@@ -93,7 +104,9 @@ def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     size, pos = _numbers(heightmap, "size", 3, model), _numbers(heightmap, "pos", 3, model)
     image_path = model.parent / uri.split("://", 1)[-1]
     if size[0] != size[1] or size[0] <= 0 or pos[:2] != [0.0, 0.0]:
-        raise GeneratorError(f"{model}/model.sdf: <heightmap>: expected a square size, and pos 0 0 z")
+        raise GeneratorError(
+            f"{model}/model.sdf: <heightmap>: expected a square size, and pos 0 0 z"
+        )
     try:
         with Image.open(image_path) as image:
             pixels = np.array(image)
@@ -101,5 +114,7 @@ def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     except (OSError, ValueError) as error:
         raise GeneratorError(f"{image_path}: not a readable image: {error}") from error
     if pixels.ndim != 2 or pixels.shape[0] != pixels.shape[1] or pixels.shape[0] < 2:
-        raise GeneratorError(f"{image_path}: found shape {pixels.shape}, expected a square grey image")
+        raise GeneratorError(
+            f"{image_path}: found shape {pixels.shape}, expected a square grey image"
+        )
     return Terrain(pos[2] + pixels.astype(float) / largest * size[2], size[0])

@@ -40,7 +40,8 @@ def tube(centres: np.ndarray, radii: np.ndarray, side: np.ndarray, sides: int) -
     across = np.cross(tangents, side)
     angles = np.linspace(0.0, 2.0 * np.pi, sides + 1)
     directions = (
-        np.cos(angles)[None, :, None] * side[None, None, :] + np.sin(angles)[None, :, None] * across[:, None, :]
+        np.cos(angles)[None, :, None] * side[None, None, :]
+        + np.sin(angles)[None, :, None] * across[:, None, :]
     )
     points = centres[:, None, :] + radii[:, None, None] * directions
     along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(centres, axis=0), axis=1))))

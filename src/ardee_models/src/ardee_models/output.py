@@ -17,7 +17,9 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 def check_name(name: str) -> str:
     """A model name that is safe as a folder and in XML."""
     if not _NAME.fullmatch(name):
-        raise GeneratorError(f"name {name!r}: expected letters, digits, '_', '-', '.', the first a letter or digit")
+        raise GeneratorError(
+            f"name {name!r}: expected letters, digits, '_', '-', '.', the first a letter or digit"
+        )
     return name
 
 
@@ -33,7 +35,9 @@ def model_directory(parent: Path, name: str) -> Iterator[Path]:
     """A temporary folder that becomes parent/name when the block ends well; otherwise nothing changes."""
     target = parent / check_name(name)
     if target.exists() and not (target / "model.config").is_file():
-        raise GeneratorError(f"{target}: exists and is not a model directory (no model.config); not overwritten")
+        raise GeneratorError(
+            f"{target}: exists and is not a model directory (no model.config); not overwritten"
+        )
     try:
         parent.mkdir(parents=True, exist_ok=True)
         temporary = Path(tempfile.mkdtemp(prefix=f".{name}.new-", dir=parent))

@@ -87,7 +87,9 @@ def load_params(species: str, stage: str, path: Optional[Path] = None) -> CropPa
     """Parameters of `species` at `stage`, from `path` or the package's own file."""
     if path is None:
         if species not in known_species():
-            raise GeneratorError(f"unknown species {species!r}, known: {', '.join(known_species())}")
+            raise GeneratorError(
+                f"unknown species {species!r}, known: {', '.join(known_species())}"
+            )
         path = config_dir() / f"{species}.yaml"
     data = from_mapping(_File, read_yaml(path), str(path))
     if stage not in data.stages:
@@ -97,7 +99,11 @@ def load_params(species: str, stage: str, path: Optional[Path] = None) -> CropPa
     where = f"{path}: stages.{stage}"
     parsed = from_mapping(Stage, data.stages[stage], where)
     if parsed.collared_leaves > architecture.leaf_number:
-        raise GeneratorError(f"{where}.collared_leaves: found {parsed.collared_leaves}, expected at most leaf_number")
+        raise GeneratorError(
+            f"{where}.collared_leaves: found {parsed.collared_leaves}, expected at most leaf_number"
+        )
     if parsed.lost_leaves >= parsed.collared_leaves:
-        raise GeneratorError(f"{where}.lost_leaves: found {parsed.lost_leaves}, expected less than collared_leaves")
+        raise GeneratorError(
+            f"{where}.lost_leaves: found {parsed.lost_leaves}, expected less than collared_leaves"
+        )
     return CropParams(data.species, data.material_prefix, data.label, stage, architecture, parsed)

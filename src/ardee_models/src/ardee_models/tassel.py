@@ -15,11 +15,15 @@ _PEDUNCLE = 0.35  # bare part of the tassel's length
 
 def _curve(origin: np.ndarray, azimuth: float, angles: np.ndarray, length_m: float) -> np.ndarray:
     step = length_m / len(angles)
-    directions = np.stack((np.sin(angles) * np.cos(azimuth), np.sin(angles) * np.sin(azimuth), np.cos(angles)), -1)
+    directions = np.stack(
+        (np.sin(angles) * np.cos(azimuth), np.sin(angles) * np.sin(azimuth), np.cos(angles)), -1
+    )
     return origin + np.concatenate((np.zeros((1, 3)), np.cumsum(directions * step, axis=0)))
 
 
-def tassel_mesh(top: np.ndarray, stalk_radius_m: float, shape: Architecture, rng: np.random.Generator) -> Mesh:
+def tassel_mesh(
+    top: np.ndarray, stalk_radius_m: float, shape: Architecture, rng: np.random.Generator
+) -> Mesh:
     """Tubes of three sides from the top of the stalk upwards."""
     length = shape.tassel_length_m * rng.normal(1.0, 0.05)
     heights = np.array([0.0, _PEDUNCLE, 0.7, 1.0]) * length

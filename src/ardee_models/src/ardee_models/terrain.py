@@ -29,12 +29,27 @@ class TerrainParams:
         """Raise GeneratorError for a value out of range."""
         checks = (
             (1.0 <= self.size_m <= 2000.0, "size", self.size_m, "1 to 2000 m"),
-            (self.samples in {2**n + 1 for n in range(4, 13)}, "samples", self.samples, "2^n + 1, 17 to 4097"),
+            (
+                self.samples in {2**n + 1 for n in range(4, 13)},
+                "samples",
+                self.samples,
+                "2^n + 1, 17 to 4097",
+            ),
             (0.1 <= self.row_spacing_m <= 10.0, "row spacing", self.row_spacing_m, "0.1 to 10 m"),
             (0.0 <= self.ridge_height_m <= 1.0, "ridge height", self.ridge_height_m, "0 to 1 m"),
-            (0.01 <= self.ridge_half_width_m <= 5.0, "ridge half width", self.ridge_half_width_m, "0.01 to 5 m"),
+            (
+                0.01 <= self.ridge_half_width_m <= 5.0,
+                "ridge half width",
+                self.ridge_half_width_m,
+                "0.01 to 5 m",
+            ),
             (0.0 <= self.bump_sd_m <= 0.5, "bump SD", self.bump_sd_m, "0 to 0.5 m"),
-            (0.05 <= self.bump_length_m <= 100.0, "bump length", self.bump_length_m, "0.05 to 100 m"),
+            (
+                0.05 <= self.bump_length_m <= 100.0,
+                "bump length",
+                self.bump_length_m,
+                "0.05 to 100 m",
+            ),
             (0.0 < self.friction_mu <= 100.0, "friction", self.friction_mu, "above 0, at most 100"),
         )
         for good, what, found, expected in checks:
@@ -70,7 +85,7 @@ def ridge_profile(y_m: np.ndarray, params: TerrainParams) -> np.ndarray:
 
 
 def generate_terrain(params: TerrainParams, rng: np.random.Generator) -> Terrain:
-    """Ridges plus bumps; zero is the highest point of the spot at the origin, so that nothing set down there is buried."""
+    """Ridges plus bumps; zero is the highest point near the origin, so that nothing set down there is buried."""
     params.validate()
     axis = np.linspace(-0.5, 0.5, params.samples) * params.size_m
     spacing_m = params.size_m / (params.samples - 1)

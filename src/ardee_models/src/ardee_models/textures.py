@@ -25,12 +25,19 @@ def blade(senescence: float, rng: np.random.Generator) -> np.ndarray:
     v = (1.0 - np.linspace(0.0, 1.0, rows))[:, None]
     u = np.linspace(-1.0, 1.0, columns)[None, :]
     tone = 1.0 + rng.normal(0.0, 0.05)
-    shade = tone + 0.05 * np.cos(np.pi * _VEINS * u) + 0.06 * layered_noise(_LEAF_SHAPE, (3.0, 12.0), rng)
+    shade = (
+        tone
+        + 0.05 * np.cos(np.pi * _VEINS * u)
+        + 0.06 * layered_noise(_LEAF_SHAPE, (3.0, 12.0), rng)
+    )
     rgb = _GREEN * shade[..., None]
     midrib = np.exp(-((u / (0.10 - 0.07 * v)) ** 2))[..., None]
     rgb = rgb * (1.0 - 0.8 * midrib) + _PALE * 0.8 * midrib
     patches = 0.5 * smooth_noise(_LEAF_SHAPE, 14.0, rng)
-    dryness = 1.0 / (1.0 + np.exp(-10.0 * (0.5 * v**4 + 0.3 * u**4 + 1.3 * senescence + 0.25 * patches - 1.0)))
+    dryness = 1.0 / (
+        1.0
+        + np.exp(-10.0 * (0.5 * v**4 + 0.3 * u**4 + 1.3 * senescence + 0.25 * patches - 1.0))
+    )
     return _image(rgb * (1.0 - dryness[..., None]) + _STRAW * dryness[..., None])
 
 
@@ -88,7 +95,10 @@ def fungus(rng: np.random.Generator) -> np.ndarray:
     """Rotting plant matter on soil: dark olive patches."""
     soil = dirt(rng).astype(float)
     patch = 1.0 / (1.0 + np.exp(-4.0 * layered_noise(_SOIL_SHAPE, (4.0, 16.0), rng)))
-    return _image(soil * (1.0 - 0.6 * patch[..., None]) + np.array([92.0, 96.0, 56.0]) * 0.6 * patch[..., None])
+    return _image(
+        soil * (1.0 - 0.6 * patch[..., None])
+        + np.array([92.0, 96.0, 56.0]) * 0.6 * patch[..., None]
+    )
 
 
 def media_textures(rng: np.random.Generator) -> Dict[str, np.ndarray]:

@@ -10,7 +10,9 @@ from collada import asset, geometry, material, scene, source
 
 from ardee_models.plant import Organ, Plant
 
-_TIMELESS = datetime.datetime(2000, 1, 1)  # COLLADA wants a date; the same one keeps the bytes the same
+_TIMELESS = datetime.datetime(
+    2000, 1, 1
+)  # COLLADA wants a date; the same one keeps the bytes the same
 _DECIMALS = 5  # of a metre: 0.01 mm
 
 
@@ -49,12 +51,16 @@ def _node(doc: collada.Collada, organ: Organ, texture_path: str) -> scene.Node:
     ]
     geom = geometry.Geometry(doc, f"{organ.name}-geometry", organ.name, sources)
     inputs = source.InputList()
-    for offset, (semantic, kind) in enumerate((("VERTEX", "positions"), ("NORMAL", "normals"), ("TEXCOORD", "texcoords"))):
+    for offset, (semantic, kind) in enumerate(
+        (("VERTEX", "positions"), ("NORMAL", "normals"), ("TEXCOORD", "texcoords"))
+    ):
         inputs.addInput(offset, semantic, f"#{ids[kind]}", "0" if semantic == "TEXCOORD" else None)
     indices = np.repeat(mesh.triangles.ravel(), 3)
     geom.primitives.append(geom.createTriangleSet(indices, inputs, "material"))
     doc.geometries.append(geom)
-    bound = scene.MaterialNode("material", _material(doc, organ, texture_path), [("UVSET0", "TEXCOORD", "0")])
+    bound = scene.MaterialNode(
+        "material", _material(doc, organ, texture_path), [("UVSET0", "TEXCOORD", "0")]
+    )
     return scene.Node(organ.name, children=[scene.GeometryNode(geom, [bound])])
 
 
@@ -64,7 +70,10 @@ def write_collada(plant: Plant, path: Path, texture_names: dict) -> None:
     doc.assetInfo.created = doc.assetInfo.modified = _TIMELESS
     doc.assetInfo.upaxis = asset.UP_AXIS.Z_UP
     doc.assetInfo.unitname, doc.assetInfo.unitmeter = "meter", 1.0
-    nodes = [_node(doc, organ, f"../materials/textures/{texture_names[organ.texture]}") for organ in plant.organs]
+    nodes = [
+        _node(doc, organ, f"../materials/textures/{texture_names[organ.texture]}")
+        for organ in plant.organs
+    ]
     whole = scene.Scene("scene", nodes)
     doc.scenes.append(whole)
     doc.scene = whole

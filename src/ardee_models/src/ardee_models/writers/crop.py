@@ -74,7 +74,9 @@ _MATERIAL = """material {prefix}/{organ}
 
 def _sdf(plant: Plant, model: str) -> str:
     visuals = "".join(
-        _VISUAL.format(visual=organ.visual, model=model, organ=organ.name, prefix=plant.material_prefix)
+        _VISUAL.format(
+            visual=organ.visual, model=model, organ=organ.name, prefix=plant.material_prefix
+        )
         for organ in plant.organs
     )
     length = round(plant.stalk_height_m, 5)
@@ -102,7 +104,9 @@ def metrics(plant: Plant, seed: int) -> dict:
     }
 
 
-def write_crop(plant: Plant, textures: Dict[str, np.ndarray], seed: int, name: str, parent: Path) -> Path:
+def write_crop(
+    plant: Plant, textures: Dict[str, np.ndarray], seed: int, name: str, parent: Path
+) -> Path:
     """Write parent/name, replacing an earlier model of that name; returns its path."""
     names = {organ.texture: f"{name}_{organ.texture}.png" for organ in plant.organs}
     with model_directory(parent, name) as folder:
@@ -113,11 +117,15 @@ def write_crop(plant: Plant, textures: Dict[str, np.ndarray], seed: int, name: s
         (folder / "model.sdf").write_text(_sdf(plant, name))
         (folder / METRICS_FILE).write_text(json.dumps(metrics(plant, seed), indent=2) + "\n")
         script = "\n".join(
-            _MATERIAL.format(prefix=plant.material_prefix, organ=organ.name, texture=names[organ.texture])
+            _MATERIAL.format(
+                prefix=plant.material_prefix, organ=organ.name, texture=names[organ.texture]
+            )
             for organ in plant.organs
         )
         (folder / "materials/scripts" / f"{name}.material").write_text(script)
         for key, file_name in names.items():
-            Image.fromarray(textures[key]).save(folder / "materials/textures" / file_name, optimize=True)
+            Image.fromarray(textures[key]).save(
+                folder / "materials/textures" / file_name, optimize=True
+            )
         write_collada(plant, folder / "meshes" / f"{name}.dae", names)
     return parent / name

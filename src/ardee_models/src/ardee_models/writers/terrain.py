@@ -76,7 +76,9 @@ def quantise(terrain: Terrain) -> tuple:
     return pixels.astype(np.uint16), span, round(low, 6)
 
 
-def write_terrain(terrain: Terrain, friction_mu: float, name: str, image_stem: str, parent: Path) -> Path:
+def write_terrain(
+    terrain: Terrain, friction_mu: float, name: str, image_stem: str, parent: Path
+) -> Path:
     """Write parent/name, replacing an earlier model of that name; returns its path."""
     pixels, size_z, pos_z = quantise(terrain)
     relative = f"meshes/heightmaps/{image_stem}.png"
@@ -92,5 +94,7 @@ def write_terrain(terrain: Terrain, friction_mu: float, name: str, image_stem: s
         (folder / relative).parent.mkdir(parents=True)
         Image.fromarray(pixels).save(folder / relative)
         (folder / "model.sdf").write_text(sdf)
-        (folder / "model.config").write_text(model_config(name, "Field terrain, procedural heightmap"))
+        (folder / "model.config").write_text(
+            model_config(name, "Field terrain, procedural heightmap")
+        )
     return parent / name

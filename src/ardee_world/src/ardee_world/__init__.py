@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Random crop fields as Gazebo model directories, with their ground truth."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Writers: a Layout to files."""
