@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One ROS graph a test: a master on a port that the kernel picks, processes around it, and nothing left behind."""
+"""A ROS graph of one's own: a master on a port that the kernel picks, processes around it, nothing left behind."""
 import os
 import pathlib
 import queue
@@ -33,7 +33,7 @@ def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0)
         if value:
             return value
         if time.monotonic() > deadline:
-            raise AssertionError(f"waited {timeout_s} s in vain: {what}")
+            raise TimeoutError(f"waited {timeout_s} s in vain: {what}")
         time.sleep(0.05)
 
 
@@ -66,7 +66,7 @@ class Process:
         try:
             return self._popen.wait(timeout_s)
         except subprocess.TimeoutExpired:
-            raise AssertionError(f"{self.command} still runs:\n{self.output()[-3000:]}") from None
+            raise TimeoutError(f"{self.command} still runs:\n{self.output()[-3000:]}") from None
 
     def interrupt(self) -> None:
         """What Ctrl-C in its terminal does."""
@@ -86,7 +86,7 @@ class Process:
 
 
 class RosGraph:
-    """A ROS master and all that a test starts around it."""
+    """A ROS master and all that is started around it, in tests and in the demo."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self.folder, self.processes = folder, []  # type: pathlib.Path, List[Process]
