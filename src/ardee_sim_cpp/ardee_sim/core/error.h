@@ -6,7 +6,8 @@
 
 namespace ardee {
 
-/// Where in a user's input something stands: file, line (0 where the parser knows none) and element path.
+/// Where in a user's input something stands: file, line (0 where the parser knows none) and element
+/// path.
 struct Source {
   std::string file;
   int line = 0;

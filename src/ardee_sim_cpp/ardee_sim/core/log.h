@@ -12,7 +12,8 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError };
 /// Where the engine's messages go: a ROS node maps them to its own log, a test records them.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// The engine's log: a sink, and the memory that a message is given once. Copies share nothing but the sink.
+/// The engine's log: a sink, and the memory that a message is given once. Copies share nothing but
+/// the sink.
 class Log {
  public:
   /// Without a sink, warnings and errors go to standard error.

@@ -5,12 +5,14 @@
 
 namespace ardee {
 
-/// Rigid transform X_AB: maps a point given in frame B into frame A. Position in metres, unit quaternion.
+/// Rigid transform X_AB: maps a point given in frame B into frame A. Position in metres, unit
+/// quaternion.
 struct Pose {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
 
-  /// From metres and radians; roll, pitch, yaw about the fixed x, y, z axes (the convention of URDF and SDF).
+  /// From metres and radians; roll, pitch, yaw about the fixed x, y, z axes (the convention of URDF
+  /// and SDF).
   static Pose from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
 
   Pose operator*(const Pose& other) const { return {p + q * other.p, (q * other.q).normalized()}; }

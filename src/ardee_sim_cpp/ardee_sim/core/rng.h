@@ -9,17 +9,20 @@ namespace ardee {
 /// Mixes 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
 std::uint64_t mix_bits(std::uint64_t bits);
 
-/// The key of the random stream `name` under a root seed: the same names give the same streams on every machine.
+/// The key of the random stream `name` under a root seed: the same names give the same streams on
+/// every machine.
 std::uint64_t stream_key(std::uint64_t root_seed, std::string_view name);
 
-/// Counter-based random numbers: the value at a counter is a pure function of (key, counter), so that it cannot depend
-/// on the number of threads or on the order of evaluation.
+/// Counter-based random numbers: the value at a counter is a pure function of (key, counter), so
+/// that it cannot depend on the number of threads or on the order of evaluation.
 class CounterRng {
  public:
   explicit CounterRng(std::uint64_t key) : key_(key) {}
 
   /// A stream of its own for one frame (scan, image) of this stream.
-  CounterRng frame(std::uint64_t index) const { return CounterRng(mix_bits(key_ ^ mix_bits(index))); }
+  CounterRng frame(std::uint64_t index) const {
+    return CounterRng(mix_bits(key_ ^ mix_bits(index)));
+  }
   std::uint64_t bits(std::uint64_t counter) const;
   /// Uniform in the open interval (0, 1).
   double uniform(std::uint64_t counter) const;

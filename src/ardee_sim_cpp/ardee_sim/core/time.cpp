@@ -25,7 +25,8 @@ bool RateTimer::due(TimeNs now_ns) {
 
 void RateTimer::start_at(TimeNs now_ns) {
   if (rate_hz_ <= 0.0) return;
-  const long double passed = static_cast<long double>(now_ns) * static_cast<long double>(rate_hz_) / 1e9L;
+  const long double passed =
+      static_cast<long double>(now_ns) * static_cast<long double>(rate_hz_) / 1e9L;
   next_ = passed <= 0.0L ? 0 : static_cast<std::uint64_t>(std::floor(passed));
   while (firing_time(next_) < now_ns) ++next_;
 }

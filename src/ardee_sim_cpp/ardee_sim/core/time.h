@@ -15,20 +15,24 @@ inline double seconds(TimeNs time_ns) { return static_cast<double>(time_ns) / kN
 /// Nearest whole nanosecond.
 TimeNs nanoseconds(double time_s);
 
-/// Says at which steps something of a given rate is due. The k-th firing is at the first step at or after k / rate, so a
-/// rate that does not divide the step keeps its exact mean and a rate that does is exactly periodic.
+/// Says at which steps something of a given rate is due. The k-th firing is at the first step at or
+/// after k / rate, so a rate that does not divide the step keeps its exact mean and a rate that
+/// does is exactly periodic.
 class RateTimer {
  public:
   /// rate_hz <= 0: due at each step.
   explicit RateTimer(double rate_hz = 0.0) : rate_hz_(rate_hz) {}
 
-  /// True if a firing falls due at `now_ns`; missed firings (rate above the step's) are skipped, not made up for.
+  /// True if a firing falls due at `now_ns`; missed firings (rate above the step's) are skipped,
+  /// not made up for.
   bool due(TimeNs now_ns);
-  /// Firings so far, missed ones counted: the index of the frame that due() has just announced is count() - 1.
+  /// Firings so far, missed ones counted: the index of the frame that due() has just announced is
+  /// count() - 1.
   std::uint64_t count() const { return next_; }
   double rate_hz() const { return rate_hz_; }
   void reset() { next_ = 0; }
-  /// Continues at `now_ns` as if it had run from time zero (a robot spawned later keeps the same grid of times).
+  /// Continues at `now_ns` as if it had run from time zero (a robot spawned later keeps the same
+  /// grid of times).
   void start_at(TimeNs now_ns);
 
  private:

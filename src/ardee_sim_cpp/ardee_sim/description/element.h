@@ -9,7 +9,8 @@
 
 namespace ardee {
 
-/// A piece of XML kept as plain data: what a sensor's or plugin's own parser reads once its kind is known.
+/// A piece of XML kept as plain data: what a sensor's or plugin's own parser reads once its kind is
+/// known.
 struct Element {
   std::string name;
   std::string text;  // trimmed

@@ -13,12 +13,14 @@
 
 namespace ardee {
 
-/// One named part of a mesh file, in the file's frame and in metres (node transforms and units applied).
+/// One named part of a mesh file, in the file's frame and in metres (node transforms and units
+/// applied).
 struct SubMesh {
   std::string name;  // the DAE node's name, else the mesh's
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector3f> normals;    // per vertex; empty if the file has none
-  std::vector<Eigen::Vector2f> texcoords;  // per vertex, v upwards from the image's lower edge; empty if none
+  std::vector<Eigen::Vector3f> normals;  // per vertex; empty if the file has none
+  std::vector<Eigen::Vector2f>
+      texcoords;  // per vertex, v upwards from the image's lower edge; empty if none
   std::vector<std::array<std::uint32_t, 3>> triangles;
   int material = -1;  // index into MeshFile::materials, or -1
 };
@@ -66,7 +68,8 @@ struct Mesh {
   bool center = false;  // the submesh is moved so that its bounding box is centred at the origin
   Eigen::Vector3d scale{1, 1, 1};
 };
-/// One of the ground textures of a heightmap; layer k + 1 fades in over `fade_m` above `min_height_m` of blend k.
+/// One of the ground textures of a heightmap; layer k + 1 fades in over `fade_m` above
+/// `min_height_m` of blend k.
 struct GroundTexture {
   std::string diffuse_path;
   double size_m = 10.0;

@@ -15,7 +15,9 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
 
 }  // namespace
 
-const Link* Model::find_link(const std::string& link_name) const { return find_named(links, link_name); }
+const Link* Model::find_link(const std::string& link_name) const {
+  return find_named(links, link_name);
+}
 
 const Joint* Model::find_joint(const std::string& joint_name) const {
   return find_named(joints, joint_name);

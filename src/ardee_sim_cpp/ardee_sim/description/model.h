@@ -15,8 +15,9 @@
 
 namespace ardee {
 
-/// How a body meets others. Friction as in ODE: mu along fdir1 (or the first axis of the friction pyramid), mu2 across it.
-/// kp (N/m) and kd (N s/m) are the contact's spring and damper. Defaults: SDF 1.6.
+/// How a body meets others. Friction as in ODE: mu along fdir1 (or the first axis of the friction
+/// pyramid), mu2 across it. kp (N/m) and kd (N s/m) are the contact's spring and damper. Defaults:
+/// SDF 1.6.
 struct Surface {
   double mu = 1.0;
   double mu2 = 1.0;
@@ -66,7 +67,8 @@ struct PluginDescription {
   Element element;
 };
 
-/// A <sensor> as written: what all kinds share is read here, the rest by the sensor's own parser from `element`.
+/// A <sensor> as written: what all kinds share is read here, the rest by the sensor's own parser
+/// from `element`.
 struct SensorDescription {
   std::string name;
   std::string type;
@@ -89,7 +91,16 @@ struct Link {
   Source source;
 };
 
-enum class JointType { kFixed, kRevolute, kContinuous, kPrismatic, kBall, kUniversal, kRevolute2, kScrew };
+enum class JointType {
+  kFixed,
+  kRevolute,
+  kContinuous,
+  kPrismatic,
+  kBall,
+  kUniversal,
+  kRevolute2,
+  kScrew
+};
 
 /// One axis of a joint, with what acts along it. SI units: rad or m, N m or N.
 struct JointAxis {
@@ -113,7 +124,8 @@ struct Joint {
   JointAxis axis;
   JointAxis axis2;              // universal, revolute2
   double thread_pitch_m = 0.0;  // screw: metres a turn
-  // ODE's own: softness and correction at the stops and of the joint itself (negative: the world's).
+  // ODE's own: softness and correction at the stops and of the joint itself (negative: the
+  // world's).
   double stop_cfm = -1.0;
   double stop_erp = -1.0;
   Source source;
@@ -140,7 +152,8 @@ struct Model {
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;
-  std::vector<Instance> instances;  // static models included by this one; non-static ones are merged into links and joints
+  std::vector<Instance> instances;  // static models included by this one; non-static ones are
+                                    // merged into links and joints
   std::string canonical_link;       // the link whose pose stands for the model's; the first
 
   const Link* find_link(const std::string& link_name) const;

@@ -11,9 +11,10 @@
 
 namespace ardee {
 
-/// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers which keys were asked
-/// for, so that finish() can name the ones that nobody reads. A value that does not parse or lies outside its bounds is an
-/// Error with file, line and element; an unknown key is a warning.
+/// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers
+/// which keys were asked for, so that finish() can name the ones that nobody reads. A value that
+/// does not parse or lies outside its bounds is an Error with file, line and element; an unknown
+/// key is a warning.
 class Parameters {
  public:
   explicit Parameters(const Element& element) : element_(element) {}

@@ -9,7 +9,8 @@
 
 namespace ardee {
 
-/// One static description at one place in the world: a plant, a ground, a box. Position p_W = X_WM * (scale * p_M).
+/// One static description at one place in the world: a plant, a ground, a box. Position p_W = X_WM
+/// * (scale * p_M).
 struct Placement {
   std::shared_ptr<const Model> model;  // its own links only, not model->instances
   Pose X_WM;
@@ -17,8 +18,8 @@ struct Placement {
   std::uint32_t label = 0;
 };
 
-/// All that a static instance holds, itself and what it includes at any depth, in the order of the description. A model
-/// without links of its own gives no placement.
+/// All that a static instance holds, itself and what it includes at any depth, in the order of the
+/// description. A model without links of its own gives no placement.
 std::vector<Placement> flatten_scenery(const Instance& instance);
 
 }  // namespace ardee

@@ -14,7 +14,8 @@
 
 namespace ardee {
 
-/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading variant.
+/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading
+/// variant.
 struct Output {
   std::string topic;
   std::size_t kind = 0;
@@ -27,13 +28,15 @@ struct Input {
   std::function<void(const Twist&)> on_command;
 };
 
-/// The ray scenes, made when first asked for and brought up to the present state of the world when used.
+/// The ray scenes, made when first asked for and brought up to the present state of the world when
+/// used.
 class RayScenes {
  public:
   using Eye = std::function<Eigen::Vector3d()>;
 
   virtual ~RayScenes() = default;
-  /// Announces a point that rays will start from, as long as the returned token lives: ground near it is kept ready.
+  /// Announces a point that rays will start from, as long as the returned token lives: ground near
+  /// it is kept ready.
   virtual std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) = 0;
   /// The scene as of this step.
   virtual const RayScene& now(SceneKind kind) = 0;
@@ -51,8 +54,8 @@ struct DeviceContext {
   Robot& robot;
   RayScenes& scenes;
   Log& log;
-  std::uint64_t seed = 0;            // of this robot's streams
-  std::string robot_namespace;       // where plugins without one of their own put their topics
+  std::uint64_t seed = 0;       // of this robot's streams
+  std::string robot_namespace;  // where plugins without one of their own put their topics
   TimeNs step_ns = 0;
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;

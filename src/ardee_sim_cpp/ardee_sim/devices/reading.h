@@ -16,7 +16,8 @@ struct Header {
   std::string frame_id;
 };
 
-/// One sweep of a planar lidar. Ranges by REP 117: +inf beyond the maximum, -inf nearer than the minimum.
+/// One sweep of a planar lidar. Ranges by REP 117: +inf beyond the maximum, -inf nearer than the
+/// minimum.
 struct LidarReading {
   Header header;
   double angle_min_rad = 0.0;
@@ -28,8 +29,8 @@ struct LidarReading {
   std::vector<float> intensities;
 };
 
-/// Pose of the child frame in header.frame_id, velocity in the child frame; covariances are the diagonals of x, y, z, roll,
-/// pitch, yaw.
+/// Pose of the child frame in header.frame_id, velocity in the child frame; covariances are the
+/// diagonals of x, y, z, roll, pitch, yaw.
 struct OdometryReading {
   Header header;
   std::string child_frame_id;

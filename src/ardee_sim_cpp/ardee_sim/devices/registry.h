@@ -22,8 +22,9 @@ class Registry {
   void add_model_plugin(const std::string& filename, ModelPlugin make);
   void add_sensor_plugin(const std::string& filename, SensorPlugin make);
 
-  /// A device for each plugin of the robot and of its links' sensors, in the order of the description. A plugin of unknown
-  /// file name is a warning that lists the known ones; a bad value inside a known one is an Error.
+  /// A device for each plugin of the robot and of its links' sensors, in the order of the
+  /// description. A plugin of unknown file name is a warning that lists the known ones; a bad value
+  /// inside a known one is an Error.
   std::vector<std::unique_ptr<Device>> make_devices(DeviceContext& context) const;
 
  private:

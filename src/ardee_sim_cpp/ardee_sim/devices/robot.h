@@ -10,8 +10,8 @@
 
 namespace ardee {
 
-/// A model in the world as its devices see it: its description, and where its links are now. A static model stands still and
-/// has no dynamics.
+/// A model in the world as its devices see it: its description, and where its links are now. A
+/// static model stands still and has no dynamics.
 class Robot {
  public:
   Robot(std::string name, std::shared_ptr<const Model> model, std::uint32_t entity)

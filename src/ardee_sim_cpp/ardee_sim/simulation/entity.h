@@ -19,7 +19,8 @@ struct Entity {
   std::map<std::string, double> joint_positions;
   std::unique_ptr<Robot> robot;
   std::vector<std::unique_ptr<Device>> devices;
-  std::vector<Placement> placements;  // static: what stands where; the k-th has the ray entity robot->entity() + k
+  std::vector<Placement>
+      placements;  // static: what stands where; the k-th has the ray entity robot->entity() + k
   PhysicsWorld::SceneryId scenery = 0;
 
   const std::string& name() const { return instance.name; }

@@ -13,7 +13,8 @@ namespace ardee {
 /// The visual and the collision scene of a simulation, each made when a sensor first needs it.
 class SceneSet : public RayScenes {
  public:
-  SceneSet(const RayOptions& options, const std::vector<std::unique_ptr<Entity>>& entities, Log log);
+  SceneSet(const RayOptions& options, const std::vector<std::unique_ptr<Entity>>& entities,
+           Log log);
 
   std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) override;
   const RayScene& now(SceneKind kind) override;

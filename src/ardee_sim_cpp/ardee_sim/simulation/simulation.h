@@ -39,8 +39,8 @@ struct RelativeState {
   Twist twist;
 };
 
-/// A world with its robots: load, spawn, remove, reset, step. Not thread-safe: one thread owns it, and services act between
-/// steps.
+/// A world with its robots: load, spawn, remove, reset, step. Not thread-safe: one thread owns it,
+/// and services act between steps.
 class Simulation {
  public:
   /// Throws Error if something in the world cannot be built.
@@ -50,7 +50,8 @@ class Simulation {
   /// Receives all readings from now on; nullptr: nobody.
   void set_sink(ReadingSink* sink) { sink_ = sink; }
 
-  /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then leaves nothing behind.
+  /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then
+  /// leaves nothing behind.
   Entity& spawn(const SpawnRequest& request);
   void remove(const std::string& name);
   /// The entity of that name, or nullptr.
@@ -62,7 +63,8 @@ class Simulation {
   TimeNs now_ns() const { return now_ns_; }
   std::uint64_t step_count() const { return step_count_; }
 
-  /// All models back to where they were spawned, at rest; models stay that were spawned, the clock goes on.
+  /// All models back to where they were spawned, at rest; models stay that were spawned, the clock
+  /// goes on.
   void reset_world();
   /// As reset_world, and the clock, random streams and frame counters start again.
   void reset_simulation();
@@ -71,11 +73,12 @@ class Simulation {
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
 
-  /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such name; "" and "world"
-  /// name the world. Throws Error for an unknown name.
+  /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
+  /// name; "" and "world" name the world. Throws Error for an unknown name.
   RelativeState state(const std::string& name, const std::string& reference) const;
   /// Moves a model; `state` is relative to `reference`.
-  void set_state(const std::string& model, const RelativeState& state, const std::string& reference);
+  void set_state(const std::string& model, const RelativeState& state,
+                 const std::string& reference);
   Wrenches& wrenches() { return wrenches_; }
   /// Rays into the present world, for tools (pictures, labels).
   RayScenes& scenes() { return scenes_; }
@@ -87,6 +90,9 @@ class Simulation {
   void sample_devices();
   void build_devices(Entity& entity);
   void restore(Entity& entity);
+  void place_static(Entity& entity, const Pose& X_WM);
+  /// Puts back what the physics lost (a state that is not finite); the rest of the world goes on.
+  void recover(const Error& error);
   void reset_entities();
   RelativeState state_in_world(const std::string& name) const;
 

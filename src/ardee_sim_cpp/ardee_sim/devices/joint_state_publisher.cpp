@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/joint_state_publisher.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+constexpr double kDefaultRateHz = 100.0;  // of the stock plugin
+
+std::vector<std::string> split_at_commas(std::string list) {
+  std::replace(list.begin(), list.end(), ',', ' ');
+  std::istringstream stream(list);
+  std::vector<std::string> names;
+  for (std::string name; stream >> name;) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugin,
+                                                  DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  std::string space = plugin_namespace(parameters, context);
+  if (space.empty() && !parameters.has("robotNamespace")) space = context.robot.name();
+  std::vector<std::size_t> joints;
+  for (const std::string& name : split_at_commas(parameters.required_text("jointName"))) {
+    joints.push_back(context.robot.joint_index(name, plugin.element.source));
+  }
+  const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
+  parameters.finish(context.log);
+  return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
+                                               std::move(joints), rate_hz, context.robot);
+}
+
+JointStatePublisher::JointStatePublisher(const std::string& name, const std::string& topic,
+                                         std::vector<std::size_t> joints, double rate_hz,
+                                         Robot& robot)
+    : Device(name),
+      joints_(std::move(joints)),
+      robot_(robot),
+      timer_(rate_hz),
+      output_(add_output(topic, reading_kind<JointStateReading>())) {}
+
+void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
+  if (!timer_.due(now_ns) || !output_.demanded) return;
+  JointStateReading reading;
+  reading.header.stamp_ns = now_ns;
+  for (const std::size_t joint : joints_) {
+    reading.names.push_back(robot_.model().joints[joint].name);
+    const bool moves =
+        robot_.is_dynamic() && robot_.model().joints[joint].type != JointType::kFixed;
+    reading.positions.push_back(moves ? robot_.dynamics().joint_position(joint) : 0.0);
+    reading.velocities.push_back(moves ? robot_.dynamics().joint_velocity(joint) : 0.0);
+  }
+  sink.on_reading(output_, reading);
+}
+
+void JointStatePublisher::reset(TimeNs now_ns) {
+  timer_.reset();
+  timer_.start_at(now_ns);
+}
+
+}  // namespace ardee

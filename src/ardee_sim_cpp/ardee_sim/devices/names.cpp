@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+std::string without_slashes(std::string text) {
+  const std::size_t first = text.find_first_not_of('/');
+  if (first == std::string::npos) return "";
+  const std::size_t last = text.find_last_not_of('/');
+  return text.substr(first, last - first + 1);
+}
+
+}  // namespace
+
+std::string plugin_namespace(Parameters& parameters, const DeviceContext& context) {
+  const std::string own = parameters.text("robotNamespace", "");
+  return without_slashes(own.empty() ? context.robot_namespace : own);
+}
+
+std::string resolve_topic(const std::string& topic, const std::string& robot_namespace) {
+  if (!topic.empty() && topic.front() == '/') return topic;
+  const std::string space = without_slashes(robot_namespace);
+  return (space.empty() ? "/" : "/" + space + "/") + topic;
+}
+
+std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
+                          const DeviceContext& context) {
+  const std::string prefix =
+      context.tf_prefix ? without_slashes(context.tf_prefix(robot_namespace)) : std::string();
+  // An absolute frame is taken as it stands, as tf::resolve does.
+  if (prefix.empty() || (!frame.empty() && frame.front() == '/')) return without_slashes(frame);
+  return prefix + "/" + without_slashes(frame);
+}
+
+}  // namespace ardee

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// The namespace of a plugin: its <robotNamespace>, or where that is absent or empty the one the
+/// robot was spawned in.
+std::string plugin_namespace(Parameters& parameters, const DeviceContext& context);
+
+/// A topic as a ROS node in `robot_namespace` would resolve it: absolute stays, relative goes below
+/// the namespace.
+std::string resolve_topic(const std::string& topic, const std::string& robot_namespace);
+
+/// A frame as tf2 wants it: no leading slash, the namespace's tf_prefix in front (as tf::resolve
+/// does).
+std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
+                          const DeviceContext& context);
+
+}  // namespace ardee

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/registry.h"
+
+#include <stdexcept>
+
+#include "ardee_sim/devices/joint_state_publisher.h"
+#include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/skid_steer_drive.h"
+#include "ardee_sim/devices/torsional_spring.h"
+
+namespace ardee {
+namespace {
+
+/// "path/libx.so", "libx.so" and "x" name the same plugin.
+std::string stem(const std::string& filename) {
+  std::string text = filename.substr(filename.find_last_of('/') + 1);
+  const std::string ending = ".so";
+  if (text.size() > ending.size() && text.compare(text.size() - 3, 3, ending) == 0) {
+    text.resize(text.size() - ending.size());
+  }
+  return text.rfind("lib", 0) == 0 ? text.substr(3) : text;
+}
+
+template <typename Map, typename Make>
+void add(Map& plugins, const std::string& filename, Make make) {
+  if (!plugins.emplace(stem(filename), std::move(make)).second) {
+    throw std::logic_error("plugin " + filename + " is registered twice");
+  }
+}
+
+}  // namespace
+
+void Registry::add_model_plugin(const std::string& filename, ModelPlugin make) {
+  add(model_plugins_, filename, std::move(make));
+}
+
+void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make) {
+  add(sensor_plugins_, filename, std::move(make));
+}
+
+std::string Registry::known_names() const {
+  std::string names;
+  for (const auto& [name, make] : model_plugins_) names += " lib" + name + ".so";
+  for (const auto& [name, make] : sensor_plugins_) names += " lib" + name + ".so";
+  return names;
+}
+
+std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& context) const {
+  std::vector<std::unique_ptr<Device>> devices;
+  const auto unknown = [&](const PluginDescription& plugin) {
+    context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
+                     "', expected one of:" + known_names() + "; it is left out");
+  };
+  const Model& model = context.robot.model();
+  for (const PluginDescription& plugin : model.plugins) {
+    const auto found = model_plugins_.find(stem(plugin.filename));
+    if (found == model_plugins_.end()) {
+      unknown(plugin);
+    } else {
+      devices.push_back(found->second(plugin, context));
+    }
+  }
+  for (std::size_t link = 0; link < model.links.size(); ++link) {
+    for (const SensorDescription& sensor : model.links[link].sensors) {
+      for (const PluginDescription& plugin : sensor.plugins) {
+        const auto found = sensor_plugins_.find(stem(plugin.filename));
+        if (found == sensor_plugins_.end()) {
+          unknown(plugin);
+        } else {
+          devices.push_back(found->second(sensor, plugin, link, context));
+        }
+      }
+    }
+  }
+  return devices;
+}
+
+Registry builtin_registry() {
+  Registry registry;
+  registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
+  registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
+  registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
+  registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  return registry;
+}
+
+}  // namespace ardee

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/robot.h"
+
+#include <algorithm>
+
+namespace ardee {
+namespace {
+
+template <typename Item>
+std::size_t index_of(const std::vector<Item>& items, const std::string& name, const char* what,
+                     const Source& source) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&name](const Item& item) { return item.name == name; });
+  if (found != items.end()) return static_cast<std::size_t>(found - items.begin());
+  std::string known;
+  for (const Item& item : items) known += (known.empty() ? "" : ", ") + item.name;
+  throw Error(source, "found " + std::string(what) + " '" + name + "', expected one of: " + known);
+}
+
+}  // namespace
+
+PhysicsModel& Robot::dynamics() const {
+  if (!dynamics_)
+    throw Error(model_->source, "model '" + name_ + "' is static, expected one that moves");
+  return *dynamics_;
+}
+
+Pose Robot::link_pose(std::size_t link) const {
+  return dynamics_ ? dynamics_->link_pose(link) : fixed_pose_ * model_->links[link].X_ML;
+}
+
+Twist Robot::link_twist(std::size_t link) const {
+  return dynamics_ ? dynamics_->link_twist(link) : Twist{};
+}
+
+std::size_t Robot::link_index(const std::string& link_name, const Source& source) const {
+  return index_of(model_->links, link_name, "link", source);
+}
+
+std::size_t Robot::joint_index(const std::string& joint_name, const Source& source) const {
+  return index_of(model_->joints, joint_name, "joint", source);
+}
+
+}  // namespace ardee

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/skid_steer_drive.h"
+
+#include <cmath>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+constexpr double kUnknownVariance = 1e12;  // of z, roll and pitch, as the stock plugin says
+
+std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& parameters,
+                                                                 const DeviceContext& context) {
+  static constexpr std::array<const char*, SkidSteerDrive::kWheelCount> kKeys = {
+      "leftFrontJoint", "rightFrontJoint", "leftRearJoint", "rightRearJoint"};
+  static constexpr std::array<const char*, SkidSteerDrive::kWheelCount> kDefaults = {
+      "left_front_joint", "right_front_joint", "left_rear_joint", "right_rear_joint"};
+  std::array<std::size_t, SkidSteerDrive::kWheelCount> joints{};
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Element* given = parameters.block(kKeys[i]);
+    const Source& source = given ? given->source : parameters.source();
+    joints[i] = context.robot.joint_index(given ? given->text : kDefaults[i], source);
+    const JointType type = context.robot.model().joints[joints[i]].type;
+    if (type != JointType::kRevolute && type != JointType::kContinuous) {
+      throw Error(source, std::string("found a joint that does not turn for ") + kKeys[i] +
+                              ", expected a continuous or revolute one");
+    }
+  }
+  return joints;
+}
+
+SkidSteerDrive::OdometrySource read_source(Parameters& parameters) {
+  const std::string source = parameters.text("odometrySource", "world");
+  if (source == "world" || source == "1") return SkidSteerDrive::OdometrySource::kWorld;
+  if (source == "encoder" || source == "0") return SkidSteerDrive::OdometrySource::kEncoder;
+  throw parameters.error("odometrySource", "expected world or encoder");
+}
+
+SkidSteerDrive::Params read(const PluginDescription& plugin, DeviceContext& context) {
+  constexpr double kSmallest = 1e-6;
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  SkidSteerDrive::Params params;
+  params.joints = read_joints(parameters, context);
+  params.wheel_separation_m = parameters.number("wheelSeparation", 0.4, kSmallest);
+  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, kSmallest);
+  params.torque_n_m = parameters.number("torque", 5.0, 0.0);
+  params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
+  params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
+  params.covariance_x = parameters.number("covariance_x", 1e-4, 0.0);
+  params.covariance_y = parameters.number("covariance_y", 1e-4, 0.0);
+  params.covariance_yaw = parameters.number("covariance_yaw", 0.01, 0.0);
+  params.broadcast_tf = parameters.boolean("broadcastTF", false);
+  params.source = read_source(parameters);
+  params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
+  params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
+  const auto frame = [&](const char* key, const char* fallback) {
+    // The stock plugin resolves "/odom" below the tf_prefix too; an absolute name would be lost in
+    // tf2.
+    std::string name = parameters.text(key, fallback);
+    name.erase(0, name.find_first_not_of('/'));
+    return resolve_frame(name, space, context);
+  };
+  params.odometry_frame = frame("odometryFrame", "odom");
+  params.base_frame = frame("robotBaseFrame", "base_footprint");
+  parameters.ignore({"topicName", "alwaysOn"});  // in Listing A.13; the stock plugin reads neither
+  parameters.finish(context.log);
+  return params;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
+                                             DeviceContext& context) {
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, context), context.robot);
+}
+
+SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Robot& robot)
+    : Device(name),
+      params_(params),
+      robot_(robot),
+      command_timer_(params.update_rate_hz),
+      odometry_timer_(params.update_rate_hz),
+      odometry_output_(add_output(params.odometry_topic, reading_kind<OdometryReading>())) {
+  if (params_.broadcast_tf) tf_output_ = &add_output("/tf", reading_kind<TransformReading>());
+  add_input(params_.command_topic, [this](const Twist& command) {
+    command_ = command;
+    command_is_new_ = true;
+  });
+  reset(0);
+}
+
+double SkidSteerDrive::side_speed(const Params& params, const Twist& command, bool left) {
+  const double turn = command.angular.z() * params.wheel_separation_m / 2.0;
+  return (command.linear.x() + (left ? -turn : turn)) / (params.wheel_diameter_m / 2.0);
+}
+
+void SkidSteerDrive::before_step(TimeNs now_ns) {
+  if (command_is_new_) {
+    command_is_new_ = false;
+    command_time_ns_ = now_ns;
+  }
+  if (params_.command_timeout_s > 0.0 &&
+      now_ns - command_time_ns_ > nanoseconds(params_.command_timeout_s)) {
+    command_ = Twist{};
+  }
+  if (!command_timer_.due(now_ns)) return;
+  PhysicsModel& dynamics = robot_.dynamics();
+  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
+    const bool left = wheel == kLeftFront || wheel == kLeftRear;
+    dynamics.set_joint_motor(params_.joints[wheel], side_speed(params_, command_, left),
+                             params_.torque_n_m);
+  }
+}
+
+void SkidSteerDrive::integrate_encoders() {
+  const PhysicsModel& dynamics = robot_.dynamics();
+  std::array<double, kWheelCount> turned{};
+  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
+    const double angle = dynamics.joint_position(params_.joints[wheel]);
+    turned[wheel] = angle - wheel_angles_[wheel];
+    wheel_angles_[wheel] = angle;
+  }
+  const double radius = params_.wheel_diameter_m / 2.0;
+  const double left = radius * (turned[kLeftFront] + turned[kLeftRear]) / 2.0;
+  const double right = radius * (turned[kRightFront] + turned[kRightRear]) / 2.0;
+  const double turn = (right - left) / params_.wheel_separation_m;
+  const double yaw = rpy_from_quaternion(encoder_pose_.q).z();
+  // Along the chord of the arc: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots,
+  // eq. 5.7.
+  const double heading = yaw + turn / 2.0;
+  encoder_pose_.p +=
+      0.5 * (left + right) * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0);
+  encoder_pose_.q = quaternion_from_rpy({0.0, 0.0, yaw + turn});
+}
+
+OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
+  const PhysicsModel& dynamics = robot_.dynamics();
+  const Pose X_WM = robot_.pose();
+  const Twist twist_W = robot_.link_twist(0);
+  OdometryReading reading;
+  reading.header = {now_ns, params_.odometry_frame};
+  reading.child_frame_id = params_.base_frame;
+  if (params_.source == OdometrySource::kWorld) {
+    reading.pose = X_WM;
+    reading.twist.linear = X_WM.q.conjugate() * twist_W.linear;
+    reading.twist.angular = X_WM.q.conjugate() * twist_W.angular;
+  } else {
+    const double radius = params_.wheel_diameter_m / 2.0;
+    const auto side = [&](Wheel front, Wheel rear) {
+      return radius * 0.5 *
+             (dynamics.joint_velocity(params_.joints[front]) +
+              dynamics.joint_velocity(params_.joints[rear]));
+    };
+    const double left = side(kLeftFront, kLeftRear);
+    const double right = side(kRightFront, kRightRear);
+    reading.pose = encoder_pose_;
+    reading.twist.linear.x() = 0.5 * (left + right);
+    reading.twist.angular.z() = (right - left) / params_.wheel_separation_m;
+  }
+  reading.pose_covariance = {params_.covariance_x, params_.covariance_y, kUnknownVariance,
+                             kUnknownVariance,     kUnknownVariance,     params_.covariance_yaw};
+  return reading;
+}
+
+void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
+  if (!odometry_timer_.due(now_ns)) return;
+  if (params_.source == OdometrySource::kEncoder) integrate_encoders();
+  OdometryReading reading = odometry(now_ns);
+  if (tf_output_) {
+    sink.on_reading(*tf_output_,
+                    TransformReading{reading.header, reading.child_frame_id, reading.pose});
+  }
+  if (odometry_output_.demanded) {
+    reading.pose.p.z() = 0.0;  // the stock plugin leaves it out of the message, not out of tf
+    sink.on_reading(odometry_output_, reading);
+  }
+}
+
+void SkidSteerDrive::reset(TimeNs now_ns) {
+  command_ = Twist{};
+  command_is_new_ = false;
+  command_time_ns_ = now_ns;
+  for (RateTimer* timer : {&command_timer_, &odometry_timer_}) {
+    timer->reset();
+    timer->start_at(now_ns);
+  }
+  encoder_pose_ = Pose{};
+  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
+    wheel_angles_[wheel] = robot_.dynamics().joint_position(params_.joints[wheel]);
+  }
+}
+
+}  // namespace ardee

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// libgazebo_ros_skid_steer_drive.so (thesis 4.4.4, Listing A.3): four wheels, those of a side at
+/// one speed. Each wheel's motor has at most `torque`; there is no PID and no acceleration limit,
+/// and the last command stays unless a timeout is set.
+class SkidSteerDrive : public Device {
+ public:
+  enum class OdometrySource { kWorld, kEncoder };
+  enum Wheel { kLeftFront, kRightFront, kLeftRear, kRightRear, kWheelCount };
+
+  struct Params {
+    std::array<std::size_t, kWheelCount> joints{};
+    double wheel_separation_m = 0.4;
+    double wheel_diameter_m = 0.15;
+    double torque_n_m = 5.0;
+    double update_rate_hz = 100.0;
+    double command_timeout_s = 0.0;  // 0: the last command stays
+    double covariance_x = 1e-4;      // m^2
+    double covariance_y = 1e-4;      // m^2
+    double covariance_yaw = 0.01;    // rad^2
+    bool broadcast_tf = false;
+    OdometrySource source = OdometrySource::kWorld;
+    std::string command_topic;
+    std::string odometry_topic;
+    std::string odometry_frame;
+    std::string base_frame;
+  };
+
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  SkidSteerDrive(const std::string& name, const Params& params, Robot& robot);
+
+  /// Wheel speed in rad/s of one side for a command (v in m/s, w in rad/s): (v -+ w * separation /
+  /// 2) / (diameter / 2).
+  static double side_speed(const Params& params, const Twist& command, bool left);
+
+  void before_step(TimeNs now_ns) override;
+  void after_step(TimeNs now_ns, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override;
+
+ private:
+  void integrate_encoders();
+  OdometryReading odometry(TimeNs now_ns) const;
+
+  Params params_;
+  Robot& robot_;
+  RateTimer command_timer_;
+  RateTimer odometry_timer_;
+  Twist command_;
+  bool command_is_new_ = false;
+  TimeNs command_time_ns_ = 0;
+  std::array<double, kWheelCount> wheel_angles_{};
+  Pose encoder_pose_;
+  Output& odometry_output_;
+  Output* tf_output_ = nullptr;
+};
+
+}  // namespace ardee

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/torsional_spring.h"
+
+#include <limits>
+#include <sstream>
+
+#include "ardee_sim/description/parameters.h"
+
+namespace ardee {
+namespace {
+
+TorsionalSpring::Params read(const PluginDescription& plugin, Log& log) {
+  Parameters parameters(plugin.element);
+  TorsionalSpring::Params params;
+  params.joint = parameters.required_text("joint_handle");
+  params.stiffness_n_m_per_rad =
+      parameters.number("spring_stiffness", params.stiffness_n_m_per_rad, 0.0);
+  params.damping_n_m_s_per_rad =
+      parameters.number("spring_damping", params.damping_n_m_s_per_rad, 0.0);
+  params.reference_rad = parameters.number("spring_reference", params.reference_rad);
+  params.has_limits = parameters.has("lower_limit") || parameters.has("upper_limit");
+  const double infinity = std::numeric_limits<double>::infinity();
+  params.lower_rad = parameters.number("lower_limit", -infinity);
+  params.upper_rad = parameters.number("upper_limit", infinity);
+  if (params.lower_rad > params.upper_rad) {
+    throw parameters.error("lower_limit", "expected at most <upper_limit>");
+  }
+  params.verbose = parameters.boolean("verbose", false);
+  parameters.ignore({"robotNamespace"});
+  parameters.finish(log);
+  return params;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
+                                              DeviceContext& context) {
+  const Params params = read(plugin, context.log);
+  const std::size_t joint = context.robot.joint_index(params.joint, plugin.element.source);
+  const JointType type = context.robot.model().joints[joint].type;
+  if (type != JointType::kRevolute && type != JointType::kContinuous &&
+      type != JointType::kPrismatic) {
+    throw Error(plugin.element.source,
+                "joint '" + params.joint +
+                    "' cannot carry a spring, expected a revolute, continuous or prismatic one");
+  }
+  return std::make_unique<TorsionalSpring>(plugin.name, params, joint, context);
+}
+
+TorsionalSpring::TorsionalSpring(const std::string& name, const Params& params, std::size_t joint,
+                                 DeviceContext& context)
+    : Device(name), params_(params), joint_(joint), robot_(context.robot), log_(context.log) {
+  reset(0);
+}
+
+void TorsionalSpring::reset(TimeNs /*now_ns*/) {
+  PhysicsModel& dynamics = robot_.dynamics();
+  dynamics.set_joint_spring(joint_, {params_.stiffness_n_m_per_rad, params_.damping_n_m_s_per_rad,
+                                     params_.reference_rad});
+  if (params_.has_limits) dynamics.set_joint_limits(joint_, params_.lower_rad, params_.upper_rad);
+  verbose_timer_.reset();
+}
+
+void TorsionalSpring::after_step(TimeNs now_ns, ReadingSink& /*sink*/) {
+  if (!params_.verbose || !verbose_timer_.due(now_ns)) return;
+  const double angle = robot_.dynamics().joint_position(joint_);
+  const double rate = robot_.dynamics().joint_velocity(joint_);
+  std::ostringstream text;
+  text << "joint " << params_.joint << ": position " << angle << " rad, velocity " << rate
+       << " rad/s, spring torque "
+       << -params_.damping_n_m_s_per_rad * rate -
+              params_.stiffness_n_m_per_rad * (angle - params_.reference_rad)
+       << " N m";
+  log_.info(text.str());
+}
+
+}  // namespace ardee

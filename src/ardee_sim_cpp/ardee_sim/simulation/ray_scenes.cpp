@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/simulation/ray_scenes.h"
+
+#include <algorithm>
+
+namespace ardee {
+namespace {
+
+std::vector<Pose> link_poses(const Robot& robot) {
+  std::vector<Pose> poses;
+  poses.reserve(robot.model().links.size());
+  for (std::size_t link = 0; link < robot.model().links.size(); ++link) {
+    poses.push_back(robot.link_pose(link));
+  }
+  return poses;
+}
+
+}  // namespace
+
+SceneSet::SceneSet(const RayOptions& options, const std::vector<std::unique_ptr<Entity>>& entities,
+                   Log log)
+    : options_(options), entities_(entities), log_(std::move(log)) {}
+
+std::shared_ptr<void> SceneSet::register_eye(SceneKind kind, Eye eye) {
+  auto shared = std::make_shared<Eye>(std::move(eye));
+  view(kind).eyes.push_back(shared);
+  return shared;
+}
+
+void SceneSet::add_to(RayScene& scene, const Entity& entity) {
+  if (entity.is_static()) {
+    scene.add_scenery(entity.robot->entity(), entity.placements);
+  } else {
+    scene.add_model(entity.robot->entity(), entity.robot->shared_model());
+  }
+}
+
+void SceneSet::add(const Entity& entity) {
+  for (View& each : views_) {
+    if (each.scene) add_to(*each.scene, entity);
+    each.current = false;
+  }
+}
+
+void SceneSet::remove(const Entity& entity) {
+  for (View& each : views_) {
+    if (!each.scene) continue;
+    if (entity.is_static()) {
+      each.scene->remove_scenery(entity.robot->entity());
+    } else {
+      each.scene->remove_model(entity.robot->entity());
+    }
+    each.current = false;
+  }
+}
+
+void SceneSet::invalidate() {
+  for (View& each : views_) each.current = false;
+}
+
+const RayScene& SceneSet::now(SceneKind kind) {
+  View& wanted = view(kind);
+  if (!wanted.scene) {
+    wanted.scene = std::make_unique<RayScene>(kind, options_, log_);
+    for (const auto& entity : entities_) add_to(*wanted.scene, *entity);
+  }
+  if (!wanted.current) {
+    for (const auto& entity : entities_) {
+      if (!entity->is_static()) {
+        wanted.scene->set_link_poses(entity->robot->entity(), link_poses(*entity->robot));
+      }
+    }
+    std::vector<Eigen::Vector3d> eyes_W;
+    auto& eyes = wanted.eyes;
+    eyes.erase(
+        std::remove_if(eyes.begin(), eyes.end(), [](const auto& eye) { return eye.expired(); }),
+        eyes.end());
+    for (const auto& eye : eyes) eyes_W.push_back((*eye.lock())());
+    wanted.scene->prepare(eyes_W);
+    wanted.current = true;
+  }
+  return *wanted.scene;
+}
+
+}  // namespace ardee

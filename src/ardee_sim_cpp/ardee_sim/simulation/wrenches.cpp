@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/simulation/wrenches.h"
+
+#include <algorithm>
+
+namespace ardee {
+namespace {
+
+template <typename Predicate>
+void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
+  wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
+}
+
+}  // namespace
+
+void Wrenches::clear(const Robot& robot, std::size_t link) {
+  erase_if(wrenches_,
+           [&](const Wrench& wrench) { return wrench.robot == &robot && wrench.link == link; });
+}
+
+void Wrenches::clear(const Robot& robot) {
+  erase_if(wrenches_, [&](const Wrench& wrench) { return wrench.robot == &robot; });
+}
+
+void Wrenches::apply(TimeNs now_ns) {
+  erase_if(wrenches_, [now_ns](const Wrench& wrench) {
+    return wrench.duration_ns >= 0 && now_ns >= wrench.start_ns + wrench.duration_ns;
+  });
+  for (const Wrench& wrench : wrenches_) {
+    if (now_ns < wrench.start_ns) continue;
+    const Pose X_WL = wrench.robot->link_pose(wrench.link);
+    wrench.robot->dynamics().apply_wrench(wrench.link, wrench.force_W, X_WL * wrench.point_L,
+                                          wrench.torque_W);
+  }
+}
+
+}  // namespace ardee
