@@ -42,10 +42,6 @@ def chassis() -> np.ndarray:
     )
     front = length / 2 - proud
     parts.append(shapes.turn(ring, 1, np.pi / 2) + (front, 0, 0.0245))
-    # ribs along both sides
-    for side in (1, -1):
-        for z in (0.018, 0.030, 0.042):
-            parts.append(shapes.box((0.30, 0.002, 0.004), (0, side * (width / 2 - 0.001), z)))
     return np.concatenate(parts)
 
 
