@@ -126,7 +126,8 @@ class RosGraph:
         """What a command prints; it has to succeed."""
         process = self.spawn(*command)
         code = process.wait(timeout_s)
-        assert code == 0, f"{command} exited with {code}:\n{process.output()}\n{self.logs()}"
+        if code != 0:
+            raise RuntimeError(f"{command} exited with {code}:\n{process.output()}")
         return process.output()
 
     def call(self, probe: Probe, *args: Any, timeout_s: float = 90.0) -> Any:

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""The demo's field: generated anew, in the place of the one that farm.world names, and where to start in it."""
+import json
+import math
+import os
+import pathlib
+from dataclasses import dataclass
+from typing import Any, Callable, Dict, List
+
+from ros_graph import RosGraph
+
+MODEL = "small-corn-stalk-plot"  # as farm.world includes it
+TERRAIN = "heightmap_ground"
+ROWS, STALKS_PER_ROW = 4, 50
+BEFORE_THE_ROW_M = 0.8
+RIDE_HEIGHT_M = 0.175  # of base_footprint above the ground
+DROP_M = 0.03  # spawned so far above the ground, which is not level
+
+
+@dataclass(frozen=True)
+class Start:
+    """Pose between two rows, before their first plants, looking along them; and how far to drive."""
+
+    x_m: float
+    y_m: float
+    z_m: float
+    yaw_rad: float
+    distance_m: float
+
+
+def corn_models() -> List[str]:
+    """Names of the corn models on the model path."""
+    folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
+    found = {p.parent.name for f in folders if f for p in pathlib.Path(f).glob("corn*/model.sdf")}
+    if not found:
+        raise RuntimeError(f"no model named corn* on GAZEBO_MODEL_PATH: {folders}")
+    return sorted(found)
+
+
+def generate(
+    graph: RosGraph, folder: pathlib.Path, seed: int, say: Callable[[str], None]
+) -> Dict[str, Any]:
+    """Generate the field into a folder of models; its ground truth."""
+    folder.mkdir()
+    models = corn_models()
+    command = ["rosrun", "ardee_world", "generate_field", "--name", MODEL, "--seed", str(seed)]
+    command += ["--rows", str(ROWS), "--stalks-per-row", str(STALKS_PER_ROW), "--terrain", TERRAIN]
+    say(" ".join(command) + " ...")
+    graph.run(*command, "--output", str(folder), "--models", *models)
+    truth = json.loads((folder / MODEL / "truth.json").read_text())
+    say(f"{truth['emerged']} plants of {len(models)} shapes in {ROWS} rows")
+    return truth
+
+
+def start_of_a_row(truth: Dict[str, Any]) -> Start:
+    """Before the middle two rows of the field, in the world."""
+    left, right = truth["rows"][ROWS // 2 - 1], truth["rows"][ROWS // 2]
+    x = (left["start_m"][0] + right["start_m"][0]) / 2
+    first_y, last_y = left["start_m"][1], left["end_m"][1]
+    along = math.copysign(1.0, last_y - first_y)
+    y = first_y - along * BEFORE_THE_ROW_M
+    field_x, field_y, field_yaw = truth["config"]["world_pose"]
+    c, s = math.cos(field_yaw), math.sin(field_yaw)
+    plants = truth["plants"]
+    nearest = min(
+        range(truth["emerged"]),
+        key=lambda i: math.hypot(plants["x_m"][i] - x, plants["y_m"][i] - first_y),
+    )
+    return Start(
+        x_m=field_x + c * x - s * y,
+        y_m=field_y + s * x + c * y,
+        z_m=plants["z_m"][nearest] + RIDE_HEIGHT_M + DROP_M,
+        yaw_rad=field_yaw + along * math.pi / 2,
+        distance_m=abs(last_y - first_y) + BEFORE_THE_ROW_M,
+    )

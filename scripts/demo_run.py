@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: MIT
+"""The demo itself, in a workspace that is built and sourced: field, world, robot, drive, summary."""
+import argparse
+import math
+import os
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from typing import Any, Callable, List, Optional
+
+import demo_field
+import demo_report
+from ros_graph import Process, RosGraph, wait_until
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+OUTPUT = ROOT / "demo_output"
+RVIZ_CONFIG = "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
+SCAN = "/ardee/hokuyo"
+RECORDED = ["/clock", "/tf", "/tf_static", "/odom", "/joint_states", "/cmd_vel", SCAN]
+SETTLE_S = 2.0  # simulated, for the robot to come to rest on its springs
+
+
+def say(text: str) -> None:
+    """One line of progress."""
+    print(f"   {text}", flush=True)
+
+
+class Demo:
+    """One run: what it has started, and how it waits for things."""
+
+    def __init__(self, options: argparse.Namespace, work: pathlib.Path) -> None:
+        self.options, self.work = options, work
+        self.graph = RosGraph(work)
+        self.graph.env["GAZEBO_MODEL_PATH"] = os.pathsep.join(
+            [str(work / "models"), os.environ.get("GAZEBO_MODEL_PATH", "")]
+        )
+        self.needed = []  # type: List[Process]
+
+    def wait(self, condition: Callable[[], Any], what: str, timeout_s: float = 60.0) -> Any:
+        """The first true value of the condition; an error if a process that it needs ends before."""
+
+        def checked() -> Any:
+            for process in self.needed:
+                if process.exit_code() is not None:
+                    raise RuntimeError(f"{' '.join(process.command[:3])} has ended")
+            return condition()
+
+        return wait_until(checked, what, timeout_s)
+
+    def start_world(self) -> None:
+        """The first launch file."""
+        import rospy
+
+        command = ["roslaunch", "ardee_world", "custom_world.launch", "world:=farm.world"]
+        say(" ".join(command))
+        self.needed.append(self.graph.spawn(*command, f"seed:={self.options.seed}"))
+        self.wait(lambda: rospy.get_param("/use_sim_time", False), "the launch file's parameters")
+        rospy.init_node("demo", anonymous=True, disable_signals=True)
+        self.wait(lambda: rospy.get_time() > 0, "/clock")
+
+    def start_robot(self, start: demo_field.Start) -> None:
+        """The second launch file; rviz too where there is a display."""
+        import rospy
+
+        command = ["roslaunch", "terrasentia_description", "launch_default_tsv1.launch"]
+        say(" ".join(command) + f" x:={start.x_m:.2f} y:={start.y_m:.2f} ...")
+        pose = {"x": start.x_m, "y": start.y_m, "z": start.z_m, "yaw": start.yaw_rad}
+        arguments = [f"{name}:={value:.4f}" for name, value in pose.items()]
+        display = os.environ.get("DISPLAY", "")
+        env = {"DISPLAY": display} if display else {}
+        self.needed.append(
+            self.graph.spawn(*command, *arguments, f"use_rviz:={bool(display)}".lower(), **env)
+        )
+        self.wait(
+            lambda: {"/odom", SCAN} <= {name for name, _ in rospy.get_published_topics()},
+            "the robot's topics",
+        )
+        settled = rospy.get_time() + SETTLE_S
+        self.wait(lambda: rospy.get_time() > settled, "the robot at rest")
+
+    def record(self) -> Process:
+        """rosbag on the topics of a drive."""
+        import rosnode
+
+        bag = self.graph.spawn("rosbag", "record", "-O", str(self.work / "drive.bag"), *RECORDED)
+        self.needed.append(bag)
+        self.wait(lambda: any("record" in name for name in rosnode.get_node_names()), "rosbag")
+        return bag
+
+    def drive(self, distance_m: float) -> float:
+        """Drive down the row, with a picture on the way; the real-time factor meanwhile."""
+        import rospy
+
+        wall_s, sim_s = time.monotonic(), rospy.get_time()
+        driver = self.graph.spawn(
+            str(ROOT / "scripts" / "drive_row"),
+            f"--speed-m-s={self.options.speed_m_s}",
+            f"--distance-m={distance_m}",
+        )
+        photographer = None  # type: Optional[Process]
+        shown = 0
+        limit_s = 60.0 + 20.0 * distance_m / self.options.speed_m_s
+        while driver.exit_code() is None:
+            time.sleep(0.1)
+            self.wait(lambda: True, "")
+            if time.monotonic() - wall_s > limit_s:
+                raise RuntimeError(f"the drive has not ended in {limit_s:.0f} s")
+            lines = driver.output().splitlines()
+            for line in lines[shown:]:
+                say(f"  {line}")
+            shown = len(lines)
+            if shown and photographer is None:
+                photographer = self.take_picture()
+        factor = (rospy.get_time() - sim_s) / (time.monotonic() - wall_s)
+        if driver.exit_code() != 0 or photographer is None:
+            raise RuntimeError("the driver did not drive")
+        if photographer.wait(90.0) != 0:
+            raise RuntimeError("no picture")
+        return factor
+
+    def take_picture(self) -> Process:
+        """Of rviz on the robot launch file's configuration."""
+        say("rviz draws a picture, off-screen")
+        script = ROOT / "scripts" / "rviz_picture"
+        return self.graph.spawn(str(script), str(ROOT / RVIZ_CONFIG), str(self.work / "rviz.png"))
+
+    def run(self) -> None:
+        """All of it, in order."""
+        heading("field")
+        field = demo_field.generate(self.graph, self.work / "models", self.options.seed, say)
+        heading("world and robot")
+        os.environ.update(self.graph.env)
+        self.start_world()
+        start = demo_field.start_of_a_row(field)
+        self.start_robot(start)
+        if not os.environ.get("DISPLAY"):
+            say("no display: rviz draws off-screen only, into the picture below")
+        heading("drive")
+        bag = self.record()
+        factor = self.drive(start.distance_m)
+        self.needed.remove(bag)
+        bag.stop()
+        drive = demo_report.read_drive(self.work / "drive.bag", SCAN)
+        OUTPUT.mkdir(exist_ok=True)
+        for name in ("drive.bag", "rviz.png"):
+            os.replace(self.work / name, OUTPUT / name)
+        heading("summary")
+        print(demo_report.summary(drive, factor, field, OUTPUT), flush=True)
+
+
+def heading(text: str) -> None:
+    """A line above what follows."""
+    print(f"\n== {text}", flush=True)
+
+
+def options() -> argparse.Namespace:
+    """The command line of scripts/demo."""
+    parser = argparse.ArgumentParser(prog="scripts/demo")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--speed-m-s", type=float, default=0.6)
+    found = parser.parse_args()
+    if found.seed < 0:
+        parser.error(f"--seed: found {found.seed}, expected a whole number from 0")
+    if not 0.05 <= found.speed_m_s <= 2.0 or not math.isfinite(found.speed_m_s):
+        parser.error(f"--speed-m-s: found {found.speed_m_s}, expected 0.05 to 2")
+    return found
+
+
+def stop_here(number: int, _frame: Any) -> None:
+    """Any signal that ends the demo leaves through the clean-up."""
+    raise SystemExit(128 + number)
+
+
+def main() -> int:
+    """Exit code of the demo."""
+    found = options()
+    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    for number in ending:
+        signal.signal(number, stop_here)
+    work = pathlib.Path(tempfile.mkdtemp(prefix=".demo_", dir=ROOT))
+    demo = None  # type: Optional[Demo]
+    try:
+        demo = Demo(found, work)
+        demo.run()
+        return 0
+    except (RuntimeError, TimeoutError, OSError) as error:
+        print(f"scripts/demo: {error}", file=sys.stderr)
+        if demo:
+            print(demo.graph.logs(), file=sys.stderr)
+        return 1
+    finally:
+        for number in ending:
+            signal.signal(number, signal.SIG_IGN)
+        if demo:
+            demo.graph.close()
+        shutil.rmtree(work, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""The demo as a person runs it; and ended by Ctrl-C on the way."""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+from typing import Set
+
+from PIL import Image
+from ros_graph import wait_until
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+OUTPUT = ROOT / "demo_output"
+
+
+def start(log: pathlib.Path) -> subprocess.Popen:
+    env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "ROS_MASTER_URI")}
+    with log.open("wb") as output:
+        return subprocess.Popen(
+            ["/usr/bin/python3", str(ROOT / "scripts" / "demo_run.py")],
+            env=dict(env, ARDEE_DEMO_TEST=str(log), PYTHONUNBUFFERED="1"),
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+
+
+def ours(log: pathlib.Path) -> Set[int]:
+    """Processes that came out of a demo started above, by the environment they inherited."""
+    found, marker = set(), f"ARDEE_DEMO_TEST={log}".encode()
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if marker in (folder / "environ").read_bytes().split(b"\0"):
+                found.add(int(folder.name))
+        except OSError:
+            continue
+    return found
+
+
+def leftovers() -> Set[pathlib.Path]:
+    return set(ROOT.glob(".demo_*"))
+
+
+def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
+    log = tmp_path / "demo.log"
+    demo = start(log)
+    assert demo.wait(300) == 0, log.read_text()
+    text = log.read_text()
+    distance = float(re.search(r"distance driven +([\d.]+) m", text).group(1))
+    assert 7.0 < distance < 11.0  # 50 plants in a row, and the way there
+    assert int(re.search(r"scans published +(\d+)", text).group(1)) > 200
+    assert int(re.search(r"plants in the field +(\d+)", text).group(1)) > 150
+    assert Image.open(OUTPUT / "rviz.png").size == (1280, 960)
+    assert (OUTPUT / "drive.bag").stat().st_size > 100_000
+    wait_until(lambda: not ours(log), "the demo's processes gone", 10.0)
+
+
+def test_ctrl_c_on_the_way_leaves_nothing(tmp_path: pathlib.Path) -> None:
+    log, before = tmp_path / "demo.log", leftovers()
+    demo = start(log)
+    wait_until(lambda: "m driven" in log.read_text(), "the robot on its way", 120.0)
+    os.killpg(demo.pid, signal.SIGINT)
+    assert demo.wait(60) == 128 + signal.SIGINT
+    wait_until(lambda: not ours(log), "the demo's processes gone", 10.0)
+    assert leftovers() <= before

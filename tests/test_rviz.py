@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""The saved rviz views of the README, drawn off-screen: every display is content, and the picture shows something."""
+import json
+import pathlib
+from typing import Any, Dict
+
+import numpy as np
+import probes
+from PIL import Image
+from ros_graph import RosGraph
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROBOT_VIEW = ROOT / "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
+WORLD_VIEW = ROOT / "src/ardee_world/rviz/world.rviz"
+MIN_COLOURS = 1000  # an empty 3-D view has one
+
+
+def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
+    """Statuses of a view's displays by name; checks the picture's colours."""
+    picture, status = graph.folder / "rviz.png", graph.folder / "rviz.json"
+    script = ROOT / "scripts" / "rviz_picture"
+    graph.run(
+        str(script),
+        str(config),
+        str(picture),
+        "--status",
+        str(status),
+        "--timeout-s",
+        "60",
+        timeout_s=150,
+    )
+    found = json.loads(status.read_text())
+    pixels = np.asarray(Image.open(picture).convert("RGB").crop(found["view_3d_px"]))
+    assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > MIN_COLOURS
+    return {display["name"]: display for display in found["displays"] if display["enabled"]}
+
+
+def assert_content(displays: Dict[str, Any]) -> None:
+    assert displays
+    for name, display in displays.items():
+        assert display["status"] == "Ok", f"{name}: {display}"
+        if display["topic"]:
+            assert display["messages"] > 0, f"{name}: {display}"
+
+
+def test_robot_in_the_field(graph: RosGraph) -> None:
+    graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
+    graph.call(probes.clock_at_least, 0.2)
+    graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
+    graph.call(probes.wait_for_topics, ["/odom", "/ardee/hokuyo"], [])
+    displays = draw(graph, ROBOT_VIEW)
+    assert_content(displays)
+    assert "URDF parsed OK" in displays["RobotModel"]["lines"].values()
+
+
+def test_world_alone(graph: RosGraph) -> None:
+    graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
+    graph.call(probes.clock_at_least, 0.2)
+    displays = draw(graph, WORLD_VIEW)
+    assert displays["Scenery"]["status"] == "Ok"
+    assert displays["Scenery"]["messages"] > 0

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""Every world, model, robot, launch file and YAML that is shipped can be loaded."""
+import os
+import pathlib
+import subprocess
+from typing import Dict, Iterator, List
+
+import probes
+import pytest
+import roslaunch.config
+import yaml
+from geometry_msgs.msg import Point, Pose, Quaternion
+from ros_graph import RosGraph
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+SRC = ROOT / "src"
+
+
+def shipped(pattern: str) -> Dict[str, pathlib.Path]:
+    """Files of the packages in this tree, by their name in it; a linked package counts where it is."""
+    found = [*SRC.glob(f"*/{pattern}"), *(ROOT / "compat").glob(f"*/{pattern}")]
+    return {str(f.relative_to(ROOT)): f for f in sorted(found) if not f.parents[-1].is_symlink()}
+
+
+def models() -> Dict[str, pathlib.Path]:
+    """Model directories on the model path of the workspace, by name."""
+    folders = [pathlib.Path(f) for f in os.environ.get("GAZEBO_MODEL_PATH", "").split(":") if f]
+    return {p.parent.name: p.parent for f in folders for p in sorted(f.glob("*/model.config"))}
+
+
+WORLDS = shipped("worlds/*.world")
+ROBOTS = shipped("robots/*.urdf.xacro")
+LAUNCH_FILES = {**shipped("launch/*.launch"), **{f.name: f for f in ROOT.glob("launch/*.launch")}}
+YAML_FILES = {**shipped("config/**/*.yaml"), **shipped("**/*.rviz")}
+MODELS = models()
+
+
+def test_something_of_each_kind_is_shipped() -> None:
+    for kind in (WORLDS, ROBOTS, LAUNCH_FILES, YAML_FILES, MODELS):
+        assert kind
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_world_runs(graph: RosGraph, name: str) -> None:
+    simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLDS[name]))
+    assert graph.call(probes.clock_at_least, 0.05) >= 0.05
+    assert "ERROR" not in simulator.output()
+
+
+@pytest.fixture(scope="module")
+def empty_world(shared_graph: RosGraph) -> Iterator[RosGraph]:
+    """The simulator, paused, on an empty world."""
+    world = SRC / "ardee_world" / "worlds" / "empty.world"
+    shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(world), "_paused:=true")
+    shared_graph.call(
+        probes.call_service, "/gazebo/get_world_properties", "gazebo_msgs/GetWorldProperties", {}
+    )
+    yield shared_graph
+
+
+def spawn_and_delete(graph: RosGraph, kind: str, name: str, xml: str) -> List[str]:
+    """What the two services say when they fail."""
+    place = Pose(Point(0, 0, 1), Quaternion(0, 0, 0, 1))
+    fields = {"model_name": name, "model_xml": xml, "initial_pose": place}
+    answers = graph.call(
+        probes.call_services,
+        [
+            (f"/gazebo/spawn_{kind}_model", "gazebo_msgs/SpawnModel", fields),
+            ("/gazebo/delete_model", "gazebo_msgs/DeleteModel", {"model_name": name}),
+        ],
+    )
+    return [answer.status_message for answer in answers if not answer.success]
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_model_spawns(empty_world: RosGraph, name: str) -> None:
+    xml = (MODELS[name] / "model.sdf").read_text()
+    assert spawn_and_delete(empty_world, "sdf", f"shipped_{name}", xml) == []
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_robot_spawns(empty_world: RosGraph, name: str) -> None:
+    command = ["rosrun", "xacro", "xacro", str(ROBOTS[name])]
+    xml = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    assert spawn_and_delete(empty_world, "urdf", "shipped_robot", xml) == []
+
+
+@pytest.mark.parametrize("name", LAUNCH_FILES)
+def test_launch_file_loads(name: str) -> None:
+    config = roslaunch.config.load_config_default([str(LAUNCH_FILES[name])], None, verbose=False)
+    assert config.nodes
+    assert not config.config_errors
+
+
+@pytest.mark.parametrize("name", YAML_FILES)
+def test_yaml_loads(name: str) -> None:
+    class Loader(yaml.SafeLoader):
+        """Knows xacro's !degrees and !radians."""
+
+    for tag in ("!degrees", "!radians"):
+        Loader.add_constructor(tag, lambda loader, node: float(loader.construct_scalar(node)))
+    assert yaml.load(YAML_FILES[name].read_text(), Loader) is not None
