@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/description/parameters.h"
+
+namespace ardee {
+namespace {
+
+Element block(const std::vector<std::pair<std::string, std::string>>& keys) {
+  Element element;
+  element.name = "plugin";
+  element.source = {"robot.urdf", 10, "plugin"};
+  int line = 11;
+  for (const auto& [name, text] : keys) {
+    Element child;
+    child.name = name;
+    child.text = text;
+    child.source = {"robot.urdf", line++, name};
+    element.children.push_back(child);
+  }
+  return element;
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Parameters, ReadsTypedValuesAndDefaults) {
+  const Element element = block({{"rate", " 50.0 "}, {"tf", "TRUE"}, {"gain", "1 -2.5 +3e2"}});
+  Parameters parameters(element);
+  EXPECT_EQ(parameters.number("rate", 1.0), 50.0);
+  EXPECT_TRUE(parameters.boolean("tf", false));
+  EXPECT_EQ(parameters.vector3("gain", {}), Eigen::Vector3d(1, -2.5, 300));
+  EXPECT_EQ(parameters.number("absent", 4.5), 4.5);
+}
+
+TEST(Parameters, ABadValueSaysFileLineElementFoundExpected) {
+  for (const char* bad : {"fast", "nan", "inf", "1e999", "", "1 2", "0x10", "1,5"}) {
+    const Element element = block({{"rate", bad}});
+    const std::string message =
+        message_of([&] { Parameters(element).number("rate", 1.0); });
+    EXPECT_EQ(message, "robot.urdf:11: <rate>: found '" + std::string(bad) +
+                           "', expected a finite number");
+  }
+}
+
+TEST(Parameters, AValueOutOfBoundsIsRefused) {
+  const Element element = block({{"rate", "-1"}});
+  EXPECT_EQ(message_of([&] { Parameters(element).number("rate", 1.0, 0.0, 100.0); }),
+            "robot.urdf:11: <rate>: found -1, expected a number in [0, 100]");
+}
+
+TEST(Parameters, AMissingRequiredKeyIsNamed) {
+  const Element element = block({});
+  EXPECT_EQ(message_of([&] { Parameters(element).required_text("joint"); }),
+            "robot.urdf:10: <plugin>: found no <joint>, expected one");
+}
+
+TEST(Parameters, AMisspeltKeyIsReportedOnce) {
+  const Element element = block({{"rate", "1"}, {"updateRat", "5"}});
+  std::vector<std::string> warnings;
+  Log log([&](LogLevel, const std::string& text) { warnings.push_back(text); });
+  Parameters parameters(element);
+  parameters.number("rate", 0.0);
+  parameters.finish(log);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "robot.urdf:12: <updateRat>: unknown key, ignored");
+}
+
+}  // namespace
+}  // namespace ardee
