@@ -7,14 +7,17 @@ import pathlib
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, List
 
+import numpy as np
 from ros_graph import RosGraph
+
+from ardee_models.lookup import search_path, terrain_model
 
 MODEL = "small-corn-stalk-plot"  # as farm.world includes it
 TERRAIN = "heightmap_ground"
 ROWS, STALKS_PER_ROW = 4, 50
 BEFORE_THE_ROW_M = 0.8
 RIDE_HEIGHT_M = 0.175  # of base_footprint above the ground
-DROP_M = 0.03  # spawned so far above the ground, which is not level
+HALF_TRACK_M = 0.22  # the robot's wheels stand within this of its middle, along x and y
 
 
 @dataclass(frozen=True)
@@ -61,15 +64,15 @@ def start_of_a_row(truth: Dict[str, Any]) -> Start:
     y = first_y - along * BEFORE_THE_ROW_M
     field_x, field_y, field_yaw = truth["config"]["world_pose"]
     c, s = math.cos(field_yaw), math.sin(field_yaw)
-    plants = truth["plants"]
-    nearest = min(
-        range(truth["emerged"]),
-        key=lambda i: math.hypot(plants["x_m"][i] - x, plants["y_m"][i] - first_y),
+    world_x, world_y = field_x + c * x - s * y, field_y + s * x + c * y
+    around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
+    ground = terrain_model(TERRAIN, search_path()).height_at(
+        world_x + around[:, None], world_y + around[None, :]
     )
     return Start(
-        x_m=field_x + c * x - s * y,
-        y_m=field_y + s * x + c * y,
-        z_m=plants["z_m"][nearest] + RIDE_HEIGHT_M + DROP_M,
+        x_m=world_x,
+        y_m=world_y,
+        z_m=float(ground.max()) + RIDE_HEIGHT_M,
         yaw_rad=field_yaw + along * math.pi / 2,
         distance_m=abs(last_y - first_y) + BEFORE_THE_ROW_M,
     )
