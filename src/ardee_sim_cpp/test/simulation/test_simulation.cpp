@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "ardee_sim/core/rng.h"
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+const char* const kBall =
+    "<sdf version='1.6'><model name='ball'><link name='link'><inertial><mass>1</mass><inertia>"
+    "<ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz></inertia></inertial><collision "
+    "name='c'><geometry>"
+    "<sphere><radius>0.1</radius></sphere></geometry></collision></link>%PLUGIN%</model></sdf>";
+
+std::string ball(const std::string& plugin = "") {
+  std::string xml = kBall;
+  return xml.replace(xml.find("%PLUGIN%"), 8, plugin);
+}
+
+const Pose kHigh = Pose::from_xyz_rpy({0, 0, 100}, {0, 0, 0});
+
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool any_contains(const std::vector<std::string>& texts, const std::string& part) {
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const std::string& text) { return text.find(part) != std::string::npos; });
+}
+
+TEST(Simulation, TimeIsCountedInWholeSteps) {
+  TestWorld world("", 0.005);
+  world.run(10.0);
+  EXPECT_EQ(world->now_ns(), 10000000000);
+  EXPECT_EQ(world->step_count(), 2000u);
+}
+
+TEST(Simulation, ASpawnedModelFallsAndARemovedOneIsGone) {
+  TestWorld world("");
+  world.spawn(ball(), "ball", kHigh);
+  world.run(1.0);
+  EXPECT_NEAR(world->state("ball", "").pose.p.z(), 100 - 0.5 * 9.8, 0.006);
+  EXPECT_NEAR(world->state("ball", "").twist.linear.z(), -9.8, 1e-9);
+  world->remove("ball");
+  EXPECT_EQ(world->find("ball"), nullptr);
+  EXPECT_TRUE(world->entities().empty());
+  world.run(0.1);
+  EXPECT_EQ(refusal([&] { world->remove("ball"); }), "model 'ball' does not exist");
+}
+
+TEST(Simulation, ANameIsTakenOnce) {
+  TestWorld world("");
+  world.spawn(ball(), "ball", kHigh);
+  EXPECT_EQ(refusal([&] { world.spawn(ball(), "ball"); }), "entity already exists: 'ball'");
+}
+
+TEST(Simulation, AnUnknownPluginIsAWarningThatListsTheKnown) {
+  TestWorld world("");
+  world.spawn(ball("<plugin name='p' filename='libno_such.so'/>"), "ball", kHigh);
+  EXPECT_TRUE(any_contains(world.messages(), "found plugin 'libno_such.so', expected one of:"));
+  EXPECT_TRUE(any_contains(world.messages(), "libgazebo_ros_skid_steer_drive.so"));
+  EXPECT_NE(world->find("ball"), nullptr);
+}
+
+TEST(Simulation, ABadPluginValueRefusesTheSpawnAndLeavesNothing) {
+  TestWorld world("");
+  const std::string plugin =
+      "<plugin name='p' filename='libgazebo_ros_joint_state_publisher.so'>"
+      "<jointName>no_such</jointName></plugin>";
+  const std::string message = refusal([&] { world.spawn(ball(plugin), "ball", kHigh); });
+  EXPECT_NE(message.find("found joint 'no_such'"), std::string::npos) << message;
+  EXPECT_NE(message.find("ball.urdf:1"), std::string::npos) << message;
+  EXPECT_EQ(world->find("ball"), nullptr);
+  world.run(0.1);
+  world.spawn(ball(), "ball", kHigh);
+}
+
+TEST(Simulation, ResetWorldPutsModelsBackAndLeavesTheClock) {
+  TestWorld world("");
+  world.spawn(ball(), "ball", kHigh);
+  world.run(1.0);
+  world->reset_world();
+  EXPECT_EQ(world->now_ns(), 1000000000);
+  EXPECT_EQ(world->state("ball", "").pose.p, kHigh.p);
+  EXPECT_EQ(world->state("ball", "").twist.linear.norm(), 0.0);
+}
+
+TEST(Simulation, ResetSimulationRepeatsTheSameBytes) {
+  TestWorld world(room() + ground_plane(), 0.005);
+  world.spawn(ball(), "ball", Pose::from_xyz_rpy({1, 0, 2}, {0.1, 0.2, 0.3}));
+  world.spawn(lidar_post("libgazebo_ros_laser.so", "ray", 101, 0.02), "post",
+              Pose::from_xyz_rpy({0, 0, 0.1}, {0, 0, 0}));
+  const auto record = [&] {
+    world.recorder().clear();
+    world.run(2.0);
+    std::vector<float> all;
+    for (const LidarReading& scan : world.recorder().on<LidarReading>("/scan")) {
+      all.insert(all.end(), scan.ranges_m.begin(), scan.ranges_m.end());
+    }
+    return all;
+  };
+  const std::vector<float> first = record();
+  world->reset_simulation();
+  EXPECT_EQ(world->now_ns(), 0);
+  const std::vector<float> second = record();
+  ASSERT_EQ(first.size(), 80u * 101u);
+  EXPECT_EQ(0, std::memcmp(first.data(), second.data(), first.size() * sizeof(float)));
+}
+
+TEST(Simulation, StatesAreRelativeToModelsAndLinks) {
+  TestWorld world("");
+  world.spawn(ball(), "a", Pose::from_xyz_rpy({1, 2, 3}, {0, 0, M_PI / 2}));
+  world.spawn(ball(), "b", Pose::from_xyz_rpy({1, 4, 3}, {0, 0, 0}));
+  const RelativeState seen = world->state("b", "a::link");
+  EXPECT_TRUE(seen.pose.p.isApprox(Eigen::Vector3d(2, 0, 0)));
+  EXPECT_NEAR(rpy_from_quaternion(seen.pose.q).z(), -M_PI / 2, 1e-9);
+  EXPECT_NE(refusal([&] { world->state("b", "c"); }), "");
+}
+
+TEST(Simulation, SetStateMovesRelativeToAnotherModel) {
+  TestWorld world("");
+  world.spawn(ball(), "a", Pose::from_xyz_rpy({1, 2, 3}, {0, 0, M_PI / 2}));
+  world.spawn(ball(), "b", kHigh);
+  RelativeState state;
+  state.pose.p = {1, 0, 0};
+  state.twist.linear = {0.5, 0, 0};
+  world->set_state("b", state, "a");
+  EXPECT_TRUE(world->state("b", "").pose.p.isApprox(Eigen::Vector3d(1, 3, 3)));
+  EXPECT_TRUE(world->state("b", "").twist.linear.isApprox(Eigen::Vector3d(0, 0.5, 0)));
+}
+
+TEST(Simulation, MovingSceneryMovesWhatRaysMeetAndAResetPutsItBack) {
+  TestWorld world(static_box("box", "3 0 0 0 0 0", "1 1 1"));
+  world.spawn(lidar_post("libgazebo_ros_laser.so", "ray", 3), "post");
+  const auto ahead = [&] {
+    world.recorder().clear();
+    world.run(0.025);
+    return world.recorder().on<LidarReading>("/scan").back().ranges_m[1];
+  };
+  EXPECT_NEAR(ahead(), 2.5, 1e-5);
+  RelativeState state;
+  state.pose.p = {5, 0, 0};
+  world->set_state("box", state, "world");
+  EXPECT_NEAR(ahead(), 4.5, 1e-5);
+  world->reset_world();
+  EXPECT_NEAR(ahead(), 2.5, 1e-5);
+  world->remove("box");
+  EXPECT_TRUE(std::isinf(ahead()));
+}
+
+TEST(Simulation, WrenchesAddUpAndEnd) {
+  TestWorld world("");
+  Entity& ball_entity = world.spawn(ball(), "ball", kHigh);
+  Wrench push;
+  push.robot = ball_entity.robot.get();
+  push.force_W = {1, 0, 0};
+  push.duration_ns = 1000000000;
+  world->wrenches().add(push);
+  push.force_W = {2, 0, 9.8};  // holds the weight, too
+  world->wrenches().add(push);
+  world.run(2.0);
+  // F = m a for one second: 3 m/s.
+  EXPECT_NEAR(world->state("ball", "").twist.linear.x(), 3.0, 1e-9);
+  EXPECT_NEAR(world->state("ball", "").twist.linear.z(), -9.8, 1e-9);
+}
+
+TEST(Simulation, AModelThatDivergesIsPutBackAndTheRestGoesOn) {
+  TestWorld world("");
+  Entity& lost = world.spawn(ball(), "lost", kHigh);
+  world.spawn(ball(), "kept", Pose::from_xyz_rpy({5, 0, 100}, {0, 0, 0}));
+  Wrench push;
+  push.robot = lost.robot.get();
+  push.force_W = {1e300, 0, 0};
+  push.duration_ns = 2000000;
+  world->wrenches().add(push);
+  world.run(1.0);
+  EXPECT_TRUE(world->state("lost", "").pose.is_finite());
+  EXPECT_TRUE(any_contains(world.messages(), "model 'lost' is put back"));
+  EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9);
+}
+
+}  // namespace
+}  // namespace ardee
