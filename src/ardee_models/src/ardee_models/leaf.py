@@ -66,7 +66,7 @@ def blade_mesh(blade: Blade, shape: Architecture, segments: int) -> Mesh:
     wave = shape.wave_amplitude * half * (1.0 - opening)
     phase = 2.0 * np.pi * shape.wave_count * s + blade.wave_phase_rad
     columns = []
-    for sign, shift in ((1.0, 0.0), (0.0, 0.0), (-1.0, 0.6 * np.pi)):
+    for sign, shift in ((-1.0, 0.0), (0.0, 0.0), (1.0, 0.6 * np.pi)):
         lift = abs(sign) * (half * np.sin(fold) + wave * np.sin(phase + shift))
         columns.append(centre + (sign * half * np.cos(fold))[:, None] * side + lift[:, None] * up)
     points = np.stack(columns, axis=1)

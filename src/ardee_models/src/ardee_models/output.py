@@ -23,11 +23,20 @@ def check_name(name: str) -> str:
     return name
 
 
-def _discard(path: Path) -> None:
-    """Move out of the way first, so that an interrupted removal leaves no half of a model under its name."""
-    doomed = Path(tempfile.mkdtemp(prefix=f".{path.name}.old-", dir=path.parent))
-    os.rename(path, doomed / path.name)
-    shutil.rmtree(doomed)
+def _swap(temporary: Path, target: Path) -> None:
+    """Put `temporary` in the place of `target`; if that fails, `target` is as it was."""
+    if not target.exists():
+        os.rename(temporary, target)
+        return
+    retired = Path(tempfile.mkdtemp(prefix=f".{target.name}.old-", dir=target.parent))
+    os.rename(target, retired / target.name)
+    try:
+        os.rename(temporary, target)
+    except OSError:
+        os.rename(retired / target.name, target)
+        raise
+    finally:
+        shutil.rmtree(retired)
 
 
 @contextlib.contextmanager
@@ -46,9 +55,7 @@ def model_directory(parent: Path, name: str) -> Iterator[Path]:
     try:
         temporary.chmod(0o755)
         yield temporary
-        if target.exists():
-            _discard(target)
-        os.rename(temporary, target)
+        _swap(temporary, target)
     except OSError as error:
         raise GeneratorError(f"{target}: cannot be written: {error.strerror}") from error
     finally:

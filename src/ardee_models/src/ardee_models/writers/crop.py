@@ -39,7 +39,7 @@ _MODEL = """<?xml version="1.0"?>
     <static>true</static>
     <link name="link">
       <collision name="collision">
-        <pose>0 0 {middle:.5f} 0 0 0</pose>
+        <pose>0 0 {middle:.6f} 0 0 0</pose>
         <geometry>
           <cylinder>
             <radius>{radius:.5f}</radius>

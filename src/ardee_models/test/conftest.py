@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Makes the package importable from the source tree, and one set of generated models for all tests."""
+
+import hashlib
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PACKAGE / "src"))
+
+
+def folder_hash(folder: Path) -> str:
+    """SHA-256 over names and bytes of all files below `folder`."""
+    digest = hashlib.sha256()
+    for path in sorted(p for p in folder.rglob("*") if p.is_file()):
+        digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+@pytest.fixture(scope="session")
+def hash_of():
+    """Hash of a folder's content."""
+    return folder_hash
+
+
+@pytest.fixture(scope="session")
+def package() -> Path:
+    """Source folder of ardee_models."""
+    return PACKAGE
+
+
+@pytest.fixture(scope="session")
+def share(tmp_path_factory) -> Path:
+    """All that the build generates: models/ and media/."""
+    from ardee_models import build
+
+    root = tmp_path_factory.mktemp("share")
+    build.copy_static(PACKAGE / "models", root / "models")
+    build.build_crops(root / "models")
+    build.build_terrains(root / "models")
+    build.build_media(root / "media")
+    return root

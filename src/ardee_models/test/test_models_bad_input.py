@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: MIT
+"""Bad input: one message that says where, and nothing changed on disk."""
+
+import sys
+
+import pytest
+import yaml
+
+from ardee_models import cli
+from ardee_models.config import config_dir
+from ardee_models.crops import make_crop
+from ardee_models.errors import GeneratorError
+from ardee_models.lookup import crop_model, terrain_model
+from ardee_models.output import model_directory
+
+
+def _params_file(tmp_path, change):
+    data = yaml.safe_load((config_dir() / "corn.yaml").read_text())
+    change(data)
+    path = tmp_path / "corn.yaml"
+    path.write_text(yaml.safe_dump(data))
+    return path
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (
+            lambda d: d["architecture"].update(leaf_numbr=3),
+            "architecture: unknown key 'leaf_numbr'",
+        ),
+        (
+            lambda d: d["architecture"].pop("curvature_deg"),
+            "architecture: missing key 'curvature_deg'",
+        ),
+        (
+            lambda d: d["architecture"].update(curvature_deg=999),
+            r"curvature_deg: found 999, expected a value in",
+        ),
+        (
+            lambda d: d["architecture"].update(leaf_number=2.5),
+            "leaf_number: found 2.5, expected a finite int",
+        ),
+        (
+            lambda d: d["stages"]["V8"].update(tassel="no!"),
+            "stages.V8.tassel: found 'no!', expected bool",
+        ),
+        (
+            lambda d: d["stages"]["V8"].update(stalk_height_m=float("nan")),
+            "stalk_height_m: found nan",
+        ),
+        (lambda d: d["stages"]["V8"].update(lost_leaves=8), "lost_leaves: found 8"),
+        (lambda d: d.update(stages=[]), r"stages: found \[\], expected dict"),
+    ],
+)
+def test_bad_parameter_files_name_file_and_key(tmp_path, change, message):
+    path = _params_file(tmp_path, change)
+    with pytest.raises(GeneratorError, match=message) as error:
+        make_crop("corn", "V8", 1, "x", tmp_path / "out", path)
+    assert str(path) in str(error.value)
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("text", ["", "- 1\n", "a: [", "\x00"])
+def test_files_that_are_no_yaml_mapping(tmp_path, text):
+    path = tmp_path / "bad.yaml"
+    path.write_text(text)
+    with pytest.raises(GeneratorError, match="bad.yaml"):
+        make_crop("corn", "V8", 1, "x", tmp_path, path)
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (["--species", "wheat", "--stage", "V8"], "unknown species 'wheat', known: corn"),
+        (["--stage", "V99"], "unknown stage 'V99' of corn, known: V4"),
+        (["--stage", "V8", "--params", "nowhere.yaml"], "nowhere.yaml: cannot be read"),
+    ],
+)
+def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, message):
+    base = ["generate_crop", "--name", "x", "--output", str(tmp_path / "out")]
+    monkeypatch.setattr(sys, "argv", base + arguments)
+    with pytest.raises(SystemExit) as exit_:
+        cli.generate_crop_main()
+    error = capsys.readouterr().err
+    assert exit_.value.code == 2 and message in error and error.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["../x", "", ".hidden", "a/b", "a b", "<x>"])
+def test_unsafe_names_are_refused(tmp_path, name):
+    with pytest.raises(GeneratorError, match="name"):
+        make_crop("corn", "V4", 1, name, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_failure_keeps_the_earlier_model(tmp_path, hash_of):
+    model = make_crop("corn", "V4", 1, "x", tmp_path)
+    before = hash_of(tmp_path)
+    with pytest.raises(RuntimeError):
+        with model_directory(tmp_path, "x") as folder:
+            (folder / "model.sdf").write_text("half")
+            raise RuntimeError("interrupted")
+    assert hash_of(tmp_path) == before
+    make_crop("corn", "V4", 2, "x", tmp_path)
+    assert hash_of(tmp_path) != before and [p.name for p in tmp_path.iterdir()] == [model.name]
+
+
+def test_a_folder_that_is_no_model_is_not_overwritten(tmp_path):
+    (tmp_path / "x").mkdir()
+    (tmp_path / "x" / "thesis.tex").write_text("years of work")
+    with pytest.raises(GeneratorError, match="not a model directory"):
+        make_crop("corn", "V4", 1, "x", tmp_path)
+    assert (tmp_path / "x" / "thesis.tex").read_text() == "years of work"
+
+
+def test_output_that_is_a_file(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(GeneratorError, match="cannot be written"):
+        make_crop("corn", "V4", 1, "x", tmp_path / "file")
+
+
+def _model(tmp_path, sdf=None, metrics=None):
+    folder = tmp_path / "m"
+    folder.mkdir()
+    (folder / "model.config").write_text("<model/>")
+    if sdf is not None:
+        (folder / "model.sdf").write_text(sdf)
+    if metrics is not None:
+        (folder / "metrics.json").write_text(metrics)
+
+
+@pytest.mark.parametrize(
+    "sdf, metrics, message",
+    [
+        (None, None, "model.sdf: cannot be read"),
+        ("<sdf>", None, "not valid XML"),
+        ("<sdf/>", None, "neither metrics.json nor a collision cylinder"),
+        (None, "{", "metrics.json"),
+        (None, '{"height_m": 1}', "stalk_radius_m"),
+        (None, '{"height_m": -1, "stalk_radius_m": 0.01, "label": 1}', "found height -1.0 m"),
+    ],
+)
+def test_models_that_do_not_tell_their_height(tmp_path, sdf, metrics, message):
+    _model(tmp_path, sdf, metrics)
+    with pytest.raises(GeneratorError, match=message):
+        crop_model("m", [tmp_path])
+
+
+def test_a_users_model_is_as_tall_as_its_cylinder(tmp_path):
+    cylinder = "<cylinder><length>0.5</length><radius>0.0075</radius></cylinder>"
+    _model(tmp_path, f"<sdf><collision><geometry>{cylinder}</geometry></collision></sdf>")
+    assert crop_model("m", [tmp_path]).height_m == 0.5
+
+
+def test_unreadable_terrain(tmp_path):
+    heightmap = "<uri>file://m/h.png</uri><size>4 4 1</size><pos>0 0 0</pos>"
+    _model(
+        tmp_path,
+        f"<sdf><collision><geometry><heightmap>{heightmap}</heightmap></geometry></collision></sdf>",
+    )
+    with pytest.raises(GeneratorError, match="h.png: not a readable image"):
+        terrain_model("m", [tmp_path])
+    (tmp_path / "m" / "h.png").write_bytes(b"\x89PNG\r\n\x1a\n truncated")
+    with pytest.raises(GeneratorError, match="h.png: not a readable image"):
+        terrain_model("m", [tmp_path])
