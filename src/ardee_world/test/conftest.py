@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""Makes the packages importable from the source tree, and a few models for all tests."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PACKAGE / "src"))
+sys.path.insert(0, str(PACKAGE.parent / "ardee_models" / "src"))
+
+import numpy as np  # noqa: E402
+
+from ardee_models.crops import make_crop  # noqa: E402
+from ardee_models.lookup import CropModel  # noqa: E402
+from ardee_models.terrain import TerrainParams, generate_terrain  # noqa: E402
+from ardee_models.writers.terrain import write_terrain  # noqa: E402
+
+
+@pytest.fixture(scope="session")
+def package() -> Path:
+    """Source folder of ardee_world."""
+    return PACKAGE
+
+
+@pytest.fixture(scope="session")
+def models(tmp_path_factory) -> Path:
+    """A folder with two crops and a terrain."""
+    folder = tmp_path_factory.mktemp("models")
+    make_crop("corn", "V6", 1, "corn_a", folder)
+    make_crop("corn", "V8", 2, "corn_b", folder)
+    ground = TerrainParams()
+    terrain = generate_terrain(ground, np.random.default_rng(1))
+    write_terrain(terrain, ground.friction_mu, "ground", "rows", folder)
+    return folder
+
+
+@pytest.fixture()
+def pool() -> tuple:
+    """Two crop models that need no files."""
+    return (CropModel("corn_a", 0.8, 0.01, 1), CropModel("corn_b", 1.2, 0.012, 1))
+
+
+@pytest.fixture()
+def generate_field(models, monkeypatch, capsys):
+    """Run the command with arguments; returns exit code and standard error."""
+    from ardee_world import cli
+
+    def call(*arguments) -> tuple:
+        monkeypatch.setenv("GAZEBO_MODEL_PATH", str(models))
+        monkeypatch.setattr(sys, "argv", ["generate_field", *map(str, arguments)])
+        try:
+            code = cli.main()
+        except SystemExit as exit_:
+            code = exit_.code
+        return code, capsys.readouterr().err
+
+    return call

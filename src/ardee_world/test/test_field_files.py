@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+"""The command and what it writes."""
+
+import csv
+import json
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from PIL import Image
+
+EXTENSION = "{urn:ardee:sdf}"
+BASE = ("--models", "corn_a", "corn_b", "--name", "field")
+
+
+def _bytes(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def _truth(folder):
+    with (folder / "truth.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_no_plant_is_lost_between_sdf_truth_and_plan(generate_field, tmp_path):
+    heights = ("--stalk-height-min", "0.5", "--stalk-height-max", "0.9")
+    code, error = generate_field(
+        *BASE, *heights, "--terrain", "ground", "--seed", "5", "--output", tmp_path
+    )
+    assert (code, error) == (0, "")
+    folder = tmp_path / "field"
+    truth = _truth(folder)
+    root = ElementTree.parse(folder / "model.sdf").getroot()
+    assert root.find("model").get("name") == "field"
+    includes = root.findall("model/include")
+    data = json.loads((folder / "truth.json").read_text())
+    assert len(includes) == len(truth) == data["emerged"] == len(data["plants"]["id"])
+    assert data["planned"] == 200 and 160 < data["emerged"] < 200
+    assert len({include.findtext("name") for include in includes}) == len(includes)
+    for include, row in zip(includes, truth):
+        assert include.findtext("name") == f"plant_{row['id']}"
+        assert include.findtext("uri") == f"model://{row['model']}"
+        pose = [float(v) for v in include.findtext("pose").split()]
+        assert pose == [
+            float(row["x_m"]),
+            float(row["y_m"]),
+            float(row["z_m"]),
+            0,
+            0,
+            float(row["yaw_rad"]),
+        ]
+        assert float(include.findtext(f"{EXTENSION}scale", "1")) == float(row["scale"])
+        assert include.findtext(f"{EXTENSION}label") == "1"
+        assert include.findtext("static") == "true"
+
+
+def test_scale_is_left_out_where_it_is_one(generate_field, tmp_path):
+    generate_field(*BASE, "--output", tmp_path)
+    text = (tmp_path / "field" / "model.sdf").read_text()
+    assert "ardee:scale" not in text and "ardee:label" in text
+
+
+def test_truth_tells_rows_and_world_positions(generate_field, tmp_path):
+    pose = ("--world-pose", "0", "0", str(-np.pi / 2))
+    generate_field(*BASE, *pose, "--gps-origin", "40.1", "-88.2", "--output", tmp_path)
+    folder = tmp_path / "field"
+    data = json.loads((folder / "truth.json").read_text())
+    assert [row["start_m"] for row in data["rows"]] == [
+        [x, -1.0] for x in (-1.143, -0.381, 0.381, 1.143)
+    ]
+    for row in _truth(folder):
+        assert float(row["world_x_m"]) == pytest.approx(float(row["y_m"]), abs=2e-4)
+        assert float(row["world_y_m"]) == pytest.approx(-float(row["x_m"]), abs=2e-4)
+        assert abs(float(row["latitude_deg"]) - 40.1) < 1e-4 and float(row["longitude_deg"]) < -88.2
+
+
+def test_map_shows_plants(generate_field, tmp_path):
+    generate_field(*BASE, "--output", tmp_path)
+    with Image.open(tmp_path / "field" / "map.png") as image:
+        colours = dict((colour, count) for count, colour in image.getcolors())
+    assert colours[(40, 120, 40)] > 190 * 8 and (200, 0, 0) in colours
+
+
+def test_same_seed_same_bytes_other_seed_other_bytes(generate_field, tmp_path):
+    for place, seed in (("a", 1), ("b", 1), ("c", 2)):
+        assert generate_field(*BASE, "--seed", seed, "--output", tmp_path / place)[0] == 0
+    a, b, c = (_bytes(tmp_path / place / "field") for place in "abc")
+    assert a == b
+    assert all(a[name] != c[name] for name in ("model.sdf", "truth.csv", "truth.json", "map.png"))
+
+
+def test_a_plan_of_the_users_own(generate_field, tmp_path):
+    plan = tmp_path / "plan.csv"
+    plan.write_text("x_m,y_m\n1,2\n3,4\n")
+    certain = ("--noise-covariance", "0", "0", "--emergence-min", "1", "--emergence-max", "1")
+    assert generate_field(*BASE, *certain, "--centers", plan, "--output", tmp_path)[0] == 0
+    positions = [(float(row["x_m"]), float(row["y_m"])) for row in _truth(tmp_path / "field")]
+    assert positions == [(1.0, 2.0), (3.0, 4.0)]
+
+
+def test_many_plants(generate_field, tmp_path):
+    shape = ("--plots-x", "10", "--plots-y", "5", "--stalks-per-row", "1000")
+    assert generate_field(*BASE, *shape, "--output", tmp_path)[0] == 0
+    text = (tmp_path / "field" / "model.sdf").read_text()
+    assert (
+        text.count("<include>")
+        == text.count("</include>")
+        == len(_truth(tmp_path / "field"))
+        > 180_000
+    )
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (("--rows", "-1"), "rows per plot: found -1"),
+        (("--models", "corn_z"), "model 'corn_z': not found, looked in"),
+        (("--models", "ground"), "neither metrics.json nor a collision cylinder"),
+        (("--terrain", "moon"), "model 'moon': not found"),
+        (("--terrain", "corn_a"), "no <heightmap>"),
+        (("--emergence-max", "1.01"), "emergence: found 0.9 to 1.01"),
+        (("--noise-covariance", "1", "2", "1"), "positive definite"),
+        (("--noise-covariance", "1"), "found 1 numbers"),
+        (("--stalks-per-row", "0"), "stalks per row: found 0"),
+        (("--seed", "-3"), "--seed: invalid"),
+        (("--rows", "four"), "--rows: invalid int value"),
+        (("--centers", "nowhere.csv"), "nowhere.csv: cannot be read"),
+        (("--name", "../field"), "name '../field'"),
+    ],
+)
+def test_bad_input_writes_nothing_and_keeps_the_earlier_field(
+    generate_field, tmp_path, arguments, message
+):
+    assert generate_field(*BASE, "--output", tmp_path)[0] == 0
+    before = _bytes(tmp_path)
+    code, error = generate_field(*BASE, "--output", tmp_path, *arguments)
+    assert code == 2 and message in error
+    assert _bytes(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    "text", ["", "x_m,y_m\n", "x_m,y_m\n1,two\n", "x,y\n1,2\n", "x_m,y_m\n1,inf\n", "x_m,y_m\n1\n"]
+)
+def test_bad_plans_name_the_file(generate_field, tmp_path, text):
+    plan = tmp_path / "plan.csv"
+    plan.write_text(text)
+    code, error = generate_field(*BASE, "--centers", plan, "--output", tmp_path)
+    assert code == 2 and str(plan) in error and not (tmp_path / "field").exists()

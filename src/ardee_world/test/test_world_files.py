@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""Worlds, launch files, rviz configuration and the environment hook are whole."""
+
+import os
+import subprocess
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+import yaml
+
+WORLDS = {
+    "farm.world": ["heightmap_ground", "small-corn-stalk-plot"],
+    "custom.world": ["heightmap_ground", "small-corn-stalk-plot"],
+    "flat_farm.world": ["ground_plane", "flat-corn-stalk-plot"],
+    "empty.world": ["sun", "ground_plane"],
+}
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_worlds_include_what_the_build_makes(package, name):
+    root = ElementTree.parse(package / "worlds" / name).getroot()
+    uris = [include.findtext("uri") for include in root.findall("world/include")]
+    assert root.get("version") == "1.5" and uris == [f"model://{model}" for model in WORLDS[name]]
+
+
+def test_every_world_is_tested(package):
+    assert sorted(path.name for path in (package / "worlds").iterdir()) == sorted(WORLDS)
+
+
+def test_farm_world_is_that_of_the_thesis(package):
+    world = ElementTree.parse(package / "worlds" / "farm.world").getroot().find("world")
+    assert world.findtext("physics/max_step_size") == "0.005"
+    assert world.findtext("physics/gravity") == "0 0 -9.8"
+    assert world.findall("include")[1].findtext("pose") == "0 0 0 0 0 -1.57"
+    assert world.findtext("light/direction") == "-0.3 0.4 -1.0"
+
+
+@pytest.mark.parametrize("name", ["custom_world.launch", "world_template.launch"])
+def test_every_argument_has_a_doc(package, name):
+    root = ElementTree.parse(package / "launch" / name).getroot()
+    arguments = root.findall("arg")
+    assert arguments and all(argument.get("doc") for argument in arguments)
+
+
+def _parameters(package, *arguments):
+    """What roslaunch would set, with the package found in the source tree."""
+    environment = dict(os.environ, ROS_PACKAGE_PATH=str(package.parent), PATH="/usr/bin:/bin")
+    command = [
+        "roslaunch",
+        "--dump-params",
+        str(package / "launch" / "custom_world.launch"),
+        *arguments,
+    ]
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    return yaml.safe_load(result.stdout)
+
+
+def test_launch_sets_the_simulators_parameters(package):
+    parameters = _parameters(package, "world:=farm.world", "seed:=5", "paused:=true")
+    assert parameters["/gazebo/world"] == str(package / "worlds" / "farm.world")
+    assert parameters["/gazebo/seed"] == 5 and parameters["/gazebo/paused"] is True
+    assert parameters["/gazebo/real_time_factor"] < 0 and parameters["/use_sim_time"] is True
+    assert parameters["/use_gui"] is False
+
+
+def test_launch_takes_an_absolute_path_and_a_factor(package):
+    parameters = _parameters(package, "world:=/tmp/mine.world", "rtf:=0.5")
+    assert (
+        parameters["/gazebo/world"] == "/tmp/mine.world"
+        and parameters["/gazebo/real_time_factor"] == 0.5
+    )
+
+
+@pytest.mark.parametrize(
+    "arguments, opens",
+    [((), False), (("gui:=true",), True), (("gui:=true", "headless:=true"), False)],
+)
+def test_rviz_opens_only_when_asked(package, arguments, opens):
+    environment = dict(os.environ, ROS_PACKAGE_PATH=str(package.parent), PATH="/usr/bin:/bin")
+    command = ["roslaunch", "--nodes", str(package / "launch" / "custom_world.launch"), *arguments]
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert result.stdout.split() == ["/gazebo"] + ["/world_rviz"] * opens
+
+
+def test_rviz_configuration_shows_the_scenery_in_the_world(package):
+    manager = yaml.safe_load((package / "rviz" / "world.rviz").read_text())["Visualization Manager"]
+    assert manager["Global Options"]["Fixed Frame"] == "world"
+    classes = {display["Class"]: display for display in manager["Displays"]}
+    assert {"rviz/Grid", "rviz/TF"} <= classes.keys()
+    assert classes["rviz/MarkerArray"]["Marker Topic"] == "/ardee/scenery"
+
+
+def test_hook_appends_once_after_the_users_models(package):
+    hook = package / "env-hooks" / "30.ardee_world.sh"
+    script = f'set -u; . "{hook}"; . "{hook}"; echo "$GAZEBO_MODEL_PATH"'
+    environment = {
+        "CATKIN_ENV_HOOK_WORKSPACE": "/ws",
+        "GAZEBO_MODEL_PATH": "/mine",
+        "PATH": "/usr/bin:/bin",
+    }
+    result = subprocess.run(
+        ["sh", "-c", script], env=environment, capture_output=True, text=True, check=True
+    )
+    assert result.stdout.strip() == "/mine:/ws/share/ardee_world/models"
