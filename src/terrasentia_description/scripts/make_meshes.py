@@ -83,7 +83,7 @@ def lug(row: int) -> np.ndarray:
     corners = []
     for radius, narrow in ((base, 0.0), (tip, 0.0015)):
         ring = []
-        for along, across in ((-1, -1), (-1, 1), (1, 1), (1, -1)):
+        for along, across in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
             z = row * (half_long + 0.0003) + along * (half_long - narrow / 3)
             offset = across * (half_wide - narrow) + row * slant * z / half_long
             ring.append((np.sqrt(radius**2 - offset**2), -offset, z))

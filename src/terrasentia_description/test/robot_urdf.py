@@ -1,44 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Expand the robot's xacro files and read what comes out: joints, frames, inertials, plugins."""
-import os
-import pathlib
-import re
-import subprocess
+"""What a URDF says: joints, frames, inertials, plugins."""
 import xml.etree.ElementTree as ElementTree
 from typing import Dict, Optional
 
 import numpy as np
-
-PACKAGE = pathlib.Path(__file__).resolve().parents[1]
-SOURCES = PACKAGE.parent
-XACRO = SOURCES.parent / "compat/xacro/scripts/xacro"
-
-
-def ros_environment() -> dict:
-    """Environment in which rospkg finds the packages of this tree, built or not."""
-    paths = [str(SOURCES), str(SOURCES.parent / "compat"), os.environ.get("ROS_PACKAGE_PATH", "")]
-    return dict(os.environ, ROS_PACKAGE_PATH=os.pathsep.join(p for p in paths if p))
-
-
-def run_xacro(file: pathlib.Path, **arguments: str) -> subprocess.CompletedProcess:
-    """Run xacro on the file with `name:=value` arguments."""
-    command = ["/usr/bin/python3", str(XACRO), str(file)]
-    command += [f"{name}:={value}" for name, value in arguments.items()]
-    return subprocess.run(command, env=ros_environment(), capture_output=True, text=True)
-
-
-def expand(file: pathlib.Path, **arguments: str) -> str:
-    """The URDF text that xacro makes of the file; any complaint on stderr is a failure."""
-    done = run_xacro(file, **arguments)
-    assert done.returncode == 0 and not done.stderr, done.stderr
-    return done.stdout
-
-
-def mesh_path(uri: str) -> pathlib.Path:
-    """File of a package:// URI in this tree."""
-    match = re.fullmatch(r"package://([^/]+)/(.+)", uri)
-    assert match, f"{uri}: expected package://<package>/<path>"
-    return SOURCES / match[1] / match[2]
 
 
 def numbers(text: Optional[str]) -> np.ndarray:

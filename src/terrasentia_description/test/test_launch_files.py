@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""The launch files as roslaunch reads them, without starting anything."""
+import os
+import pathlib
+import subprocess
+
+import pytest
+import yaml
+from xacro_runner import SOURCES, XACRO, ros_environment
+
+LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch"
+FILES = ["launch_default_tsv1.launch", "launch_default_bot.launch"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def workspace(tmp_path_factory: pytest.TempPathFactory):
+    """A catkin workspace of links, built as far as $(find xacro)/xacro needs it."""
+    root = tmp_path_factory.mktemp("workspace")
+    sources, scripts = root / "src", root / "devel/lib/xacro"
+    sources.mkdir()
+    scripts.mkdir(parents=True)
+    for package in ("ardee_sensors", "terrasentia_description"):
+        (sources / package).symlink_to(SOURCES / package)
+    (sources / "xacro").symlink_to(XACRO.parents[1])
+    (scripts / "xacro").symlink_to(XACRO)
+    (root / "devel/.catkin").write_text(str(sources))
+    with pytest.MonkeyPatch.context() as patch:
+        prefixes = [str(root / "devel"), os.environ.get("CMAKE_PREFIX_PATH", "")]
+        patch.setenv("CMAKE_PREFIX_PATH", os.pathsep.join(p for p in prefixes if p))
+        patch.setenv("ROS_PACKAGE_PATH", str(sources))
+        yield
+
+
+def roslaunch(file: str, option: str, *arguments: str, display: str = "") -> str:
+    """What `roslaunch <option>` prints about a file; fails on any complaint."""
+    environment = ros_environment()
+    environment.pop("DISPLAY", None)
+    if display:
+        environment["DISPLAY"] = display
+    done = subprocess.run(
+        ["/usr/bin/roslaunch", option, str(LAUNCH / file), *arguments],
+        env=environment,
+        capture_output=True,
+        text=True,
+    )
+    assert not done.stderr.strip(), done.stderr
+    return done.stdout
+
+
+def nodes(file: str, *arguments: str, display: str = "") -> list:
+    """Names of the nodes that would start."""
+    return sorted(roslaunch(file, "--nodes", *arguments, display=display).split())
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_without_a_display_rviz_is_left_out(file: str):
+    assert nodes(file) == ["/robot_state_publisher", "/spawn_terrasentia"]
+    assert "/rviz" in nodes(file, display=":0")
+    assert "/rviz" not in nodes(file, "use_rviz:=false", display=":0")
+
+
+def test_a_namespace_takes_everything_along():
+    arguments = ["ns:=robot2", "y:=2"]
+    expected = ["/robot2/robot_state_publisher", "/robot2/spawn_terrasentia"]
+    assert nodes(FILES[0], *arguments, display=":0") == expected
+    parameters = yaml.safe_load(roslaunch(FILES[0], "--dump-params", *arguments))
+    assert parameters["/robot2/tf_prefix"] == "robot2"
+    assert parameters["/robot2/robot_description"].count(">/robot2</robotNamespace>") == 3
+    assert "/robot_description" not in parameters and "/tf_prefix" not in parameters
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_without_a_namespace_there_is_no_prefix(file: str):
+    parameters = yaml.safe_load(roslaunch(file, "--dump-params"))
+    assert "/tf_prefix" not in parameters
+    assert parameters["/robot_description"].count(">/</robotNamespace>") == 3
+
+
+@pytest.mark.parametrize("xbox, button", [("true", 7), ("false", 11)])
+def test_joystick(xbox: str, button: int):
+    arguments = ["use_joy:=true", f"use_xbox:={xbox}", "dev_joy:=/dev/input/js0"]
+    assert {"/joy_node", "/joy_controller_node"} <= set(nodes(FILES[0], *arguments))
+    parameters = yaml.safe_load(roslaunch(FILES[0], "--dump-params", *arguments))
+    assert parameters["/joy_node/dev"] == "/dev/input/js0"
+    assert parameters["/joy_controller_node/enable_button"] == button
+
+
+def test_spawn_arguments():
+    text = spawn_arguments(FILES[0], "x:=1.5", "yaw:=0.5", "ns:=robot2")
+    assert text == (
+        "-x 1.5 -y 0 -z 0.175 -R 0 -P 0 -Y 0.5 -urdf -param robot_description "
+        "-model TerraSentia_robot2"
+    )
+    assert spawn_arguments(FILES[1]).endswith(
+        "-Y -3.14 -urdf -param robot_description -model TerraSentia_0"
+    )
+    assert spawn_arguments(FILES[0], "model_name:=A").endswith("-model A")
+
+
+def spawn_arguments(file: str, *arguments: str) -> str:
+    """Arguments of the node that spawns the robot."""
+    code = (
+        "import sys, roslaunch.config, roslaunch.xmlloader as x;"
+        "c = roslaunch.config.ROSLaunchConfig();"
+        "x.XmlLoader().load(sys.argv[1], c, argv=sys.argv[2:], verbose=False);"
+        "print(next(n.args for n in c.nodes if n.type == 'spawn_model'))"
+    )
+    command = ["/usr/bin/python3", "-c", code, str(LAUNCH / file), *arguments]
+    done = subprocess.run(command, env=ros_environment(), capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_a_robot_that_does_not_exist_is_an_error():
+    done = subprocess.run(
+        ["/usr/bin/roslaunch", "--nodes", str(LAUNCH / FILES[0]), "bot_model:=nobody.urdf.xacro"],
+        env=ros_environment(),
+        capture_output=True,
+        text=True,
+    )
+    assert "nobody.urdf.xacro" in done.stderr
+    assert not done.stdout.strip()
