@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The md5 sums of the stand-in are those a node built against the original sends in its connection header.
 
-Source of the sums: the generated headers of `gazebo_msgs` in gazebo_ros_pkgs (noetic). They were written down from there, not
-computed from the files beside this test; a sum of which we are not sure is not listed. A service is listed by the sums of its
-request and of its response, or by that of both together.
+Source of the sums: the generated headers of `gazebo_msgs` in gazebo_ros_pkgs (noetic). They were
+written down from there, not computed from the files beside this test; a sum of which we are not
+sure is not listed. A service is listed by the sums of its request and of its response, or by that
+of both together.
 """
 import pathlib
 from typing import Tuple
