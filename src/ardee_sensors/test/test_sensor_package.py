@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""The package as a whole: every device file is included, every mesh reproduces, the helpers are right."""
+import importlib.util
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from xacro_runner import SOURCES, expand, read_stl
+
+PACKAGE = SOURCES / "ardee_sensors"
+HELPERS = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find ardee_sensors)/urdf/all_sensors.urdf.xacro" />
+  {body}
+</robot>"""
+
+
+def expand_body(folder: pathlib.Path, body: str) -> ElementTree.Element:
+    """URDF of the macro calls in `body`."""
+    file = folder / "helpers.urdf.xacro"
+    file.write_text(HELPERS.format(body=body))
+    return ElementTree.fromstring(expand(file))
+
+
+def test_every_device_file_is_in_the_collection():
+    collection = (PACKAGE / "urdf/all_sensors.urdf.xacro").read_text()
+    for file in (PACKAGE / "urdf").rglob("*.urdf.xacro"):
+        if file.name != "all_sensors.urdf.xacro":
+            assert f"/{file.relative_to(PACKAGE)}" in collection
+
+
+def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.syspath_prepend(str(PACKAGE / "scripts"))
+    spec = importlib.util.spec_from_file_location("meshes", PACKAGE / "scripts/make_meshes.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    sys.modules["mesh_shapes"].write_all(script.meshes(), tmp_path)
+    names = sorted(path.name for path in (PACKAGE / "meshes").iterdir())
+    assert sorted(path.name for path in tmp_path.iterdir()) == names
+    for name in names:
+        assert (tmp_path / name).read_bytes() == (PACKAGE / "meshes" / name).read_bytes(), name
+        assert len((tmp_path / name).read_bytes()) < 200_000
+
+
+def test_the_ust10lx_mesh_has_the_device_s_size():
+    corners = read_stl(PACKAGE / "meshes/hokuyo_ust10lx.stl").reshape(-1, 3)
+    assert corners.min(axis=0) == pytest.approx([-0.025, -0.025, 0], abs=1e-6)
+    assert corners.max(axis=0) == pytest.approx([0.025, 0.025, 0.07], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "call, moments",
+    [
+        ('inertial_box mass="12" x="1" y="2" z="3"', [13, 10, 5]),
+        ('inertial_cylinder mass="12" radius="1" length="3"', [12, 12, 6]),
+        ('inertial_sphere mass="5" radius="2"', [8, 8, 8]),
+    ],
+)
+def test_inertia_of_simple_bodies(tmp_path: pathlib.Path, call: str, moments: list):
+    name = call.split()[0]
+    root = expand_body(
+        tmp_path,
+        f'<link name="a"><xacro:{call}><origin xyz="1 2 3" rpy="0 0 0"/></xacro:{name}></link>',
+    )
+    inertia = root.find("link/inertial/inertia")
+    assert [float(inertia.get(k)) for k in ("ixx", "iyy", "izz")] == pytest.approx(moments)
+    assert [float(inertia.get(k)) for k in ("ixy", "ixz", "iyz")] == [0, 0, 0]
+    assert np.array_equal(root.find("link/inertial/origin").get("xyz").split(), ["1", "2", "3"])
+
+
+def test_friction_block_holds_what_is_given_and_nothing_else(tmp_path: pathlib.Path):
+    call = '<xacro:add_friction_gazebo parent="a" mu1="1.0" mu2="0.5" fdir1="{}" {}/>'
+    plain = expand_body(tmp_path, call.format("0 0 0", "")).find("gazebo")
+    assert {child.tag: child.text for child in plain} == {"mu1": "1.0", "mu2": "0.5"}
+    full = expand_body(tmp_path, call.format("0 0 1", 'kp="5" kd="6" max_vel_m_s="0.1"'))
+    values = {child.tag: child.text for child in full.find("gazebo")}
+    expected = {"mu1": "1.0", "mu2": "0.5", "fdir1": "0 0 1", "kp": "5", "kd": "6", "maxVel": "0.1"}
+    assert values == expected
+
+
+def test_colors(tmp_path: pathlib.Path):
+    body = '<link name="a"><visual><xacro:color_material color="orange"/></visual></link>'
+    root = expand_body(tmp_path, body + '<xacro:color_gazebo parent="a" color="orange"/>')
+    assert root.find("link/visual/material").get("name") == "orange"
+    rgba = [float(v) for v in root.find("link/visual/material/color").get("rgba").split()]
+    assert len(rgba) == 4 and all(0 <= v <= 1 for v in rgba)
+    assert root.find("gazebo[@reference='a']/material").text == "Gazebo/Orange"
