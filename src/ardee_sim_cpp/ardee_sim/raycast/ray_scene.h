@@ -18,28 +18,32 @@ constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
 
 /// What a ray met first.
 struct RayHit {
-  float range_m = 0.0f;              // +inf: nothing within the maximum
-  std::uint32_t entity = kNoEntity;  // what was passed to add_scenery or add_model (plus the placement's index)
-  std::uint32_t link = 0;            // index in the model's description
-  std::uint32_t shape = 0;           // index of the visual or collision in the link
+  float range_m = 0.0f;  // +inf: nothing within the maximum
+  std::uint32_t entity =
+      kNoEntity;  // what was passed to add_scenery or add_model (plus the placement's index)
+  std::uint32_t link = 0;   // index in the model's description
+  std::uint32_t shape = 0;  // index of the visual or collision in the link
   std::uint32_t label = 0;
   float laser_retro = 0.0f;
   Eigen::Vector3f normal_W{0, 0, 0};  // unit, towards the ray's origin
 };
 
-/// Unit directions in the sensor's frame, all from its origin: a lidar's, sonar's or camera's pattern as data.
+/// Unit directions in the sensor's frame, all from its origin: a lidar's, sonar's or camera's
+/// pattern as data.
 struct RayPattern {
   std::vector<Eigen::Vector3f> directions_S;
 };
 
 struct RayOptions {
-  int threads = 0;                                      // 0: all cores
-  std::size_t flattened_budget_bytes = 512u << 20;      // of scenery held as flat triangles near sensors
-  double flattened_radius_m = 6.0;                      // tiles that touch this circle about a sensor are flattened
-  bool flatten = true;                                  // false: instances only (what rays return is the same)
+  int threads = 0;  // 0: all cores
+  std::size_t flattened_budget_bytes = 512u
+                                       << 20;  // of scenery held as flat triangles near sensors
+  double flattened_radius_m = 6.0;  // tiles that touch this circle about a sensor are flattened
+  bool flatten = true;              // false: instances only (what rays return is the same)
 };
 
-/// The world as rays see it, on Embree. What a ray returns does not depend on threads, on tiles or on timing.
+/// The world as rays see it, on Embree. What a ray returns does not depend on threads, on tiles or
+/// on timing.
 class RayScene {
  public:
   RayScene(SceneKind kind, const RayOptions& options, Log log);
@@ -56,14 +60,16 @@ class RayScene {
   /// X_WL of each link of the description, in its order.
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
 
-  /// Makes the scene ready for rays from these points: commits what moved, flattens tiles that came near.
+  /// Makes the scene ready for rays from these points: commits what moved, flattens tiles that came
+  /// near.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W);
 
-  /// Hits nearest to the origin within max_range_m, one a direction. Rays pass through the link (entity, link) that
-  /// carries the sensor: pass kNoEntity for none. One-sided surfaces are not met from behind in the visual scene; texels
-  /// below a material's alpha rejection are holes. Inside it the work is parallel; call it from one thread at a time.
-  void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m, std::uint32_t own_entity,
-            std::uint32_t own_link, std::vector<RayHit>& hits) const;
+  /// Hits nearest to the origin within max_range_m, one a direction. Rays pass through the link
+  /// (entity, link) that carries the sensor: pass kNoEntity for none. One-sided surfaces are not
+  /// met from behind in the visual scene; texels below a material's alpha rejection are holes.
+  /// Inside it the work is parallel; call it from one thread at a time.
+  void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
+            std::uint32_t own_entity, std::uint32_t own_link, std::vector<RayHit>& hits) const;
 
   /// For benchmarks: bytes held by Embree and triangles flattened.
   std::size_t memory_bytes() const;

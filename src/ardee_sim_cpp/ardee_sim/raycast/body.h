@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/raycast/embree_scene.h"
+#include "ardee_sim/raycast/height_patch.h"
+#include "ardee_sim/raycast/triangle_block.h"
+
+namespace ardee {
+
+/// What all of one shape's (or mesh part's) surface shares.
+struct BodySurface {
+  std::uint32_t link = 0;
+  std::uint32_t shape = 0;
+  float laser_retro = 0.0f;
+  bool two_sided = true;
+};
+
+struct BodyTriangle {
+  std::array<std::uint32_t, 3> vertices;
+  std::uint32_t surface;
+  std::uint32_t primitive;  // number within the shape
+};
+
+/// A shape with a formula, in its own axes at a place in the body.
+struct Solid {
+  enum class Kind { kSphere, kBox, kCylinder, kRectangle, kGround };
+
+  Kind kind = Kind::kBox;
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d p_BS = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half_m = Eigen::Vector3d::Zero();  // half sizes; radius in x, half length in z
+  std::uint32_t surface = 0;
+};
+
+struct Terrain {
+  HeightSurface heights;
+  Eigen::Matrix3d R_BS;
+  Eigen::Vector3d p_BS;
+  std::uint32_t surface;
+};
+
+struct TerrainPatch {
+  std::uint32_t terrain;
+  HeightPatch cells;
+};
+
+/// The unit of traversal: sixteen triangles, a solid or a patch of terrain.
+struct Piece {
+  enum class Kind : std::uint32_t { kBlock, kSolid, kPatch };
+
+  Kind kind;
+  std::uint32_t index;
+};
+
+/// The shapes of a description (of one link, if it moves) as rays see them: built once, whatever
+/// the number of places.
+struct Body {
+  std::vector<BodySurface> surfaces;
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<BodyTriangle> triangles;  // block by block
+  std::vector<TriangleBlock> blocks;
+  std::vector<Solid> solids;
+  std::vector<Terrain> terrains;
+  std::vector<TerrainPatch> patches;
+  std::vector<Piece> pieces;
+  std::vector<Bounds> piece_bounds;    // in the body's frame
+  std::vector<std::uint32_t> grounds;  // infinite planes among the solids: not pieces
+  Bounds bounds;                       // of all pieces
+  std::unique_ptr<EmbreeScene> scene;  // over the pieces, if they are many
+
+  std::size_t triangle_count() const { return triangles.size(); }
+};
+
+/// A body somewhere in the world: p_W = p + q * (scale * p_B).
+struct PlacedBody {
+  const Body* body = nullptr;
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  double scale = 1.0;
+  std::uint32_t entity = 0;
+  std::uint32_t label = 0;
+
+  Ray to_body(const Ray& ray_W) const {
+    const Eigen::Quaterniond inverse = q.conjugate();
+    return {inverse * (ray_W.origin - p) / scale, inverse * ray_W.direction / scale};
+  }
+  Bounds bounds_W() const { return body->bounds.transformed(q.toRotationMatrix() * scale, p); }
+};
+
+}  // namespace ardee

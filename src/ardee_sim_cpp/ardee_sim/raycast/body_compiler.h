@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ardee_sim/description/model.h"
+#include "ardee_sim/raycast/body.h"
+#include "ardee_sim/raycast/ray_scene.h"
+
+namespace ardee {
+
+/// All links of a static model as one body in the model's frame, or one link alone in its own
+/// frame. Throws Error if a shape is not usable (a submesh that does not exist, a size that is not
+/// finite).
+std::unique_ptr<Body> compile_model(const EmbreeDevice& device, const Model& model, SceneKind kind);
+std::unique_ptr<Body> compile_link(const EmbreeDevice& device, const Model& model,
+                                   std::uint32_t link, SceneKind kind);
+
+}  // namespace ardee

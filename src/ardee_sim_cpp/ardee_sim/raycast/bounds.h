@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace ardee {
+
+/// Axis-aligned box; empty until something is put in.
+struct Bounds {
+  Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d upper = -lower;
+
+  bool empty() const { return !(lower.x() <= upper.x()); }
+  void add(const Eigen::Vector3d& point) {
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  void add(const Bounds& other) {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+  Bounds grown(double margin) const {
+    Bounds result = *this;
+    result.lower.array() -= margin;
+    result.upper.array() += margin;
+    return result;
+  }
+  Eigen::Vector3d center() const { return 0.5 * (lower + upper); }
+  double radius() const { return empty() ? 0.0 : 0.5 * (upper - lower).norm(); }
+  /// The box about this box turned by `m` and moved by `p`.
+  Bounds transformed(const Eigen::Matrix3d& m, const Eigen::Vector3d& p) const {
+    if (empty()) return {};
+    const Eigen::Vector3d middle = m * center() + p;
+    const Eigen::Vector3d half = m.cwiseAbs() * (0.5 * (upper - lower));
+    Bounds result;
+    result.lower = middle - half;
+    result.upper = middle + half;
+    return result;
+  }
+};
+
+}  // namespace ardee

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace ardee {
+
+/// A half-line in some frame; lengths along it are in units of the direction.
+struct Ray {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+
+  Eigen::Vector3d at(double t) const { return origin + t * direction; }
+};
+
+struct TriangleHit {
+  double t = 0.0;
+  Eigen::Vector3d normal;   // (v1 - v0) x (v2 - v0)
+  Eigen::Vector3d weights;  // of v0, v1, v2
+};
+
+/// Where the line of the ray meets a triangle, t >= 0. Rays cannot slip between triangles that
+/// share two vertices: the sign that decides about an edge is the exact negative of the one that
+/// its neighbour sees, and zero counts as inside.
+bool meet_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vector3d& v1,
+                   const Eigen::Vector3d& v2, TriangleHit& hit);
+
+/// Where the line of a ray enters and leaves a convex solid, with outward normals; either end may
+/// lie behind the origin.
+struct Chord {
+  double t_in = 0.0;
+  double t_out = 0.0;
+  Eigen::Vector3d normal_in;
+  Eigen::Vector3d normal_out;
+};
+
+/// Solids centred at the origin; the cylinder stands along z.
+bool meet_sphere(const Ray& ray, double radius, Chord& chord);
+bool meet_box(const Ray& ray, const Eigen::Vector3d& half_size, Chord& chord);
+bool meet_cylinder(const Ray& ray, double radius, double half_length, Chord& chord);
+
+/// The plane z = 0, t >= 0.
+bool meet_ground(const Ray& ray, double& t);
+
+}  // namespace ardee

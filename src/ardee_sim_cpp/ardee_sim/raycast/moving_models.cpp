@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/moving_models.h"
+
+#include <cmath>
+
+#include "ardee_sim/raycast/body_compiler.h"
+
+namespace ardee {
+namespace {
+
+/// Against rounding in the box test only.
+constexpr double kBoxMargin_m = 1e-6;
+
+/// Whether a ray touches a box at t in [0, reach]. Zero components are infinite in `inverse`: 0 *
+/// infinity gives NaN, which the order of the comparisons lets pass.
+bool touches(const Bounds& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse,
+             double reach) {
+  double t_in = 0.0;
+  double t_out = reach;
+  for (int k = 0; k < 3; ++k) {
+    const double a = (box.lower[k] - origin[k]) * inverse[k];
+    const double b = (box.upper[k] - origin[k]) * inverse[k];
+    const double low = a < b ? a : b;
+    const double high = a < b ? b : a;
+    if (low > t_in) t_in = low;
+    if (high < t_out) t_out = high;
+  }
+  return t_in <= t_out;
+}
+
+}  // namespace
+
+void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model) {
+  if (model == nullptr) throw Error("a moving model needs a description");
+  if (entries_.count(entity) != 0) {
+    throw Error("model '" + model->name + "': entity " + std::to_string(entity) + " is in use");
+  }
+  Entry entry;
+  for (std::uint32_t link = 0; link < model->links.size(); ++link) {
+    entry.bodies.push_back(compile_link(device_, *model, link, kind_));
+    const Body& body = *entry.bodies.back();
+    if (body.pieces.empty() && body.grounds.empty()) continue;
+    PlacedBody placed;
+    placed.body = &body;
+    placed.entity = entity;
+    entry.placed.push_back(placed);
+    entry.links.push_back(link);
+  }
+  entry.model = std::move(model);
+  entries_.emplace(entity, std::move(entry));
+}
+
+void MovingModels::remove(std::uint32_t entity) {
+  if (entries_.erase(entity) == 0) {
+    throw Error("there is no moving model " + std::to_string(entity) + " to remove");
+  }
+}
+
+void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL) {
+  const auto found = entries_.find(entity);
+  if (found == entries_.end()) {
+    throw Error("there is no moving model " + std::to_string(entity) + " to place");
+  }
+  Entry& entry = found->second;
+  const std::vector<Link>& links = entry.model->links;
+  if (X_WL.size() != links.size()) {
+    throw Error("model '" + entry.model->name + "': " + std::to_string(X_WL.size()) +
+                " link poses for " + std::to_string(links.size()) + " links");
+  }
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!X_WL[k].is_finite()) {
+      throw Error("model '" + entry.model->name + "': the pose of link '" + links[k].name +
+                  "' is not finite");
+    }
+  }
+  entry.boxes_W.resize(entry.placed.size());
+  entry.box_W = Bounds{};
+  for (std::size_t k = 0; k < entry.placed.size(); ++k) {
+    const Pose& pose = X_WL[entry.links[k]];
+    entry.placed[k].p = pose.p;
+    entry.placed[k].q = pose.q.normalized();
+    entry.boxes_W[k] = entry.placed[k].bounds_W().grown(kBoxMargin_m);
+    entry.box_W.add(entry.boxes_W[k]);
+  }
+}
+
+void MovingModels::meet(RayQuery& query) const {
+  const Ray& ray = query.ray_W();
+  const Eigen::Vector3d inverse = ray.direction.cwiseInverse();
+  for (const auto& [entity, entry] : entries_) {
+    if (entry.boxes_W.empty()) continue;
+    if (!touches(entry.box_W, ray.origin, inverse, query.reach())) continue;
+    for (std::size_t k = 0; k < entry.placed.size(); ++k) {
+      if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
+        query.meet_body(entry.placed[k], 0.0);
+      }
+    }
+  }
+}
+
+}  // namespace ardee

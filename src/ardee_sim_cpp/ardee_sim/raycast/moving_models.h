@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/raycast/ray_query.h"
+
+namespace ardee {
+
+/// Models whose links move. They are few: a box test a link beats any tree that would have to be
+/// rebuilt with each motion.
+class MovingModels {
+ public:
+  MovingModels(const EmbreeDevice& device, SceneKind kind) : device_(device), kind_(kind) {}
+
+  void add(std::uint32_t entity, std::shared_ptr<const Model> model);
+  void remove(std::uint32_t entity);
+  void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
+  void meet(RayQuery& query) const;
+
+ private:
+  struct Entry {
+    std::shared_ptr<const Model> model;
+    std::vector<std::unique_ptr<Body>> bodies;  // of each link
+    std::vector<PlacedBody> placed;             // links that have shapes
+    std::vector<std::uint32_t> links;           // their indices
+    std::vector<Bounds> boxes_W;                // empty until the first poses
+    Bounds box_W;
+  };
+
+  const EmbreeDevice& device_;
+  SceneKind kind_;
+  std::map<std::uint32_t, Entry> entries_;
+};
+
+}  // namespace ardee

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/raycast/scenery_store.h"
+
+namespace ardee {
+
+/// The pieces of all scenery in a square of ground, side by side in one Embree scene: a ray that
+/// starts in the square needs nothing else until it leaves it.
+class NearRegion {
+ public:
+  /// Shrinks the square until it fits into the budget.
+  NearRegion(const EmbreeDevice& device, const SceneryStore& store, const Eigen::Vector2d& center_W,
+             double half_size_m, std::size_t budget_bytes);
+
+  bool holds_all() const { return holds_all_; }
+  const Eigen::Vector2d& center_W() const { return center_W_; }
+  double half_size_m() const { return half_size_m_; }
+  /// How far inside the square a point lies (negative: outside), m.
+  double depth_m(const Eigen::Vector3d& point_W) const {
+    return half_size_m_ - (point_W.head<2>() - center_W_).cwiseAbs().maxCoeff();
+  }
+  /// Where a ray from inside leaves the square; infinity if there is no other scenery.
+  double exit_t(const Ray& ray_W) const;
+  /// All hits up to t_high.
+  void meet(RayQuery& query, double t_high) const;
+
+  std::size_t bytes() const;
+  std::size_t triangles() const { return triangles_; }
+
+ private:
+  struct Frame {
+    float m[3][3];  // world axes to the body's, its scale included
+    float scale;
+    const PlacedBody* placed;
+  };
+  struct Entry {
+    float center[3];  // of the piece, relative to origin_W_
+    std::uint32_t frame;
+    std::uint32_t piece;
+  };
+
+  static void meet_entry(const RTCIntersectFunctionNArguments* args);
+  void choose_size(const SceneryStore& store, std::size_t budget_bytes);
+  void add(const PlacedBody& placed);
+  void entry_bounds(std::size_t index, float* lower, float* upper) const;
+  void meet_block_entry(const Entry& entry, const RTCRayN* ray, RayQuery& query,
+                        double t_shift) const;
+
+  Eigen::Vector2d center_W_;
+  double half_size_m_;
+  bool holds_all_ = false;
+  Eigen::Vector3d origin_W_;
+  double half_height_m_ = 0.0;
+  double extent_m_ = 0.0;  // of coordinates relative to origin_W_
+  float slack_m_ = 0.0f;
+  std::size_t triangles_ = 0;
+  std::vector<Frame> frames_;
+  std::vector<Entry> entries_;
+  std::unique_ptr<EmbreeScene> scene_;
+};
+
+}  // namespace ardee

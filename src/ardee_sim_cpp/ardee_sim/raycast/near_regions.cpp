@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/near_regions.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace ardee {
+namespace {
+
+/// One region may take this share of the budget, so that several robots find room.
+constexpr std::size_t kBudgetShare = 4;
+/// The square reaches this much further than the radius asked for (as a share of it), so that it
+/// lasts for a while.
+constexpr double kSpareShare = 0.5;
+/// Regions that no sensor was in for so many calls make room.
+constexpr std::uint64_t kIdleCalls = 2000;
+
+}  // namespace
+
+double NearRegions::slack_m() const { return kSpareShare * options_.flattened_radius_m; }
+
+std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) const {
+  return std::make_unique<NearRegion>(device_, store_, center_W,
+                                      options_.flattened_radius_m + slack_m(),
+                                      options_.flattened_budget_bytes / kBudgetShare);
+}
+
+void NearRegions::clear() {
+  if (next_.valid()) next_.wait();
+  next_ = {};
+  kept_.clear();
+}
+
+const NearRegion* NearRegions::find(const Eigen::Vector3d& eye_W) const {
+  const NearRegion* best = nullptr;
+  double depth_m = 0.0;
+  for (const Kept& kept : kept_) {
+    if (kept.region->depth_m(eye_W) > depth_m) {
+      depth_m = kept.region->depth_m(eye_W);
+      best = kept.region.get();
+    }
+  }
+  return best;
+}
+
+void NearRegions::keep(std::unique_ptr<NearRegion> region) {
+  // What a new region makes superfluous goes: the ones about it, idle ones, then the longest
+  // unused.
+  const double close_m = 2.0 * slack_m() + 1e-6;
+  std::size_t total = region->bytes();
+  std::sort(kept_.begin(), kept_.end(),
+            [](const Kept& a, const Kept& b) { return a.last_used > b.last_used; });
+  std::vector<Kept> still;
+  for (Kept& kept : kept_) {
+    const bool near =
+        (kept.region->center_W() - region->center_W()).cwiseAbs().maxCoeff() <= close_m;
+    const bool idle = kept.last_used + kIdleCalls < tick_;
+    total += kept.region->bytes();
+    if (!near && !idle && total <= options_.flattened_budget_bytes)
+      still.push_back(std::move(kept));
+  }
+  kept_ = std::move(still);
+  kept_.push_back({std::move(region), tick_});
+}
+
+void NearRegions::collect() {
+  if (!next_.valid()) return;
+  if (next_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  keep(next_.get());
+}
+
+void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
+  const NearRegion* region = find(eye_W);
+  if (region == nullptr) {
+    keep(make(eye_W.head<2>()));
+    return;
+  }
+  for (Kept& kept : kept_) {
+    if (kept.region.get() == region) kept.last_used = tick_;
+  }
+  const Eigen::Vector2d way = eye_W.head<2>() - region->center_W();
+  const double reserve_m = region->half_size_m() * (kSpareShare / (1.0 + kSpareShare));
+  if (region->holds_all() || way.norm() <= reserve_m || next_.valid()) return;
+  // Ahead of the sensor, so that it has twice the reserve to go.
+  const Eigen::Vector2d center = eye_W.head<2>() + way;
+  next_ = std::async(std::launch::async, [this, center] { return make(center); });
+}
+
+void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
+  ++tick_;
+  collect();
+  if (!options_.flatten || store_.places().empty()) return;
+  for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
+}
+
+std::size_t NearRegions::bytes() const {
+  std::size_t sum = 0;
+  for (const Kept& kept : kept_) sum += kept.region->bytes();
+  return sum;
+}
+
+std::size_t NearRegions::triangles() const {
+  std::size_t sum = 0;
+  for (const Kept& kept : kept_) sum += kept.region->triangles();
+  return sum;
+}
+
+}  // namespace ardee

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/ray_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace ardee {
+namespace {
+
+/// Float arithmetic within a block errs by a few parts in 2^24 of its size.
+constexpr double kBlockSlack = 2e-6;
+
+}  // namespace
+
+bool RayQuery::precedes(const Candidate& candidate) const {
+  if (candidate.t != best_t_ || placed_ == nullptr) return candidate.t <= best_t_;
+  const BodySurface& mine = entered_->body->surfaces[candidate.surface];
+  const BodySurface& best = placed_->body->surfaces[surface_];
+  return std::make_tuple(entered_->entity, mine.link, mine.shape, candidate.primitive) <
+         std::make_tuple(placed_->entity, best.link, best.shape, primitive_);
+}
+
+void RayQuery::offer(const Candidate& candidate) {
+  const BodySurface& surface = entered_->body->surfaces[candidate.surface];
+  if (!precedes(candidate)) return;
+  if (!surface.two_sided && candidate.normal_B.dot(ray_B_.direction) > 0.0) return;
+  if (entered_->entity == own_entity_ && surface.link == own_link_) return;
+  best_t_ = candidate.t;
+  placed_ = entered_;
+  surface_ = candidate.surface;
+  primitive_ = candidate.primitive;
+  normal_B_ = candidate.normal_B;
+}
+
+void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]) {
+  const Body& body = *entered_->body;
+  for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+    if (marks[lane] == 0) continue;
+    const BodyTriangle& triangle = body.triangles[block.first + lane];
+    TriangleHit hit;
+    if (meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
+                      body.vertices[triangle.vertices[1]].cast<double>(),
+                      body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
+      offer({hit.t, triangle.surface, triangle.primitive, hit.normal});
+    }
+  }
+}
+
+void RayQuery::meet_block(const TriangleBlock& block) {
+  const double scale = ray_B_.direction.squaredNorm();
+  const Eigen::Vector3d away = ray_B_.origin - block.center;
+  const double t_near = -away.dot(ray_B_.direction) / scale;
+  const Eigen::Vector3d origin = away + t_near * ray_B_.direction;
+  const double t_radius = 2.0 * block.radius / std::sqrt(scale) + 1e-3;
+  BlockRay ray;
+  for (int k = 0; k < 3; ++k) {
+    ray.origin[k] = static_cast<float>(origin[k]);
+    ray.direction[k] = static_cast<float>(ray_B_.direction[k]);
+  }
+  ray.t_low = static_cast<float>(std::max(-t_near, -t_radius));
+  ray.t_high = static_cast<float>(std::min(best_t_ - t_near, t_radius));
+  ray.slack_m = static_cast<float>(kBlockSlack * block.radius + 1e-7 * (1.0 + origin.norm()));
+  std::int32_t marks[kBlockLanes];
+  if (sort_out(block, ray, marks)) meet_marked(block, marks);
+}
+
+void RayQuery::meet_solid(const Solid& solid) {
+  const Ray ray{solid.R_BS.transpose() * (ray_B_.origin - solid.p_BS),
+                solid.R_BS.transpose() * ray_B_.direction};
+  const bool two_sided = entered_->body->surfaces[solid.surface].two_sided;
+  Chord chord;
+  bool met = false;
+  switch (solid.kind) {
+    case Solid::Kind::kSphere:
+      met = meet_sphere(ray, solid.half_m.x(), chord);
+      break;
+    case Solid::Kind::kBox:
+      met = meet_box(ray, solid.half_m, chord);
+      break;
+    case Solid::Kind::kCylinder:
+      met = meet_cylinder(ray, solid.half_m.x(), solid.half_m.z(), chord);
+      break;
+    case Solid::Kind::kRectangle:
+    case Solid::Kind::kGround: {
+      double t = 0.0;
+      if (!meet_ground(ray, t)) return;
+      const Eigen::Vector2d point = ray.at(t).head<2>().cwiseAbs();
+      const bool inside = point.x() <= solid.half_m.x() && point.y() <= solid.half_m.y();
+      if (solid.kind == Solid::Kind::kGround || inside) {
+        offer({t, solid.surface, 0, solid.R_BS.col(2)});
+      }
+      return;
+    }
+  }
+  if (!met) return;
+  if (chord.t_in >= 0.0) {
+    offer({chord.t_in, solid.surface, 0, solid.R_BS * chord.normal_in});
+  } else if (two_sided && chord.t_out >= 0.0) {
+    offer({chord.t_out, solid.surface, 0, solid.R_BS * chord.normal_out});
+  }
+}
+
+void RayQuery::meet_patch(const TerrainPatch& patch) {
+  const Terrain& terrain = entered_->body->terrains[patch.terrain];
+  const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
+                terrain.R_BS.transpose() * ray_B_.direction};
+  terrain.heights.meet(patch.cells, ray, best_t_,
+                       [&](const TriangleHit& hit, std::uint32_t number) {
+                         offer({hit.t, terrain.surface, number, terrain.R_BS * hit.normal});
+                       });
+}
+
+void RayQuery::meet_piece(const Piece& piece) {
+  const Body& body = *entered_->body;
+  switch (piece.kind) {
+    case Piece::Kind::kBlock:
+      meet_block(body.blocks[piece.index]);
+      break;
+    case Piece::Kind::kSolid:
+      meet_solid(body.solids[piece.index]);
+      break;
+    case Piece::Kind::kPatch:
+      meet_patch(body.patches[piece.index]);
+      break;
+  }
+}
+
+void RayQuery::meet_body(const PlacedBody& placed, double t_low) {
+  enter(placed);
+  const Body& body = *placed.body;
+  if (body.scene == nullptr) {
+    for (const Piece& piece : body.pieces) meet_piece(piece);
+    return;
+  }
+  // From the body's bounding sphere on, so that floats are of the body's size however far the ray
+  // comes from.
+  const Eigen::Vector3d away = body.bounds.center() - ray_B_.origin;
+  const double scale = ray_B_.direction.squaredNorm();
+  const double t_middle = away.dot(ray_B_.direction) / scale;
+  const double t_radius = 1.01 * body.bounds.radius() / std::sqrt(scale) + 1e-3;
+  traverse(body.scene->get(), *this, ray_B_, std::max(t_low, t_middle - t_radius),
+           std::min(best_t_, t_middle + t_radius));
+}
+
+void RayQuery::fill(RayHit& hit) const {
+  hit = RayHit{};
+  if (placed_ == nullptr) {
+    hit.range_m = std::numeric_limits<float>::infinity();
+    return;
+  }
+  const BodySurface& surface = placed_->body->surfaces[surface_];
+  hit.range_m = static_cast<float>(best_t_);
+  hit.entity = placed_->entity;
+  hit.link = surface.link;
+  hit.shape = surface.shape;
+  hit.label = placed_->label;
+  hit.laser_retro = surface.laser_retro;
+  Eigen::Vector3d normal_W = (placed_->q * normal_B_).normalized();
+  if (normal_W.dot(ray_W_.direction) > 0.0) normal_W = -normal_W;
+  hit.normal_W = normal_W.cast<float>();
+}
+
+void traverse(RTCSceneTy* scene, RayQuery& query, const Ray& ray, double t_low, double t_high) {
+  if (!(t_low <= t_high)) return;
+  TraversalContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.query = &query;
+  context.t_shift = t_low;
+  const Eigen::Vector3d origin = ray.at(t_low);
+  RTCRayHit rayhit;
+  rayhit.ray.org_x = static_cast<float>(origin.x());
+  rayhit.ray.org_y = static_cast<float>(origin.y());
+  rayhit.ray.org_z = static_cast<float>(origin.z());
+  rayhit.ray.dir_x = static_cast<float>(ray.direction.x());
+  rayhit.ray.dir_y = static_cast<float>(ray.direction.y());
+  rayhit.ray.dir_z = static_cast<float>(ray.direction.z());
+  rayhit.ray.tnear = 0.0f;
+  rayhit.ray.tfar = float_above(t_high - t_low);
+  rayhit.ray.time = 0.0f;
+  rayhit.ray.mask = 0xFFFFFFFFu;
+  rayhit.ray.id = 0;
+  rayhit.ray.flags = 0;
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context.embree, &rayhit);
+}
+
+void meet_body_piece(const RTCIntersectFunctionNArguments* args) {
+  if (args->valid[0] == 0) return;
+  const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
+  const Body& body = *static_cast<const Body*>(args->geometryUserPtr);
+  RayQuery& query = *context->query;
+  const double reach = query.reach();
+  query.meet_piece(body.pieces[args->primID]);
+  if (query.reach() < reach) {
+    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0) =
+        float_above(query.reach() - context->t_shift);
+  }
+}
+
+}  // namespace ardee

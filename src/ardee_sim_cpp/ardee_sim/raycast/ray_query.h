@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "ardee_sim/raycast/body.h"
+#include "ardee_sim/raycast/ray_scene.h"
+
+namespace ardee {
+
+/// One ray on its way through the world, and the nearest thing that it has met.
+///
+/// What Embree and the float tests do is to sort out: they may name too much, never too little.
+/// Each hit is then computed in double precision from the world's ray, the body's own vertices and
+/// the body's place, and the nearest is kept, ties being decided by (entity, link, shape,
+/// primitive). So the result is the same whatever way led to the candidates.
+class RayQuery {
+ public:
+  RayQuery(const Ray& ray_W, double reach_m, std::uint32_t own_entity, std::uint32_t own_link)
+      : ray_W_(ray_W), best_t_(reach_m), own_entity_(own_entity), own_link_(own_link) {}
+
+  const Ray& ray_W() const { return ray_W_; }
+  /// No candidate beyond this is of interest any more.
+  double reach() const { return best_t_; }
+  bool has_hit() const { return placed_ != nullptr; }
+
+  /// Makes `placed` the body that the next calls speak of.
+  void enter(const PlacedBody& placed) {
+    if (entered_ == &placed) return;
+    entered_ = &placed;
+    ray_B_ = placed.to_body(ray_W_);
+  }
+  const Ray& ray_B() const { return ray_B_; }
+
+  /// All of the body, from t_low on.
+  void meet_body(const PlacedBody& placed, double t_low);
+  void meet_piece(const Piece& piece);
+  void meet_block(const TriangleBlock& block);
+  void meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]);
+  void meet_solid(const Solid& solid);
+
+  void fill(RayHit& hit) const;
+
+ private:
+  struct Candidate {
+    double t;
+    std::uint32_t surface;
+    std::uint32_t primitive;
+    Eigen::Vector3d normal_B;
+  };
+
+  void meet_patch(const TerrainPatch& patch);
+  void offer(const Candidate& candidate);
+  bool precedes(const Candidate& candidate) const;
+
+  Ray ray_W_;
+  Ray ray_B_;
+  double best_t_;
+  std::uint32_t own_entity_;
+  std::uint32_t own_link_;
+  const PlacedBody* entered_ = nullptr;
+  const PlacedBody* placed_ = nullptr;  // what the nearest hit belongs to
+  std::uint32_t surface_ = 0;
+  std::uint32_t primitive_ = 0;
+  Eigen::Vector3d normal_B_;
+};
+
+/// What Embree hands to our callbacks with each ray. Embree's t is the world's t minus t_shift.
+struct TraversalContext {
+  RTCIntersectContext embree;
+  RayQuery* query;
+  double t_shift;
+};
+
+/// Sends a query through a scene from t_low on; `origin` and `direction` are the ray in the scene's
+/// frame.
+void traverse(RTCSceneTy* scene, RayQuery& query, const Ray& ray, double t_low, double t_high);
+
+/// A float that is safely above the double.
+inline float float_above(double t) { return static_cast<float>(t * (1.0 + 1e-6) + 1e-5); }
+
+/// The callback of the scene over a body's pieces.
+void meet_body_piece(const RTCIntersectFunctionNArguments* args);
+
+}  // namespace ardee

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/ray_scene.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+#include "ardee_sim/raycast/moving_models.h"
+#include "ardee_sim/raycast/near_regions.h"
+
+namespace ardee {
+namespace {
+
+/// Rays taken at once by a thread: tens of microseconds of work.
+constexpr std::size_t kGrain = 64;
+
+}  // namespace
+
+struct RayScene::Impl {
+  Impl(SceneKind scene_kind, const RayOptions& ray_options, Log scene_log)
+      : log(std::move(scene_log)),
+        scenery(device, scene_kind),
+        moving(device, scene_kind),
+        regions(device, scenery, ray_options),
+        arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {}
+
+  void cast_one(RayQuery& query, const NearRegion* region) const {
+    scenery.meet_everywhere(query);
+    moving.meet(query);
+    double t_left = 0.0;
+    if (region != nullptr) {
+      t_left = region->exit_t(query.ray_W());
+      region->meet(query, std::min(query.reach(), t_left));
+      if (query.reach() <= t_left) return;
+    }
+    scenery.meet_places(query, t_left);
+  }
+
+  Log log;
+  EmbreeDevice device;
+  SceneryStore scenery;
+  MovingModels moving;
+  NearRegions regions;
+  mutable tbb::task_arena arena;
+};
+
+RayScene::RayScene(SceneKind kind, const RayOptions& options, Log log)
+    : impl_(std::make_unique<Impl>(kind, options, std::move(log))) {}
+
+RayScene::~RayScene() = default;
+
+void RayScene::add_scenery(std::uint32_t first_entity, const std::vector<Placement>& placements) {
+  impl_->regions.clear();
+  impl_->scenery.add(first_entity, placements);
+}
+
+void RayScene::remove_scenery(std::uint32_t first_entity) {
+  impl_->regions.clear();
+  impl_->scenery.remove(first_entity);
+}
+
+void RayScene::add_model(std::uint32_t entity, std::shared_ptr<const Model> model) {
+  impl_->moving.add(entity, std::move(model));
+}
+
+void RayScene::remove_model(std::uint32_t entity) { impl_->moving.remove(entity); }
+
+void RayScene::set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL) {
+  impl_->moving.set_link_poses(entity, X_WL);
+}
+
+void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
+  for (const Eigen::Vector3d& eye : eyes_W) {
+    if (!eye.allFinite()) throw Error("ray scene: a sensor's position is not finite");
+  }
+  if (!impl_->scenery.committed()) impl_->scenery.commit();
+  impl_->regions.prepare(eyes_W);
+}
+
+void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
+                    std::uint32_t own_entity, std::uint32_t own_link,
+                    std::vector<RayHit>& hits) const {
+  if (!X_WS.is_finite()) throw Error("ray scene: the sensor's pose is not finite");
+  if (!(max_range_m >= 0.0f)) throw Error("ray scene: the maximum range must be 0 m or more");
+  if (!impl_->scenery.committed())
+    throw Error("ray scene: prepare() must follow a change of scenery");
+  const std::vector<Eigen::Vector3f>& directions = pattern.directions_S;
+  for (const Eigen::Vector3f& direction : directions) {
+    const float square = direction.squaredNorm();
+    if (!(std::abs(square - 1.0f) < 1e-3f)) {
+      throw Error("ray scene: directions must be finite and of length 1");
+    }
+  }
+  hits.resize(directions.size());
+  const NearRegion* region = impl_->regions.find(X_WS.p);
+  const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
+  impl_->arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          const Eigen::Vector3d direction =
+                              (R_WS * directions[i].cast<double>()).normalized();
+                          RayQuery query({X_WS.p, direction}, static_cast<double>(max_range_m),
+                                         own_entity, own_link);
+                          impl_->cast_one(query, region);
+                          query.fill(hits[i]);
+                        }
+                      });
+  });
+}
+
+std::size_t RayScene::memory_bytes() const {
+  return impl_->device.bytes() + impl_->regions.bytes();
+}
+
+std::size_t RayScene::flattened_triangles() const { return impl_->regions.triangles(); }
+
+}  // namespace ardee

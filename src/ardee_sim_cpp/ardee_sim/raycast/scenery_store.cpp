@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/scenery_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardee_sim/raycast/body_compiler.h"
+
+namespace ardee {
+namespace {
+
+/// Larger bodies would cost all others their digits: they are tried for each ray.
+constexpr double kHugeRadius_m = 2000.0;
+/// Nobody has a field there; Embree's floats would be whole metres.
+constexpr double kFarthest_m = 1e7;
+
+}  // namespace
+
+void SceneryStore::check(std::uint32_t first_entity,
+                         const std::vector<Placement>& placements) const {
+  const std::uint64_t end = static_cast<std::uint64_t>(first_entity) + placements.size();
+  for (const auto& [first, group] : groups_) {
+    if (first < end && first_entity < static_cast<std::uint64_t>(first) + group.count) {
+      throw Error("scenery " + std::to_string(first_entity) +
+                  ": its entities are in use by scenery " + std::to_string(first));
+    }
+  }
+  for (const Placement& placement : placements) {
+    if (placement.model == nullptr) throw Error("scenery: a placement has no model");
+    const std::string name = "scenery '" + placement.model->name + "': ";
+    if (!placement.X_WM.is_finite()) throw Error(name + "its pose is not finite");
+    if (placement.X_WM.p.cwiseAbs().maxCoeff() > kFarthest_m) {
+      throw Error(name + "it lies more than 1e7 m from the origin");
+    }
+    if (std::abs(placement.X_WM.q.norm() - 1.0) > 1e-6) {
+      throw Error(name + "its rotation is not a unit quaternion");
+    }
+    if (!std::isfinite(placement.scale) || placement.scale <= 0.0) {
+      throw Error(name + "its scale must be finite and above 0");
+    }
+  }
+}
+
+const Body* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Group& group) {
+  Compiled& compiled = bodies_[model.get()];
+  if (compiled.body == nullptr) {
+    try {
+      compiled.body = compile_model(device_, *model, kind_);
+    } catch (...) {
+      bodies_.erase(model.get());
+      throw;
+    }
+    compiled.model = model;
+  }
+  group.models.push_back(model.get());
+  ++compiled.uses;
+  return compiled.body.get();
+}
+
+void SceneryStore::add(std::uint32_t first_entity, const std::vector<Placement>& placements) {
+  check(first_entity, placements);
+  Group group;
+  group.count = placements.size();
+  group.placed.reserve(placements.size());
+  std::map<const Model*, const Body*> known;
+  try {
+    std::uint32_t entity = first_entity;
+    for (const Placement& placement : placements) {
+      const auto [entry, is_new] = known.try_emplace(placement.model.get(), nullptr);
+      if (is_new) entry->second = use_body(placement.model, group);
+      group.placed.push_back({entry->second, placement.X_WM.p, placement.X_WM.q, placement.scale,
+                              entity++, placement.label});
+    }
+  } catch (...) {
+    release(group);
+    throw;
+  }
+  groups_.emplace(first_entity, std::move(group));
+  committed_ = false;
+}
+
+void SceneryStore::release(const Group& group) {
+  for (const Model* model : group.models) {
+    const auto compiled = bodies_.find(model);
+    if (--compiled->second.uses == 0) bodies_.erase(compiled);
+  }
+}
+
+void SceneryStore::remove(std::uint32_t first_entity) {
+  const auto group = groups_.find(first_entity);
+  if (group == groups_.end()) {
+    throw Error("there is no scenery " + std::to_string(first_entity) + " to remove");
+  }
+  committed_ = false;
+  places_.clear();
+  everywhere_.clear();
+  boxes_.clear();
+  scene_.reset();
+  release(group->second);
+  groups_.erase(group);
+}
+
+void SceneryStore::commit() {
+  places_.clear();
+  everywhere_.clear();
+  boxes_.clear();
+  scene_.reset();
+  bounds_W_ = Bounds{};
+  for (const auto& [first, group] : groups_) {
+    for (const PlacedBody& placed : group.placed) {
+      const Body& body = *placed.body;
+      const bool huge = body.bounds.radius() * placed.scale > kHugeRadius_m;
+      if (huge || !body.grounds.empty()) everywhere_.push_back(&placed);
+      if (huge || body.pieces.empty()) continue;
+      places_.push_back(&placed);
+      bounds_W_.add(placed.bounds_W());
+    }
+  }
+  committed_ = true;
+  if (places_.empty()) return;
+  origin_W_ = bounds_W_.center();
+  const double extent = bounds_W_.radius();
+  boxes_.resize(places_.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    Bounds box = places_[i]->bounds_W();
+    box.lower -= origin_W_;
+    box.upper -= origin_W_;
+    round_outwards(box, extent, boxes_[i].lower, boxes_[i].upper);
+  }
+  scene_ = std::make_unique<EmbreeScene>(
+      device_, boxes_.size(),
+      [this](std::size_t place, float* lower, float* upper) {
+        std::copy_n(boxes_[place].lower, 3, lower);
+        std::copy_n(boxes_[place].upper, 3, upper);
+      },
+      &meet_place, this, BuildQuality::kMedium);
+}
+
+void SceneryStore::meet_everywhere(RayQuery& query) const {
+  for (const PlacedBody* placed : everywhere_) {
+    query.enter(*placed);
+    for (const std::uint32_t ground : placed->body->grounds) {
+      query.meet_solid(placed->body->solids[ground]);
+    }
+    if (placed->body->bounds.radius() * placed->scale > kHugeRadius_m) {
+      query.meet_body(*placed, 0.0);
+    }
+  }
+}
+
+void SceneryStore::meet_places(RayQuery& query, double t_low) const {
+  if (scene_ == nullptr) return;
+  // Only the part of the ray within the bounds: floats are of the scenery's size wherever the
+  // sensor is.
+  const Ray& ray = query.ray_W();
+  const Ray moved{ray.origin - origin_W_, ray.direction};
+  Chord chord;
+  if (!meet_box(moved, 0.5 * (bounds_W_.upper - bounds_W_.lower), chord)) return;
+  traverse(scene_->get(), query, moved, std::max(t_low, chord.t_in - 1e-3),
+           std::min(query.reach(), chord.t_out + 1e-3));
+}
+
+void SceneryStore::meet_place(const RTCIntersectFunctionNArguments* args) {
+  if (args->valid[0] == 0) return;
+  const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
+  const auto& store = *static_cast<const SceneryStore*>(args->geometryUserPtr);
+  RayQuery& query = *context->query;
+  const double reach = query.reach();
+  query.meet_body(*store.places_[args->primID], context->t_shift);
+  if (query.reach() < reach) {
+    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0) =
+        float_above(query.reach() - context->t_shift);
+  }
+}
+
+}  // namespace ardee

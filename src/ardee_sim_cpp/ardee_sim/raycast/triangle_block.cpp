@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/raycast/triangle_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Contraction is off, so each clone gives the same bits. Sanitizers cannot run before the loader
+// picks a clone.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define ARDEE_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define ARDEE_VECTOR_CLONES
+#endif
+
+namespace ardee {
+
+ARDEE_VECTOR_CLONES
+bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]) {
+  const float ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
+  const float dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
+  const float slack = ray.slack_m;
+  const float slack_d = slack * (std::abs(dx) + std::abs(dy) + std::abs(dz));
+  std::int32_t any = 0;
+  for (int i = 0; i < kBlockLanes; ++i) {
+    const float cx = block.vertex[0][i] - ox;
+    const float cy = block.vertex[1][i] - oy;
+    const float cz = block.vertex[2][i] - oz;
+    const float nx = block.normal[0][i], ny = block.normal[1][i], nz = block.normal[2][i];
+    const float slope = nx * dx + ny * dy + nz * dz;
+    const float height = nx * cx + ny * cy + nz * cz;
+    const float rx = cy * dz - cz * dy;
+    const float ry = cz * dx - cx * dz;
+    const float rz = cx * dy - cy * dx;
+    const float u = rx * block.edge2[0][i] + ry * block.edge2[1][i] + rz * block.edge2[2][i];
+    const float v = -(rx * block.edge1[0][i] + ry * block.edge1[1][i] + rz * block.edge1[2][i]);
+    const float sign = slope < 0.0f ? -1.0f : 1.0f;
+    const float steep = slope * sign;
+    const float length = block.length[i];
+    const float uv_slack = slack_d * length;
+    const float t_slack = slack * length * length;
+    const bool may_meet = (u * sign >= -uv_slack) & (v * sign >= -uv_slack) &
+                          ((u + v) * sign <= steep + 2.0f * uv_slack) &
+                          (height * sign >= ray.t_low * steep - t_slack) &
+                          (height * sign <= ray.t_high * steep + t_slack);
+    marks[i] = may_meet ? 1 : 0;
+    any |= marks[i];
+  }
+  return any != 0;
+}
+
+ARDEE_VECTOR_CLONES
+void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],
+                  float lower[3], float upper[3]) {
+  for (int k = 0; k < 3; ++k) {
+    float low[kBlockLanes];
+    float high[kBlockLanes];
+    for (int i = 0; i < kBlockLanes; ++i) {
+      const float a = m[k][0] * block.vertex[0][i] + m[k][1] * block.vertex[1][i] +
+                      m[k][2] * block.vertex[2][i];
+      const float b = a + m[k][0] * block.edge1[0][i] + m[k][1] * block.edge1[1][i] +
+                      m[k][2] * block.edge1[2][i];
+      const float c = a + m[k][0] * block.edge2[0][i] + m[k][1] * block.edge2[1][i] +
+                      m[k][2] * block.edge2[2][i];
+      const float ab_low = a < b ? a : b;
+      const float ab_high = a < b ? b : a;
+      low[i] = ab_low < c ? ab_low : c;
+      high[i] = ab_high < c ? c : ab_high;
+    }
+    for (int width = kBlockLanes / 2; width > 0; width /= 2) {
+      for (int i = 0; i < width; ++i) {
+        low[i] = low[i] < low[i + width] ? low[i] : low[i + width];
+        high[i] = high[i] < high[i + width] ? high[i + width] : high[i];
+      }
+    }
+    lower[k] = center[k] + low[0];
+    upper[k] = center[k] + high[0];
+  }
+}
+
+}  // namespace ardee

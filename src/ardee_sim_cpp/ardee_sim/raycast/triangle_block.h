@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "ardee_sim/raycast/bounds.h"
+
+namespace ardee {
+
+constexpr int kBlockLanes = 16;
+
+/// Sixteen neighbouring triangles side by side, for one pass of vector instructions. Coordinates
+/// are floats relative to the block's centre: they only sort out; what is left is decided in double
+/// precision from the vertices themselves.
+struct alignas(64) TriangleBlock {
+  using Lanes = float[kBlockLanes];
+
+  Lanes vertex[3];  // v0
+  Lanes edge1[3];   // v1 - v0
+  Lanes edge2[3];   // v2 - v0
+  Lanes normal[3];  // edge1 x edge2
+  Lanes length;     // of the longest edge
+  Eigen::Vector3d center;
+  double radius = 0.0;
+  std::uint32_t first = 0;  // index of lane 0 among the body's triangles
+  std::uint32_t count = 0;  // lanes in use; the others repeat the last
+};
+
+/// A ray in the axes of the block, its origin close to and relative to the block's centre.
+struct BlockRay {
+  float origin[3];
+  float direction[3];
+  float t_low;
+  float t_high;
+  float slack_m;  // how far the ray may be off
+};
+
+/// Marks the triangles that the ray may meet: all that it does meet are among them. False: none.
+bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]);
+
+/// The box about a block, turned and scaled by `m`, its centre moved to `center`.
+void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],
+                  float lower[3], float upper[3]);
+
+}  // namespace ardee
