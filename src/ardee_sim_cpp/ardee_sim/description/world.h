@@ -41,6 +41,10 @@ struct Light {
   double attenuation_constant = 1.0;
   double attenuation_linear = 1.0;
   double attenuation_quadratic = 0.0;
+  // Spot: full brightness within the inner angle, none outside the outer one.
+  double inner_angle_rad = 0.0;
+  double outer_angle_rad = 0.0;
+  double falloff = 0.0;
 };
 
 struct Scene {
