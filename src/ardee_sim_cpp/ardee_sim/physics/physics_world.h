@@ -75,6 +75,13 @@ class PhysicsWorld {
 
   /// One step of params().step_s. Throws Error naming model and link if a state is not finite.
   void step();
+  /// What the last step dealt with.
+  struct Stats {
+    std::size_t contacts = 0;        // points of contact
+    std::size_t scenery_tested = 0;  // bounds of scenery compared with a robot's
+    std::size_t scenery_built = 0;   // static shapes alive near robots
+  };
+  Stats stats() const;
   /// ODE's solver shuffles with a global random number: called on each reset.
   void reset_random(std::uint64_t seed);
 

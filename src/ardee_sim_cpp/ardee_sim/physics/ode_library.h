@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace ardee::physics {
+
+/// Holds ODE open while it lives: ODE itself is initialised by the first holder in the process and closed by the last.
+class OdeLibrary {
+ public:
+  OdeLibrary();
+  ~OdeLibrary();
+  OdeLibrary(const OdeLibrary&) = delete;
+  OdeLibrary& operator=(const OdeLibrary&) = delete;
+
+  /// ODE keeps collision data for each thread: called by a thread before it collides.
+  static void prepare_thread();
+  /// Throws what ODE has reported on this thread since the last call: its C callbacks may not throw themselves.
+  static void throw_reported();
+};
+
+}  // namespace ardee::physics
