@@ -53,8 +53,24 @@ void check_size(std::size_t width, std::size_t height, const std::string& path,
   }
 }
 
-/// Errors, and warnings of a corrupt image (truncation is one of them), become Error; remarks of a
-/// decoder about tags that it does not know do not.
+/// The library's message without the program's name before it.
+std::string reason(const Magick::Exception& problem) {
+  const std::string text = problem.what();
+  const std::size_t colon = text.find(": ");
+  return colon == std::string::npos ? text : text.substr(colon + 2);
+}
+
+/// Errors, and warnings of a corrupt image (truncation is one of them), are let through; remarks of
+/// a decoder about tags that it does not know are not.
+template <typename Action>
+void tolerate_remarks(Action action) {
+  try {
+    action();
+  } catch (const Magick::WarningCoder&) {
+    // What was asked for has been done.
+  }
+}
+
 Magick::Image decode(const std::string& path, const Source& source) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
@@ -63,23 +79,20 @@ Magick::Image decode(const std::string& path, const Source& source) {
                             std::to_string(kMaxFileBytes) + " bytes");
   }
   initialize_library();
-  const std::string decoder = format_of(path, source) + ":" + path;
+  const std::string format = format_of(path, source);
   try {
     Magick::Image header;
-    header.quiet(true);
-    header.ping(decoder);
+    tolerate_remarks([&] { header.ping(format + ":" + path); });
     check_size(header.columns(), header.rows(), path, source);
     Magick::Image image;
-    image.quiet(false);
-    try {
-      image.read(decoder + "[0]");
-    } catch (const Magick::WarningCoder&) {
-      image.quiet(true);  // the image has been read
-    }
+    tolerate_remarks([&] { image.read(format + ":" + path + "[0]"); });
     check_size(image.columns(), image.rows(), path, source);
+    if (format == "tga" || format == "tiff")
+      image.autoOrient();  // they may start at the lower edge
     return image;
   } catch (const Magick::Exception& problem) {
-    throw Error(source, "found '" + path + "', expected a readable image (" + problem.what() + ")");
+    throw Error(source,
+                "found '" + path + "', expected a readable image (" + reason(problem) + ")");
   }
 }
 
@@ -90,7 +103,7 @@ std::vector<Sample> pixels(Magick::Image& image, const char* map, Magick::Storag
   try {
     image.write(0, 0, image.columns(), image.rows(), map, storage, samples.data());
   } catch (const Magick::Exception& problem) {
-    throw Error(source, "cannot convert '" + path + "' (" + problem.what() + ")");
+    throw Error(source, "cannot convert '" + path + "' (" + reason(problem) + ")");
   }
   return samples;
 }

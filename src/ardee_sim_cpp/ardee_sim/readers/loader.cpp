@@ -6,6 +6,10 @@
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/urdf_reader.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace ardee {
 namespace {
 
@@ -15,6 +19,13 @@ std::string read_description(const std::string& path) {
   return read_text_file(path, Source{path, 0, ""}, kMaxFileBytes);
 }
 
+/// Gives the memory of a large parsed document back to the system, as the C library would keep it.
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 bool is_sdf(const Node& root) { return root.name() == "sdf" || root.name() == "gazebo"; }
 
 }  // namespace
@@ -22,6 +33,8 @@ bool is_sdf(const Node& root) { return root.name() == "sdf" || root.name() == "g
 struct Loader::Impl {
   Impl(ResourceLocator locator, Log given_log)
       : log(std::move(given_log)), assets(std::move(locator), log), sdf(assets) {}
+
+  World read_world(const XmlFile& document);
 
   Log log;
   Assets assets;
@@ -33,15 +46,20 @@ Loader::Loader(ResourceLocator locator, Log log)
 Loader::~Loader() = default;
 Loader::Loader(Loader&&) noexcept = default;
 
+World Loader::Impl::read_world(const XmlFile& document) {
+  const Node root = document.root();
+  if (!is_sdf(root)) throw root.error("found this root element, expected <sdf> with a <world>");
+  return sdf.read_world(root);
+}
+
 World Loader::load_world(const std::string& path) {
-  return load_world_text(read_description(path), path);
+  World world = impl_->read_world(XmlFile::read(path, Source{path, 0, ""}));
+  release_free_memory();
+  return world;
 }
 
 World Loader::load_world_text(const std::string& xml, const std::string& name) {
-  const XmlFile document(xml, name);
-  const Node root = document.root();
-  if (!is_sdf(root)) throw root.error("found this root element, expected <sdf> with a <world>");
-  return impl_->sdf.read_world(root);
+  return impl_->read_world(XmlFile(xml, name));
 }
 
 std::shared_ptr<const Model> Loader::load_model(const std::string& path) {

@@ -96,9 +96,10 @@ class ScriptReader {
       throw Error(Source{name_, words[0].line, ""}, "found 'material', expected a name after it");
     }
     std::string material_name = words[1].text;
-    Material made;
+    Material made;  // white, as OGRE starts from: a texture keeps its own colours
+    made.ambient = made.diffuse = Color::Ones();
     for (std::size_t i = 2; i + 1 < words.size(); ++i) {
-      if (words[i].text == ":") made = parent(words[i + 1].text);
+      if (words[i].text == ":") made = parent(words[i + 1].text, words[0].line);
     }
     made.name = material_name;
     techniques_ = 0;
@@ -106,12 +107,13 @@ class ScriptReader {
     materials_[material_name] = made;
   }
 
-  Material parent(const std::string& parent_name) const {
+  Material parent(const std::string& parent_name, int line) const {
     for (const MaterialScript* script : {&materials_, &known_, &gazebo_materials()}) {
       const auto found = script->find(parent_name);
       if (found != script->end()) return found->second;
     }
-    return {};
+    throw Error(Source{name_, line, ""},
+                "found parent material '" + parent_name + "', expected one defined before");
   }
 
   /// Reads from '{' to the '}' that belongs to it.

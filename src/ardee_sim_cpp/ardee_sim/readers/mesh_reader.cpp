@@ -52,7 +52,11 @@ class PartReader {
   void add_part(const aiNode& node, const aiMesh& mesh, const aiMatrix4x4& X_node) {
     SubMesh part;
     part.name = node.mName.length > 0 ? node.mName.C_Str() : mesh.mName.C_Str();
-    part.material = static_cast<int>(mesh.mMaterialIndex);
+    const Material& material = file_.materials.at(mesh.mMaterialIndex);
+    // The library makes up a material where the file has none.
+    if (material.name != AI_DEFAULT_MATERIAL_NAME) {
+      part.material = static_cast<int>(mesh.mMaterialIndex);
+    }
     add_vertices(mesh, X_node, part);
     add_triangles(mesh, X_node.Determinant() < 0.0f, part);
     if (!part.triangles.empty()) file_.parts.push_back(std::move(part));

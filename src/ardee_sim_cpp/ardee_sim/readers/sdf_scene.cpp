@@ -39,6 +39,19 @@ void read_ode(const Node& physics, PhysicsParams& made) {
       physics.number("ode/constraints/contact_surface_layer", made.contact_surface_layer_m, 0.0);
 }
 
+/// Steps per second of wall time, 0: as fast as the machine can. Gazebo heeds <real_time_update_rate>
+/// alone, so a positive one counts. Where it is 0 or absent (thesis Listing A.15), a
+/// <real_time_factor> that is written there is what its author wants to see.
+double read_update_rate(const Node& physics, double step_s) {
+  constexpr double kAbsent = -1.0;
+  const double old_rate = physics.number("update_rate", kAbsent, kAbsent, kMaxRateHz);
+  const double rate = physics.number("real_time_update_rate", old_rate, kAbsent, kMaxRateHz);
+  if (rate > 0.0) return rate;
+  const double factor = physics.number("real_time_factor", kAbsent, kAbsent, kMaxRateHz);
+  if (factor >= 0.0) return factor / step_s;
+  return rate == 0.0 ? 0.0 : 1.0 / step_s;
+}
+
 }  // namespace
 
 PhysicsParams read_sdf_physics(const Node& world, Log& log) {
@@ -52,11 +65,7 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
     // SDF 1.2 and 1.3 said <ode><solver><dt> and <update_rate>.
     const double old_step = physics->number("ode/solver/dt", made.step_s, kSmallestStep_s, 1.0);
     made.step_s = physics->number("max_step_size", old_step, kSmallestStep_s, 1.0);
-    made.real_time_factor = physics->number("real_time_factor", made.real_time_factor, 0.0);
-    const double old_rate =
-        physics->number("update_rate", made.real_time_update_rate_hz, 0.0, kMaxRateHz);
-    made.real_time_update_rate_hz =
-        physics->number("real_time_update_rate", old_rate, 0.0, kMaxRateHz);
+    made.real_time_update_rate_hz = read_update_rate(*physics, made.step_s);
     made.max_contacts = physics->integer("max_contacts", made.max_contacts, 1, 1000000);
     made.gravity_m_per_s2 = physics->vector3("gravity", made.gravity_m_per_s2);
     read_ode(*physics, made);
