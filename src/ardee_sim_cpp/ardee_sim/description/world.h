@@ -14,8 +14,7 @@ struct PhysicsParams {
   enum class Solver { kQuick, kWorld };
 
   double step_s = 0.001;
-  double real_time_factor = 1.0;
-  double real_time_update_rate_hz = 1000.0;  // 0: as fast as the machine can
+  double real_time_update_rate_hz = 1000.0;  // steps per wall second; 0: as fast as possible
   Eigen::Vector3d gravity_m_per_s2{0, 0, -9.8};
   Solver solver = Solver::kQuick;
   int iterations = 50;

@@ -29,10 +29,23 @@ TEST_F(SdfWorld, ReadsListingA15sSettings) {
   EXPECT_EQ(light.attenuation_quadratic, 0.001);
   expect_near(light.direction, Eigen::Vector3d(-0.3, 0.4, -1).normalized());
   EXPECT_EQ(w.physics.step_s, 0.005);
-  EXPECT_EQ(w.physics.real_time_update_rate_hz, 0.0);
+  EXPECT_EQ(w.physics.real_time_update_rate_hz, 200.0);  // real time, at 5 ms a step
   EXPECT_EQ(w.physics.gravity_m_per_s2, Eigen::Vector3d(0, 0, -9.8));
   EXPECT_TRUE(w.scene.sky && w.scene.grid && w.scene.shadows);
   EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(SdfWorld, PaceIsTheUpdateRateElseTheRealTimeFactorElseRealTime) {
+  const auto rate = [this](const std::string& keys) {
+    return world("<physics type='ode'><max_step_size>0.01</max_step_size>" + keys + "</physics>")
+        .physics.real_time_update_rate_hz;
+  };
+  EXPECT_EQ(rate("<real_time_update_rate>500</real_time_update_rate>"
+                 "<real_time_factor>1</real_time_factor>"),
+            500.0);
+  EXPECT_EQ(rate("<real_time_factor>2</real_time_factor>"), 200.0);
+  EXPECT_EQ(rate("<real_time_update_rate>0</real_time_update_rate>"), 0.0);
+  EXPECT_EQ(rate(""), 100.0);
 }
 
 TEST_F(SdfWorld, ReadsTheSolver) {
