@@ -8,6 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
 constexpr double kWorldReach = 1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
 void set_mass(dBodyID body, const BodyGroup& group) {
@@ -112,6 +113,7 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
     const Link& link = model_->links[link_index(*model_, joint.child, joint)];
     joints_.back() = std::make_unique<ModelJoint>(world, joint, body(child), body(parent),
                                                   X_WM * link.X_ML * joint.X_CJ);
+    rows_ += kRowsPerJoint;
   }
 }
 

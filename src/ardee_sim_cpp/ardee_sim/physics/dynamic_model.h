@@ -50,6 +50,9 @@ class DynamicModel : public PhysicsModel {
   dBodyID body(std::size_t group) const { return bodies_[group].get(); }
   bool is_kinematic(std::size_t group) const { return groups_.groups[group].kinematic; }
   double mass_kg() const { return mass_kg_; }
+  const std::vector<BodyHandle>& bodies() const { return bodies_; }
+  /// An upper bound of the constraint rows of its joints.
+  std::size_t rows() const { return rows_; }
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
   void finish_step();
@@ -72,6 +75,7 @@ class DynamicModel : public PhysicsModel {
   BodyGroups groups_;
   std::size_t canonical_ = 0;
   double mass_kg_ = 0.0;
+  std::size_t rows_ = 0;
   std::vector<BodyHandle> bodies_;
   std::vector<Pose> X_BL_;                           // each link in its body
   std::vector<Shape> shapes_;                        // after the bodies that carry them

@@ -9,8 +9,9 @@ namespace {
 constexpr int kMotorRow = 0;
 constexpr int kFrictionRow = 1;
 constexpr int kSpringRow = 2;
-// rad or m: a joint this near its stop is held by it, so that one at rest on the stop does not fall off and on again.
-constexpr double kStopReach = 1e-5;
+// A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load carries a joint past it.
+constexpr double kStopReach = 0.2;
+constexpr double kStopSteps = 4.0;
 
 JointHandle angular_motor(dWorldID world, dBodyID child, dBodyID parent, int rel,
                           const Eigen::Vector3d& axis_W, int rows) {
@@ -104,24 +105,37 @@ void JointDrive::set_row(int row, double velocity, double max_effort, double cfm
   set(dParamCFM, cfm);
 }
 
-void JointDrive::prepare_stops(double position, double velocity, const StepSettings& step) {
-  // The solver compares with its own measure of the position, which may differ in the last bit.
+void JointDrive::set_stop_row(double low, double high, double position, double erp) {
   if (rotational_) {
     dJointSetAMotorAngle(stops_.get(), 0, position);
-  } else {
-    position = dJointGetSliderPosition(slider_);
   }
-  // A joint that would pass its stop within the step is stopped where it is, short of it; the next step takes the rest.
-  double low = -dInfinity, high = dInfinity;
-  const double down = kStopReach + step.step_s * std::max(0.0, -velocity);
-  const double up = kStopReach + step.step_s * std::max(0.0, velocity);
-  if (position < lower_ + down) low = std::max(lower_, position);
-  if (position > upper_ - up) high = std::min(upper_, position);
-  if (lower_ == upper_) low = high = lower_;
   set_stop(dParamLoStop, low);
   set_stop(dParamHiStop, high);
-  set_stop(dParamStopERP, stop_erp_ >= 0.0 ? stop_erp_ : step.erp);
+  set_stop(dParamStopERP, erp);
+}
+
+void JointDrive::prepare_stops(double position, double velocity, const StepSettings& step) {
+  // A slider's row compares with its own measure of the position, which may differ in the last bit.
+  if (!rotational_) position = dJointGetSliderPosition(slider_);
+  const double erp = stop_erp_ >= 0.0 ? stop_erp_ : step.erp;
   set_stop(dParamStopCFM, stop_cfm_ >= 0.0 ? stop_cfm_ : step.cfm);
+  if (lower_ == upper_) {
+    set_stop_row(lower_, upper_, position, erp);
+    return;
+  }
+  const double above = position - lower_, below = upper_ - position;
+  const bool is_upper = below < above;
+  const double gap = is_upper ? below : above;
+  if (gap > kStopReach + kStopSteps * step.step_s * std::abs(velocity)) {
+    set_stop_row(-dInfinity, dInfinity, position, erp);
+    return;
+  }
+  // A joint past its stop comes back by ERP. One short of it may take the gap within the step and no more: the row allows
+  // the velocity gap / h, which the engine gives for a stop passed by the gap and an ERP of -1.
+  const double passed = std::abs(gap);
+  const double stop = is_upper ? position - passed : position + passed;
+  set_stop_row(is_upper ? -dInfinity : stop, is_upper ? stop : dInfinity, position,
+               gap >= 0.0 ? -1.0 : erp);
 }
 
 void JointDrive::prepare_spring(double position, double step_s) {

@@ -41,6 +41,7 @@ class JointDrive {
   void read(const JointAxis& axis);
   void prepare_stops(double position, double velocity, const StepSettings& step);
   void set_stop(int parameter, double value);
+  void set_stop_row(double low, double high, double position, double erp);
   void prepare_spring(double position, double step_s);
   void set_row(int row, double velocity, double max_effort, double cfm);
 

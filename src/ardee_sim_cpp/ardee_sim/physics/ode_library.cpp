@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "ardee_sim/core/error.h"
 
@@ -16,6 +17,7 @@ namespace {
 std::mutex holders_mutex;
 int holders = 0;
 thread_local std::string reported;
+thread_local bool complained = false;
 
 void report(const char* kind, const char* format, va_list arguments) {
   char text[512];
@@ -25,8 +27,8 @@ void report(const char* kind, const char* format, va_list arguments) {
 
 void on_error(int, const char* format, va_list arguments) { report("error", format, arguments); }
 void on_debug(int, const char* format, va_list arguments) { report("assertion", format, arguments); }
-// Messages are hints on ill-conditioned systems; the check of the state after the step judges them.
-void on_message(int, const char*, va_list) {}
+// The solver's only messages say that it met a singular system.
+void on_message(int, const char*, va_list) { complained = true; }
 
 }  // namespace
 
@@ -48,6 +50,8 @@ OdeLibrary::~OdeLibrary() {
 }
 
 void OdeLibrary::prepare_thread() { dAllocateODEDataForThread(dAllocateMaskAll); }
+
+bool OdeLibrary::take_complaint() { return std::exchange(complained, false); }
 
 void OdeLibrary::throw_reported() {
   if (reported.empty()) return;

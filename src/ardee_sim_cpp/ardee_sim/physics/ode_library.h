@@ -13,6 +13,8 @@ class OdeLibrary {
 
   /// ODE keeps collision data for each thread: called by a thread before it collides.
   static void prepare_thread();
+  /// Whether ODE has complained, on this thread since the last call, that a system was too ill-conditioned to solve.
+  static bool take_complaint();
   /// Throws what ODE has reported on this thread since the last call: its C callbacks may not throw themselves.
   static void throw_reported();
 };

@@ -8,6 +8,7 @@
 #include "ardee_sim/physics/dynamic_model.h"
 #include "ardee_sim/physics/ode_library.h"
 #include "ardee_sim/physics/scenery_index.h"
+#include "ardee_sim/physics/solver.h"
 
 namespace ardee {
 namespace {
@@ -44,7 +45,7 @@ struct PhysicsWorld::Impl {
   };
 
   Impl(const PhysicsParams& wanted, Log sink)
-      : log(std::move(sink)), world(dWorldCreate()), contacts(world.get()), scenery(factory) {
+      : log(std::move(sink)), world(dWorldCreate()), solver(world.get()), contacts(world.get()), scenery(factory) {
     set_params(wanted);
   }
 
@@ -62,12 +63,14 @@ struct PhysicsWorld::Impl {
   PhysicsParams params;
   Log log;
   physics::WorldHandle world;
+  physics::Solver solver;
   physics::ContactJoints contacts;
   physics::ShapeFactory factory;
   physics::SceneryIndex scenery;
   std::vector<std::unique_ptr<DynamicModel>> models;  // in the order in which they came
   std::vector<Moving> moving;
   std::vector<const CollisionShape*> near;
+  std::vector<dBodyID> bodies;
   std::size_t contact_count = 0;
 };
 
@@ -155,11 +158,14 @@ void PhysicsWorld::Impl::find_contacts() {
 }
 
 void PhysicsWorld::Impl::solve() {
-  const int done = params.solver == PhysicsParams::Solver::kWorld
-                       ? dWorldStep(world.get(), params.step_s)
-                       : dWorldQuickStep(world.get(), params.step_s);
+  std::size_t rows = 3 * contacts.count();
+  bodies.clear();
+  for (const auto& model : models) {
+    rows += model->rows();
+    for (const auto& body : model->bodies()) bodies.push_back(body.get());
+  }
+  solver.step(params, rows, bodies);
   contacts.clear();
-  if (!done) throw Error("physics engine: out of memory");
 }
 
 void PhysicsWorld::Impl::step() {

@@ -54,7 +54,6 @@ TEST_P(Bodies, BoxHoldsBelowTheFrictionAngle) {
   const double mu = 0.6;
   for (const double part : {0.5, 0.9, 0.97}) {
     const double drift_m = slope_drift(h(), mu, std::atan(part * mu), 5.0, 1.0);
-    std::cerr << "drift " << part << " " << drift_m << "\n";
     EXPECT_LT(drift_m, 5.0 * 1e-4) << "slope at " << part << " of the friction limit";
   }
 }
