@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Races a lidar's rays, as the engine casts them, against Embree alone on the same scenery.
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <chrono>
-#include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -27,26 +24,11 @@ class Stopwatch {
 };
 
 /// The value below which a share of the values lies; 0 of none.
-inline double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
-
-inline double median(const std::vector<double>& values) { return percentile(values, 0.5); }
+double percentile(std::vector<double> values, double share);
+double median(const std::vector<double>& values);
 
 /// A figure of this process in /proc/self/status, such as VmRSS or VmHWM (the most that it ever
 /// held).
-inline double memory_mb(const std::string& key) {
-  constexpr double kMegabytesPerKibibyte = 1024.0 / 1e6;
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    double kibibytes = 0.0;
-    if (word == key + ":" && status >> kibibytes) return kibibytes * kMegabytesPerKibibyte;
-  }
-  return 0.0;
-}
+double memory_mb(const std::string& key);
 
 }  // namespace ardee::bench
