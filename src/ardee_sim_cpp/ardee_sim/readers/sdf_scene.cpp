@@ -39,17 +39,16 @@ void read_ode(const Node& physics, PhysicsParams& made) {
       physics.number("ode/constraints/contact_surface_layer", made.contact_surface_layer_m, 0.0);
 }
 
-/// Steps per second of wall time, 0: as fast as the machine can. Gazebo heeds <real_time_update_rate>
-/// alone, so a positive one counts. Where it is 0 or absent (thesis Listing A.15), a
-/// <real_time_factor> that is written there is what its author wants to see.
+/// Steps per second of wall time, 0: as fast as the machine can. Gazebo heeds
+/// <real_time_update_rate> alone, so a positive one counts. Where it is 0 or absent (thesis Listing
+/// A.15), a <real_time_factor> that is written there is what its author wants to see.
 double read_update_rate(const Node& physics, double step_s) {
-  constexpr double kAbsent = -1.0;
-  const double old_rate = physics.number("update_rate", kAbsent, kAbsent, kMaxRateHz);
-  const double rate = physics.number("real_time_update_rate", old_rate, kAbsent, kMaxRateHz);
-  if (rate > 0.0) return rate;
-  const double factor = physics.number("real_time_factor", kAbsent, kAbsent, kMaxRateHz);
-  if (factor >= 0.0) return factor / step_s;
-  return rate == 0.0 ? 0.0 : 1.0 / step_s;
+  const auto now = physics.child("real_time_update_rate");
+  const auto written = now ? now : physics.child("update_rate");
+  const double rate = written ? written->to_number(0.0, kMaxRateHz) : 1.0 / step_s;
+  if (written && rate > 0.0) return rate;
+  const auto factor = physics.child("real_time_factor");
+  return factor ? factor->to_number(0.0, kMaxRateHz) / step_s : rate;
 }
 
 }  // namespace

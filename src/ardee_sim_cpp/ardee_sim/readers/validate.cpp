@@ -17,6 +17,12 @@ std::string list_of_links(const Model& model) {
   return names + (model.links.size() > kMost ? ", ..." : "");
 }
 
+std::string comma_list(const Eigen::Vector3d& v) {
+  std::ostringstream text;
+  text << v[0] << ", " << v[1] << ", " << v[2];
+  return text.str();
+}
+
 void check_inertial(const Link& link, Log& log) {
   const Inertial& inertial = *link.inertial;
   const std::string of = " of link '" + link.name + "'";
@@ -30,7 +36,7 @@ void check_inertial(const Link& link, Log& log) {
   const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
   if (!(moments[0] > 0.0)) {
     std::ostringstream what;
-    what << "found an inertia" << of << " with principal moments " << moments.transpose()
+    what << "found an inertia" << of << " with principal moments " << comma_list(moments)
          << " kg m^2, expected three positive ones";
     throw Error(link.source, what.str());
   }

@@ -10,7 +10,15 @@ namespace {
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
 constexpr std::size_t kMaxDepth = 90;  // below tinyxml2's own limit of 100
 
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// XML_ERROR_MISMATCHED_ELEMENT -> mismatched element
+std::string in_words(std::string name) {
+  constexpr std::string_view kPrefix = "XML_ERROR_";
+  if (name.rfind(kPrefix, 0) == 0) name.erase(0, kPrefix.size());
+  std::replace(name.begin(), name.end(), '_', ' ');
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name;
+}
 
 /// The position after what starts at `at`: a comment, CDATA section, declaration or tag; `step`
 /// says how it nests.
@@ -63,9 +71,9 @@ void check_xml_text(std::string_view text, const std::string& name) {
 XmlFile::XmlFile(const std::string& text, const std::string& name) : name_(name) {
   check_xml_text(text, name);
   if (document_.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw Error(Source{name, document_.ErrorLineNum(), ""},
-                "found " + std::string(document_.ErrorName()) + " (" +
-                    first_line(document_.ErrorStr()) + "), expected well-formed XML");
+    throw Error(
+        Source{name, document_.ErrorLineNum(), ""},
+        "found broken XML (" + in_words(document_.ErrorName()) + "), expected well-formed XML");
   }
   if (!document_.RootElement()) {
     throw Error(Source{name, 0, ""}, "found no element, expected an XML document");

@@ -76,6 +76,21 @@ TEST_F(SdfWorld, ReadsOldPhysicsAndNewGravity) {
   EXPECT_TRUE(warned("found type 'bullet', ode is used"));
 }
 
+TEST_F(SdfWorld, ReadsThePace) {
+  const auto rate = [this](const std::string& body) {
+    return world("<physics type='ode'><max_step_size>0.01</max_step_size>" + body + "</physics>")
+        .physics.real_time_update_rate_hz;
+  };
+  EXPECT_EQ(rate(""), 100.0);
+  EXPECT_EQ(rate("<real_time_factor>2</real_time_factor>"), 200.0);
+  EXPECT_EQ(rate("<real_time_update_rate>0</real_time_update_rate>"), 0.0);
+  EXPECT_EQ(rate("<real_time_update_rate>50</real_time_update_rate><real_time_factor>2</"
+                 "real_time_factor>"),
+            50.0);
+  EXPECT_HAS(error_of([&] { rate("<real_time_update_rate>-1</real_time_update_rate>"); }),
+             "<real_time_update_rate>: found '-1', expected a number in [0, 1e+06]");
+}
+
 TEST_F(SdfWorld, TakesTheDefaultOfSeveralPhysics) {
   const World w = world(
       "<physics name='a' type='ode'><max_step_size>0.002</max_step_size></physics>"
