@@ -218,7 +218,7 @@ void BodyCompiler::make_blocks() {
 
 void BodyCompiler::fill_block(TriangleBlock& block, const Bounds& bounds) {
   block.center = bounds.center();
-  block.radius = bounds.radius();
+  block.radius = static_cast<float>(1.0001 * bounds.radius());
   for (std::uint32_t lane = 0; lane < kBlockLanes; ++lane) {
     const std::uint32_t index = block.first + std::min(lane, block.count - 1);
     const BodyTriangle& triangle = body_->triangles[index];

@@ -26,16 +26,29 @@ struct RayScene::Impl {
         regions(device, scenery, ray_options),
         arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {}
 
-  void cast_one(RayQuery& query, const NearRegion* region) const {
-    scenery.meet_everywhere(query);
-    moving.meet(query);
-    double t_left = 0.0;
-    if (region != nullptr) {
-      t_left = region->exit_t(query.ray_W());
-      region->meet(query, std::min(query.reach(), t_left));
-      if (query.reach() <= t_left) return;
+  /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
+  /// leave it unhindered.
+  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region) const {
+    double t_leave[kPacketRays];
+    double t_high[kPacketRays];
+    double t_low[kPacketRays];
+    for (int i = 0; i < kPacketRays; ++i) {
+      t_low[i] = std::numeric_limits<double>::infinity();
+      t_high[i] = -1.0;
+      if (i >= count) continue;
+      scenery.meet_everywhere(queries[i]);
+      moving.meet(queries[i]);
+      t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
+      t_high[i] = std::min(queries[i].reach(), t_leave[i]);
     }
-    scenery.meet_places(query, t_left);
+    if (region != nullptr) region->meet(queries, t_high);
+    bool onwards = false;
+    for (int i = 0; i < count; ++i) {
+      if (region != nullptr && queries[i].reach() <= t_leave[i]) continue;
+      t_low[i] = t_leave[i];
+      onwards = true;
+    }
+    if (onwards) scenery.meet_places(queries, t_low);
   }
 
   Log log;
@@ -97,17 +110,22 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
   const NearRegion* region = impl_->regions.find(X_WS.p);
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
   impl_->arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const Eigen::Vector3d direction =
-                              (R_WS * directions[i].cast<double>()).normalized();
-                          RayQuery query({X_WS.p, direction}, static_cast<double>(max_range_m),
-                                         own_entity, own_link);
-                          impl_->cast_one(query, region);
-                          query.fill(hits[i]);
-                        }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
+            const int count = static_cast<int>(std::min<std::size_t>(kPacketRays, range.end() - i));
+            RayQuery queries[kPacketRays];
+            for (int k = 0; k < count; ++k) {
+              const Eigen::Vector3f& direction_S = directions[i + static_cast<std::size_t>(k)];
+              const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
+              queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity,
+                               own_link);
+            }
+            impl_->cast(queries, count, region);
+            for (int k = 0; k < count; ++k) queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
+          }
+        });
   });
 }
 

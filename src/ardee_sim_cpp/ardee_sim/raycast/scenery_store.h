@@ -24,8 +24,8 @@ class SceneryStore {
 
   /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
   void meet_everywhere(RayQuery& query) const;
-  /// The places, from t_low on.
-  void meet_places(RayQuery& query, double t_low) const;
+  /// The places, each query from its t_low on (infinity: not at all).
+  void meet_places(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
 
   const std::vector<const PlacedBody*>& places() const { return places_; }
   const Bounds& bounds_W() const { return bounds_W_; }
