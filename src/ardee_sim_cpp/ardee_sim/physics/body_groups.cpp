@@ -2,6 +2,7 @@
 #include "ardee_sim/physics/body_groups.h"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -11,6 +12,9 @@ namespace ardee::physics {
 namespace {
 
 constexpr char kWorldName[] = "world";
+// From a grain of dust to a mountain: within these the engine's arithmetic cannot overflow.
+constexpr double kMinMass = 1e-9, kMaxMass = 1e12;      // kg
+constexpr double kMinMoment = 1e-15, kMaxMoment = 1e18;  // kg m^2
 
 /// The steps of union-find: each link points at a link of lower index in its group, the root at itself. The last element
 /// stands for the world.
@@ -97,18 +101,21 @@ void sum_inertia(const Model& model, BodyGroup& group) {
 
 void check_movable(const Model& model, const BodyGroup& group) {
   const Link& link = model.links[group.links.front()];
-  if (!(group.mass_kg > 0.0)) {
-    throw Error(link.source, "link '" + link.name + "' of model '" + model.name +
-                                 "': found no mass, expected a positive mass on a link that can move");
+  std::ostringstream what;
+  what << "link '" << link.name << "' of model '" << model.name << "': found ";
+  if (!(group.mass_kg >= kMinMass && group.mass_kg <= kMaxMass)) {
+    what << "a mass of " << group.mass_kg << " kg on a link that can move, expected one in ["
+         << kMinMass << ", " << kMaxMass << "]";
+    throw Error(link.source, what.str());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(group.inertia_M,
                                                               Eigen::EigenvaluesOnly);
   const Eigen::Vector3d moments = solver.eigenvalues();
-  if (moments.minCoeff() > 1e-12 * moments.maxCoeff() && moments.minCoeff() > 0.0) return;
-  std::ostringstream what;
-  what << "link '" << link.name << "' of model '" << model.name
-       << "': found an inertia with principal moments " << moments.transpose()
-       << " kg m^2, expected all of them positive";
+  const double least = std::max(kMinMoment, 1e-9 * moments.maxCoeff());
+  if (moments.minCoeff() >= least && moments.maxCoeff() <= kMaxMoment) return;
+  what << "an inertia with principal moments " << moments.transpose()
+       << " kg m^2, expected all of them positive, of one order and in [" << kMinMoment << ", "
+       << kMaxMoment << "]";
   throw Error(link.source, what.str());
 }
 

@@ -43,6 +43,17 @@ struct Fault {
   }
 };
 
+bool is_valid(const Surface& surface) {
+  const double numbers[] = {surface.mu, surface.mu2, surface.slip1, surface.slip2,
+                            surface.kp_n_per_m, surface.kd_n_s_per_m, surface.min_depth_m,
+                            surface.max_correcting_velocity_m_per_s, surface.restitution,
+                            surface.bounce_threshold_m_per_s};
+  for (const double number : numbers) {
+    if (!(number >= 0.0)) return false;
+  }
+  return surface.fdir1.allFinite();
+}
+
 Eigen::AlignedBox3d transformed(const Eigen::AlignedBox3d& box, const Pose& X_WS) {
   const Eigen::Vector3d center = X_WS * box.center();
   const Eigen::Vector3d reach = X_WS.q.toRotationMatrix().cwiseAbs() * (0.5 * box.sizes());
@@ -93,8 +104,9 @@ void place(dGeomID geom, const Pose& X_WS) {
 }  // namespace
 
 void check_collision(const Model& model, const Link& link, const Collision& collision) {
-  const std::string fault = collision.X_LC.is_finite() ? std::visit(Fault{}, collision.geometry)
-                                                       : "found a pose that is not finite";
+  std::string fault = std::visit(Fault{}, collision.geometry);
+  if (!collision.X_LC.is_finite()) fault = "found a pose that is not finite";
+  if (!is_valid(collision.surface)) fault = "found a surface number below zero or not a number";
   if (fault.empty()) return;
   throw Error(link.source, "model '" + model.name + "', link '" + link.name + "', collision '" +
                                collision.name + "': " + fault);

@@ -7,6 +7,9 @@
 namespace ardee::physics {
 namespace {
 
+constexpr double kMaxStiffness = 1e15;   // N/m, N s/m: as good as rigid
+constexpr double kLeastStiffness = 1e-6;  // N s/m: as good as nothing
+
 /// The first friction direction in the world: the first surface's that has one, along the contact plane.
 std::optional<Eigen::Vector3d> friction_direction(const ContactSide& a, const ContactSide& b,
                                                   const Eigen::Vector3d& normal) {
@@ -34,10 +37,11 @@ ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsPar
   law.mu2 = std::min(a.mu2, b.mu2);
   law.slip1 = a.slip1 + b.slip1;
   law.slip2 = a.slip2 + b.slip2;
-  const double kp = 1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m);
-  const double total = params.step_s * kp + a.kd_n_s_per_m + b.kd_n_s_per_m;
-  law.erp = total > 0.0 ? params.step_s * kp / total : 0.0;
-  law.cfm = total > 0.0 ? 1.0 / total : 1.0;
+  const double kp = std::min(1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m), kMaxStiffness);
+  const double kd = std::min(a.kd_n_s_per_m + b.kd_n_s_per_m, kMaxStiffness);
+  const double total = std::max(params.step_s * kp + kd, kLeastStiffness);
+  law.erp = params.step_s * kp / total;
+  law.cfm = 1.0 / total;
   law.min_depth_m = std::max({params.contact_surface_layer_m, a.min_depth_m, b.min_depth_m});
   law.max_push_m_per_s =
       std::min({params.max_correcting_velocity_m_per_s, a.max_correcting_velocity_m_per_s,

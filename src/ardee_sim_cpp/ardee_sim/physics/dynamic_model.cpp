@@ -169,7 +169,9 @@ void DynamicModel::check_state() const {
     const Vector3d v = to_vector(dBodyGetLinearVel(body(i)));
     const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
     const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
-    if (finite && X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach) continue;
+    const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
+                          v.cwiseAbs().maxCoeff() <= kMaxInput && w.cwiseAbs().maxCoeff() <= kMaxInput;
+    if (finite && in_range) continue;
     const std::string link =
         groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;
     throw Error("model '" + model_->name + "', link '" + link + "': found a position or velocity " +

@@ -13,6 +13,9 @@
 
 namespace ardee::physics {
 
+/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from where sums overflow.
+constexpr double kMaxInput = 1e9;
+
 /// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one body, whose frame lies at
 /// its centre of mass, parallel to the model's frame when all joints are at zero.
 class DynamicModel : public PhysicsModel {

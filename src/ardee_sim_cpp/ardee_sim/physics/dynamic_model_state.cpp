@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/physics/dynamic_model.h"
 
@@ -7,8 +10,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-void require_finite(bool finite, const Model& model, const std::string& what) {
-  if (!finite) throw Error("model '" + model.name + "': found " + what + " that is not finite");
+void require(bool valid, const Model& model, const std::string& what) {
+  if (valid) return;
+  throw Error("model '" + model.name + "': found " + what + " that is not finite or out of range");
+}
+
+bool is_valid(double value) { return std::abs(value) <= kMaxInput; }
+
+bool is_valid(const Vector3d& value) {
+  return is_valid(value.x()) && is_valid(value.y()) && is_valid(value.z());
 }
 
 void set_velocity(dBodyID body, const Vector3d& linear, const Vector3d& angular) {
@@ -23,13 +33,13 @@ Pose DynamicModel::pose() const {
 }
 
 void DynamicModel::set_pose(const Pose& X_WM) {
-  require_finite(X_WM.is_finite(), *model_, "a pose");
+  require(X_WM.is_finite() && is_valid(X_WM.p), *model_, "a pose");
   const Pose motion = X_WM * pose().inverse();
   for (std::size_t i = 0; i < bodies_.size(); ++i) move_body(i, motion);
 }
 
 void DynamicModel::set_twist(const Twist& twist_W) {
-  require_finite(twist_W.linear.allFinite() && twist_W.angular.allFinite(), *model_, "a velocity");
+  require(is_valid(twist_W.linear) && is_valid(twist_W.angular), *model_, "a velocity");
   const Vector3d origin = pose().p;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (i == groups_.world) continue;
@@ -82,7 +92,7 @@ std::vector<std::size_t> DynamicModel::hanging_on(std::size_t joint) const {
 
 void DynamicModel::set_joint_position(std::size_t joint, double position) {
   ModelJoint* moved = moving_joint(joint);
-  require_finite(std::isfinite(position), *model_, "a joint position");
+  require(is_valid(position), *model_, "a joint position");
   if (!moved || model_->joints[joint].type == JointType::kBall) return;
   const Pose motion = moved->motion_to(position);
   for (const std::size_t group : hanging_on(joint)) move_body(group, motion);
@@ -90,7 +100,7 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
 }
 
 void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double max_effort) {
-  require_finite(std::isfinite(velocity), *model_, "a motor's velocity");
+  require(is_valid(velocity), *model_, "a motor's velocity");
   if (!(max_effort >= 0.0)) {
     throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
                 "': found a motor's effort below zero");
@@ -99,13 +109,9 @@ void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double ma
 }
 
 void DynamicModel::set_joint_spring(std::size_t joint, const JointSpring& spring) {
-  const bool valid = std::isfinite(spring.stiffness) && spring.stiffness >= 0.0 &&
-                     std::isfinite(spring.damping) && spring.damping >= 0.0 &&
-                     std::isfinite(spring.reference);
-  if (!valid) {
-    throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
-                "': found a spring's number that is not finite or below zero");
-  }
+  const bool valid = is_valid(spring.stiffness) && spring.stiffness >= 0.0 &&
+                     is_valid(spring.damping) && spring.damping >= 0.0 && is_valid(spring.reference);
+  require(valid, *model_, "a spring's number");
   if (ModelJoint* sprung = moving_joint(joint)) sprung->set_spring(spring);
 }
 
@@ -119,8 +125,7 @@ void DynamicModel::set_joint_limits(std::size_t joint, double lower, double uppe
 
 void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const Vector3d& point_W,
                                 const Vector3d& torque_W) {
-  require_finite(force_W.allFinite() && point_W.allFinite() && torque_W.allFinite(), *model_,
-                 "a wrench");
+  require(is_valid(force_W) && is_valid(point_W) && is_valid(torque_W), *model_, "a wrench");
   dBodyID pushed = body(groups_.of_link.at(link));
   dBodyAddForceAtPos(pushed, force_W.x(), force_W.y(), force_W.z(), point_W.x(), point_W.y(),
                      point_W.z());
@@ -128,7 +133,7 @@ void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const
 }
 
 void DynamicModel::apply_joint_effort(std::size_t joint, double effort) {
-  require_finite(std::isfinite(effort), *model_, "a joint effort");
+  require(is_valid(effort), *model_, "a joint effort");
   if (ModelJoint* driven = moving_joint(joint)) driven->add_effort(effort);
 }
 

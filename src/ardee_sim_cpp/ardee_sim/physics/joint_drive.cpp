@@ -12,6 +12,7 @@ constexpr int kSpringRow = 2;
 // A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load carries a joint past it.
 constexpr double kStopReach = 0.2;
 constexpr double kStopSteps = 4.0;
+constexpr double kLeastSpring = 1e-12;  // N m s/rad: what is weaker does nothing
 
 JointHandle angular_motor(dWorldID world, dBodyID child, dBodyID parent, int rel,
                           const Eigen::Vector3d& axis_W, int rows) {
@@ -142,7 +143,7 @@ void JointDrive::prepare_spring(double position, double step_s) {
   // Implicit Euler: with ERP = h k / (h k + c) and CFM = 1 / (h k + c) a row's effort is
   // -k (x + h v - x0) - c v at the velocity v after the step (ODE manual, 3.8.2).
   const double total = step_s * spring_.stiffness + spring_.damping;
-  if (!(total > 0.0)) {
+  if (total < kLeastSpring) {
     set_row(kSpringRow, 0.0, 0.0, 0.0);
     return;
   }

@@ -12,6 +12,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+constexpr double kMaxNumber = 1e9;  // SI: beyond any robot's, and far from where sums overflow
+
 bool has_two_axes(JointType type) {
   return type == JointType::kUniversal || type == JointType::kRevolute2;
 }
@@ -40,11 +42,12 @@ void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
   }
   const double numbers[] = {axis.damping, axis.friction, axis.spring_stiffness};
   for (const double number : numbers) {
-    if (std::isfinite(number) && number >= 0.0) continue;
-    what << "found damping, friction or stiffness " << number << ", expected 0 or more";
+    if (number >= 0.0 && number <= kMaxNumber) continue;
+    what << "found damping, friction or stiffness " << number << ", expected one in [0, "
+         << kMaxNumber << "]";
     throw Error(joint.source, what.str());
   }
-  if (!std::isfinite(axis.spring_reference) || !(axis.effort >= 0.0) || !(axis.velocity >= 0.0)) {
+  if (!(std::abs(axis.spring_reference) <= kMaxNumber) || !(axis.effort >= 0.0) || !(axis.velocity >= 0.0)) {
     throw Error(joint.source,
                 what.str() + "found a reference that is not finite or a negative limit of effort or "
                              "velocity");
@@ -129,7 +132,7 @@ void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d&
     drive_ = JointDrive::linear(world, child_, parent_, joint_.get(), axis_W, joint.axis);
   } else if (type_ == JointType::kBall) {
     ball_damping_ = joint.axis.damping;
-    if (ball_damping_ <= 0.0) return;
+    if (ball_damping_ < 1e-12) return;
     ball_damper_.reset(dJointCreateAMotor(world, nullptr));
     dJointAttach(ball_damper_.get(), child_, parent_);
     dJointSetAMotorMode(ball_damper_.get(), dAMotorUser);

@@ -15,8 +15,6 @@ class OdeLibrary {
   static void prepare_thread();
   /// Whether ODE has complained, on this thread since the last call, that a system was too ill-conditioned to solve.
   static bool take_complaint();
-  /// Throws what ODE has reported on this thread since the last call: its C callbacks may not throw themselves.
-  static void throw_reported();
 };
 
 }  // namespace ardee::physics

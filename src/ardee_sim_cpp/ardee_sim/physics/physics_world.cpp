@@ -24,13 +24,13 @@ Eigen::AlignedBox3d geom_bounds(dGeomID geom) {
 }
 
 void check_params(const PhysicsParams& params) {
-  const bool valid = std::isfinite(params.step_s) && params.step_s > 0.0 &&
-                     params.gravity_m_per_s2.allFinite() && params.iterations > 0 &&
-                     params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 &&
+  const bool valid = params.step_s >= 1e-6 && params.step_s <= 1.0 &&
+                     params.gravity_m_per_s2.norm() < 1e6 && params.iterations > 0 &&
+                     params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 && params.cfm <= 1e6 &&
                      params.erp >= 0.0 && params.erp <= 1.0 && params.max_contacts >= 0;
   if (!valid) {
     throw Error("physics: found a step, iteration count, SOR, CFM, ERP or gravity out of range, "
-                "expected step > 0, iterations > 0, 0 < sor < 2, cfm >= 0 and 0 <= erp <= 1");
+                "expected 1e-6 <= step <= 1, iterations > 0, 0 < sor < 2, cfm >= 0, 0 <= erp <= 1");
   }
 }
 
@@ -178,7 +178,6 @@ void PhysicsWorld::Impl::step() {
   solve();
   for (const auto& model : models) model->finish_step();
   for (const auto& model : models) model->check_state();
-  physics::OdeLibrary::throw_reported();
 }
 
 PhysicsWorld::PhysicsWorld(const PhysicsParams& params, Log log)
@@ -193,7 +192,6 @@ void PhysicsWorld::set_params(const PhysicsParams& params) { impl_->set_params(p
 PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM) {
   auto added = std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM,
                                               impl_->factory);
-  physics::OdeLibrary::throw_reported();
   impl_->models.push_back(std::move(added));
   return *impl_->models.back();
 }

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kDirectRows = 160;
 // s/kg: keeps contacts that say the same thing from making the direct system singular. Under 30 N it lets slip 0.03 um/s.
 constexpr double kDirectCfm = 1e-9;
+constexpr double kIterativeCfm = 1e-10;  // s/kg: keeps a row without mass from being divided by
 
 void copy(const dReal* from, int count, dReal* to) { std::copy(from, from + count, to); }
 
@@ -50,10 +51,10 @@ void Solver::step(const PhysicsParams& params, std::size_t rows,
     OdeLibrary::take_complaint();
     dWorldSetCFM(world_, std::max(params.cfm, kDirectCfm));
     done = dWorldStep(world_, params.step_s);
-    dWorldSetCFM(world_, params.cfm);
     if (done && !OdeLibrary::take_complaint()) return;
     restore(bodies);
   }
+  dWorldSetCFM(world_, std::max(params.cfm, kIterativeCfm));
   done = dWorldQuickStep(world_, params.step_s);
   if (!done) throw Error("physics engine: out of memory");
 }
