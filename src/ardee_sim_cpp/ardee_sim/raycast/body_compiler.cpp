@@ -108,10 +108,26 @@ class BodyCompiler {
               {0.5 * plane.size_m.x(), 0.5 * plane.size_m.y(), 0.0});
   }
 
-  void add(const Heightmap& map) {
-    if (map.grid == nullptr || map.grid->columns < 2 || map.grid->rows < 2) {
+  void check_grid(const HeightGrid* grid) const {
+    if (grid == nullptr || grid->columns < 2 || grid->rows < 2) {
       throw error("the heightmap needs at least 2 x 2 heights");
     }
+    const auto count =
+        static_cast<std::size_t>(grid->columns) * static_cast<std::size_t>(grid->rows);
+    if (grid->heights_m.size() != count) {
+      throw error("the heightmap has " + std::to_string(grid->heights_m.size()) +
+                  " heights instead of " + std::to_string(count));
+    }
+    if (!(grid->size_m.minCoeff() > 0.0) || !grid->size_m.allFinite()) {
+      throw error("the heightmap's size must be finite and above 0");
+    }
+    for (const float height : grid->heights_m) {
+      if (!std::isfinite(height)) throw error("a height of the heightmap is not finite");
+    }
+  }
+
+  void add(const Heightmap& map) {
+    check_grid(map.grid.get());
     const auto terrain = static_cast<std::uint32_t>(body_->terrains.size());
     body_->terrains.push_back({HeightSurface(map.grid, map.position_m), X_BS_.q.toRotationMatrix(),
                                X_BS_.p, add_surface()});
@@ -120,7 +136,6 @@ class BodyCompiler {
       const auto index = static_cast<std::uint32_t>(body_->patches.size());
       body_->patches.push_back({terrain, patch});
       const Bounds box = made.heights.bounds(patch);
-      if (!box.lower.allFinite() || !box.upper.allFinite()) throw error("a height is not finite");
       add_piece({Piece::Kind::kPatch, index}, box.transformed(made.R_BS, made.p_BS));
     }
   }

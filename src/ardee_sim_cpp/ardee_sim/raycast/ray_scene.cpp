@@ -2,10 +2,12 @@
 #include "ardee_sim/raycast/ray_scene.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <memory>
 
 #include "ardee_sim/raycast/moving_models.h"
 #include "ardee_sim/raycast/near_regions.h"
@@ -24,7 +26,14 @@ struct RayScene::Impl {
         scenery(device, scene_kind),
         moving(device, scene_kind),
         regions(device, scenery, ray_options),
-        arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {}
+        arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {
+    // TBB has no more workers than cores unless it is told.
+    if (ray_options.threads > tbb::info::default_concurrency()) {
+      workers =
+          std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(ray_options.threads));
+    }
+  }
 
   /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
   /// leave it unhindered.
@@ -56,6 +65,7 @@ struct RayScene::Impl {
   SceneryStore scenery;
   MovingModels moving;
   NearRegions regions;
+  std::unique_ptr<tbb::global_control> workers;
   mutable tbb::task_arena arena;
 };
 
