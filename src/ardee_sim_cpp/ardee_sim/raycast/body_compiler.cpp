@@ -17,7 +17,8 @@ constexpr std::size_t kTreeThreshold = 3;
 /// Collects the shapes of links into a body.
 class BodyCompiler {
  public:
-  BodyCompiler(const Model& model, SceneKind kind) : model_(model), kind_(kind) {}
+  BodyCompiler(AlphaMasks& masks, const Model& model, SceneKind kind)
+      : masks_(masks), model_(model), kind_(kind) {}
 
   void add_link(std::uint32_t link, const Pose& X_BL) {
     const Link& description = model_.links[link];
@@ -54,6 +55,13 @@ class BodyCompiler {
 
   bool sides(const Material* material) const {
     return kind_ == SceneKind::kCollision || (material != nullptr && material->two_sided);
+  }
+
+  std::shared_ptr<const AlphaMask> holes(const Material* material, const SubMesh& part) const {
+    const bool wanted = kind_ == SceneKind::kVisual && material != nullptr &&
+                        material->alpha_rejection >= 0.0f && !material->texture_path.empty() &&
+                        part.texcoords.size() == part.vertices.size();
+    return wanted ? masks_.get(material->texture_path, material->alpha_rejection) : nullptr;
   }
 
   Error error(const std::string& what) const {
@@ -149,6 +157,7 @@ class BodyCompiler {
   void make_blocks();
   void fill_block(TriangleBlock& block, const Bounds& bounds);
 
+  AlphaMasks& masks_;
   const Model& model_;
   SceneKind kind_;
   std::unique_ptr<Body> body_ = std::make_unique<Body>();
@@ -182,9 +191,16 @@ void BodyCompiler::add_part(const SubMesh& part, const Mesh& mesh, const Eigen::
       part.material >= 0 && static_cast<std::size_t>(part.material) < mesh.file->materials.size();
   const Material* own =
       known ? &mesh.file->materials[static_cast<std::size_t>(part.material)] : nullptr;
-  surface_.two_sided = sides(material_ != nullptr ? material_ : own);
-  const std::uint32_t surface = add_surface();
+  const Material* material = material_ != nullptr ? material_ : own;
+  surface_.two_sided = sides(material);
+  surface_.mask = holes(material, part);
   const auto base = static_cast<std::uint32_t>(body_->vertices.size());
+  if (surface_.mask != nullptr) {
+    body_->texcoords.resize(base);
+    body_->texcoords.insert(body_->texcoords.end(), part.texcoords.begin(), part.texcoords.end());
+  }
+  const std::uint32_t surface = add_surface();
+  surface_.mask.reset();
   for (const Eigen::Vector3f& vertex : part.vertices) {
     const Eigen::Vector3d scaled = mesh.scale.cwiseProduct(vertex.cast<double>() - center);
     const Eigen::Vector3f placed = (X_BS_ * scaled).cast<float>();
@@ -273,16 +289,16 @@ std::unique_ptr<Body> BodyCompiler::finish(const EmbreeDevice& device) {
 
 }  // namespace
 
-std::unique_ptr<Body> compile_model(const EmbreeDevice& device, const Model& model,
-                                    SceneKind kind) {
-  BodyCompiler compiler(model, kind);
+std::unique_ptr<Body> compile_model(const EmbreeDevice& device, AlphaMasks& masks,
+                                    const Model& model, SceneKind kind) {
+  BodyCompiler compiler(masks, model, kind);
   for (std::uint32_t k = 0; k < model.links.size(); ++k) compiler.add_link(k, model.links[k].X_ML);
   return compiler.finish(device);
 }
 
-std::unique_ptr<Body> compile_link(const EmbreeDevice& device, const Model& model,
-                                   std::uint32_t link, SceneKind kind) {
-  BodyCompiler compiler(model, kind);
+std::unique_ptr<Body> compile_link(const EmbreeDevice& device, AlphaMasks& masks,
+                                   const Model& model, std::uint32_t link, SceneKind kind) {
+  BodyCompiler compiler(masks, model, kind);
   compiler.add_link(link, Pose{});
   return compiler.finish(device);
 }

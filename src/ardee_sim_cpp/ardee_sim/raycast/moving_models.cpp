@@ -37,7 +37,7 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
   }
   Entry entry;
   for (std::uint32_t link = 0; link < model->links.size(); ++link) {
-    entry.bodies.push_back(compile_link(device_, *model, link, kind_));
+    entry.bodies.push_back(compile_link(device_, masks_, *model, link, kind_));
     const Body& body = *entry.bodies.back();
     if (body.pieces.empty() && body.grounds.empty()) continue;
     PlacedBody placed;

@@ -33,6 +33,16 @@ void RayQuery::offer(const Candidate& candidate) {
   normal_B_ = candidate.normal_B;
 }
 
+bool RayQuery::is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weights) const {
+  const Body& body = *entered_->body;
+  Eigen::Vector2d uv(0, 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    uv +=
+        weights[static_cast<Eigen::Index>(k)] * body.texcoords[triangle.vertices[k]].cast<double>();
+  }
+  return body.surfaces[triangle.surface].mask->is_hole(uv);
+}
+
 void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]) {
   const Body& body = *entered_->body;
   for (std::uint32_t lane = 0; lane < block.count; ++lane) {
@@ -42,6 +52,9 @@ void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[
     if (meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
                       body.vertices[triangle.vertices[1]].cast<double>(),
                       body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
+      if (body.surfaces[triangle.surface].mask != nullptr && is_hole(triangle, hit.weights)) {
+        continue;
+      }
       offer({hit.t, triangle.surface, triangle.primitive, hit.normal});
     }
   }

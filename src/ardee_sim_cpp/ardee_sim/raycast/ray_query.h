@@ -54,6 +54,7 @@ class RayQuery {
     Eigen::Vector3d normal_B;
   };
 
+  bool is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weights) const;
   void meet_patch(const TerrainPatch& patch);
   void offer(const Candidate& candidate);
   bool precedes(const Candidate& candidate) const;

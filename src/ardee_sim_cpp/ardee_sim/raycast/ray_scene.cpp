@@ -22,9 +22,9 @@ constexpr std::size_t kGrain = 64;
 
 struct RayScene::Impl {
   Impl(SceneKind scene_kind, const RayOptions& ray_options, Log scene_log)
-      : log(std::move(scene_log)),
-        scenery(device, scene_kind),
-        moving(device, scene_kind),
+      : masks(std::move(scene_log)),
+        scenery(device, masks, scene_kind),
+        moving(device, masks, scene_kind),
         regions(device, scenery, ray_options),
         arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {
     // TBB has no more workers than cores unless it is told.
@@ -60,8 +60,8 @@ struct RayScene::Impl {
     if (onwards) scenery.meet_places(queries, t_low);
   }
 
-  Log log;
   EmbreeDevice device;
+  AlphaMasks masks;
   SceneryStore scenery;
   MovingModels moving;
   NearRegions regions;

@@ -47,7 +47,7 @@ const Body* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Gr
   Compiled& compiled = bodies_[model.get()];
   if (compiled.body == nullptr) {
     try {
-      compiled.body = compile_model(device_, *model, kind_);
+      compiled.body = compile_model(device_, masks_, *model, kind_);
     } catch (...) {
       bodies_.erase(model.get());
       throw;

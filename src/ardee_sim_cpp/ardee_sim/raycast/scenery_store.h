@@ -13,7 +13,8 @@ namespace ardee {
 /// scene over the places.
 class SceneryStore {
  public:
-  SceneryStore(const EmbreeDevice& device, SceneKind kind) : device_(device), kind_(kind) {}
+  SceneryStore(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
+      : device_(device), masks_(masks), kind_(kind) {}
 
   /// Throws Error and adds nothing if a placement is not usable.
   void add(std::uint32_t first_entity, const std::vector<Placement>& placements);
@@ -63,6 +64,7 @@ class SceneryStore {
   const Body* use_body(const std::shared_ptr<const Model>& model, Group& group);
 
   const EmbreeDevice& device_;
+  AlphaMasks& masks_;
   SceneKind kind_;
   std::map<const Model*, Compiled> bodies_;
   std::map<std::uint32_t, Group> groups_;
