@@ -2,9 +2,11 @@
 #include "ardee_sim/readers/mesh_file_check.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
@@ -39,6 +41,25 @@ void check_stl(const std::string& bytes, const std::string& path, const Source& 
   }
 }
 
+/// Refuses a number after `key` that is larger than the file: the mesh library would reserve memory
+/// for so many items.
+void check_counts(const std::string& bytes, std::string_view key, const std::string& path,
+                  const Source& source) {
+  for (std::size_t at = bytes.find(key); at != std::string::npos; at = bytes.find(key, at)) {
+    at += key.size();
+    const std::size_t digits = std::min(bytes.find_first_not_of(" \t\r\n+\"'", at), bytes.size());
+    std::uint64_t count = 0;
+    const char* end = bytes.data() + bytes.size();
+    const auto [stop, status] = std::from_chars(bytes.data() + digits, end, count);
+    const bool negative = digits < bytes.size() && bytes[digits] == '-';
+    if (negative || status == std::errc::result_out_of_range || count > bytes.size()) {
+      throw Error(source, "found '" + bytes.substr(at, 20) + "' after '" + std::string(key) +
+                              "' in '" + path + "', expected no more than its " +
+                              std::to_string(bytes.size()) + " bytes can hold");
+    }
+  }
+}
+
 }  // namespace
 
 void check_mesh_file(const std::string& path, const Source& source) {
@@ -49,7 +70,17 @@ void check_mesh_file(const std::string& path, const Source& source) {
   const std::string bytes = read_text_file(path, source, kMaxFileBytes);
   if (bytes.empty()) throw Error(source, "found an empty mesh file '" + path + "', expected data");
   if (extension == ".stl") check_stl(bytes, path, source);
-  if (extension == ".dae") check_xml_text(bytes, path);
+  if (extension == ".dae") {
+    check_xml_text(bytes, path);
+    for (const char* key : {"count=", "count =", "stride=", "stride =", "offset=", "offset ="}) {
+      check_counts(bytes, key, path, source);
+    }
+  }
+  if (extension == ".ply") {
+    for (const char* key : {"element vertex", "element face"}) {
+      check_counts(bytes, key, path, source);
+    }
+  }
 }
 
 }  // namespace ardee

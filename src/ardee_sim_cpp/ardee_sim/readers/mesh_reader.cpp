@@ -24,7 +24,12 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, const
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                               aiProcess_SortByPType | aiProcess_ValidateDataStructure;
-  const aiScene* scene = importer.ReadFile(path, kSteps);
+  const aiScene* scene = nullptr;
+  try {
+    scene = importer.ReadFile(path, kSteps);
+  } catch (const std::exception& problem) {
+    throw Error(source, "cannot read mesh '" + path + "' (" + problem.what() + ")");
+  }
   if (!scene || !scene->mRootNode || scene->mNumMeshes == 0) {
     const std::string why = importer.GetErrorString();
     throw Error(source, "found mesh '" + path + "', expected a readable one with triangles" +

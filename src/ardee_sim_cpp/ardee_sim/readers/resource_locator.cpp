@@ -110,7 +110,7 @@ std::string ResourceLocator::resolve_package(const std::string& uri, const std::
 }
 
 std::string ResourceLocator::resolve_model(const std::string& uri, const Source& source) const {
-  const std::string place = resolve(uri, source);
+  std::string place = resolve(uri, source);
   std::error_code error;
   if (!fs::is_directory(place, error)) return place;
   const fs::path folder(place);

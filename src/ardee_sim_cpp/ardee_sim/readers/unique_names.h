@@ -14,7 +14,7 @@ class UniqueNames {
     if (taken_.insert(wanted).second) return wanted;
     int& next = next_[wanted];
     while (true) {
-      const std::string name = wanted + "_" + std::to_string(next++);
+      std::string name = wanted + "_" + std::to_string(next++);
       if (taken_.insert(name).second) return name;
     }
   }

@@ -178,7 +178,7 @@ class TreeCheck {
  private:
   std::string end_of(const Node& joint, const char* end) const {
     const Node node = joint.required(end);
-    const std::string link = node.required_attribute("link");
+    std::string link = node.required_attribute("link");
     if (parents_.count(link) == 0) {
       throw node.error("found link '" + link + "' in joint '" + joint.attribute("name") +
                        "', expected one that exists");

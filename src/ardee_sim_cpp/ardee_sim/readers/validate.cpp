@@ -33,7 +33,7 @@ void check_inertial(const Link& link, Log& log) {
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.inertia_kg_m2,
                                                               Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
+  const Eigen::Vector3d& moments = solver.eigenvalues();  // ascending
   if (!(moments[0] > 0.0)) {
     std::ostringstream what;
     what << "found an inertia" << of << " with principal moments " << comma_list(moments)
@@ -44,7 +44,7 @@ void check_inertial(const Link& link, Log& log) {
   if (kSlack * (moments[0] + moments[1]) < moments[2]) {
     std::ostringstream what;
     what << link.source.to_string() << ": found an inertia" << of << " with principal moments "
-         << moments.transpose()
+         << comma_list(moments)
          << " kg m^2, which no body has (the largest exceeds the others' sum)";
     log.warn(what.str());
   }

@@ -61,7 +61,7 @@ std::string Node::attribute(const char* attribute_name, const std::string& fallb
 }
 
 std::string Node::required_attribute(const char* attribute_name) const {
-  const std::string value = attribute(attribute_name);
+  std::string value = attribute(attribute_name);
   if (value.empty()) {
     throw error("found no attribute '" + std::string(attribute_name) + "', expected one");
   }
@@ -77,7 +77,7 @@ std::string Node::text() const {
 }
 
 std::string Node::required_text() const {
-  const std::string value = text();
+  std::string value = text();
   if (value.empty()) throw error("found no text, expected some");
   return value;
 }
