@@ -95,14 +95,14 @@ bool cross_edge(const Circle& circle, const Vector3d& start, const Vector3d& end
 /// A circle rests on the edge between two faces if its deepest point for each face lies beyond the edge.
 void touch_edge(const Circle& circle, const FieldTriangle& left, const FieldTriangle& right,
                 const Vector3d& start, const Vector3d& end, CircleContacts& result) {
-  Vector3d point;
-  if (!cross_edge(circle, start, end, point) || point.z() <= 0.0) return;
-  const double below_m = point.z();
   const Eigen::Vector2d direction = (end - start).head<2>();
   const auto is_left = [&](const Vector3d& p) {
     return direction.x() * (p.y() - start.y()) - direction.y() * (p.x() - start.x()) > 0.0;
   };
   if (is_left(support(circle, left.normal)) || !is_left(support(circle, right.normal))) return;
+  Vector3d point;
+  if (!cross_edge(circle, start, end, point) || point.z() <= 0.0) return;
+  const double below_m = point.z();
   const Eigen::Vector2d from_start = point.head<2>() - start.head<2>();
   const double t = from_start.dot(direction) / direction.squaredNorm();
   point.z() = (1.0 - t) * start.z() + t * end.z() - below_m;

@@ -80,6 +80,7 @@ class PhysicsWorld {
     std::size_t contacts = 0;        // points of contact
     std::size_t scenery_tested = 0;  // bounds of scenery compared with a robot's
     std::size_t scenery_built = 0;   // static shapes alive near robots
+    bool solved_directly = false;    // not by iterations
   };
   Stats stats() const;
   /// ODE's solver shuffles with a global random number: called on each reset.

@@ -10,9 +10,6 @@ namespace ardee::physics {
 namespace {
 
 constexpr std::size_t kDirectRows = 160;
-// s/kg: keeps contacts that say the same thing from making the direct system singular. Under 30 N it lets slip 0.03 um/s.
-constexpr double kDirectCfm = 1e-9;
-constexpr double kIterativeCfm = 1e-10;  // s/kg: keeps a row without mass from being divided by
 
 void copy(const dReal* from, int count, dReal* to) { std::copy(from, from + count, to); }
 
@@ -43,20 +40,28 @@ void Solver::restore(const std::vector<dBodyID>& bodies) const {
   }
 }
 
+bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies) {
+  save(bodies);
+  OdeLibrary::take_complaint();
+  if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_complaint()) return true;
+  restore(bodies);
+  return false;
+}
+
+void Solver::iterate(const PhysicsParams& params) {
+  dRandSetSeed(seed_);
+  const int done = dWorldQuickStep(world_, params.step_s);
+  seed_ = dRandGetSeed();
+  if (!done) throw Error("physics engine: out of memory");
+}
+
 void Solver::step(const PhysicsParams& params, std::size_t rows,
                   const std::vector<dBodyID>& bodies) {
-  int done = 1;
-  if (rows <= kDirectRows || params.solver == PhysicsParams::Solver::kWorld) {
-    save(bodies);
-    OdeLibrary::take_complaint();
-    dWorldSetCFM(world_, std::max(params.cfm, kDirectCfm));
-    done = dWorldStep(world_, params.step_s);
-    if (done && !OdeLibrary::take_complaint()) return;
-    restore(bodies);
-  }
-  dWorldSetCFM(world_, std::max(params.cfm, kIterativeCfm));
-  done = dWorldQuickStep(world_, params.step_s);
-  if (!done) throw Error("physics engine: out of memory");
+  dWorldSetCFM(world_, std::max(params.cfm, kLeastCfm));
+  const bool wants_direct =
+      rows <= kDirectRows || params.solver == PhysicsParams::Solver::kWorld;
+  was_direct_ = wants_direct && solve_directly(params, bodies);
+  if (!was_direct_) iterate(params);
 }
 
 }  // namespace ardee::physics
