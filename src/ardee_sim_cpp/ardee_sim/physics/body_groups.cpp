@@ -13,11 +13,11 @@ namespace {
 
 constexpr char kWorldName[] = "world";
 // From a grain of dust to a mountain: within these the engine's arithmetic cannot overflow.
-constexpr double kMinMass = 1e-9, kMaxMass = 1e12;      // kg
+constexpr double kMinMass = 1e-9, kMaxMass = 1e12;       // kg
 constexpr double kMinMoment = 1e-15, kMaxMoment = 1e18;  // kg m^2
 
-/// The steps of union-find: each link points at a link of lower index in its group, the root at itself. The last element
-/// stands for the world.
+/// The steps of union-find: each link points at a link of lower index in its group, the root at
+/// itself. The last element stands for the world.
 std::size_t find_root(std::vector<std::size_t>& parents, std::size_t element) {
   while (parents[element] != element) {
     parents[element] = parents[parents[element]];
@@ -31,9 +31,8 @@ std::vector<std::size_t> unite_fixed(const Model& model) {
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   for (const Joint& joint : model.joints) {
     const std::size_t child = link_index(model, joint.child, joint);
-    const std::size_t parent = joint.parent == kWorldName
-                                   ? model.links.size()
-                                   : link_index(model, joint.parent, joint);
+    const std::size_t parent =
+        joint.parent == kWorldName ? model.links.size() : link_index(model, joint.parent, joint);
     if (joint.type != JointType::kFixed) continue;
     const std::size_t a = find_root(parents, child);
     const std::size_t b = find_root(parents, parent);

@@ -9,8 +9,8 @@
 
 namespace ardee::physics {
 
-/// Links that fixed joints hold together: one rigid body. Masses in kg, lengths in m, in the model's frame M with all
-/// joints at zero.
+/// Links that fixed joints hold together: one rigid body. Masses in kg, lengths in m, in the
+/// model's frame M with all joints at zero.
 struct BodyGroup {
   std::vector<std::size_t> links;
   /// Moved by no force: a kinematic link is among them, or they are fixed to the world.
@@ -34,7 +34,8 @@ struct BodyGroups {
 /// Index of a link by name; throws Error naming the joint if there is none.
 std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint);
 
-/// Throws Error naming the link if a body that must move has no mass or no positive-definite inertia.
+/// Throws Error naming the link if a body that must move has no mass or no positive-definite
+/// inertia.
 BodyGroups group_links(const Model& model);
 
 }  // namespace ardee::physics

@@ -29,8 +29,9 @@ struct Fault {
                : "found a cylinder whose radius or length is not positive";
   }
   std::string operator()(const Plane& plane) const {
-    return plane.normal.allFinite() && plane.normal.norm() > 1e-9 ? ""
-                                                                  : "found a plane without a normal";
+    return plane.normal.allFinite() && plane.normal.norm() > 1e-9
+               ? ""
+               : "found a plane without a normal";
   }
   std::string operator()(const Mesh& mesh) const {
     if (!mesh.file) return "found mesh '" + mesh.uri + "' without data";
@@ -44,10 +45,11 @@ struct Fault {
 };
 
 bool is_valid(const Surface& surface) {
-  const double numbers[] = {surface.mu, surface.mu2, surface.slip1, surface.slip2,
-                            surface.kp_n_per_m, surface.kd_n_s_per_m, surface.min_depth_m,
-                            surface.max_correcting_velocity_m_per_s, surface.restitution,
-                            surface.bounce_threshold_m_per_s};
+  const double numbers[] = {surface.mu,          surface.mu2,
+                            surface.slip1,       surface.slip2,
+                            surface.kp_n_per_m,  surface.kd_n_s_per_m,
+                            surface.min_depth_m, surface.max_correcting_velocity_m_per_s,
+                            surface.restitution, surface.bounce_threshold_m_per_s};
   for (const double number : numbers) {
     if (!(number >= 0.0)) return false;
   }
@@ -81,8 +83,7 @@ struct Bounds {
     return {X_WS.p - reach, X_WS.p + reach};
   }
   Eigen::AlignedBox3d operator()(const Plane&) const {
-    const Eigen::Vector3d far =
-        Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    const Eigen::Vector3d far = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
     return {-far, far};
   }
   Eigen::AlignedBox3d operator()(const Mesh& mesh) const {

@@ -12,7 +12,8 @@
 
 namespace ardee::physics {
 
-/// One collision of a link, ready to be tested. A heightmap has no geom: contacts with it are computed here.
+/// One collision of a link, ready to be tested. A heightmap has no geom: contacts with it are
+/// computed here.
 struct CollisionShape {
   const Collision* collision = nullptr;  // of a description that outlives the shape
   double scale = 1.0;

@@ -10,8 +10,8 @@
 
 namespace ardee::physics {
 
-/// Finds what touches what in a step: each model against the scenery near it, itself and the other models, always in the
-/// order in which they were added.
+/// Finds what touches what in a step: each model against the scenery near it, itself and the other
+/// models, always in the order in which they were added.
 class ContactFinder {
  public:
   ContactFinder(SceneryIndex& scenery, ContactJoints& contacts)
@@ -19,7 +19,8 @@ class ContactFinder {
 
   void find(const std::vector<std::unique_ptr<DynamicModel>>& models, const PhysicsParams& params);
 
-  /// Upper bound of the constraint rows of the largest island: models that touch one another are solved together.
+  /// Upper bound of the constraint rows of the largest island: models that touch one another are
+  /// solved together.
   std::size_t largest_island_rows();
 
  private:

@@ -7,10 +7,11 @@
 namespace ardee::physics {
 namespace {
 
-constexpr double kMaxStiffness = 1e15;   // N/m, N s/m: as good as rigid
+constexpr double kMaxStiffness = 1e15;    // N/m, N s/m: as good as rigid
 constexpr double kLeastStiffness = 1e-6;  // N s/m: as good as nothing
 
-/// The first friction direction in the world: the first surface's that has one, along the contact plane.
+/// The first friction direction in the world: the first surface's that has one, along the contact
+/// plane.
 std::optional<Eigen::Vector3d> friction_direction(const ContactSide& a, const ContactSide& b,
                                                   const Eigen::Vector3d& normal) {
   for (const ContactSide* side : {&a, &b}) {
@@ -78,11 +79,11 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   contact.surface.slip2 = law.slip2;
   copy(point.position, contact.geom.pos);
   copy(point.normal, contact.geom.normal);
-  // The engine knows one layer and one greatest push for all contacts; here each has its own, so the push is worked out
-  // here and handed on as the depth that gives it.
+  // The engine knows one layer and one greatest push for all contacts; here each has its own, so
+  // the push is worked out here and handed on as the depth that gives it.
   const double rate = law.erp / step_s;
-  const double push = std::min(rate * std::max(0.0, point.depth_m - law.min_depth_m),
-                               law.max_push_m_per_s);
+  const double push =
+      std::min(rate * std::max(0.0, point.depth_m - law.min_depth_m), law.max_push_m_per_s);
   contact.geom.depth = rate > 0.0 ? push / rate : 0.0;
   if (const auto direction = friction_direction(a, b, point.normal)) {
     contact.surface.mode |= dContactFDir1;
@@ -97,8 +98,7 @@ void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
   const Surface& surface_a = a.shape->collision->surface;
   const Surface& surface_b = b.shape->collision->surface;
   points_.clear();
-  const int most =
-      std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});
+  const int most = std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});
   collide_shapes(*a.shape, *b.shape, most, points_);
   if (points_.empty()) return;
   const double weight_n = b.body ? std::min(a.weight_n, b.weight_n) : a.weight_n;

@@ -17,8 +17,8 @@ struct ContactSide {
   double weight_n = 0.0;  // of the whole model
 };
 
-/// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in parallel, the smaller
-/// friction, restitution and threshold of the two.
+/// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in
+/// parallel, the smaller friction, restitution and threshold of the two.
 struct ContactLaw {
   double mu = 0.0;
   double mu2 = 0.0;
@@ -32,7 +32,8 @@ struct ContactLaw {
   double bounce_threshold_m_per_s = 0.0;
 };
 
-/// `weight_n`: that of the lighter model; a soft contact may always push with twice that, else it would sink for ever.
+/// `weight_n`: that of the lighter model; a soft contact may always push with twice that, else it
+/// would sink for ever.
 ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
                             double weight_n);
 

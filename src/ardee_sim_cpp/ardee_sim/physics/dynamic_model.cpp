@@ -9,7 +9,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
-constexpr double kWorldReach = 1e6;  // m: nothing of a field is so far away; a body there has been thrown
+constexpr double kWorldReach =
+    1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
 void set_mass(dBodyID body, const BodyGroup& group) {
   const Eigen::Matrix3d& i = group.inertia_M;
@@ -29,11 +30,13 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
                            ShapeFactory& factory)
     : model_(std::move(model)) {
   if (model_->links.empty()) {
-    throw Error(model_->source, "model '" + model_->name + "': found no link, expected one or more");
+    throw Error(model_->source,
+                "model '" + model_->name + "': found no link, expected one or more");
   }
   if (!X_WM.is_finite() || X_WM.p.norm() > kWorldReach) {
-    throw Error(model_->source, "model '" + model_->name + "': found a pose that is not finite or "
-                                                           "beyond the world's range");
+    throw Error(model_->source, "model '" + model_->name +
+                                    "': found a pose that is not finite or "
+                                    "beyond the world's range");
   }
   for (const Joint& joint : model_->joints) check_joint(*model_, joint);
   groups_ = group_links(*model_);
@@ -56,7 +59,8 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     } else {
       set_mass(body, group);
     }
-    // Exact rotation over a step: a wheel turns by rate times step, not by twice the arc tangent of half that.
+    // Exact rotation over a step: a wheel turns by rate times step, not by twice the arc tangent of
+    // half that.
     dBodySetFiniteRotationMode(body, 1);
     dBodySetAutoDisableFlag(body, 0);
     dBodySetGravityMode(body, group.gravity_mass_kg == group.mass_kg ? 1 : 0);
@@ -170,7 +174,8 @@ void DynamicModel::check_state() const {
     const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
     const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
     const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
-                          v.cwiseAbs().maxCoeff() <= kMaxInput && w.cwiseAbs().maxCoeff() <= kMaxInput;
+                          v.cwiseAbs().maxCoeff() <= kMaxInput &&
+                          w.cwiseAbs().maxCoeff() <= kMaxInput;
     if (finite && in_range) continue;
     const std::string link =
         groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;

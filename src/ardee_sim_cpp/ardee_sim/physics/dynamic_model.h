@@ -13,11 +13,13 @@
 
 namespace ardee::physics {
 
-/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from where sums overflow.
+/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from
+/// where sums overflow.
 constexpr double kMaxInput = 1e9;
 
-/// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one body, whose frame lies at
-/// its centre of mass, parallel to the model's frame when all joints are at zero.
+/// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one
+/// body, whose frame lies at its centre of mass, parallel to the model's frame when all joints are
+/// at zero.
 class DynamicModel : public PhysicsModel {
  public:
   struct Shape {
@@ -59,7 +61,8 @@ class DynamicModel : public PhysicsModel {
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
   void finish_step();
-  /// Throws Error naming model and link if a body is not at a finite place within the world's range.
+  /// Throws Error naming model and link if a body is not at a finite place within the world's
+  /// range.
   void check_state() const;
 
  private:

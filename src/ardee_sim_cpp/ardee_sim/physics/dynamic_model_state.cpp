@@ -110,7 +110,8 @@ void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double ma
 
 void DynamicModel::set_joint_spring(std::size_t joint, const JointSpring& spring) {
   const bool valid = is_valid(spring.stiffness) && spring.stiffness >= 0.0 &&
-                     is_valid(spring.damping) && spring.damping >= 0.0 && is_valid(spring.reference);
+                     is_valid(spring.damping) && spring.damping >= 0.0 &&
+                     is_valid(spring.reference);
   require(valid, *model_, "a spring's number");
   if (ModelJoint* sprung = moving_joint(joint)) sprung->set_spring(spring);
 }

@@ -15,7 +15,8 @@ double side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double
 }
 
 void check(const HeightGrid& grid) {
-  const auto expected = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+  const auto expected =
+      static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
   if (grid.columns < 2 || grid.rows < 2 || grid.heights_m.size() != expected) {
     throw Error("heightmap: found " + std::to_string(grid.heights_m.size()) + " heights for " +
                 std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +

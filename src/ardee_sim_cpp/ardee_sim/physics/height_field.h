@@ -31,8 +31,9 @@ struct CellRange {
   bool empty() const { return last_column < first_column || last_row < first_row; }
 };
 
-/// A height grid as terrain, in the grid's own frame F and unscaled metres. Each cell is split along the diagonal from its
-/// corner at (-x, -y) to that at (+x, +y). It reads the shared grid and copies nothing.
+/// A height grid as terrain, in the grid's own frame F and unscaled metres. Each cell is split
+/// along the diagonal from its corner at (-x, -y) to that at (+x, +y). It reads the shared grid and
+/// copies nothing.
 class HeightField {
  public:
   explicit HeightField(std::shared_ptr<const HeightGrid> grid);

@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRidgeHeight = 1e-4;  // m: how far the ground must rise above its surroundings to count as a ridge
+constexpr double kRidgeHeight =
+    1e-4;  // m: how far the ground must rise above its surroundings to count as a ridge
 constexpr int kMaxEdgePoints = 64;
 
 Vector3d corner(const Box& box, int index) {
@@ -17,7 +18,8 @@ Vector3d corner(const Box& box, int index) {
   return 0.5 * box.size_m.cwiseProduct(sign);
 }
 
-/// Points between the ends of an edge touch only where the ground rises above the line between what the ends see.
+/// Points between the ends of an edge touch only where the ground rises above the line between what
+/// the ends see.
 void touch_edge(const HeightField& field, const Vector3d& start, const Vector3d& end,
                 GroundContacts& contacts) {
   Vector3d normal;
@@ -35,15 +37,16 @@ void touch_edge(const HeightField& field, const Vector3d& start, const Vector3d&
   }
 }
 
-/// Whether a vertex of the ground rises above the line between two opposite neighbours, in any of the four directions.
+/// Whether a vertex of the ground rises above the line between two opposite neighbours, in any of
+/// the four directions.
 bool is_peak(const HeightField& field, int column, int row, const CellRange& all) {
   const double height = field.vertex(column, row).z();
   constexpr std::array<std::array<int, 2>, 4> directions{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
   for (const auto& [dc, dr] : directions) {
     if (column - dc < 0 || column + dc > all.last_column + 1) continue;
     if (row - std::abs(dr) < 0 || row + std::abs(dr) > all.last_row + 1) continue;
-    const double between = 0.5 * (field.vertex(column - dc, row - dr).z() +
-                                  field.vertex(column + dc, row + dr).z());
+    const double between =
+        0.5 * (field.vertex(column - dc, row - dr).z() + field.vertex(column + dc, row + dr).z());
     if (height > between + kRidgeHeight) return true;
   }
   return false;

@@ -10,9 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSamePoint = 1e-6;   // m: two contacts nearer than this are one
-constexpr double kRidgeHeight = 1e-4;  // m: how far the ground must rise between two points to touch there too
-constexpr double kOnEnd = 0.7;        // |cos| of a cylinder's axis to the vertical from which it stands on end
+constexpr double kSamePoint = 1e-6;  // m: two contacts nearer than this are one
+constexpr double kRidgeHeight =
+    1e-4;  // m: how far the ground must rise between two points to touch there too
+constexpr double kOnEnd =
+    0.7;  // |cos| of a cylinder's axis to the vertical from which it stands on end
 constexpr int kRimPoints = 8;
 
 /// The point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
@@ -71,7 +73,8 @@ void touch_face(const Circle& circle, const FieldTriangle& triangle, CircleConta
   result.add({point, triangle.normal, depth_m});
 }
 
-/// The lower of the points where the circle crosses the vertical plane through an edge; false if it lies outside the edge.
+/// The lower of the points where the circle crosses the vertical plane through an edge; false if it
+/// lies outside the edge.
 bool cross_edge(const Circle& circle, const Vector3d& start, const Vector3d& end, Vector3d& point) {
   const Vector3d across(end.y() - start.y(), start.x() - end.x(), 0.0);
   const Vector3d down = support(circle, Vector3d::UnitZ()) - circle.center;
@@ -88,11 +91,13 @@ bool cross_edge(const Circle& circle, const Vector3d& start, const Vector3d& end
   const Vector3d edge = end - start;
   const double t = (point - start).head<2>().dot(edge.head<2>()) / edge.head<2>().squaredNorm();
   if (t < 0.0 || t > 1.0) return false;
-  point.z() = (1.0 - t) * start.z() + t * end.z() - point.z();  // depth below the edge, for the caller
+  point.z() =
+      (1.0 - t) * start.z() + t * end.z() - point.z();  // depth below the edge, for the caller
   return true;
 }
 
-/// A circle rests on the edge between two faces if its deepest point for each face lies beyond the edge.
+/// A circle rests on the edge between two faces if its deepest point for each face lies beyond the
+/// edge.
 void touch_edge(const Circle& circle, const FieldTriangle& left, const FieldTriangle& right,
                 const Vector3d& start, const Vector3d& end, CircleContacts& result) {
   const Eigen::Vector2d direction = (end - start).head<2>();
@@ -108,8 +113,9 @@ void touch_edge(const Circle& circle, const FieldTriangle& left, const FieldTria
   point.z() = (1.0 - t) * start.z() + t * end.z() - below_m;
   const Vector3d radial = (circle.center - point) / circle.radius_m;
   const double sideways = 0.5 * (left.normal + right.normal).dot(circle.axis);
-  const Vector3d normal = (radial * std::sqrt(std::max(0.0, 1.0 - sideways * sideways)) +
-                           sideways * circle.axis).normalized();
+  const Vector3d normal =
+      (radial * std::sqrt(std::max(0.0, 1.0 - sideways * sideways)) + sideways * circle.axis)
+          .normalized();
   if (normal.z() > 0.0) result.add({point, normal, below_m * normal.z()});
 }
 
@@ -195,7 +201,8 @@ void collide_sphere(const HeightField& field, const Vector3d& center, double rad
       for (int half = 0; half < 2; ++half) {
         const FieldTriangle triangle = field.triangle(column, row, half);
         const Vector3d point = closest_point(triangle, center);
-        if ((point - center).squaredNorm() < radius_m * radius_m) touched.emplace_back(triangle, point);
+        if ((point - center).squaredNorm() < radius_m * radius_m)
+          touched.emplace_back(triangle, point);
       }
     }
   }
@@ -238,16 +245,16 @@ void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
 
 void reduce_contacts(GroundContacts& contacts, std::size_t max_contacts) {
   if (contacts.size() <= max_contacts) return;
-  std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
-    return a.depth_m > b.depth_m;
-  });
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const auto& a, const auto& b) { return a.depth_m > b.depth_m; });
   for (std::size_t kept = 1; kept < max_contacts; ++kept) {
     std::size_t farthest = kept;
     double farthest_m2 = -1.0;
     for (std::size_t i = kept; i < contacts.size(); ++i) {
       double nearest_m2 = std::numeric_limits<double>::infinity();
       for (std::size_t j = 0; j < kept; ++j) {
-        nearest_m2 = std::min(nearest_m2, (contacts[i].position - contacts[j].position).squaredNorm());
+        nearest_m2 =
+            std::min(nearest_m2, (contacts[i].position - contacts[j].position).squaredNorm());
       }
       if (nearest_m2 > farthest_m2) {
         farthest_m2 = nearest_m2;

@@ -9,7 +9,8 @@ namespace {
 constexpr int kMotorRow = 0;
 constexpr int kFrictionRow = 1;
 constexpr int kSpringRow = 2;
-// A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load carries a joint past it.
+// A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load
+// carries a joint past it.
 constexpr double kStopReach = 0.2;
 constexpr double kStopSteps = 4.0;
 constexpr double kLeastSpring = 1e-12;  // N m s/rad: what is weaker does nothing
@@ -131,8 +132,9 @@ void JointDrive::prepare_stops(double position, double velocity, const StepSetti
     set_stop_row(-dInfinity, dInfinity, position, erp);
     return;
   }
-  // A joint past its stop comes back by ERP. One short of it may take the gap within the step and no more: the row allows
-  // the velocity gap / h, which the engine gives for a stop passed by the gap and an ERP of -1.
+  // A joint past its stop comes back by ERP. One short of it may take the gap within the step and
+  // no more: the row allows the velocity gap / h, which the engine gives for a stop passed by the
+  // gap and an ERP of -1.
   const double passed = std::abs(gap);
   const double stop = is_upper ? position - passed : position + passed;
   set_stop_row(is_upper ? -dInfinity : stop, is_upper ? stop : dInfinity, position,

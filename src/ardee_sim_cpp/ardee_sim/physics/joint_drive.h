@@ -14,8 +14,9 @@ struct StepSettings {
   double cfm = 0.0;
 };
 
-/// What acts along one axis of a joint: stops, motor, dry friction, spring and damper, each a constraint row of its own, so
-/// that each holds while the others act. (A joint of ODE has one row for both stop and motor.)
+/// What acts along one axis of a joint: stops, motor, dry friction, spring and damper, each a
+/// constraint row of its own, so that each holds while the others act. (A joint of ODE has one row
+/// for both stop and motor.)
 class JointDrive {
  public:
   /// About an axis fixed in body 1 (the child; `rel` 1) or 2 (the parent; `rel` 2).

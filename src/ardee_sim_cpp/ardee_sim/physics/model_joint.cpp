@@ -25,9 +25,7 @@ double twist_angle(const Quaterniond& q, const Vector3d& axis) {
 }
 
 /// `angle` with whole turns added to lie nearest to `near`.
-double unwrap(double angle, double near) {
-  return near + std::remainder(angle - near, 2.0 * M_PI);
-}
+double unwrap(double angle, double near) { return near + std::remainder(angle - near, 2.0 * M_PI); }
 
 void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
   std::ostringstream what;
@@ -47,10 +45,12 @@ void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
          << kMaxNumber << "]";
     throw Error(joint.source, what.str());
   }
-  if (!(std::abs(axis.spring_reference) <= kMaxNumber) || !(axis.effort >= 0.0) || !(axis.velocity >= 0.0)) {
+  if (!(std::abs(axis.spring_reference) <= kMaxNumber) || !(axis.effort >= 0.0) ||
+      !(axis.velocity >= 0.0)) {
     throw Error(joint.source,
-                what.str() + "found a reference that is not finite or a negative limit of effort or "
-                             "velocity");
+                what.str() +
+                    "found a reference that is not finite or a negative limit of effort or "
+                    "velocity");
   }
 }
 
@@ -59,7 +59,8 @@ void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
 void check_joint(const Model& model, const Joint& joint) {
   const std::string name = "joint '" + joint.name + "' of model '" + model.name + "': ";
   if (joint.type == JointType::kScrew) {
-    throw Error(joint.source, name + "found type screw, which the physics engine has no counterpart for");
+    throw Error(joint.source,
+                name + "found type screw, which the physics engine has no counterpart for");
   }
   if (!joint.X_CJ.is_finite()) throw Error(joint.source, name + "found a pose that is not finite");
   if (joint.type == JointType::kFixed || joint.type == JointType::kBall) return;
@@ -107,7 +108,8 @@ void ModelJoint::make_joint(dWorldID world, const Vector3d& anchor, const Vector
     dJointAttach(joint_.get(), child_, parent_);
     dJointSetBallAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
   } else if (type_ == JointType::kRevolute2) {
-    // The first axis is fixed in the parent, the second in the child, here and in a universal joint.
+    // The first axis is fixed in the parent, the second in the child, here and in a universal
+    // joint.
     joint_.reset(dJointCreateHinge2(world, nullptr));
     dJointAttach(joint_.get(), parent_, child_);
     dJointSetHinge2Anchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
@@ -144,7 +146,12 @@ void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d&
       dJointSetAMotorParam(ball_damper_.get(), dParamCFM + dParamGroup * i, 1.0 / ball_damping_);
     }
   } else {
-    drive_ = JointDrive::rotational(world, child_, parent_, 2, axis_W, joint.axis);
+    JointAxis first = joint.axis;
+    if (type_ == JointType::kContinuous) {
+      first.lower = -dInfinity;
+      first.upper = dInfinity;
+    }
+    drive_ = JointDrive::rotational(world, child_, parent_, 2, axis_W, first);
     if (has_two_axes(type_)) {
       drive2_ = JointDrive::rotational(world, child_, parent_, 1, axis2_W, joint.axis2);
     }
@@ -228,7 +235,8 @@ void ModelJoint::apply_effort() {
   effort_ = 0.0;
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
-    dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(), anchor.z());
+    dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(),
+                       anchor.z());
     dBodyAddForceAtPos(parent_, -effort.x(), -effort.y(), -effort.z(), anchor.x(), anchor.y(),
                        anchor.z());
     return;

@@ -9,8 +9,9 @@
 
 namespace ardee::physics {
 
-/// A joint between two bodies, with the bodies standing as all joints at zero when it is made. Positions and velocities are
-/// those of the child against the parent about the first axis, as SDF and URDF count them.
+/// A joint between two bodies, with the bodies standing as all joints at zero when it is made.
+/// Positions and velocities are those of the child against the parent about the first axis, as SDF
+/// and URDF count them.
 class ModelJoint {
  public:
   /// X_WJ: the joint's frame in the world.
@@ -18,7 +19,8 @@ class ModelJoint {
 
   double position() const { return position_; }
   double velocity() const;
-  /// Where the child has to go, as a motion of the world, for the first axis to stand at `position` within its limits.
+  /// Where the child has to go, as a motion of the world, for the first axis to stand at `position`
+  /// within its limits.
   Pose motion_to(double position) const;
   /// The position is taken as it is from now on, whatever turns it has made.
   void set_position(double position) { position_ = position; }

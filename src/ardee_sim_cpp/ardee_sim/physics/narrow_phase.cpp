@@ -17,7 +17,8 @@ Pose geom_pose(dGeomID geom) {
   return {to_vector(dGeomGetPosition(geom)), to_quaternion(q)};
 }
 
-/// Works in the field's own frame and unscaled metres: the shape is shrunk by the field's scale instead.
+/// Works in the field's own frame and unscaled metres: the shape is shrunk by the field's scale
+/// instead.
 void collide_field(const CollisionShape& shape, const CollisionShape& ground, int max_contacts,
                    std::vector<ContactPoint>& points) {
   if (!shape.geom) return;

@@ -17,8 +17,8 @@ std::mutex holders_mutex;
 int holders = 0;
 thread_local bool complained = false;
 
-// ODE ends the process when these return, and they may not throw: all input is kept within ranges in which it has no
-// reason to call them.
+// ODE ends the process when these return, and they may not throw: all input is kept within ranges
+// in which it has no reason to call them.
 void on_failure(int, const char* format, va_list arguments) {
   std::fputs("physics engine: ", stderr);
   std::vfprintf(stderr, format, arguments);

@@ -3,7 +3,8 @@
 
 namespace ardee::physics {
 
-/// Holds ODE open while it lives: ODE itself is initialised by the first holder in the process and closed by the last.
+/// Holds ODE open while it lives: ODE itself is initialised by the first holder in the process and
+/// closed by the last.
 class OdeLibrary {
  public:
   OdeLibrary();
@@ -13,7 +14,8 @@ class OdeLibrary {
 
   /// ODE keeps collision data for each thread: called by a thread before it collides.
   static void prepare_thread();
-  /// Whether ODE has complained, on this thread since the last call, that a system was too ill-conditioned to solve.
+  /// Whether ODE has complained, on this thread since the last call, that a system was too
+  /// ill-conditioned to solve.
   static bool take_complaint();
 };
 

@@ -17,13 +17,14 @@ namespace {
 using physics::DynamicModel;
 
 void check_params(const PhysicsParams& params) {
-  const bool valid = params.step_s >= 1e-6 && params.step_s <= 1.0 &&
-                     params.gravity_m_per_s2.norm() < 1e6 && params.iterations > 0 &&
-                     params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 && params.cfm <= 1e6 &&
-                     params.erp >= 0.0 && params.erp <= 1.0 && params.max_contacts >= 0;
+  const bool valid =
+      params.step_s >= 1e-6 && params.step_s <= 1.0 && params.gravity_m_per_s2.norm() < 1e6 &&
+      params.iterations > 0 && params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 &&
+      params.cfm <= 1e6 && params.erp >= 0.0 && params.erp <= 1.0 && params.max_contacts >= 0;
   if (!valid) {
-    throw Error("physics: found a step, iteration count, SOR, CFM, ERP or gravity out of range, "
-                "expected 1e-6 <= step <= 1, iterations > 0, 0 < sor < 2, cfm >= 0, 0 <= erp <= 1");
+    throw Error(
+        "physics: found a step, iteration count, SOR, CFM, ERP or gravity out of range, "
+        "expected 1e-6 <= step <= 1, iterations > 0, 0 < sor < 2, cfm >= 0, 0 <= erp <= 1");
   }
 }
 
@@ -105,8 +106,8 @@ const PhysicsParams& PhysicsWorld::params() const { return impl_->params; }
 void PhysicsWorld::set_params(const PhysicsParams& params) { impl_->set_params(params); }
 
 PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM) {
-  auto added = std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM,
-                                              impl_->factory);
+  auto added =
+      std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM, impl_->factory);
   impl_->models.push_back(std::move(added));
   return *impl_->models.back();
 }
@@ -126,9 +127,7 @@ void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
 
 void PhysicsWorld::step() { impl_->step(); }
 
-void PhysicsWorld::reset_random(std::uint64_t seed) {
-  impl_->solver.reset_random(seed);
-}
+void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
 
 PhysicsWorld::Stats PhysicsWorld::stats() const {
   return {impl_->contact_count, impl_->scenery.tested(), impl_->scenery.built(),

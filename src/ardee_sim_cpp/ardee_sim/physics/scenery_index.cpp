@@ -10,9 +10,10 @@
 namespace ardee::physics {
 namespace {
 
-constexpr float kCellSize = 1.0f;           // m: a robot's bounds meet a few cells, a cell holds a few plants
-constexpr double kMaxCells = 64.0;          // a shape over more cells than this is looked at everywhere
-constexpr float kMaxCoordinate = 1e6f;      // m: beyond, cells are not counted
+constexpr float kCellSize =
+    1.0f;  // m: a robot's bounds meet a few cells, a cell holds a few plants
+constexpr double kMaxCells = 64.0;      // a shape over more cells than this is looked at everywhere
+constexpr float kMaxCoordinate = 1e6f;  // m: beyond, cells are not counted
 constexpr std::uint64_t kKeepSteps = 1000;  // a shape unused for so long may be dropped
 constexpr std::uint64_t kSweepSteps = 256;
 
@@ -35,7 +36,8 @@ bool fits_cells(const Eigen::AlignedBox3f& box) {
   if (!(box.max().head<2>().maxCoeff() < kMaxCoordinate)) return false;
   const Cells cells = cells_of(box);
   return (static_cast<double>(cells.last_x) - cells.first_x + 1.0) *
-             (static_cast<double>(cells.last_y) - cells.first_y + 1.0) <= kMaxCells;
+             (static_cast<double>(cells.last_y) - cells.first_y + 1.0) <=
+         kMaxCells;
 }
 
 /// The box in floats, never smaller.
@@ -76,9 +78,10 @@ std::uint32_t SceneryIndex::prototype_of(const std::shared_ptr<const Model>& mod
 
 void SceneryIndex::add_instance(const Placement& placement, std::uint32_t prototype, Set& set) {
   if (!placement.X_WM.is_finite() || !std::isfinite(placement.scale) || placement.scale <= 0.0) {
-    throw Error(placement.model->source, "model '" + placement.model->name +
-                                             "': found a pose or scale that is not finite or a scale "
-                                             "that is not positive");
+    throw Error(placement.model->source,
+                "model '" + placement.model->name +
+                    "': found a pose or scale that is not finite or a scale "
+                    "that is not positive");
   }
   const auto instance = static_cast<std::uint32_t>(set.instances.size());
   set.instances.push_back({placement.X_WM, placement.scale, prototype});
@@ -116,7 +119,8 @@ std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements) {
 
 void SceneryIndex::remove(std::uint32_t id) {
   const auto found = sets_.find(id);
-  if (found == sets_.end()) throw Error("scenery " + std::to_string(id) + ": found none of that id");
+  if (found == sets_.end())
+    throw Error("scenery " + std::to_string(id) + ": found none of that id");
   const auto is_of_set = [id](Reference reference) { return (reference >> 32) == id; };
   const auto erase_from = [&](std::vector<Reference>& references) {
     references.erase(std::remove_if(references.begin(), references.end(), is_of_set),
@@ -152,7 +156,8 @@ const SceneryIndex::Entry& SceneryIndex::entry(Reference reference) const {
       ->second.entries[static_cast<std::uint32_t>(reference)];
 }
 
-void SceneryIndex::gather(const std::vector<Reference>& references, const Eigen::AlignedBox3f& box) {
+void SceneryIndex::gather(const std::vector<Reference>& references,
+                          const Eigen::AlignedBox3f& box) {
   tested_ += references.size();
   for (const Reference reference : references) {
     if (entry(reference).bounds.intersects(box)) hits_.push_back(reference);

@@ -13,9 +13,9 @@
 
 namespace ardee::physics {
 
-/// All static shapes, in a uniform grid over the ground plan, so that what lies near a robot is found at a cost that does
-/// not depend on how much there is. Shapes are built when something first comes near and dropped when nothing has been
-/// near for a while: a far plant is a pose and a box.
+/// All static shapes, in a uniform grid over the ground plan, so that what lies near a robot is
+/// found at a cost that does not depend on how much there is. Shapes are built when something first
+/// comes near and dropped when nothing has been near for a while: a far plant is a pose and a box.
 class SceneryIndex {
  public:
   explicit SceneryIndex(ShapeFactory& factory) : factory_(factory) {}
@@ -26,7 +26,8 @@ class SceneryIndex {
 
   /// Begins a step: shapes that were long not asked for may be dropped.
   void begin_step();
-  /// Shapes whose bounds meet `box`, in the order in which they were added. They stay until the next begin_step.
+  /// Shapes whose bounds meet `box`, in the order in which they were added. They stay until the
+  /// next begin_step.
   void query(const Eigen::AlignedBox3d& box, std::vector<const CollisionShape*>& shapes);
 
   /// Bounds compared by the queries of this step, and shapes alive: what a step costs.

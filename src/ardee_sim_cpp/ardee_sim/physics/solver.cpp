@@ -58,8 +58,7 @@ void Solver::iterate(const PhysicsParams& params) {
 void Solver::step(const PhysicsParams& params, std::size_t rows,
                   const std::vector<dBodyID>& bodies) {
   dWorldSetCFM(world_, std::max(params.cfm, kLeastCfm));
-  const bool wants_direct =
-      rows <= kDirectRows || params.solver == PhysicsParams::Solver::kWorld;
+  const bool wants_direct = rows <= kDirectRows || params.solver == PhysicsParams::Solver::kWorld;
   was_direct_ = wants_direct && solve_directly(params, bodies);
   if (!was_direct_) iterate(params);
 }

@@ -9,23 +9,25 @@
 
 namespace ardee::physics {
 
-/// s/kg: the least constraint force mixing of any row. It keeps rows that say the same thing from making the direct system
-/// singular. Under 30 N it lets slip 0.03 um/s.
+/// s/kg: the least constraint force mixing of any row. It keeps rows that say the same thing from
+/// making the direct system singular. Under 30 N it lets slip 0.03 um/s.
 constexpr double kLeastCfm = 1e-9;
 
-/// Solves one step. The direct solver costs no more than 50 iterations of the other for the few dozen rows of a robot and
-/// its contacts, and leaves no error behind: what rests stays where it is, whatever the lever arms. So it takes small
-/// systems even where the world asks for `quick`; its time grows with the cube of the rows, so it leaves the large ones. A
-/// system that is singular to it is solved again by iterations.
+/// Solves one step. The direct solver costs no more than 50 iterations of the other for the few
+/// dozen rows of a robot and its contacts, and leaves no error behind: what rests stays where it
+/// is, whatever the lever arms. So it takes small systems even where the world asks for `quick`;
+/// its time grows with the cube of the rows, so it leaves the large ones. A system that is singular
+/// to it is solved again by iterations.
 class Solver {
  public:
   explicit Solver(dWorldID world) : world_(world) {}
 
-  /// The iterations shuffle rows with a random number that ODE keeps for the whole process: this world has its own, lent to
-  /// ODE for each step.
+  /// The iterations shuffle rows with a random number that ODE keeps for the whole process: this
+  /// world has its own, lent to ODE for each step.
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
 
-  /// `rows`: an upper bound of the constraint rows of any one island. Throws Error if the engine runs out of memory.
+  /// `rows`: an upper bound of the constraint rows of any one island. Throws Error if the engine
+  /// runs out of memory.
   void step(const PhysicsParams& params, std::size_t rows, const std::vector<dBodyID>& bodies);
   /// Whether the last step was solved directly.
   bool was_direct() const { return was_direct_; }

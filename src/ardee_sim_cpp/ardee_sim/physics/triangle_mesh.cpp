@@ -6,7 +6,8 @@
 namespace ardee::physics {
 namespace {
 
-static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "vertices are passed on as packed floats");
+static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float),
+              "vertices are passed on as packed floats");
 static_assert(sizeof(dTriIndex) == sizeof(std::uint32_t), "indices are passed on as they are");
 
 bool is_used(const SubMesh& part, const Mesh& mesh) {
@@ -40,7 +41,8 @@ void append_part(const SubMesh& part, const Eigen::Vector3f& shift, const Eigen:
   for (const auto& triangle : part.triangles) {
     for (const std::uint32_t corner : triangle) {
       if (corner >= part.vertices.size()) {
-        throw Error("mesh part '" + part.name + "': found a triangle with a corner that does not exist");
+        throw Error("mesh part '" + part.name +
+                    "': found a triangle with a corner that does not exist");
       }
     }
     result.triangles.push_back({first + triangle[0], first + triangle[1], first + triangle[2]});
@@ -86,7 +88,8 @@ std::shared_ptr<const TriangleMesh> MeshCache::get(const Mesh& mesh, double scal
     // The file is held along with the mesh, so that its address cannot come to name another file.
     const auto built = build(mesh, s.cast<float>());
     const std::shared_ptr<const MeshFile> file = mesh.file;
-    result = std::shared_ptr<const TriangleMesh>(built.get(), [built, file](const TriangleMesh*) {});
+    result =
+        std::shared_ptr<const TriangleMesh>(built.get(), [built, file](const TriangleMesh*) {});
     slot = result;
   }
   return result;

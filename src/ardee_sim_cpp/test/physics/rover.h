@@ -5,8 +5,9 @@
 
 namespace ardee::test {
 
-/// A four-wheeled robot with legs on torsional springs, in the dimensions of a small field robot: wheels of 97 mm, legs of
-/// 160 mm, 100 N m/rad, 12 kg in all. Forward is x. Joints: leg and wheel of front left, front right, rear left, rear right.
+/// A four-wheeled robot with legs on torsional springs, in the dimensions of a small field robot:
+/// wheels of 97 mm, legs of 160 mm, 100 N m/rad, 12 kg in all. Forward is x. Joints: leg and wheel
+/// of front left, front right, rear left, rear right.
 struct RoverShape {
   double wheel_radius_m = 0.097;
   double wheel_width_m = 0.038;
@@ -46,7 +47,8 @@ inline Joint rover_joint(const std::string& parent, const std::string& child, Jo
 
 inline void add_rover_corner(Model& rover, const std::string& name, double forward, double left,
                              const RoverShape& shape) {
-  // Legs point outwards from the middle of the side: a load turns the front ones up about -y, the rear ones about +y.
+  // Legs point outwards from the middle of the side: a load turns the front ones up about -y, the
+  // rear ones about +y.
   const double leg_x = forward * (shape.half_base_m - 0.13);
   const Eigen::Vector3d hub(forward * shape.half_base_m, left * shape.half_track_m, 0);
   std::string carrier = "base";

@@ -43,7 +43,8 @@ double slope_drift(double h, double mu, double angle, double duration_s, double 
   Surface surface;
   surface.mu = surface.mu2 = mu;
   world.add_scenery({placement(static_model(Plane{}, surface), tilt)});
-  PhysicsModel& body = world.add_model(box_model(3.0, {0.4, 0.3, 0.2}, surface), tilt * at(0, 0, 0.1));
+  PhysicsModel& body =
+      world.add_model(box_model(3.0, {0.4, 0.3, 0.2}, surface), tilt * at(0, 0, 0.1));
   run(world, settle_s);
   const Eigen::Vector3d before = body.pose().p;
   run(world, duration_s);
@@ -65,7 +66,8 @@ TEST_P(Bodies, BoxSlidesAboveTheFrictionAngle) {
   Surface surface;
   surface.mu = surface.mu2 = mu;
   world.add_scenery({placement(static_model(Plane{}, surface), tilt)});
-  PhysicsModel& body = world.add_model(box_model(3.0, {0.4, 0.3, 0.1}, surface), tilt * at(0, 0, 0.0495));
+  PhysicsModel& body =
+      world.add_model(box_model(3.0, {0.4, 0.3, 0.1}, surface), tilt * at(0, 0, 0.0495));
   run(world, 0.2);
   const double v0 = body.link_twist(0).linear.norm();
   run(world, t);
@@ -79,7 +81,8 @@ TEST_P(Bodies, WrenchMovesAsNewtonSays) {
   PhysicsWorld world(weightless, silent());
   PhysicsModel& body = world.add_model(box_model(2.0, {0.1, 0.2, 0.3}), Pose{});
   const int n = steps(world, 1.0);
-  for (int i = 0; i < n; ++i) body.apply_wrench(0, {3, 0, 0}, body.pose().p, {0, 0, 0}), world.step();
+  for (int i = 0; i < n; ++i)
+    body.apply_wrench(0, {3, 0, 0}, body.pose().p, {0, 0, 0}), world.step();
   EXPECT_NEAR(body.link_twist(0).linear.x(), 3.0 / 2.0, 1e-9);
   world.step();
   EXPECT_NEAR(body.link_twist(0).linear.x(), 3.0 / 2.0, 1e-9) << "a wrench acts for one step";

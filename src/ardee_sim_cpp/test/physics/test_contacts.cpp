@@ -21,7 +21,8 @@ Geometry mesh_square(unsigned n, double size_m) {
   part.name = "square";
   for (unsigned j = 0; j <= n; ++j) {
     for (unsigned i = 0; i <= n; ++i) {
-      part.vertices.push_back((size_m * Eigen::Vector3d(i - 0.5 * n, j - 0.5 * n, 0) / n).cast<float>());
+      part.vertices.push_back(
+          (size_m * Eigen::Vector3d(i - 0.5 * n, j - 0.5 * n, 0) / n).cast<float>());
     }
   }
   for (unsigned j = 0; j < n; ++j) {

@@ -88,7 +88,8 @@ TEST_P(Ground, SphereRollsDownATiltedHeightmapAsPredicted) {
   // A solid sphere that rolls: a = 5/7 g sin(angle).
   const double way = 0.5 * 5.0 / 7.0 * kGravity * std::sin(angle) * 4.0;
   const Eigen::Vector3d moved = ball.pose().p;
-  EXPECT_NEAR(moved.x() + r * std::sin(angle), -way * std::cos(angle), 0.01 * way + 3.0 * h() * 1.4);
+  EXPECT_NEAR(moved.x() + r * std::sin(angle), -way * std::cos(angle),
+              0.01 * way + 3.0 * h() * 1.4);
   EXPECT_NEAR(moved.z(), slope * moved.x() + r / std::cos(angle), 2e-3);
   EXPECT_NEAR(moved.y(), 0.123, 1e-3);
 }
@@ -113,7 +114,8 @@ TEST_P(Ground, WheelOverRidgesNeitherSinksNorJolts) {
     previous = wheel.link_twist(0).linear.z();
   }
   EXPECT_LT(deepest, 0.0015);
-  // Between two facets the slope changes by 0.03 (2 pi / 1.6)^2 0.1 = 0.046: at 0.9 m/s a change of 0.04 m/s at most.
+  // Between two facets the slope changes by 0.03 (2 pi / 1.6)^2 0.1 = 0.046: at 0.9 m/s a change of
+  // 0.04 m/s at most.
   EXPECT_LT(jolt, 0.06 + kGravity * h());
   EXPECT_NEAR(wheel.pose().p.y(), 0.03, 0.05);
 }
@@ -135,9 +137,8 @@ TEST_P(Ground, BoxRestsStillOnAHeightmap) {
 
 TEST_P(Ground, BoxStandsOnAPeakBelowItsFace) {
   // One vertex rises above the plain, under the middle of the box.
-  const auto peak = height_grid(41, 4.0, [](double x, double y) {
-    return std::hypot(x, y) < 0.05 ? 0.1 : 0.0;
-  });
+  const auto peak =
+      height_grid(41, 4.0, [](double x, double y) { return std::hypot(x, y) < 0.05 ? 0.1 : 0.0; });
   PhysicsWorld world(params(h()), silent());
   world.add_scenery({placement(static_model(heightmap(peak)))});
   PhysicsModel& body = world.add_model(box_model(5, {0.6, 0.6, 0.2}), at(0, 0, 0.35));
@@ -161,9 +162,9 @@ TEST(GroundContacts, CylinderFacesAndRidgesInClosedForm) {
   // On one flank the nearest point lies along the plane's normal.
   const double side = 0.099 * std::sqrt(0.5);
   contacts.clear();
-  physics::collide_cylinder(
-      field, Pose::from_xyz_rpy({0.43 + side, 0.02, -0.43 + side}, {M_PI / 2, 0, 0}), {0.1, 0.04},
-      contacts);
+  physics::collide_cylinder(field,
+                            Pose::from_xyz_rpy({0.43 + side, 0.02, -0.43 + side}, {M_PI / 2, 0, 0}),
+                            {0.1, 0.04}, contacts);
   ASSERT_EQ(contacts.size(), 2u);
   for (const auto& contact : contacts) {
     EXPECT_NEAR(contact.depth_m, 0.001, 1e-7);
@@ -189,7 +190,8 @@ TEST(GroundContacts, DepthChangesSmoothlyWhileAWheelRollsOn) {
     if (previous >= 0.0) worst = std::max(worst, std::abs(deepest - previous));
     previous = deepest;
   }
-  // In 0.4 mm the ground rises by at most 0.4 mm times the slope of 0.19, and the shape follows another such slope.
+  // In 0.4 mm the ground rises by at most 0.4 mm times the slope of 0.19, and the shape follows
+  // another such slope.
   EXPECT_LT(worst, 2.0 * 4e-4 * 0.25);
 }
 

@@ -41,7 +41,8 @@ TEST_P(Joints, PositiveRotationTurnsTheChildAboutTheAxis) {
 TEST_P(Joints, ContinuousAngleCountsTurns) {
   PhysicsWorld world(weightless(h()), silent());
   PhysicsModel& body = world.add_model(
-      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.01), axis_along({0, 1, 0})), Pose{});
+      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.01), axis_along({0, 1, 0})),
+      Pose{});
   body.set_joint_motor(0, -15.0, 1e3);
   run(world, 4.0);
   EXPECT_NEAR(body.joint_position(0), -15.0 * 4.0, 0.01);
@@ -53,7 +54,8 @@ TEST_P(Joints, ContinuousAngleCountsTurns) {
 TEST_P(Joints, MotorAcceleratesByItsEffortAndStopsAtItsVelocity) {
   PhysicsWorld world(weightless(h()), silent());
   PhysicsModel& body = world.add_model(
-      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis_along({0, 0, 1})), Pose{});
+      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis_along({0, 0, 1})),
+      Pose{});
   body.set_joint_motor(0, 10.0, 0.1);
   run(world, 1.0);
   EXPECT_NEAR(body.joint_velocity(0), 0.1 / 0.02, 1e-6);
@@ -68,8 +70,8 @@ TEST_P(Joints, EffortOfTheDescriptionBoundsTheMotor) {
   JointAxis axis = axis_along({0, 0, 1});
   axis.effort = 0.05;
   PhysicsWorld world(weightless(h()), silent());
-  PhysicsModel& body = world.add_model(
-      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
+  PhysicsModel& body =
+      world.add_model(jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
   body.set_joint_motor(0, 10.0, 5.0);
   run(world, 1.0);
   EXPECT_NEAR(body.joint_velocity(0), 0.05 / 0.02, 1e-6);
@@ -83,8 +85,8 @@ TEST_P(Joints, DampingDecaysExponentially) {
   JointAxis axis = axis_along({1, 0, 0});
   axis.damping = 0.05;
   PhysicsWorld world(weightless(h()), silent());
-  PhysicsModel& body = world.add_model(
-      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
+  PhysicsModel& body =
+      world.add_model(jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
   body.set_twist({{0, 0, 0}, {8.0, 0, 0}});
   run(world, 1.0);
   // Implicit Euler: each step divides the rate by 1 + h c / I.
@@ -97,8 +99,8 @@ TEST_P(Joints, DryFrictionStopsAtAConstantRate) {
   JointAxis axis = axis_along({0, 0, 1});
   axis.friction = 0.04;
   PhysicsWorld world(weightless(h()), silent());
-  PhysicsModel& body = world.add_model(
-      jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
+  PhysicsModel& body =
+      world.add_model(jointed_model(JointType::kContinuous, wheel_inertial(1, 0.02), axis), Pose{});
   body.set_twist({{0, 0, 0}, {0, 0, 3.0}});
   run(world, 1.0);
   EXPECT_NEAR(body.joint_velocity(0), 3.0 - 0.04 / 0.02, 1e-6);

@@ -46,8 +46,8 @@ TEST_P(Rover, EachLegCarriesAQuarterOfTheBody) {
   add_ground(world);
   PhysicsModel& rover = world.add_model(rover_model(), at(0.3, 0.2, 0.1));
   run(world, 4.0);
-  // Wheels roll freely, so that the ground pushes straight up: spring torque = load times the hub's lever about the leg's
-  // joint, less the leg's own weight. The lever grows as the leg turns.
+  // Wheels roll freely, so that the ground pushes straight up: spring torque = load times the hub's
+  // lever about the leg's joint, less the leg's own weight. The lever grows as the leg turns.
   const double load = kGravity * (8.0 + 4 * 0.19) / 4.0;
   double angle = 0.0;
   for (int i = 0; i < 20; ++i) {
@@ -91,7 +91,8 @@ TEST_P(Rover, SkidSteersInPlaceWithinTheKinematicBound) {
     const Pose start = rover.pose();
     run(world, 2.0);
     const double rate = rover.link_twist(0).angular.z();
-    // Wheels at +-omega r over half the track would turn without skidding at omega r / (track / 2); they do skid.
+    // Wheels at +-omega r over half the track would turn without skidding at omega r / (track / 2);
+    // they do skid.
     const double bound = 4.0 * 0.097 / shape.half_track_m;
     EXPECT_LT(rate, bound);
     EXPECT_GT(rate, 0.3 * bound);
@@ -142,7 +143,8 @@ TEST_P(Rover, PushesAgainstAStalkAndIsStopped) {
     world.step();
     farthest = std::max(farthest, rover.link_pose(2).p.x());
   }
-  // The front left wheel meets the stalk: its hub stays a wheel's and a stalk's radius short of it, or slides round it.
+  // The front left wheel meets the stalk: its hub stays a wheel's and a stalk's radius short of it,
+  // or slides round it.
   const Eigen::Vector3d hub = rover.link_pose(2).p;
   EXPECT_GT((hub - Eigen::Vector3d(1.0, 0.216, hub.z())).norm(), 0.02);
   EXPECT_LT(rover.pose().p.norm(), 3.0);

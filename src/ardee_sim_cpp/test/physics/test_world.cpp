@@ -47,9 +47,11 @@ std::uint64_t drive_hash(PhysicsParams::Solver solver, bool with_company) {
   PhysicsWorld other(wanted, silent());
   if (with_company) {
     add_ground(other);
-    for (int i = 0; i < 9; ++i) other.add_model(box_model(1, {1, 1, 0.1}), at(0, 0, 0.1 + 0.11 * i));
+    for (int i = 0; i < 9; ++i)
+      other.add_model(box_model(1, {1, 1, 0.1}), at(0, 0, 0.1 + 0.11 * i));
   }
-  const auto grid = height_grid(65, 20.0, [](double x, double y) { return 0.03 * std::sin(2 * x + y); });
+  const auto grid =
+      height_grid(65, 20.0, [](double x, double y) { return 0.03 * std::sin(2 * x + y); });
   world.add_scenery({placement(static_model(heightmap(grid)))});
   world.add_scenery(plants(4, 60));
   world.reset_random(7);
@@ -155,8 +157,9 @@ TEST(PhysicsWorld, FailedModelLeavesNothingBehind) {
             std::string::npos);
   rover = rover_model();
   rover->links.back().collisions[0].geometry = Sphere{-1.0};
-  EXPECT_NE(error_of([&] { world.add_model(rover, at(0, 0, 0.05)); }).find("radius is not positive"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of([&] { world.add_model(rover, at(0, 0, 0.05)); }).find("radius is not positive"),
+      std::string::npos);
   auto screw = jointed_model(JointType::kScrew, wheel_inertial(1, 1), axis_along({0, 0, 1}));
   EXPECT_NE(error_of([&] { world.add_model(screw, Pose{}); }).find("screw"), std::string::npos);
   auto empty = std::make_shared<Model>();
