@@ -17,9 +17,9 @@ namespace {
 constexpr const char* kUsage =
     "usage: lidar_bench --world FILE --robot FILE [--pose 'X Y Z YAW'] [--lane-m 6]\n"
     "         [--speed-m-s 0.5] [--scans 200] [--rounds 5] [--threads 1] [--radius-m 6]\n"
-    "Prints JSON. Scans 25 ms apart on the robot's way down the lane, of the visual scene; "
-    "nothing\n"
-    "but the scenery is met. radius-m: within it the engine holds plants as flat triangles.\n";
+    "Prints JSON. Scans 25 ms apart on the robot's way down the lane, of the visual scene; only\n"
+    "scenery is met. Rays are counted a second of processor time. radius-m: how near plants are\n"
+    "triangles, not instances, in the scene that Embree is given.\n";
 
 /// A lidar's rays, and the places on its way from which it sends them.
 struct Scans {
@@ -97,7 +97,8 @@ std::vector<Placement> scenery(const Simulation& simulation) {
   return all;
 }
 
-/// Rays a second of the best of some rounds: other work on the machine only ever slows one down.
+/// Rays a second of processor time, of the best of some rounds: other work on the machine only ever
+/// slows one down.
 template <typename Round>
 double best_rays_per_s(const Scans& scans, int rounds, const Round& round) {
   double best_s = 1e300;
@@ -129,7 +130,7 @@ EngineResult run_engine(const BenchArguments& arguments, const std::vector<Place
     result.ranges_m.clear();
     prepare_us.clear();
     for (const Pose& pose : scans.poses_W) {
-      Stopwatch watch;
+      CpuStopwatch watch;
       scene.prepare({pose.p});
       prepare_us.push_back(watch.restart() * 1e6);
       scene.cast(pose, scans.pattern, scans.range_max_m, kNoEntity, 0, hits);
@@ -150,7 +151,7 @@ double run_reference(const BenchArguments& arguments, const EmbreeReference& ref
   const auto round = [&] {
     ranges_m.clear();
     ranges_m.reserve(scans.rays());
-    const Stopwatch watch;
+    const CpuStopwatch watch;
     for (const Pose& pose : scans.poses_W) {
       const Eigen::Quaternionf q = pose.q.cast<float>();
       const Eigen::Vector3f origin = pose.p.cast<float>();

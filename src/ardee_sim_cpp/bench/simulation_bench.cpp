@@ -36,6 +36,7 @@ class Counter : public ReadingSink {
 struct Phase {
   double simulated_s = 0.0;
   double wall_s = 0.0;
+  double cpu_s = 0.0;  // of all threads
   std::uint64_t scans = 0;
   std::uint64_t rays = 0;
   std::uint64_t readings = 0;
@@ -54,7 +55,8 @@ struct Phase {
           << ", \"scan_p99_us\": " << percentile(scan_steps_us, 0.99) - median(plain_steps_us)
           << ", \"rays_per_s\": " << rays_a_scan / scan_us * 1e6;
     }
-    out << ", \"readings\": " << readings << "}";
+    out << ", \"cpu_s_per_simulated_s\": " << cpu_s / simulated_s << ", \"readings\": " << readings
+        << "}";
   }
 };
 
@@ -144,6 +146,7 @@ class Bench {
     const TimeNs start = simulation.now_ns();
     const TimeNs end = start + nanoseconds(arguments_.number("--duration-s"));
     const Counter before = counter_;
+    const CpuStopwatch cpu;
     RateTimer command_due(1.0 / kCommandPeriod_s);
     command_due.start_at(start);
     Eigen::Vector3d last = robot_->robot->pose().p;
@@ -161,6 +164,7 @@ class Bench {
       phase.wall_s += step_s;
       (counter_.scans > scans ? phase.scan_steps_us : phase.plain_steps_us).push_back(step_s * 1e6);
     }
+    phase.cpu_s = cpu.elapsed_s();
     phase.simulated_s = seconds(simulation.now_ns() - start);
     phase.scans = counter_.scans - before.scans;
     phase.rays = counter_.rays - before.rays;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,23 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Processor time of this process, all its threads, since it was made or restarted: other work on
+/// the machine hardly shows in it.
+class CpuStopwatch {
+ public:
+  double elapsed_s() const {
+    return static_cast<double>(std::clock() - start_) / static_cast<double>(CLOCKS_PER_SEC);
+  }
+  double restart() {
+    const double elapsed = elapsed_s();
+    start_ = std::clock();
+    return elapsed;
+  }
+
+ private:
+  std::clock_t start_ = std::clock();
 };
 
 /// The value below which a share of the values lies; 0 of none.
