@@ -2,7 +2,6 @@
 #include "ros/clock_publisher.h"
 
 #include <ros/node_handle.h>
-#include <ros/single_subscriber_publisher.h>
 #include <rosgraph_msgs/Clock.h>
 
 #include "ros/conversions.h"
@@ -11,30 +10,24 @@ namespace ardee::node {
 namespace {
 
 constexpr std::uint32_t kQueue = 10;
-
-rosgraph_msgs::Clock message(TimeNs now_ns) {
-  rosgraph_msgs::Clock clock;
-  clock.clock = to_ros(now_ns);
-  return clock;
-}
+// A simulation far ahead of real time does not drown its listeners.
+constexpr auto kShortestPause = std::chrono::microseconds(500);
 
 }  // namespace
 
 ClockPublisher::ClockPublisher(double rate_hz) : timer_(rate_hz) {
-  publisher_ = ros::NodeHandle().advertise<rosgraph_msgs::Clock>(
-      "/clock", kQueue, [this](const ros::SingleSubscriberPublisher& newcomer) {
-        newcomer.publish(message(now_ns_));
-      });
+  publisher_ = ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", kQueue);
 }
 
 void ClockPublisher::on_step(TimeNs now_ns) {
-  now_ns_ = now_ns;
-  if (timer_.due(now_ns)) publish(now_ns);
+  if (timer_.due(now_ns) && Clock::now() >= earliest_) publish(now_ns);
 }
 
 void ClockPublisher::publish(TimeNs now_ns) {
-  now_ns_ = now_ns;
-  publisher_.publish(message(now_ns));
+  rosgraph_msgs::Clock clock;
+  clock.clock = to_ros(now_ns);
+  publisher_.publish(clock);
+  earliest_ = Clock::now() + kShortestPause;
 }
 
 void ClockPublisher::restart(TimeNs now_ns) {

@@ -3,6 +3,8 @@
 
 #include <ros/publisher.h>
 
+#include <chrono>
+
 #include "ardee_sim/core/time.h"
 
 namespace ardee::node {
@@ -16,15 +18,18 @@ class ClockPublisher {
 
   /// After each step.
   void on_step(TimeNs now_ns);
-  /// The time as it is, whatever the rate: after a pause or the last of some steps.
+  /// The time as it is, whatever the rate: when stepping ends, and again and again while paused, so
+  /// that who comes then learns it.
   void publish(TimeNs now_ns);
   /// The clock was set back to `now_ns`.
   void restart(TimeNs now_ns);
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   ros::Publisher publisher_;
   RateTimer timer_;
-  TimeNs now_ns_ = 0;
+  Clock::time_point earliest_ = Clock::now();
 };
 
 }  // namespace ardee::node

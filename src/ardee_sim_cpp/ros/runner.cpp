@@ -35,6 +35,7 @@ void Runner::serve(double timeout_s) {
   ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(timeout_s));
   if (Clock::now() < next_chores_) return;
   chores_();
+  if (paused_) outlets_.clock.publish(simulation_.now_ns());
   next_chores_ = Clock::now() + kChorePeriod;
 }
 

@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -29,7 +30,9 @@ ResourceLocator make_locator() {
 
 /// A world file by its path, or by its name below Gazebo's resource paths.
 World load_world(Loader& loader, const std::string& world) {
-  if (std::filesystem::exists(world)) return loader.load_world(world);
+  const std::filesystem::path path(world);
+  if (std::filesystem::exists(path)) return loader.load_world(world);
+  if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
   return loader.load_world(make_locator().resolve(world, Source{"", 0, "world"}));
 }
 
@@ -94,21 +97,35 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
                           << (settings.paused ? ", paused" : ""));
 }
 
+namespace {
+
+void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
+  if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
+  SimulatorNode node(read_settings(command_line, private_node), private_node);
+  use_simulated_time();
+  node.run();
+}
+
+}  // namespace
+
 int run_simulator(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // log lines are there when they are written
   ros::init(argc, argv, kNodeName);
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  CommandLine command_line;
   try {
-    const CommandLine command_line = parse_command_line(argc, argv);
-    if (command_line.help) {
-      std::cout << usage();
-      return 0;
-    }
-    ros::NodeHandle private_node("~");
-    if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
-    const Settings settings = read_settings(command_line, private_node);
-    SimulatorNode node(settings, private_node);
-    use_simulated_time();
-    node.run();
+    command_line = parse_command_line(argc, argv);
+  } catch (const Error& error) {
+    std::cerr << "simulator: " << error.what() << "\n";
+    return kBadInput;
+  }
+  if (command_line.help) {
+    std::cout << usage();
+    return 0;
+  }
+  const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
+  try {
+    run_node(command_line, private_node);
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return kBadInput;
