@@ -91,6 +91,7 @@ void MovingModels::meet(RayQuery& query) const {
     if (entry.boxes_W.empty()) continue;
     if (!touches(entry.box_W, ray.origin, inverse, query.reach())) continue;
     for (std::size_t k = 0; k < entry.placed.size(); ++k) {
+      if (query.passes(entity, entry.links[k])) continue;
       if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
         query.meet_body(entry.placed[k], 0.0);
       }

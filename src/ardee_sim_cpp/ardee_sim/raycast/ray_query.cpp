@@ -25,7 +25,7 @@ void RayQuery::offer(const Candidate& candidate) {
   const BodySurface& surface = entered_->body->surfaces[candidate.surface];
   if (!precedes(candidate)) return;
   if (!surface.two_sided && candidate.normal_B.dot(ray_B_.direction) > 0.0) return;
-  if (entered_->entity == own_entity_ && surface.link == own_link_) return;
+  if (passes(entered_->entity, surface.link)) return;
   best_t_ = candidate.t;
   placed_ = entered_;
   surface_ = candidate.surface;

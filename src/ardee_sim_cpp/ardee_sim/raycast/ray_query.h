@@ -28,6 +28,10 @@ class RayQuery {
   /// No candidate beyond this is of interest any more.
   double reach() const { return best_t_; }
   bool has_hit() const { return placed_ != nullptr; }
+  /// Whether the ray passes through that link: the sensor's own.
+  bool passes(std::uint32_t entity, std::uint32_t link) const {
+    return entity == own_entity_ && link == own_link_;
+  }
 
   /// Makes `placed` the body that the next calls speak of.
   void enter(const PlacedBody& placed) {
