@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "ardee_sim/readers/collada_check.h"
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
@@ -70,12 +71,7 @@ void check_mesh_file(const std::string& path, const Source& source) {
   const std::string bytes = read_text_file(path, source, kMaxFileBytes);
   if (bytes.empty()) throw Error(source, "found an empty mesh file '" + path + "', expected data");
   if (extension == ".stl") check_stl(bytes, path, source);
-  if (extension == ".dae") {
-    check_xml_text(bytes, path);
-    for (const char* key : {"count=", "count =", "stride=", "stride =", "offset=", "offset ="}) {
-      check_counts(bytes, key, path, source);
-    }
-  }
+  if (extension == ".dae") check_collada(XmlFile(bytes, path).root());
   if (extension == ".ply") {
     for (const char* key : {"element vertex", "element face"}) {
       check_counts(bytes, key, path, source);

@@ -123,6 +123,13 @@ def broken(folder: pathlib.Path) -> None:
     (folder / "truncated.dae").write_text(whole_dae[: len(whole_dae) * 2 // 3])
     (folder / "wrong_index.dae").write_text(dae(1.0, "Z_UP", node("Leaf", ""), index_shift=1000))
     (folder / "lying_count.dae").write_text(whole_dae.replace('count="24"', 'count="24000000000"'))
+    (folder / "no_count.dae").write_text(whole_dae.replace('id="a" count', 'id="a" co9nt'))
+    (folder / "word_index.dae").write_text(whole_dae.replace("<p>0 2 3", "<p>0 2 x"))
+    (folder / "no_source.dae").write_text(whole_dae.replace('source="#a"', 'source="#b"'))
+    (folder / "long_accessor.dae").write_text(whole_dae.replace('count="8"', 'count="80"'))
+    (folder / "node_in_itself.dae").write_text(
+        dae(1.0, "Z_UP", '<node id="n"><instance_node url="#n"/></node>')
+    )
     (folder / "empty.dae").write_text("")
     (folder / "points.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\n")
     (folder / "huge_vertex.obj").write_text("v 0 0 0\nv 1e300 0 0\nv 0 1 0\nf 1 2 3\n")
