@@ -3,8 +3,8 @@
 
 #include <Magick++.h>
 
-#include <filesystem>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <mutex>
 
