@@ -154,7 +154,12 @@ def make_field(args: argparse.Namespace) -> Path:
     values = yaml_values(file) if file else {}
     if "row_length_m" in given:
         values.pop("stalks_per_row", None)
-    sources, config = configure({**values, **given})
+    return make_configured({**values, **given})
+
+
+def make_configured(values: Values) -> Path:
+    """Options by key to a written field."""
+    sources, config = configure(values)
     folders = search_path([Path(folder) for folder in sources.model_path])
     pool = tuple(crop_model(name, folders) for name in sources.models)
     pools = {

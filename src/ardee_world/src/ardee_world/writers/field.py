@@ -7,13 +7,11 @@ from pathlib import Path
 from ardee_models.output import model_directory
 from ardee_models.writers.metadata import model_config
 from ardee_world.layout import Layout
+from ardee_world.urdf_file import SEPARATOR
 from ardee_world.writers.map_png import draw_map
 from ardee_world.writers.plots_file import plots_text
 from ardee_world.writers.sdf import sdf_text
 from ardee_world.writers.truth import clutter_columns, csv_text, json_text, plant_columns
-
-# Between the model and the plots in a .urdf.xacro file (thesis Listing A.22, line 131)
-SEPARATOR = "123456789end123456789"
 
 
 def _write_model(layout: Layout, name: str, folder: Path) -> None:
