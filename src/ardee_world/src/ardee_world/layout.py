@@ -17,6 +17,7 @@ from ardee_world.plots import Plan, plan_centres
 from ardee_world.stand import Gap, Lean, draw_gaps, draw_lean, roll_pitch_yaw
 from ardee_world.streams import Streams
 
+DECIMALS = 4  # of lengths and angles in files
 Pools = Dict[str, Tuple[CropModel, ...]]
 
 
@@ -70,10 +71,10 @@ def to_world(xy_m: np.ndarray, world_pose: Tuple[float, float, float]) -> np.nda
 
 
 def ground_heights(xy_m: np.ndarray, config: FieldConfig, terrain: Optional[Ground]) -> np.ndarray:
-    """Height of the ground below places of the field; zero without a terrain."""
+    """Height of the ground below places of the field, as they are written; zero without a terrain."""
     if terrain is None or len(xy_m) == 0:
         return np.zeros(len(xy_m))
-    world = to_world(xy_m, config.world_pose)
+    world = to_world(np.round(xy_m, DECIMALS), config.world_pose)
     return terrain.height_at(world[:, 0], world[:, 1])
 
 
