@@ -37,6 +37,7 @@ def read_grey(path: Path) -> GreyImage:
     """A grey image; colours are turned to their luminance."""
     try:
         with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(path) as image:
                 grey = _grey(image, path)

@@ -118,6 +118,7 @@ def read_geotiff(path: Path) -> Elevation:
     """One band of a GeoTIFF; a geographic one is taken for metres at its middle latitude."""
     try:
         with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(path) as image:
                 return _geotiff(image, path)
