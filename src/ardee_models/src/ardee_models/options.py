@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Options of a generator: dataclass fields that know their limits, unit and meaning, for commands and YAML files alike."""
+"""Options of a generator: dataclass fields that know limits, unit and meaning, for commands and YAML alike."""
 
 import dataclasses
 import math
@@ -8,6 +8,7 @@ from typing import Any, Dict, Iterator, Optional, Tuple
 
 from ardee_models.errors import GeneratorError
 
+_NONE = type(None)
 # Suffix of a name to the unit in messages and help; the longest that fits counts.
 _UNITS = (
     ("_per_m2", "1/m^2"),
@@ -50,7 +51,7 @@ def kind_of(cls: type, field: dataclasses.Field) -> Any:
     """Type of a field; Optional[X] is X."""
     kind = typing.get_type_hints(cls)[field.name]
     if typing.get_origin(kind) is typing.Union:
-        kind = next(k for k in typing.get_args(kind) if k is not type(None))
+        kind = next(k for k in typing.get_args(kind) if k is not _NONE)
     return kind
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""YAML to plain data that remembers its lines, and to dataclasses: an unknown key is an error that names file and line."""
+"""YAML to data that remembers its lines, and to dataclasses: an unknown key is an error with file and line."""
 
 import dataclasses
 import re

@@ -188,8 +188,9 @@ def dem_terrain(path: Path, samples: Optional[int], fill: bool, say: Say) -> Ter
         say(f"{path}: filled {text}")
         heights = fill_holes(heights)
     if np.abs(heights).max() > _LARGEST_M:
+        worst = heights.ravel()[np.abs(heights).argmax()]
         raise GeneratorError(
-            f"{path}: found a height of {heights.ravel()[np.abs(heights).argmax()]:g} m, expected at most {_LARGEST_M:g} m"
+            f"{path}: found a height of {worst:g} m, expected at most {_LARGEST_M:g} m"
         )
     if not (0.0 < raw.cell_x_m < 1e5 and 0.0 < raw.cell_y_m < 1e5):
         raise GeneratorError(f"{path}: found cells of {raw.cell_x_m} x {raw.cell_y_m} m")

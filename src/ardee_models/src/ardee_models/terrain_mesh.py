@@ -32,7 +32,7 @@ class MeshOptions:
 
 
 def _to_stl(path: Path, folder: Path) -> np.ndarray:
-    """Corners (n, 3, 3) of all triangles, node transforms applied; in a process of its own, for files may be hostile."""
+    """Corners (n, 3, 3) of all triangles, as seen in the scene; in a process of its own: files may be hostile."""
     tool = shutil.which("assimp")
     if tool is None:
         raise GeneratorError(

@@ -22,7 +22,7 @@ def group(default: Any, kind: type) -> Any:
 
 @dataclass(frozen=True)
 class Ridges:
-    """Ridges under crop rows, furrows between: raised cosines that run along `direction_deg`; a lane lies on the origin."""
+    """Ridges under crop rows, furrows between: raised cosines along `direction_deg`; a lane lies on the origin."""
 
     spacing_m: float = option(0.762, "between ridges", (0.1, 10.0))  # 30 inches, usual for corn
     height_m: float = option(0.05, "of a ridge over the furrow", (0.0, 1.0))

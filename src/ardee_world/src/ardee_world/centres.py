@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A planting strategy of the user's own: mean stalk centres (thesis Figure 4.4, centers_user) in a CSV file or a list."""
+"""A planting strategy of the user's own (thesis Figure 4.4, centers_user): stalk centres in a CSV file or a list."""
 
 import csv
 from pathlib import Path

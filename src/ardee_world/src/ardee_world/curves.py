@@ -110,7 +110,7 @@ class Line:
             radius = self.shape.curve_radius_m
             if self.length_m >= 2.0 * np.pi * abs(radius):
                 raise GeneratorError(
-                    f"curve radius: found {radius} m for rows of {self.length_m:g} m in all, which is more than a circle"
+                    f"curve radius: found {radius} m for {self.length_m:g} m of rows, which is more than a circle"
                 )
             curvature = np.array([1.0 / radius])
         elif self._samples is not None:

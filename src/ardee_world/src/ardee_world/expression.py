@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An expression y(x) of the user's own, read by its syntax tree: numbers, x, pi, arithmetic, a few functions, nothing else."""
+"""An expression y(x) of the user's own, read by its syntax tree: numbers, x, arithmetic, a few functions."""
 
 import ast
 import operator

@@ -25,7 +25,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Plan:
-    """Mean centres (n, 2) in the field's frame with plot, row in the plot, place in the row, and the row's direction."""
+    """Mean centres (n, 2) in the field's frame; plot, row in the plot, place in the row, and direction of each."""
 
     centres_m: np.ndarray
     plot: np.ndarray

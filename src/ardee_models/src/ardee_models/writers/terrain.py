@@ -95,7 +95,7 @@ def write_terrain(
     look: Look = Look(),
     description: str = "Field terrain, procedural heightmap",
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; returns its path. A surface wins over the friction."""
+    """Write parent/name, replacing an earlier model of that name; its path. A surface wins over the friction."""
     pixels, size_z, pos_z = quantise(terrain)
     relative = f"meshes/heightmaps/{image_stem}.png"
     felt = surface or Surface(mu=friction_mu, mu2=friction_mu)

@@ -11,8 +11,9 @@ from ardee_world.layout import Layout, to_world
 
 _HEAD = """<?xml version="1.0" ?>
 <robot xmlns:xacro="http://ros.org/wiki/xacro">
-  <!-- In the world's frame: x y z is the middle of a plot on the ground [m]; rotation is the direction of its rows [rad];
-       it is row_length long and row_count times row_width wide [m]; average_height in m, average_density in plants a m^2. -->
+  <!-- In the world's frame: x y z is the middle of a plot on the ground [m]; rotation the direction of its rows
+       [rad]; it is row_length long and row_count times row_width wide [m]; average_height in m, average_density in
+       plants a m^2. -->
 """
 _PLOT = """  <plot>
     <plot_id>{plot_id}</plot_id>
