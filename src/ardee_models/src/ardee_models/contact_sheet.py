@@ -19,7 +19,8 @@ _CAPTION = 38
 _FINER = 2  # drawn larger, then scaled down
 _BACKGROUND = (236, 240, 244)
 _INK = (40, 44, 48)
-_AZIMUTH_RAD, _ELEVATION_RAD = np.radians(-60.0), np.radians(12.0)
+_ELEVATION_RAD = np.radians(14.0)
+_OFF_RAD = np.radians(38.0)  # from square to the side a plant is widest
 
 
 def _font(size: int) -> ImageFont.FreeTypeFont:
@@ -30,6 +31,13 @@ def _extent(parts: List[Part]) -> tuple:
     """Half width seen from any side, and height."""
     corners = np.concatenate([part.corners.reshape(-1, 3) for part in parts])
     return float(np.linalg.norm(corners[:, :2], axis=1).max()), float(corners[:, 2].max())
+
+
+def _azimuth(parts: List[Part]) -> float:
+    """Where to look from: nearly across the vertical plane that most of the plant lies near."""
+    plan = np.concatenate([part.corners.reshape(-1, 3)[:, :2] for part in parts])
+    widest = np.linalg.eigh(np.cov(plan.T))[1][:, 1]
+    return float(np.arctan2(widest[1], widest[0])) - 0.5 * np.pi + _OFF_RAD
 
 
 def _round_length(pixels_per_m: float) -> float:
@@ -59,7 +67,7 @@ def _cell(model: Path, suffix: str) -> Image.Image:
     width, height = _CELL
     scale = min(0.46 * width / half, 0.90 * height / (tall + 0.25 * half))
     size = (width * _FINER, height * _FINER)
-    pixels = draw(parts, size, scale * _FINER, _AZIMUTH_RAD, _ELEVATION_RAD, _BACKGROUND)
+    pixels = draw(parts, size, scale * _FINER, _azimuth(parts), _ELEVATION_RAD, _BACKGROUND)
     cell = Image.new("RGB", (width, height + _CAPTION), _BACKGROUND)
     cell.paste(Image.fromarray(pixels).resize(_CELL, Image.LANCZOS), (0, _CAPTION))
     pen = ImageDraw.Draw(cell)

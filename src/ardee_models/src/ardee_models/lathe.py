@@ -27,10 +27,8 @@ class Lathe:
 
 
 def spindle(curve: Curve, radius_m: float, band: tuple, sides: int, minor: bool = False) -> Lathe:
-    """A closed ellipsoid of four rings."""
-    return Lathe(
-        curve, (0.0, 0.3, 0.7, 1.0), (0.0, radius_m, 0.85 * radius_m, 0.0), band, sides, minor
-    )
+    """A double cone that stands for an ellipsoid."""
+    return Lathe(curve, (0.0, 0.42, 1.0), (0.0, radius_m, 0.0), band, sides, minor)
 
 
 def lathe_mesh(lathe: Lathe, sides: int, stations: int) -> Mesh:

@@ -53,7 +53,7 @@ def _tillers(
             height_m=main.height_m * scale,
             base_radius_m=main.base_radius_m * 0.75 * scale,
             top_radius_m=main.top_radius_m * scale,
-            leaf_scale=scale,
+            leaf_scale=scale * main.leaf_scale,
         )
         outward = np.array([np.cos(turn), np.sin(turn), 0.0])
         curve = Curve(

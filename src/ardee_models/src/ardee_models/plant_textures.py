@@ -17,7 +17,7 @@ _STRIP = (256, 48)  # pixels of one leaf strip
 _STEM = (512, 32)
 _HEAD = (128, 64)
 _PARALLEL_VEINS = 14  # drawn across a blade; a corn leaf has some 20 large ones
-_PINNATE_VEINS = 11  # side veins drawn along a blade
+_PINNATE_VEINS = 9  # side veins drawn along a blade
 _BRAN = np.array([92.0, 66.0, 44.0])
 _WAX = np.array([196.0, 206.0, 180.0])
 
@@ -44,7 +44,7 @@ def _veins(venation: str, v: np.ndarray, u: np.ndarray) -> np.ndarray:
         return np.broadcast_to(0.5 + 0.5 * np.cos(np.pi * _PARALLEL_VEINS * u), (len(v), u.size))
     # side veins leave the midrib forwards and bend along the edge
     phase = _PINNATE_VEINS * (v - 0.16 * np.abs(u) - 0.10 * u**2) + 0.25 * np.sign(u)
-    return (0.5 + 0.5 * np.cos(2.0 * np.pi * phase)) ** 14
+    return (0.5 + 0.5 * np.cos(2.0 * np.pi * phase)) ** 7
 
 
 def leaf_strip(
@@ -54,17 +54,17 @@ def leaf_strip(
     v, u = _axes(_STRIP)
     grain = layered_noise(_STRIP, (2.0, 10.0), rng)
     patches = smooth_noise(_STRIP, 11.0, rng)
-    shade = 1.0 + rng.normal(0.0, 0.05) + 0.045 * grain + 0.06 * (v - 0.5)
+    shade = 1.0 + rng.normal(0.0, 0.04) + 0.035 * grain + 0.06 * (v - 0.5)
     leaf = np.array(colours.leaf) * shade[..., None]
     yellow, dry = np.array(colours.yellowing), np.array(colours.dry)
     # a drying front: where it passes 0 the blade yellows, where it passes 1 it is dead
     front = 3.2 * dryness - 1.0 + 0.5 * v**3 + 0.35 * np.abs(u) ** 3 + 0.28 * patches
     tissue = _mix(leaf, yellow * shade[..., None], front + 0.45)
     tissue = _mix(tissue, dry * shade[..., None], 1.6 * (front - 0.55))
-    spots = np.clip(2.5 * (smooth_noise(_STRIP, 2.0, rng) - 2.2 + 0.8 * dryness), 0.0, 0.7)
+    spots = np.clip(2.5 * (smooth_noise(_STRIP, 2.0, rng) - 2.7 + 1.1 * dryness), 0.0, 0.7)
     tissue = _mix(tissue, np.broadcast_to(_BRAN, tissue.shape), spots)
     pale = _mix(np.array(colours.midrib)[None, None, :], dry[None, None, :], np.array([[dryness]]))
-    depth = 0.16 if venation == "parallel" else 0.30
+    depth = 0.16 if venation == "parallel" else 0.42
     tissue = _mix(tissue, np.broadcast_to(pale, tissue.shape), depth * _veins(venation, v, u))
     width = 0.13 - 0.10 * v
     return tissue + (np.broadcast_to(pale, tissue.shape) - tissue) * (

@@ -61,13 +61,15 @@ def main_size(shape: Architecture, stage: Stage, rng: np.random.Generator) -> Sh
         height_m=stage.stalk_height_m * float(np.exp(shape.stalk.height_cv * rng.normal())),
         base_radius_m=0.5 * stage.base_diameter_m * diameter,
         top_radius_m=0.5 * stage.top_diameter_m * diameter,
+        leaf_scale=stage.leaf_scale,
     )
 
 
 def dryness(size: ShootSize, index: np.ndarray) -> np.ndarray:
-    """0 green to 1 dead for leaves by index from the foot: the lowest `dry` ones, fading upwards."""
-    age = size.lost + size.dry - index
-    return np.clip(np.where(age > 0.0, 0.35 + 0.5 * age, 0.15 * np.exp(age)), 0.0, 1.0)
+    """0 green to 1 dead for leaves by index from the foot: half way at the `dry`-th, the wider the more are dry."""
+    width = 0.55 + 0.09 * size.dry
+    front = 1.0 / (1.0 + np.exp((index + 0.5 - size.lost - size.dry) / width))
+    return front * min(2.0 * size.dry, 1.0)
 
 
 def _strip(dry: float, rng: np.random.Generator) -> int:

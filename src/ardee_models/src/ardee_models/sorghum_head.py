@@ -43,5 +43,5 @@ def panicle(
         angle = np.radians(rng.normal(32.0, 6.0))
         size = 0.17 * length * (1.0 - 0.3 * along) * rng.normal(1.0, 0.1)
         curve = Curve(start + 0.55 * reach * outward, turn, angle, 0.6 * angle, size)
-        parts.append(spindle(curve, 0.25 * half, GRAIN_BAND, 3, minor=True))
+        parts.append(spindle(curve, 0.30 * half, GRAIN_BAND, 3, minor=True))
     return parts

@@ -16,13 +16,17 @@ SEASONS = ("early", "mid", "late")
 
 @dataclass(frozen=True)
 class Stage:
-    """State of a mean plant; `inflorescence`, `ears` and `maturity` run from 0 to 1."""
+    """State of a mean plant; `inflorescence`, `ears` and `maturity` run from 0 to 1.
+
+    `leaf_scale` is the size of leaves that take longer to grow than the next ones to appear, over their final one.
+    """
 
     season: str
     collared_leaves: int = bounded(1, 60)
     stalk_height_m: float = bounded(0.005, 6)
     base_diameter_m: float = bounded(0.001, 0.2)
     top_diameter_m: float = bounded(0.001, 0.2)
+    leaf_scale: float = bounded(0.05, 1, 1.0)
     young_leaves: int = bounded(0, 30, 0)
     lost_leaves: int = bounded(0, 59, 0)
     dry_leaves: float = bounded(0, 60, 0.0)

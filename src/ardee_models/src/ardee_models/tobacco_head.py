@@ -34,7 +34,7 @@ def _flower(
         curve = Curve(origin, azimuth, angle, angle, _CAPSULE_M[0])
         return [spindle(curve, _CAPSULE_M[1], CAPSULE_BAND, 4, minor=True)]
     length = shape.corolla_length_m * (0.35 + 0.65 * growth)
-    tube_radius = 0.09 * length
+    tube_radius = 0.11 * length
     curve = Curve(origin, azimuth, angle, angle, 0.86 * length)
     parts = [
         Lathe(
@@ -42,7 +42,7 @@ def _flower(
             (0.0, 1.0),
             (0.5 * tube_radius, 1.2 * tube_radius),
             TUBE_BAND,
-            sides=4,
+            sides=3,
             minor=True,
         )
     ]
