@@ -2,19 +2,23 @@
 """Text of a crop's model.sdf and of its material script, in the manner of Gazebo Classic."""
 
 from dataclasses import dataclass
-from typing import Sequence
+from typing import Sequence, Tuple
 
 from ardee_models.cylinder import Cylinder
 
 
 @dataclass(frozen=True)
 class Visual:
-    """One visual: its name, its submesh and material (Stem, LeavesBase ...), texture file, mesh file in the model."""
+    """One visual: its name, its submesh and material (Stem, LeavesBase ...), texture file, mesh file in the model.
+
+    Where there is no texture, `texture` is empty and `colour` (RGB 0..1) is used.
+    """
 
     name: str
     submesh: str
     texture: str
     mesh: str
+    colour: Tuple[float, ...] = (0.8, 0.8, 0.8)
 
 
 _VISUAL = """      <visual name="{visual}">
@@ -64,15 +68,18 @@ _MATERIAL = """material {model}/{submesh}
       cull_hardware none
       cull_software none
 
-      texture_unit
-      {{
-        texture {texture}
-      }}
-    }}
+{appearance}    }}
   }}
 }}
 """
-_NO_TEXTURE = "\n      texture_unit\n      {\n        texture \n      }\n"
+_TEXTURE = """      texture_unit
+      {{
+        texture {texture}
+      }}
+"""
+_COLOUR = """      ambient {rgb} 1
+      diffuse {rgb} 1
+"""
 
 
 def _number(value: float) -> str:
@@ -95,9 +102,15 @@ def model_sdf(model: str, visuals: Sequence[Visual], cylinder: Cylinder) -> str:
     )
 
 
+def _appearance(visual: Visual) -> str:
+    if visual.texture:
+        return _TEXTURE.format(texture=visual.texture)
+    return _COLOUR.format(rgb=" ".join(_number(c) for c in visual.colour))
+
+
 def material_script(model: str, visuals: Sequence[Visual]) -> str:
     """Both sides drawn, transparent texels dropped; names begin with the model's, as Gazebo has one table of all."""
-    script = "\n".join(
-        _MATERIAL.format(model=model, submesh=v.submesh, texture=v.texture) for v in visuals
+    return "\n".join(
+        _MATERIAL.format(model=model, submesh=v.submesh, appearance=_appearance(v))
+        for v in visuals
     )
-    return script.replace(_NO_TEXTURE, "")

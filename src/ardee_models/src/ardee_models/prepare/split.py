@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Which triangles of a scene of several plants belong to which stalk."""
+
+from typing import List, Sequence
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+_WELD_M = 1e-5  # vertices nearer than this are one
+_GROUND = 0.06  # of the scene's height: what reaches lower stands on the ground
+_RISE = 0.1  # of the scene's height: a stalk is at least as tall
+_SLENDER = 0.5  # a stalk's spread to its sides over its height; leaves that touch the ground spread more
+_TOUCH_M = 0.004  # parts nearer than this belong together
+
+
+def components(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Connected component of each vertex, vertices at the same place being one."""
+    cells = np.round(vertices / _WELD_M).astype(np.int64)
+    _, welded = np.unique(cells, axis=0, return_inverse=True)
+    welded = welded.reshape(-1)
+    a = welded[triangles[:, [0, 1, 2]].ravel()]
+    b = welded[triangles[:, [1, 2, 0]].ravel()]
+    count = int(welded.max()) + 1
+    graph = coo_matrix((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
+    return connected_components(graph, directed=False)[1][welded]
+
+
+def _stands(points: np.ndarray, ground: float, height: float) -> tuple:
+    """Whether a component reaches the ground, and whether it then looks like a stalk."""
+    low, high = points[:, 2].min(), points[:, 2].max()
+    if low > ground + _GROUND * height:
+        return False, False
+    spread = np.linalg.norm(points[:, :2] - np.median(points[:, :2], axis=0), axis=1)
+    tall = high - low >= _RISE * height
+    return True, bool(tall and np.quantile(spread, 0.9) <= _SLENDER * (high - low))
+
+
+def _foot(points: np.ndarray) -> np.ndarray:
+    """Ground position of a component: mean of its lowest vertices."""
+    low = points[:, 2].min()
+    return points[points[:, 2] <= low + 0.02 * np.ptp(points[:, 2]) + 1e-6, :2].mean(axis=0)
+
+
+def _near_groups(feet: np.ndarray, gap_m: float) -> np.ndarray:
+    """Feet nearer than `gap_m` to one another are one plant's."""
+    pairs = cKDTree(feet).query_pairs(gap_m, output_type="ndarray").reshape(-1, 2)
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(feet),) * 2)
+    return connected_components(graph, directed=False)[1]
+
+
+def _attach(parts: Sequence[np.ndarray], group: np.ndarray) -> None:
+    """Give every component without a group (-1) that of its nearest neighbour, those that touch first."""
+    while (group < 0).any():
+        open_parts = np.flatnonzero(group < 0)
+        groups = range(int(group.max()) + 1)
+        trees = [
+            cKDTree(np.concatenate([parts[i] for i in np.flatnonzero(group == g)])) for g in groups
+        ]
+        distance = np.array(
+            [[tree.query(parts[i])[0].min() for tree in trees] for i in open_parts]
+        )
+        nearest = distance.min(axis=1)
+        now = nearest <= max(_TOUCH_M, nearest.min())
+        group[open_parts[now]] = distance[now].argmin(axis=1)
+
+
+def plant_of_vertices(vertices: np.ndarray, triangles: np.ndarray, gap_m: float) -> np.ndarray:
+    """Number of the plant of each vertex, counted by the plants' feet from -x to x (then -y to y)."""
+    component = components(vertices, triangles)
+    count = int(component.max()) + 1
+    order = np.argsort(component, kind="stable")
+    bounds = np.searchsorted(component[order], np.arange(count + 1))
+    parts: List[np.ndarray] = [
+        vertices[order[bounds[i] : bounds[i + 1]]] for i in range(count)
+    ]
+    ground, height = float(vertices[:, 2].min()), float(np.ptp(vertices[:, 2]))
+    kinds = [_stands(points, ground, height) for points in parts]
+    seeds = [i for i, kind in enumerate(kinds) if kind[1]]
+    seeds = seeds or [i for i, kind in enumerate(kinds) if kind[0]]
+    feet = np.array([_foot(parts[i]) for i in seeds])
+    near = _near_groups(feet, gap_m)
+    middles = np.array([feet[near == g].mean(axis=0) for g in range(near.max() + 1)])
+    number = np.empty(len(middles), dtype=int)
+    number[np.lexsort((middles[:, 1], middles[:, 0]))] = np.arange(len(middles))
+    group = np.full(count, -1)
+    group[seeds] = number[near]
+    _attach(parts, group)
+    return group[component]
