@@ -98,4 +98,7 @@ def from_mapping(cls: type, data: Any, where: str) -> Any:
         for name in fields
         if name in data
     }
-    return cls(**values)
+    try:
+        return cls(**values)
+    except GeneratorError as error:  # from a check of its own
+        raise GeneratorError(f"{where}: {error}") from error

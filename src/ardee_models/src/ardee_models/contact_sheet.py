@@ -24,7 +24,9 @@ _OFF_RAD = np.radians(38.0)  # from square to the side a plant is widest
 
 
 def _font(size: int) -> ImageFont.FreeTypeFont:
-    return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), size)
+    return ImageFont.truetype(
+        str(Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), size
+    )
 
 
 def _extent(parts: List[Part]) -> tuple:
@@ -53,8 +55,12 @@ def _caption(model: Path) -> str:
     path = model / METRICS_FILE
     if not path.is_file():
         return ""
-    data = json.loads(path.read_text(encoding="utf-8"))
-    return f"{data['stage']}   {data['height_m']:.2f} m   {data['leaf_count']} leaves"
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+        leaves = f"   {data['leaf_count']} leaves" if "leaf_count" in data else ""
+        return f"{data['stage']}   {data['height_m']:.2f} m{leaves}"
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise GeneratorError(f"{path}: expected stage and height_m: {error!r}") from error
 
 
 def _cell(model: Path, suffix: str) -> Image.Image:

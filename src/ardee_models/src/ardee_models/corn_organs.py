@@ -16,6 +16,7 @@ _SPIKE_RADIUS_M = 0.0045  # spikelets on the rachis (estimate)
 _BRANCH_RADIUS_M = 0.0035  # estimate
 _PEDUNCLE = 0.32  # bare part of the tassel's length (estimate)
 _BRANCH_ZONE = 0.26  # part of the length above the peduncle in which branches start (estimate)
+_ROOT_TIP_M = 0.002  # radius (estimate)
 _SILK_STRANDS = 5  # drawn
 _SILK_RADIUS_M = 0.003  # of a drawn strand, which stands for a bundle
 
@@ -108,7 +109,8 @@ def brace_roots(shoot: Shoot, shape: BraceRoots, rng: np.random.Generator) -> Li
             azimuth,
             angle,
             angle,
-            float(np.hypot(reach, height)),
+            float(np.hypot(reach, height))
+            * (1.0 - 2.0 * _ROOT_TIP_M / height),  # ends on the ground
         )
-        parts.append(Lathe(curve, (0.0, 1.0), (0.003, 0.002), minor=True))
+        parts.append(Lathe(curve, (0.0, 1.0), (0.003, _ROOT_TIP_M), minor=True))
     return parts

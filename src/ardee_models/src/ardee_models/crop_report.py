@@ -17,7 +17,18 @@ from ardee_models.ranges import Check, check_metrics, load_ranges
 from ardee_models.stages import SEASONS
 from ardee_models.variants import load_variants
 
-_COLUMNS = ("model", "species", "stage", "season", "metric", "value", "min", "max", "within", "source")
+_COLUMNS = (
+    "model",
+    "species",
+    "stage",
+    "season",
+    "metric",
+    "value",
+    "min",
+    "max",
+    "within",
+    "source",
+)
 
 
 def read_metrics(model: Path) -> dict:
@@ -84,7 +95,10 @@ def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
     for row in rows:
         by_model.setdefault(row["model"], []).append(row)
     for name, own in by_model.items():
-        lines += [f"## {name}: {own[0]['species']} {own[0]['stage']}, {own[0]['season']} season", ""]
+        lines += [
+            f"## {name}: {own[0]['species']} {own[0]['stage']}, {own[0]['season']} season",
+            "",
+        ]
         lines += ["| metric | value | literature | within | source |", "|---|---|---|---|---|"]
         lines += [
             f"| {r['metric']} | {r['value']} | {r['min']} to {r['max']} | {r['within']} | {r['source']} |"
@@ -125,7 +139,9 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         default=[],
         help="folder of models to look in before GAZEBO_MODEL_PATH",
     )
-    parser.add_argument("models", nargs="*", help="models by name (default: all that the build makes)")
+    parser.add_argument(
+        "models", nargs="*", help="models by name (default: all that the build makes)"
+    )
     args = parser.parse_args(arguments)
     try:
         folders = search_path(args.model_path)

@@ -7,6 +7,7 @@ import numpy as np
 
 _ROUNDS = 12  # of the search for a stalk among leaves
 _OUTLIER = 2.0  # radii from the axis beyond which a vertex belongs to a leaf
+_SKIN = (0.4, 1.7)  # radii between which a vertex lies on the stalk's skin, however it tapers
 
 
 @dataclass(frozen=True)
@@ -34,12 +35,17 @@ def _axis_line(vertices: np.ndarray) -> tuple:
     return mean, axis / np.linalg.norm(axis)
 
 
+def _distance(vertices: np.ndarray, point: np.ndarray, axis: np.ndarray) -> np.ndarray:
+    """Of vertices from the line through `point` along `axis`."""
+    offsets = vertices - point
+    return np.linalg.norm(offsets - (offsets @ axis)[:, None] * axis, axis=1)
+
+
 def fit_cylinder(vertices: np.ndarray) -> Cylinder:
     """Upright cylinder of a stalk's own vertices: axis by least squares, radius their mean distance from it."""
     mean, axis = _axis_line(vertices)
-    offsets = vertices - mean
-    along = offsets @ axis
-    radii = np.linalg.norm(offsets - along[:, None] * axis, axis=1)
+    along = (vertices - mean) @ axis
+    radii = _distance(vertices, mean, axis)
     low, high = float(along.min()), float(along.max())
     return Cylinder(mean + 0.5 * (low + high) * axis, axis, float(radii.mean()), high - low)
 
@@ -52,15 +58,13 @@ def fit_stalk_among_leaves(vertices: np.ndarray, radius_guess_m: float) -> Cylin
     height = float(np.ptp(vertices[:, 2]))
     foot = vertices[vertices[:, 2] <= vertices[:, 2].min() + 0.05 * height]
     point, axis, radius = np.median(foot, axis=0), np.array([0.0, 0.0, 1.0]), radius_guess_m
-    near = vertices
     for _ in range(_ROUNDS):
-        offsets = vertices - point
-        along = offsets @ axis
-        distance = np.linalg.norm(offsets - along[:, None] * axis, axis=1)
-        near = vertices[distance < _OUTLIER * radius]
-        if len(near) < 8:
-            near = foot
-            break
-        point, axis = _axis_line(near)
-        radius = max(float(np.median(distance[distance < _OUTLIER * radius])), 1e-4)
-    return fit_cylinder(near)
+        distance = _distance(vertices, point, axis)
+        near = distance < _OUTLIER * radius
+        if near.sum() < 8:
+            return fit_cylinder(foot)
+        point, axis = _axis_line(vertices[near])
+        radius = max(float(np.median(distance[near])), 1e-4)
+    distance = _distance(vertices, point, axis)
+    skin = (distance > _SKIN[0] * radius) & (distance < _SKIN[1] * radius)
+    return fit_cylinder(vertices[skin] if skin.sum() >= 8 else foot)

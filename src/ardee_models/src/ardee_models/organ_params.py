@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Tuple
 
 from ardee_models.config import bounded
+from ardee_models.errors import GeneratorError
 
 
 @dataclass(frozen=True)
@@ -83,3 +84,8 @@ class Colours:
     foot: Tuple[float, ...] = bounded(0, 255)
     head: Tuple[float, ...] = bounded(0, 255)
     head_ripe: Tuple[float, ...] = bounded(0, 255)
+
+    def __post_init__(self) -> None:
+        for name, colour in vars(self).items():
+            if len(colour) != 3:
+                raise GeneratorError(f"colours.{name}: found {colour}, expected red, green, blue")

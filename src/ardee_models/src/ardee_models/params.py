@@ -7,15 +7,7 @@ from typing import Optional, Tuple
 
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
 from ardee_models.errors import GeneratorError
-from ardee_models.organ_params import (
-    BraceRoots,
-    Colours,
-    Ears,
-    Flowers,
-    Panicle,
-    Tassel,
-    Tillers,
-)
+from ardee_models.organ_params import BraceRoots, Colours, Ears, Flowers, Panicle, Tassel, Tillers
 from ardee_models.stages import Stage, resolve_stage
 
 

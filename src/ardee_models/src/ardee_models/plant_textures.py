@@ -86,7 +86,9 @@ def stem(
     v, _ = _axes(_STEM)
     fibres = smooth_noise((1, _STEM[1]), 1.2, rng)
     shade = 1.0 + 0.07 * fibres + 0.05 * layered_noise(_STEM, (3.0, 14.0), rng)
-    body = _mix(np.array(colours.stem), np.array(colours.dry), np.broadcast_to(maturity, shade.shape))
+    body = _mix(
+        np.array(colours.stem), np.array(colours.dry), np.broadcast_to(maturity, shade.shape)
+    )
     body = _mix(body, np.broadcast_to(np.array(colours.foot), body.shape), 0.75 * np.exp(-v / 0.05))
     length = stalk.curve.length_m
     rings, edges = np.zeros_like(v), np.zeros_like(v)

@@ -155,7 +155,9 @@ def grow_shoot(
     )
     emerged = size.collared + size.young
     lengths, widths = full_sizes(emerged, size.number, shape.leaves, rng)
-    grown = np.concatenate((np.ones(size.collared), young_fractions(size.young, shape.young_leaves)))
+    grown = np.concatenate(
+        (np.ones(size.collared), young_fractions(size.young, shape.young_leaves))
+    )
     dry = dryness(size, np.arange(emerged))
     azimuth = rng.uniform(0.0, 2.0 * np.pi)
     blades: List[Blade] = []

@@ -74,9 +74,7 @@ def flowers(
         opening = np.radians(rng.normal(48.0, 7.0)) * (1.3 - 0.6 * along)
         twig = Curve(start, turn, opening, 0.6 * opening, reach)
         parts.append(
-            Lathe(
-                twig, (0.0, 1.0), (1.4 * _TWIG_RADIUS_M, _TWIG_RADIUS_M), BRANCH_BAND, minor=True
-            )
+            Lathe(twig, (0.0, 1.0), (1.4 * _TWIG_RADIUS_M, _TWIG_RADIUS_M), BRANCH_BAND, minor=True)
         )
         for j in range(shape.flowers_per_branch):
             where = 1.0 - 0.22 * j

@@ -5,7 +5,7 @@ import concurrent.futures
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Optional
+from typing import Dict, Optional, Sequence
 
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
 from ardee_models.crops import make_crop
@@ -33,11 +33,14 @@ def _make(name: str, variant: Variant, models: Path) -> Path:
     return make_crop(variant.species, variant.stage, variant.seed, name, models)
 
 
-def build_crops(models: Path, processes: Optional[int] = None) -> None:
-    """Write every variant into `models`; what is written does not depend on the number of processes."""
+def build_crops(
+    models: Path, processes: Optional[int] = None, names: Optional[Sequence[str]] = None
+) -> None:
+    """Write variants, all by default, into `models`; nothing written depends on the number of processes."""
     workers = processes or len(os.sched_getaffinity(0))
     models.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ProcessPoolExecutor(workers) as pool:
-        jobs = [pool.submit(_make, name, v, models) for name, v in load_variants().items()]
+        variants = load_variants()
+        jobs = [pool.submit(_make, name, variants[name], models) for name in names or variants]
         for job in jobs:
             job.result()

@@ -64,7 +64,9 @@ def _parser() -> argparse.ArgumentParser:
         help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
     )
     parser.add_argument("--whole", action="store_true", help="one model of all, do not split")
-    parser.add_argument("--stem", help="part that is the stalk (default: one called stem, stalk, trunk)")
+    parser.add_argument(
+        "--stem", help="part that is the stalk (default: one called stem, stalk, trunk)"
+    )
     parser.add_argument("--species", default="unknown", help="species, for metrics.json")
     parser.add_argument("--stage", default="unknown", help="growth stage, for metrics.json")
     parser.add_argument(

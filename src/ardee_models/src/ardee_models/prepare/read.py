@@ -94,7 +94,10 @@ def _part(name: str, geometry: object, matrix: np.ndarray) -> UserPart:
     if texcoords is None or len(texcoords) != len(vertices):
         texcoords, image = np.zeros((len(vertices), 2)), None
     return UserPart(
-        name, Mesh(vertices, normals, np.asarray(texcoords), np.asarray(geometry.faces)), image, colour
+        name,
+        Mesh(vertices, normals, np.asarray(texcoords), np.asarray(geometry.faces)),
+        image,
+        colour,
     )
 
 
@@ -130,7 +133,9 @@ def read_mesh(path: Path, up: str = "auto", scale: Optional[float] = None) -> Li
             geometry = scene.geometry[key]
             if len(getattr(geometry, "faces", ())) == 0:
                 continue
-            name = base = re.sub("-(geometry|mesh)$", "", re.sub("[^A-Za-z0-9_-]", "_", key)) or "Part"
+            name = base = (
+                re.sub("-(geometry|mesh)$", "", re.sub("[^A-Za-z0-9_-]", "_", key)) or "Part"
+            )
             while name in names:
                 name = f"{base}_{len(names)}"
             names.add(name)

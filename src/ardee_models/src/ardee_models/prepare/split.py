@@ -11,7 +11,9 @@ from scipy.spatial import cKDTree
 _WELD_M = 1e-5  # vertices nearer than this are one
 _GROUND = 0.06  # of the scene's height: what reaches lower stands on the ground
 _RISE = 0.1  # of the scene's height: a stalk is at least as tall
-_SLENDER = 0.5  # a stalk's spread to its sides over its height; leaves that touch the ground spread more
+# A stalk's spread to its sides over its height: bare stalks, else plants of one piece, else whatever stands there.
+# Leaves that hang to the ground spread more than a bare stalk.
+_SLENDER = (0.12, 0.5, float("inf"))
 _TOUCH_M = 0.004  # parts nearer than this belong together
 
 
@@ -27,14 +29,23 @@ def components(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return connected_components(graph, directed=False)[1][welded]
 
 
-def _stands(points: np.ndarray, ground: float, height: float) -> tuple:
-    """Whether a component reaches the ground, and whether it then looks like a stalk."""
+def _slenderness(points: np.ndarray, ground: float, height: float) -> float:
+    """Spread over height of a component that stands on the ground and is tall enough; -1 for others."""
     low, high = points[:, 2].min(), points[:, 2].max()
-    if low > ground + _GROUND * height:
-        return False, False
+    if low > ground + _GROUND * height or high - low < _RISE * height:
+        return -1.0
     spread = np.linalg.norm(points[:, :2] - np.median(points[:, :2], axis=0), axis=1)
-    tall = high - low >= _RISE * height
-    return True, bool(tall and np.quantile(spread, 0.9) <= _SLENDER * (high - low))
+    return float(np.quantile(spread, 0.9) / (high - low))
+
+
+def _seeds(parts: Sequence[np.ndarray], ground: float, height: float) -> np.ndarray:
+    """Components that are stalks: the most slender kind that there is; all where none stands."""
+    found = np.array([_slenderness(points, ground, height) for points in parts])
+    for limit in _SLENDER:
+        chosen = np.flatnonzero((found >= 0.0) & (found <= limit))
+        if len(chosen):
+            return chosen
+    return np.arange(len(parts))
 
 
 def _foot(points: np.ndarray) -> np.ndarray:
@@ -58,9 +69,7 @@ def _attach(parts: Sequence[np.ndarray], group: np.ndarray) -> None:
         trees = [
             cKDTree(np.concatenate([parts[i] for i in np.flatnonzero(group == g)])) for g in groups
         ]
-        distance = np.array(
-            [[tree.query(parts[i])[0].min() for tree in trees] for i in open_parts]
-        )
+        distance = np.array([[tree.query(parts[i])[0].min() for tree in trees] for i in open_parts])
         nearest = distance.min(axis=1)
         now = nearest <= max(_TOUCH_M, nearest.min())
         group[open_parts[now]] = distance[now].argmin(axis=1)
@@ -72,13 +81,9 @@ def plant_of_vertices(vertices: np.ndarray, triangles: np.ndarray, gap_m: float)
     count = int(component.max()) + 1
     order = np.argsort(component, kind="stable")
     bounds = np.searchsorted(component[order], np.arange(count + 1))
-    parts: List[np.ndarray] = [
-        vertices[order[bounds[i] : bounds[i + 1]]] for i in range(count)
-    ]
+    parts: List[np.ndarray] = [vertices[order[bounds[i] : bounds[i + 1]]] for i in range(count)]
     ground, height = float(vertices[:, 2].min()), float(np.ptp(vertices[:, 2]))
-    kinds = [_stands(points, ground, height) for points in parts]
-    seeds = [i for i, kind in enumerate(kinds) if kind[1]]
-    seeds = seeds or [i for i, kind in enumerate(kinds) if kind[0]]
+    seeds = _seeds(parts, ground, height)
     feet = np.array([_foot(parts[i]) for i in seeds])
     near = _near_groups(feet, gap_m)
     middles = np.array([feet[near == g].mean(axis=0) for g in range(near.max() + 1)])

@@ -56,7 +56,7 @@ def write_crop(
         write_metrics(folder, metrics)
         for key, file_name in files.items():
             image = Image.fromarray(textures[key])
-            image.save(folder / "materials/textures" / file_name, compress_level=9)
+            image.save(folder / "materials/textures" / file_name, compress_level=5)
         for level, detail in zip(levels, LEVELS):
             parts = [(organ.name, organ.mesh, files[organ.texture]) for organ in level.organs]
             write_collada(parts, folder / "meshes" / f"{name}{detail.suffix}.dae")

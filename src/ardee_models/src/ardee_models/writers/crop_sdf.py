@@ -111,6 +111,5 @@ def _appearance(visual: Visual) -> str:
 def material_script(model: str, visuals: Sequence[Visual]) -> str:
     """Both sides drawn, transparent texels dropped; names begin with the model's, as Gazebo has one table of all."""
     return "\n".join(
-        _MATERIAL.format(model=model, submesh=v.submesh, appearance=_appearance(v))
-        for v in visuals
+        _MATERIAL.format(model=model, submesh=v.submesh, appearance=_appearance(v)) for v in visuals
     )
