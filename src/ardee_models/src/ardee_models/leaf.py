@@ -36,7 +36,7 @@ class Blade:
 
 
 def width_profile(s: np.ndarray, klig: float, s_wmax: float, tip_power: float) -> np.ndarray:
-    """Relative width at relative length s: parabola from klig to 1 at s_wmax (Dornbusch 2011), then 1 - b^p to the tip."""
+    """Relative width at s: parabola from klig to 1 at s_wmax (Dornbusch 2011), then 1 - b^p to the tip."""
     base = klig + (1.0 - klig) * (1.0 - (1.0 - s / s_wmax) ** 2)
     beyond = np.clip((s - s_wmax) / (1.0 - s_wmax), 0.0, 1.0)
     return np.maximum(np.where(s < s_wmax, base, 1.0 - beyond**tip_power), _TIP_WIDTH)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Texture images of plants, drawn by the program. RGB uint8 arrays, row 0 on top, base of the organ at the lower edge."""
+"""Texture images of plants, drawn by the program. RGB uint8, row 0 on top, the organ's base at the lower edge."""
 
 from typing import Callable, Dict, Tuple
 

@@ -15,7 +15,7 @@ _NODE_BAND = 0.14  # of an internode: the height of the swelling at a node (esti
 
 @dataclass(frozen=True)
 class StalkPlan:
-    """A tapered stem; `collars_m` are the arc lengths at which leaves leave it, `sheathed` says which still clasp it."""
+    """A tapered stem; leaves part from it at arc lengths `collars_m`, `sheathed` says which still clasp it."""
 
     curve: Curve
     collars_m: Tuple[float, ...]

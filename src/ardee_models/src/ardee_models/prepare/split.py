@@ -14,6 +14,8 @@ _RISE = 0.1  # of the scene's height: a stalk is at least as tall
 # A stalk's spread to its sides over its height: bare stalks, else plants of one piece, else whatever stands there.
 # Leaves that hang to the ground spread more than a bare stalk.
 _SLENDER = (0.12, 0.5, float("inf"))
+_EDGE = 0.01  # of the scene's height: edges longer than this get points along them
+_MOST_ON_EDGE = 200
 _TOUCH_M = 0.004  # parts nearer than this belong together
 
 
@@ -61,6 +63,24 @@ def _near_groups(feet: np.ndarray, gap_m: float) -> np.ndarray:
     return connected_components(graph, directed=False)[1]
 
 
+def _with_edges(
+    parts: Sequence[np.ndarray],
+    component: np.ndarray,
+    vertices: np.ndarray,
+    triangles: np.ndarray,
+    step_m: float,
+) -> List[np.ndarray]:
+    """Points of each component, with more along its long edges: a stalk may have vertices at its ends alone."""
+    edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    a, b = vertices[edges[:, 0]], vertices[edges[:, 1]]
+    count = np.minimum(np.linalg.norm(b - a, axis=1) // step_m, _MOST_ON_EDGE).astype(int)
+    edge = np.repeat(np.arange(len(edges)), count)
+    nth = np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count) + 1
+    along = (nth / (count[edge] + 1))[:, None]
+    points, owner = a[edge] * (1.0 - along) + b[edge] * along, component[edges[edge, 0]]
+    return [np.concatenate((part, points[owner == i])) for i, part in enumerate(parts)]
+
+
 def _attach(parts: Sequence[np.ndarray], group: np.ndarray) -> None:
     """Give every component without a group (-1) that of its nearest neighbour, those that touch first."""
     while (group < 0).any():
@@ -81,7 +101,7 @@ def plant_of_vertices(vertices: np.ndarray, triangles: np.ndarray, gap_m: float)
     count = int(component.max()) + 1
     order = np.argsort(component, kind="stable")
     bounds = np.searchsorted(component[order], np.arange(count + 1))
-    parts: List[np.ndarray] = [vertices[order[bounds[i] : bounds[i + 1]]] for i in range(count)]
+    parts = [vertices[order[bounds[i] : bounds[i + 1]]] for i in range(count)]
     ground, height = float(vertices[:, 2].min()), float(np.ptp(vertices[:, 2]))
     seeds = _seeds(parts, ground, height)
     feet = np.array([_foot(parts[i]) for i in seeds])
@@ -91,5 +111,5 @@ def plant_of_vertices(vertices: np.ndarray, triangles: np.ndarray, gap_m: float)
     number[np.lexsort((middles[:, 1], middles[:, 0]))] = np.arange(len(middles))
     group = np.full(count, -1)
     group[seeds] = number[near]
-    _attach(parts, group)
+    _attach(_with_edges(parts, component, vertices, triangles, _EDGE * height), group)
     return group[component]
