@@ -15,6 +15,7 @@ from ardee_models.lookup import search_path, terrain_model
 MODEL = "small-corn-stalk-plot"  # as farm.world includes it
 TERRAIN = "heightmap_ground"
 ROWS, STALKS_PER_ROW = 4, 50
+SHORTEST_M, TALLEST_M = 0.35, 1.1  # seedlings would have to be scaled up to the field's mean height
 BEFORE_THE_ROW_M = 0.8
 RIDE_HEIGHT_M = 0.175  # of base_footprint above the ground
 HALF_TRACK_M = 0.22  # the robot's wheels stand within this of its middle, along x and y
@@ -31,12 +32,14 @@ class Start:
     distance_m: float
 
 
-def corn_models() -> List[str]:
-    """Names of the corn models on the model path."""
+def young_corn() -> List[str]:
+    """Names of the corn models on the model path that a picture from behind the robot looks over."""
     folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
-    found = {p.parent.name for f in folders if f for p in pathlib.Path(f).glob("corn*/model.sdf")}
+    metrics = [p for f in folders if f for p in pathlib.Path(f).glob("corn_variant_*/metrics.json")]
+    heights = {p.parent.name: json.loads(p.read_text())["height_m"] for p in metrics}
+    found = {name for name, height in heights.items() if SHORTEST_M < height < TALLEST_M}
     if not found:
-        raise RuntimeError(f"no model named corn* on GAZEBO_MODEL_PATH: {folders}")
+        raise RuntimeError(f"no young corn_variant_* on GAZEBO_MODEL_PATH: {folders}")
     return sorted(found)
 
 
@@ -45,7 +48,7 @@ def generate(
 ) -> Dict[str, Any]:
     """Generate the field into a folder of models; its ground truth."""
     folder.mkdir()
-    models = corn_models()
+    models = young_corn()
     command = ["rosrun", "ardee_world", "generate_field", "--name", MODEL, "--seed", str(seed)]
     command += ["--rows", str(ROWS), "--stalks-per-row", str(STALKS_PER_ROW), "--terrain", TERRAIN]
     say(" ".join(command) + " ...")

@@ -91,8 +91,10 @@ class Demo:
         return bag
 
     def drive(self, distance_m: float) -> float:
-        """Drive down the row, with a picture on the way; the real-time factor meanwhile."""
+        """Drive down the row, recorded, with a picture on the way; the real-time factor meanwhile."""
         import rospy
+
+        bag = self.record()
 
         wall_s, sim_s = time.monotonic(), rospy.get_time()
         driver = self.graph.spawn(
@@ -115,6 +117,8 @@ class Demo:
             if shown and photographer is None:
                 photographer = self.take_picture()
         factor = (rospy.get_time() - sim_s) / (time.monotonic() - wall_s)
+        self.needed.remove(bag)
+        bag.stop()
         if driver.exit_code() != 0 or photographer is None:
             raise RuntimeError("the driver did not drive")
         if photographer.wait(90.0) != 0:
@@ -139,10 +143,7 @@ class Demo:
         if not os.environ.get("DISPLAY"):
             say("no display: rviz draws off-screen only, into the picture below")
         heading("drive")
-        bag = self.record()
         factor = self.drive(start.distance_m)
-        self.needed.remove(bag)
-        bag.stop()
         drive = demo_report.read_drive(self.work / "drive.bag", SCAN)
         OUTPUT.mkdir(exist_ok=True)
         for name in ("drive.bag", "rviz.png"):

@@ -100,14 +100,17 @@ class RosGraph:
         )
         for name in ("ROS_HOSTNAME", "ROS_NAMESPACE", "DISPLAY"):
             self.env.pop(name, None)
-        self._master = subprocess.Popen(
-            ["/usr/bin/python3", "-c", MASTER],
-            env=self.env,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-        )
+        # The master complains of each node that goes without a word, as probes and killed nodes do: into a file.
+        with (folder / "master.log").open("wb") as complaints:
+            self._master = subprocess.Popen(
+                ["/usr/bin/python3", "-c", MASTER],
+                env=self.env,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=complaints,
+                text=True,
+                start_new_session=True,
+            )
         self.env["ROS_MASTER_URI"] = self.uri = self._master.stdout.readline().strip()
 
     def spawn(self, *command: str, **env: str) -> Process:

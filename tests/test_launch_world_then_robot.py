@@ -48,7 +48,12 @@ def test_joint_states_name_legs_and_wheels(robot: RosGraph) -> None:
 
 
 def test_tf_leads_from_odom_to_every_wheel_and_the_lidar(robot: RosGraph) -> None:
-    for frame in ("base_footprint", "front_left_wheel", "rear_right_wheel", "hokuyo_link"):
+    for frame in (
+        "base_footprint",
+        "front_left_wheel_link",
+        "rear_right_wheel_link",
+        "hokuyo_link",
+    ):
         found = robot.call(probes.transform, "odom", frame)
         assert found.header.frame_id == "odom"
 

@@ -23,9 +23,10 @@ def shipped(pattern: str) -> Dict[str, pathlib.Path]:
 
 
 def models() -> Dict[str, pathlib.Path]:
-    """Model directories on the model path of the workspace, by name."""
+    """Model directories on the model path of the workspace, by name; a light (sun) is none to spawn."""
     folders = [pathlib.Path(f) for f in os.environ.get("GAZEBO_MODEL_PATH", "").split(":") if f]
-    return {p.parent.name: p.parent for f in folders for p in sorted(f.glob("*/model.config"))}
+    found = {p.parent.name: p.parent for f in folders for p in sorted(f.glob("*/model.sdf"))}
+    return {name: p for name, p in found.items() if "<model" in (p / "model.sdf").read_text()}
 
 
 WORLDS = shipped("worlds/*.world")

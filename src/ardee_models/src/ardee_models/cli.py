@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Commands `generate_crop` and `generate_terrain`."""
+"""Command `generate_terrain`, and what commands share."""
 
 import argparse
 from pathlib import Path
@@ -7,7 +7,6 @@ from typing import Callable
 
 import numpy as np
 
-from ardee_models.crops import make_crop
 from ardee_models.errors import GeneratorError
 from ardee_models.terrain import TerrainParams, generate_terrain
 from ardee_models.writers.terrain import write_terrain
@@ -39,22 +38,6 @@ def _output_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--output", type=Path, required=True, help="folder of models to write it in"
     )
-
-
-def generate_crop_main() -> int:
-    """`generate_crop --species corn --stage V8 --seed 7 --name my_corn --output DIR`."""
-    parser = argparse.ArgumentParser(
-        prog="generate_crop", description="Write a crop plant as a Gazebo model directory."
-    )
-    parser.add_argument(
-        "--species", default="corn", help="species with a parameter file (default corn)"
-    )
-    parser.add_argument(
-        "--stage", required=True, help="growth stage in the parameter file, such as V8"
-    )
-    parser.add_argument("--params", type=Path, help="parameter file instead of the package's own")
-    _output_arguments(parser)
-    return run(parser, lambda a: make_crop(a.species, a.stage, a.seed, a.name, a.output, a.params))
 
 
 def _make_terrain(args: argparse.Namespace) -> Path:

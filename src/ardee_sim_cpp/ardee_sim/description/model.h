@@ -88,6 +88,9 @@ struct Link {
   bool gravity = true;
   bool kinematic = false;
   bool self_collide = false;
+  // Share of the velocity that a step takes away (SDF <velocity_decay>, URDF <dampingFactor>).
+  double linear_decay = 0.0;
+  double angular_decay = 0.0;
   Source source;
 };
 
@@ -149,6 +152,7 @@ struct Model {
   Source source;
   bool is_static = false;
   bool self_collide = false;
+  Pose own_pose;  // <pose> of its own file: where it stands if who includes or spawns it says nothing else
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;

@@ -14,8 +14,7 @@ struct PhysicsParams {
   enum class Solver { kQuick, kWorld };
 
   double step_s = 0.001;
-  double real_time_factor = 1.0;
-  double real_time_update_rate_hz = 1000.0;  // 0: as fast as the machine can
+  double real_time_update_rate_hz = 1000.0;  // steps per wall second; 0: as fast as possible
   Eigen::Vector3d gravity_m_per_s2{0, 0, -9.8};
   Solver solver = Solver::kQuick;
   int iterations = 50;
@@ -41,6 +40,10 @@ struct Light {
   double attenuation_constant = 1.0;
   double attenuation_linear = 1.0;
   double attenuation_quadratic = 0.0;
+  // Spot: full brightness within the inner angle, none outside the outer one.
+  double inner_angle_rad = 0.0;
+  double outer_angle_rad = 0.0;
+  double falloff = 0.0;
 };
 
 struct Scene {

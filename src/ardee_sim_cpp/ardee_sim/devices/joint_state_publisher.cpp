@@ -62,7 +62,7 @@ void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
 
 void JointStatePublisher::reset(TimeNs now_ns) {
   timer_.reset();
-  timer_.start_at(now_ns);
+  timer_.start_at(now_ns + 1);
 }
 
 }  // namespace ardee

@@ -14,7 +14,7 @@ void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
 
 void Sensor::reset(TimeNs now_ns) {
   timer_.reset();
-  timer_.start_at(now_ns);
+  timer_.start_at(now_ns + 1);
 }
 
 }  // namespace ardee

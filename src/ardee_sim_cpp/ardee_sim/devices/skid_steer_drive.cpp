@@ -183,10 +183,10 @@ void SkidSteerDrive::reset(TimeNs now_ns) {
   command_ = Twist{};
   command_is_new_ = false;
   command_time_ns_ = now_ns;
-  for (RateTimer* timer : {&command_timer_, &odometry_timer_}) {
-    timer->reset();
-    timer->start_at(now_ns);
-  }
+  command_timer_.reset();
+  command_timer_.start_at(now_ns);
+  odometry_timer_.reset();
+  odometry_timer_.start_at(now_ns + 1);
   encoder_pose_ = Pose{};
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     wheel_angles_[wheel] = robot_.dynamics().joint_position(params_.joints[wheel]);

@@ -12,16 +12,16 @@
 
 namespace ardee {
 
-/// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness * (angle - reference) (thesis
-/// eq. 4.1), integrated implicitly, so that it is stable at any step.
+/// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness *
+/// (angle - reference) (thesis eq. 4.1), integrated implicitly, so that it is stable at any step.
 struct JointSpring {
   double stiffness = 0.0;  // N m/rad (N/m)
   double damping = 0.0;    // N m s/rad (N s/m)
   double reference = 0.0;  // rad (m)
 };
 
-/// The moving state of one dynamic model. Links and joints are addressed by their index in the description. Links joined by
-/// fixed joints move as one body but keep their frames.
+/// The moving state of one dynamic model. Links and joints are addressed by their index in the
+/// description. Links joined by fixed joints move as one body but keep their frames.
 class PhysicsModel {
  public:
   virtual ~PhysicsModel() = default;
@@ -31,7 +31,8 @@ class PhysicsModel {
   virtual Pose pose() const = 0;
   /// Moves the whole model, joints as they are; velocities are kept.
   virtual void set_pose(const Pose& X_WM) = 0;
-  /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world axes).
+  /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
+  /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
   /// Velocity of the link frame's origin, and angular velocity, in world axes.
@@ -42,7 +43,8 @@ class PhysicsModel {
   virtual double joint_velocity(std::size_t joint) const = 0;
   /// Moves the child side of the joint, all that hangs on it included; limits are respected.
   virtual void set_joint_position(std::size_t joint, double position) = 0;
-  /// Drives the joint towards `velocity` with at most `max_effort`; max_effort 0 lets it coast. Holds until changed.
+  /// Drives the joint towards `velocity` with at most `max_effort`; max_effort 0 lets it coast.
+  /// Holds until changed.
   virtual void set_joint_motor(std::size_t joint, double velocity, double max_effort) = 0;
   /// Replaces the spring, damper of the description. Holds until changed.
   virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
@@ -54,8 +56,8 @@ class PhysicsModel {
   virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
 };
 
-/// ODE behind plain data: dynamic models, and scenery in a uniform grid so that the cost of a step does not depend on the
-/// size of the field.
+/// ODE behind plain data: dynamic models, and scenery in a uniform grid so that the cost of a step
+/// does not depend on the size of the field.
 class PhysicsWorld {
  public:
   PhysicsWorld(const PhysicsParams& params, Log log);
@@ -75,6 +77,14 @@ class PhysicsWorld {
 
   /// One step of params().step_s. Throws Error naming model and link if a state is not finite.
   void step();
+  /// What the last step dealt with.
+  struct Stats {
+    std::size_t contacts = 0;        // points of contact
+    std::size_t scenery_tested = 0;  // bounds of scenery compared with a robot's
+    std::size_t scenery_built = 0;   // static shapes alive near robots
+    bool solved_directly = false;    // not by iterations
+  };
+  Stats stats() const;
   /// ODE's solver shuffles with a global random number: called on each reset.
   void reset_random(std::uint64_t seed);
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/raycast/alpha_mask.h"
 #include "ardee_sim/raycast/embree_scene.h"
 #include "ardee_sim/raycast/height_patch.h"
 #include "ardee_sim/raycast/triangle_block.h"
@@ -19,6 +20,7 @@ struct BodySurface {
   std::uint32_t shape = 0;
   float laser_retro = 0.0f;
   bool two_sided = true;
+  std::shared_ptr<const AlphaMask> mask;  // null: no holes
 };
 
 struct BodyTriangle {
@@ -63,7 +65,8 @@ struct Piece {
 struct Body {
   std::vector<BodySurface> surfaces;
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<BodyTriangle> triangles;  // block by block
+  std::vector<Eigen::Vector2f> texcoords;  // as many as vertices if a surface has holes, else none
+  std::vector<BodyTriangle> triangles;     // block by block
   std::vector<TriangleBlock> blocks;
   std::vector<Solid> solids;
   std::vector<Terrain> terrains;

@@ -17,7 +17,8 @@ constexpr std::size_t kTreeThreshold = 3;
 /// Collects the shapes of links into a body.
 class BodyCompiler {
  public:
-  BodyCompiler(const Model& model, SceneKind kind) : model_(model), kind_(kind) {}
+  BodyCompiler(AlphaMasks& masks, const Model& model, SceneKind kind)
+      : masks_(masks), model_(model), kind_(kind) {}
 
   void add_link(std::uint32_t link, const Pose& X_BL) {
     const Link& description = model_.links[link];
@@ -54,6 +55,13 @@ class BodyCompiler {
 
   bool sides(const Material* material) const {
     return kind_ == SceneKind::kCollision || (material != nullptr && material->two_sided);
+  }
+
+  std::shared_ptr<const AlphaMask> holes(const Material* material, const SubMesh& part) const {
+    const bool wanted = kind_ == SceneKind::kVisual && material != nullptr &&
+                        material->alpha_rejection >= 0.0f && !material->texture_path.empty() &&
+                        part.texcoords.size() == part.vertices.size();
+    return wanted ? masks_.get(material->texture_path, material->alpha_rejection) : nullptr;
   }
 
   Error error(const std::string& what) const {
@@ -108,10 +116,26 @@ class BodyCompiler {
               {0.5 * plane.size_m.x(), 0.5 * plane.size_m.y(), 0.0});
   }
 
-  void add(const Heightmap& map) {
-    if (map.grid == nullptr || map.grid->columns < 2 || map.grid->rows < 2) {
+  void check_grid(const HeightGrid* grid) const {
+    if (grid == nullptr || grid->columns < 2 || grid->rows < 2) {
       throw error("the heightmap needs at least 2 x 2 heights");
     }
+    const auto count =
+        static_cast<std::size_t>(grid->columns) * static_cast<std::size_t>(grid->rows);
+    if (grid->heights_m.size() != count) {
+      throw error("the heightmap has " + std::to_string(grid->heights_m.size()) +
+                  " heights instead of " + std::to_string(count));
+    }
+    if (!(grid->size_m.minCoeff() > 0.0) || !grid->size_m.allFinite()) {
+      throw error("the heightmap's size must be finite and above 0");
+    }
+    for (const float height : grid->heights_m) {
+      if (!std::isfinite(height)) throw error("a height of the heightmap is not finite");
+    }
+  }
+
+  void add(const Heightmap& map) {
+    check_grid(map.grid.get());
     const auto terrain = static_cast<std::uint32_t>(body_->terrains.size());
     body_->terrains.push_back({HeightSurface(map.grid, map.position_m), X_BS_.q.toRotationMatrix(),
                                X_BS_.p, add_surface()});
@@ -120,7 +144,6 @@ class BodyCompiler {
       const auto index = static_cast<std::uint32_t>(body_->patches.size());
       body_->patches.push_back({terrain, patch});
       const Bounds box = made.heights.bounds(patch);
-      if (!box.lower.allFinite() || !box.upper.allFinite()) throw error("a height is not finite");
       add_piece({Piece::Kind::kPatch, index}, box.transformed(made.R_BS, made.p_BS));
     }
   }
@@ -134,6 +157,7 @@ class BodyCompiler {
   void make_blocks();
   void fill_block(TriangleBlock& block, const Bounds& bounds);
 
+  AlphaMasks& masks_;
   const Model& model_;
   SceneKind kind_;
   std::unique_ptr<Body> body_ = std::make_unique<Body>();
@@ -167,9 +191,16 @@ void BodyCompiler::add_part(const SubMesh& part, const Mesh& mesh, const Eigen::
       part.material >= 0 && static_cast<std::size_t>(part.material) < mesh.file->materials.size();
   const Material* own =
       known ? &mesh.file->materials[static_cast<std::size_t>(part.material)] : nullptr;
-  surface_.two_sided = sides(material_ != nullptr ? material_ : own);
-  const std::uint32_t surface = add_surface();
+  const Material* material = material_ != nullptr ? material_ : own;
+  surface_.two_sided = sides(material);
+  surface_.mask = holes(material, part);
   const auto base = static_cast<std::uint32_t>(body_->vertices.size());
+  if (surface_.mask != nullptr) {
+    body_->texcoords.resize(base);
+    body_->texcoords.insert(body_->texcoords.end(), part.texcoords.begin(), part.texcoords.end());
+  }
+  const std::uint32_t surface = add_surface();
+  surface_.mask.reset();
   for (const Eigen::Vector3f& vertex : part.vertices) {
     const Eigen::Vector3d scaled = mesh.scale.cwiseProduct(vertex.cast<double>() - center);
     const Eigen::Vector3f placed = (X_BS_ * scaled).cast<float>();
@@ -218,7 +249,7 @@ void BodyCompiler::make_blocks() {
 
 void BodyCompiler::fill_block(TriangleBlock& block, const Bounds& bounds) {
   block.center = bounds.center();
-  block.radius = bounds.radius();
+  block.radius = static_cast<float>(1.0001 * bounds.radius());
   for (std::uint32_t lane = 0; lane < kBlockLanes; ++lane) {
     const std::uint32_t index = block.first + std::min(lane, block.count - 1);
     const BodyTriangle& triangle = body_->triangles[index];
@@ -258,16 +289,16 @@ std::unique_ptr<Body> BodyCompiler::finish(const EmbreeDevice& device) {
 
 }  // namespace
 
-std::unique_ptr<Body> compile_model(const EmbreeDevice& device, const Model& model,
-                                    SceneKind kind) {
-  BodyCompiler compiler(model, kind);
+std::unique_ptr<Body> compile_model(const EmbreeDevice& device, AlphaMasks& masks,
+                                    const Model& model, SceneKind kind) {
+  BodyCompiler compiler(masks, model, kind);
   for (std::uint32_t k = 0; k < model.links.size(); ++k) compiler.add_link(k, model.links[k].X_ML);
   return compiler.finish(device);
 }
 
-std::unique_ptr<Body> compile_link(const EmbreeDevice& device, const Model& model,
-                                   std::uint32_t link, SceneKind kind) {
-  BodyCompiler compiler(model, kind);
+std::unique_ptr<Body> compile_link(const EmbreeDevice& device, AlphaMasks& masks,
+                                   const Model& model, std::uint32_t link, SceneKind kind) {
+  BodyCompiler compiler(masks, model, kind);
   compiler.add_link(link, Pose{});
   return compiler.finish(device);
 }

@@ -13,8 +13,9 @@ namespace ardee {
 /// All links of a static model as one body in the model's frame, or one link alone in its own
 /// frame. Throws Error if a shape is not usable (a submesh that does not exist, a size that is not
 /// finite).
-std::unique_ptr<Body> compile_model(const EmbreeDevice& device, const Model& model, SceneKind kind);
-std::unique_ptr<Body> compile_link(const EmbreeDevice& device, const Model& model,
-                                   std::uint32_t link, SceneKind kind);
+std::unique_ptr<Body> compile_model(const EmbreeDevice& device, AlphaMasks& masks,
+                                    const Model& model, SceneKind kind);
+std::unique_ptr<Body> compile_link(const EmbreeDevice& device, AlphaMasks& masks,
+                                   const Model& model, std::uint32_t link, SceneKind kind);
 
 }  // namespace ardee

@@ -37,7 +37,7 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
   }
   Entry entry;
   for (std::uint32_t link = 0; link < model->links.size(); ++link) {
-    entry.bodies.push_back(compile_link(device_, *model, link, kind_));
+    entry.bodies.push_back(compile_link(device_, masks_, *model, link, kind_));
     const Body& body = *entry.bodies.back();
     if (body.pieces.empty() && body.grounds.empty()) continue;
     PlacedBody placed;
@@ -91,6 +91,7 @@ void MovingModels::meet(RayQuery& query) const {
     if (entry.boxes_W.empty()) continue;
     if (!touches(entry.box_W, ray.origin, inverse, query.reach())) continue;
     for (std::size_t k = 0; k < entry.placed.size(); ++k) {
+      if (query.passes(entity, entry.links[k])) continue;
       if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
         query.meet_body(entry.placed[k], 0.0);
       }

@@ -13,7 +13,8 @@ namespace ardee {
 /// rebuilt with each motion.
 class MovingModels {
  public:
-  MovingModels(const EmbreeDevice& device, SceneKind kind) : device_(device), kind_(kind) {}
+  MovingModels(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
+      : device_(device), masks_(masks), kind_(kind) {}
 
   void add(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove(std::uint32_t entity);
@@ -31,6 +32,7 @@ class MovingModels {
   };
 
   const EmbreeDevice& device_;
+  AlphaMasks& masks_;
   SceneKind kind_;
   std::map<std::uint32_t, Entry> entries_;
 };

@@ -14,7 +14,7 @@ constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
 constexpr double kShrink = 0.8;
 constexpr double kSmallest_m = 0.5;
-constexpr double kFloatSlack = 1e-6;
+constexpr double kFloatSlack = 2e-6;
 
 }  // namespace
 
@@ -60,10 +60,10 @@ void NearRegion::add(const PlacedBody& placed) {
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const Eigen::Matrix3d m = R_WB.transpose() / placed.scale;
   Frame frame;
-  frame.scale = static_cast<float>(placed.scale);
+  frame.place.scale = static_cast<float>(placed.scale);
   frame.placed = &placed;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) frame.m[i][j] = static_cast<float>(m(i, j));
+    for (int j = 0; j < 3; ++j) frame.place.m[i][j] = static_cast<float>(m(i, j));
   }
   const auto frame_index = static_cast<std::uint32_t>(frames_.size());
   frames_.push_back(frame);
@@ -78,20 +78,22 @@ void NearRegion::add(const PlacedBody& placed) {
       if (apart) continue;
     }
     const Eigen::Vector3d center = placed.p + R_WB * (placed.scale * box_B.center()) - origin_W_;
-    entries_.push_back({{static_cast<float>(center.x()), static_cast<float>(center.y()),
-                         static_cast<float>(center.z())},
-                        frame_index,
-                        k});
-    const Piece& piece = body.pieces[k];
-    if (piece.kind == Piece::Kind::kBlock) triangles_ += body.blocks[piece.index].count;
+    Entry entry{};
+    for (int i = 0; i < 3; ++i) entry.center[i] = static_cast<float>(center[i]);
+    entry.frame = frame_index;
+    entry.piece = k;
+    if (body.pieces[k].kind == Piece::Kind::kBlock) {
+      entry.block = &body.blocks[body.pieces[k].index];
+      triangles_ += entry.block->count;
+    }
+    entries_.push_back(entry);
   }
 }
 
 void NearRegion::entry_bounds(std::size_t index, float* lower, float* upper) const {
   const Entry& entry = entries_[index];
   const PlacedBody& placed = *frames_[entry.frame].placed;
-  const Piece& piece = placed.body->pieces[entry.piece];
-  if (piece.kind != Piece::Kind::kBlock) {
+  if (entry.block == nullptr) {
     Bounds box = placed.body->piece_bounds[entry.piece].transformed(
         placed.q.toRotationMatrix() * placed.scale, placed.p - origin_W_);
     round_outwards(box, extent_m_ + box.radius(), lower, upper);
@@ -99,15 +101,14 @@ void NearRegion::entry_bounds(std::size_t index, float* lower, float* upper) con
   }
   // m is R_BW / scale: its transpose times the scale squared turns the block into the world.
   const Frame& frame = frames_[entry.frame];
-  const float square = frame.scale * frame.scale;
+  const float square = frame.place.scale * frame.place.scale;
   float turn[3][3];
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) turn[i][j] = frame.m[j][i] * square;
+    for (int j = 0; j < 3; ++j) turn[i][j] = frame.place.m[j][i] * square;
   }
-  const TriangleBlock& block = placed.body->blocks[piece.index];
+  const TriangleBlock& block = *entry.block;
   block_bounds(block, turn, entry.center, lower, upper);
-  const float margin =
-      1e-5f + 2.0f * slack_m_ + 2e-6f * static_cast<float>(block.radius) * frame.scale;
+  const float margin = 1e-5f + slack_m_ + 2e-6f * block.radius * frame.place.scale;
   for (int k = 0; k < 3; ++k) {
     lower[k] -= margin;
     upper[k] += margin;
@@ -125,69 +126,46 @@ double NearRegion::exit_t(const Ray& ray_W) const {
   return t;
 }
 
-void NearRegion::meet(RayQuery& query, double t_high) const {
+void NearRegion::meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
   if (scene_ == nullptr) return;
-  const Ray ray{query.ray_W().origin - origin_W_, query.ray_W().direction};
-  double t_low = 0.0;
-  // Seen from high above, floats are of the scenery's size from where the ray enters its layer.
-  if (std::abs(ray.origin.z()) > half_height_m_) {
-    if (ray.origin.z() * ray.direction.z() >= 0.0) return;
-    t_low = (std::abs(ray.origin.z()) - half_height_m_) / std::abs(ray.direction.z());
+  Passage passages[kPacketRays];
+  for (int i = 0; i < kPacketRays; ++i) {
+    if (t_high[i] < 0.0) continue;
+    const Ray& ray_W = queries[i].ray_W();
+    passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
+    passages[i].t_high = t_high[i];
+    // From high above, floats are of the scenery's size from where the ray enters its layer.
+    const double above = std::abs(passages[i].ray.origin.z()) - half_height_m_;
+    if (above <= 0.0) continue;
+    const double towards = -std::copysign(1.0, passages[i].ray.origin.z()) * ray_W.direction.z();
+    passages[i].t_low = towards > 0.0 ? above / towards : std::numeric_limits<double>::infinity();
   }
-  traverse(scene_->get(), query, ray, t_low, t_high);
-}
-
-void NearRegion::meet_block_entry(const Entry& entry, const RTCRayN* ray, RayQuery& query,
-                                  double t_shift) const {
-  const Frame& frame = frames_[entry.frame];
-  const Body& body = *frame.placed->body;
-  const TriangleBlock& block = body.blocks[body.pieces[entry.piece].index];
-  const auto& r = *reinterpret_cast<const RTCRay*>(ray);
-  const float cx = entry.center[0] - r.org_x;
-  const float cy = entry.center[1] - r.org_y;
-  const float cz = entry.center[2] - r.org_z;
-  // From the point of the ray that is nearest to the centre.
-  const float t_near = cx * r.dir_x + cy * r.dir_y + cz * r.dir_z;
-  const float ox = t_near * r.dir_x - cx;
-  const float oy = t_near * r.dir_y - cy;
-  const float oz = t_near * r.dir_z - cz;
-  const float radius = static_cast<float>(block.radius);
-  const float t_radius = 2.0f * radius * frame.scale + 1e-3f;
-  BlockRay local;
-  for (int k = 0; k < 3; ++k) {
-    const float* row = frame.m[k];
-    local.origin[k] = row[0] * ox + row[1] * oy + row[2] * oz;
-    local.direction[k] = row[0] * r.dir_x + row[1] * r.dir_y + row[2] * r.dir_z;
-  }
-  const float reach = static_cast<float>(query.reach() - t_shift);
-  local.t_low = std::max(-t_near, -t_radius);
-  local.t_high = std::min(reach - t_near, t_radius);
-  local.slack_m = slack_m_ * 2.0f / frame.scale + 2e-6f * radius;
-  std::int32_t marks[kBlockLanes];
-  if (!sort_out(block, local, marks)) return;
-  query.enter(*frame.placed);
-  query.meet_marked(block, marks);
+  traverse_packet(scene_->get(), queries, passages);
 }
 
 void NearRegion::meet_entry(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
   const auto& region = *static_cast<const NearRegion*>(args->geometryUserPtr);
   const Entry& entry = region.entries_[args->primID];
-  const PlacedBody& placed = *region.frames_[entry.frame].placed;
-  const Piece& piece = placed.body->pieces[entry.piece];
-  RayQuery& query = *context->query;
-  const double reach = query.reach();
-  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
-  if (piece.kind == Piece::Kind::kBlock) {
-    region.meet_block_entry(entry, ray, query, context->t_shift);
-  } else {
-    query.enter(placed);
-    query.meet_piece(piece);
-  }
-  if (query.reach() < reach) {
-    RTCRayN_tfar(ray, args->N, 0) = float_above(query.reach() - context->t_shift);
-  }
+  const Frame& frame = region.frames_[entry.frame];
+  for_each_ray(args, [&](RayQuery& query, RTCRayN* rays, unsigned i, double) {
+    if (entry.block == nullptr) {
+      query.enter(*frame.placed);
+      query.meet_piece(frame.placed->body->pieces[entry.piece]);
+      return true;
+    }
+    const unsigned n = args->N;
+    const RegionRay ray{
+        {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+        {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+        RTCRayN_tfar(rays, n, i)};
+    std::int32_t marks[kBlockLanes];
+    if (!sort_out(*entry.block, frame.place, entry.center, ray, region.slack_m_, marks)) {
+      return false;
+    }
+    query.enter(*frame.placed);
+    query.meet_marked(*entry.block, marks);
+    return true;
+  });
 }
 
 std::size_t NearRegion::bytes() const {

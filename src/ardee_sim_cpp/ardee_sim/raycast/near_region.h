@@ -25,21 +25,21 @@ class NearRegion {
   }
   /// Where a ray from inside leaves the square; infinity if there is no other scenery.
   double exit_t(const Ray& ray_W) const;
-  /// All hits up to t_high.
-  void meet(RayQuery& query, double t_high) const;
+  /// All hits, each query up to its t_high (negative: not at all).
+  void meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
   std::size_t bytes() const;
   std::size_t triangles() const { return triangles_; }
 
  private:
-  struct Frame {
-    float m[3][3];  // world axes to the body's, its scale included
-    float scale;
+  struct alignas(64) Frame {
+    BlockPlace place;
     const PlacedBody* placed;
   };
-  struct Entry {
+  struct alignas(32) Entry {
     float center[3];  // of the piece, relative to origin_W_
     std::uint32_t frame;
+    const TriangleBlock* block;  // null: another kind of piece
     std::uint32_t piece;
   };
 
@@ -47,8 +47,6 @@ class NearRegion {
   void choose_size(const SceneryStore& store, std::size_t budget_bytes);
   void add(const PlacedBody& placed);
   void entry_bounds(std::size_t index, float* lower, float* upper) const;
-  void meet_block_entry(const Entry& entry, const RTCRayN* ray, RayQuery& query,
-                        double t_shift) const;
 
   Eigen::Vector2d center_W_;
   double half_size_m_;

@@ -25,12 +25,22 @@ void RayQuery::offer(const Candidate& candidate) {
   const BodySurface& surface = entered_->body->surfaces[candidate.surface];
   if (!precedes(candidate)) return;
   if (!surface.two_sided && candidate.normal_B.dot(ray_B_.direction) > 0.0) return;
-  if (entered_->entity == own_entity_ && surface.link == own_link_) return;
+  if (passes(entered_->entity, surface.link)) return;
   best_t_ = candidate.t;
   placed_ = entered_;
   surface_ = candidate.surface;
   primitive_ = candidate.primitive;
   normal_B_ = candidate.normal_B;
+}
+
+bool RayQuery::is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weights) const {
+  const Body& body = *entered_->body;
+  Eigen::Vector2d uv(0, 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    uv +=
+        weights[static_cast<Eigen::Index>(k)] * body.texcoords[triangle.vertices[k]].cast<double>();
+  }
+  return body.surfaces[triangle.surface].mask->is_hole(uv);
 }
 
 void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]) {
@@ -42,6 +52,9 @@ void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[
     if (meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
                       body.vertices[triangle.vertices[1]].cast<double>(),
                       body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
+      if (body.surfaces[triangle.surface].mask != nullptr && is_hole(triangle, hit.weights)) {
+        continue;
+      }
       offer({hit.t, triangle.surface, triangle.primitive, hit.normal});
     }
   }
@@ -52,7 +65,7 @@ void RayQuery::meet_block(const TriangleBlock& block) {
   const Eigen::Vector3d away = ray_B_.origin - block.center;
   const double t_near = -away.dot(ray_B_.direction) / scale;
   const Eigen::Vector3d origin = away + t_near * ray_B_.direction;
-  const double t_radius = 2.0 * block.radius / std::sqrt(scale) + 1e-3;
+  const double t_radius = 2.0 * static_cast<double>(block.radius) / std::sqrt(scale) + 1e-3;
   BlockRay ray;
   for (int k = 0; k < 3; ++k) {
     ray.origin[k] = static_cast<float>(origin[k]);
@@ -60,7 +73,8 @@ void RayQuery::meet_block(const TriangleBlock& block) {
   }
   ray.t_low = static_cast<float>(std::max(-t_near, -t_radius));
   ray.t_high = static_cast<float>(std::min(best_t_ - t_near, t_radius));
-  ray.slack_m = static_cast<float>(kBlockSlack * block.radius + 1e-7 * (1.0 + origin.norm()));
+  ray.slack_m = static_cast<float>(kBlockSlack * static_cast<double>(block.radius) +
+                                   1e-7 * (1.0 + origin.norm()));
   std::int32_t marks[kBlockLanes];
   if (sort_out(block, ray, marks)) meet_marked(block, marks);
 }
@@ -139,8 +153,8 @@ void RayQuery::meet_body(const PlacedBody& placed, double t_low) {
   const double scale = ray_B_.direction.squaredNorm();
   const double t_middle = away.dot(ray_B_.direction) / scale;
   const double t_radius = 1.01 * body.bounds.radius() / std::sqrt(scale) + 1e-3;
-  traverse(body.scene->get(), *this, ray_B_, std::max(t_low, t_middle - t_radius),
-           std::min(best_t_, t_middle + t_radius));
+  traverse(body.scene->get(), *this,
+           {ray_B_, std::max(t_low, t_middle - t_radius), std::min(best_t_, t_middle + t_radius)});
 }
 
 void RayQuery::fill(RayHit& hit) const {
@@ -161,42 +175,66 @@ void RayQuery::fill(RayHit& hit) const {
   hit.normal_W = normal_W.cast<float>();
 }
 
-void traverse(RTCSceneTy* scene, RayQuery& query, const Ray& ray, double t_low, double t_high) {
-  if (!(t_low <= t_high)) return;
+void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage) {
+  if (passage.empty()) return;
   TraversalContext context;
   rtcInitIntersectContext(&context.embree);
-  context.query = &query;
-  context.t_shift = t_low;
-  const Eigen::Vector3d origin = ray.at(t_low);
-  RTCRayHit rayhit;
-  rayhit.ray.org_x = static_cast<float>(origin.x());
-  rayhit.ray.org_y = static_cast<float>(origin.y());
-  rayhit.ray.org_z = static_cast<float>(origin.z());
-  rayhit.ray.dir_x = static_cast<float>(ray.direction.x());
-  rayhit.ray.dir_y = static_cast<float>(ray.direction.y());
-  rayhit.ray.dir_z = static_cast<float>(ray.direction.z());
-  rayhit.ray.tnear = 0.0f;
-  rayhit.ray.tfar = float_above(t_high - t_low);
-  rayhit.ray.time = 0.0f;
+  context.queries = &query;
+  context.t_shift[0] = passage.t_low;
+  const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
+  const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
+  RTCRayHit rayhit{};
+  rayhit.ray.org_x = origin.x();
+  rayhit.ray.org_y = origin.y();
+  rayhit.ray.org_z = origin.z();
+  rayhit.ray.dir_x = direction.x();
+  rayhit.ray.dir_y = direction.y();
+  rayhit.ray.dir_z = direction.z();
+  rayhit.ray.tfar = float_above(passage.t_high - passage.t_low);
   rayhit.ray.mask = 0xFFFFFFFFu;
-  rayhit.ray.id = 0;
-  rayhit.ray.flags = 0;
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(scene, &context.embree, &rayhit);
 }
 
-void meet_body_piece(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
-  const Body& body = *static_cast<const Body*>(args->geometryUserPtr);
-  RayQuery& query = *context->query;
-  const double reach = query.reach();
-  query.meet_piece(body.pieces[args->primID]);
-  if (query.reach() < reach) {
-    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0) =
-        float_above(query.reach() - context->t_shift);
+void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const Passage* passages) {
+  TraversalContext context;
+  rtcInitIntersectContext(&context.embree);
+  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.queries = queries;
+  alignas(32) int valid[kPacketRays];
+  RTCRayHit8 rayhit{};
+  int active = 0;
+  for (int i = 0; i < kPacketRays; ++i) {
+    const Passage& passage = passages[i];
+    rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    valid[i] = passage.empty() ? 0 : -1;
+    if (passage.empty()) continue;
+    ++active;
+    context.t_shift[i] = passage.t_low;
+    const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
+    const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
+    rayhit.ray.org_x[i] = origin.x();
+    rayhit.ray.org_y[i] = origin.y();
+    rayhit.ray.org_z[i] = origin.z();
+    rayhit.ray.dir_x[i] = direction.x();
+    rayhit.ray.dir_y[i] = direction.y();
+    rayhit.ray.dir_z[i] = direction.z();
+    rayhit.ray.tfar[i] = float_above(passage.t_high - passage.t_low);
+    rayhit.ray.mask[i] = 0xFFFFFFFFu;
+    rayhit.ray.id[i] = static_cast<unsigned>(i);
   }
+  if (active > 0) rtcIntersect8(valid, scene, &context.embree, &rayhit);
+}
+
+void meet_body_piece(const RTCIntersectFunctionNArguments* args) {
+  const Body& body = *static_cast<const Body*>(args->geometryUserPtr);
+  const Piece& piece = body.pieces[args->primID];
+  for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double) {
+    query.meet_piece(piece);
+    return true;
+  });
 }
 
 }  // namespace ardee

@@ -2,10 +2,12 @@
 #include "ardee_sim/raycast/ray_scene.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <memory>
 
 #include "ardee_sim/raycast/moving_models.h"
 #include "ardee_sim/raycast/near_regions.h"
@@ -20,29 +22,50 @@ constexpr std::size_t kGrain = 64;
 
 struct RayScene::Impl {
   Impl(SceneKind scene_kind, const RayOptions& ray_options, Log scene_log)
-      : log(std::move(scene_log)),
-        scenery(device, scene_kind),
-        moving(device, scene_kind),
+      : masks(std::move(scene_log)),
+        scenery(device, masks, scene_kind),
+        moving(device, masks, scene_kind),
         regions(device, scenery, ray_options),
-        arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {}
-
-  void cast_one(RayQuery& query, const NearRegion* region) const {
-    scenery.meet_everywhere(query);
-    moving.meet(query);
-    double t_left = 0.0;
-    if (region != nullptr) {
-      t_left = region->exit_t(query.ray_W());
-      region->meet(query, std::min(query.reach(), t_left));
-      if (query.reach() <= t_left) return;
+        arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {
+    // TBB has no more workers than cores unless it is told.
+    if (ray_options.threads > tbb::info::default_concurrency()) {
+      workers =
+          std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                static_cast<std::size_t>(ray_options.threads));
     }
-    scenery.meet_places(query, t_left);
   }
 
-  Log log;
+  /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
+  /// leave it unhindered.
+  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region) const {
+    double t_leave[kPacketRays];
+    double t_high[kPacketRays];
+    double t_low[kPacketRays];
+    for (int i = 0; i < kPacketRays; ++i) {
+      t_low[i] = std::numeric_limits<double>::infinity();
+      t_high[i] = -1.0;
+      if (i >= count) continue;
+      scenery.meet_everywhere(queries[i]);
+      moving.meet(queries[i]);
+      t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
+      t_high[i] = std::min(queries[i].reach(), t_leave[i]);
+    }
+    if (region != nullptr) region->meet(queries, t_high);
+    bool onwards = false;
+    for (int i = 0; i < count; ++i) {
+      if (region != nullptr && queries[i].reach() <= t_leave[i]) continue;
+      t_low[i] = t_leave[i];
+      onwards = true;
+    }
+    if (onwards) scenery.meet_places(queries, t_low);
+  }
+
   EmbreeDevice device;
+  AlphaMasks masks;
   SceneryStore scenery;
   MovingModels moving;
   NearRegions regions;
+  std::unique_ptr<tbb::global_control> workers;
   mutable tbb::task_arena arena;
 };
 
@@ -97,17 +120,22 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
   const NearRegion* region = impl_->regions.find(X_WS.p);
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
   impl_->arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const Eigen::Vector3d direction =
-                              (R_WS * directions[i].cast<double>()).normalized();
-                          RayQuery query({X_WS.p, direction}, static_cast<double>(max_range_m),
-                                         own_entity, own_link);
-                          impl_->cast_one(query, region);
-                          query.fill(hits[i]);
-                        }
-                      });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
+            const int count = static_cast<int>(std::min<std::size_t>(kPacketRays, range.end() - i));
+            RayQuery queries[kPacketRays];
+            for (int k = 0; k < count; ++k) {
+              const Eigen::Vector3f& direction_S = directions[i + static_cast<std::size_t>(k)];
+              const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
+              queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity,
+                               own_link);
+            }
+            impl_->cast(queries, count, region);
+            for (int k = 0; k < count; ++k) queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
+          }
+        });
   });
 }
 

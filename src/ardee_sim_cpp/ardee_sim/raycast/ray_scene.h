@@ -36,10 +36,12 @@ struct RayPattern {
 
 struct RayOptions {
   int threads = 0;  // 0: all cores
-  std::size_t flattened_budget_bytes = 512u
-                                       << 20;  // of scenery held as flat triangles near sensors
-  double flattened_radius_m = 6.0;  // tiles that touch this circle about a sensor are flattened
-  bool flatten = true;              // false: instances only (what rays return is the same)
+  /// Of scenery held piece by piece about sensors.
+  std::size_t flattened_budget_bytes = 512u << 20;
+  /// It reaches at least this far about a sensor, if the budget allows (measured: README.md).
+  double flattened_radius_m = 4.0;
+  /// False: instances only. What rays return is the same.
+  bool flatten = true;
 };
 
 /// The world as rays see it, on Embree. What a ray returns does not depend on threads, on tiles or
@@ -71,7 +73,7 @@ class RayScene {
   void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
             std::uint32_t own_entity, std::uint32_t own_link, std::vector<RayHit>& hits) const;
 
-  /// For benchmarks: bytes held by Embree and triangles flattened.
+  /// For benchmarks: bytes held by Embree and near regions, and triangles in the latter.
   std::size_t memory_bytes() const;
   std::size_t flattened_triangles() const;
 

@@ -13,6 +13,8 @@ namespace {
 constexpr double kHugeRadius_m = 2000.0;
 /// Nobody has a field there; Embree's floats would be whole metres.
 constexpr double kFarthest_m = 1e7;
+/// Against rounding where a ray enters and leaves the bounds of all.
+constexpr double kEndMargin_m = 1e-3;
 
 }  // namespace
 
@@ -45,7 +47,7 @@ const Body* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Gr
   Compiled& compiled = bodies_[model.get()];
   if (compiled.body == nullptr) {
     try {
-      compiled.body = compile_model(device_, *model, kind_);
+      compiled.body = compile_model(device_, masks_, *model, kind_);
     } catch (...) {
       bodies_.erase(model.get());
       throw;
@@ -148,29 +150,32 @@ void SceneryStore::meet_everywhere(RayQuery& query) const {
   }
 }
 
-void SceneryStore::meet_places(RayQuery& query, double t_low) const {
+void SceneryStore::meet_places(RayQuery queries[kPacketRays],
+                               const double t_low[kPacketRays]) const {
   if (scene_ == nullptr) return;
-  // Only the part of the ray within the bounds: floats are of the scenery's size wherever the
-  // sensor is.
-  const Ray& ray = query.ray_W();
-  const Ray moved{ray.origin - origin_W_, ray.direction};
-  Chord chord;
-  if (!meet_box(moved, 0.5 * (bounds_W_.upper - bounds_W_.lower), chord)) return;
-  traverse(scene_->get(), query, moved, std::max(t_low, chord.t_in - 1e-3),
-           std::min(query.reach(), chord.t_out + 1e-3));
+  const Eigen::Vector3d half_size = 0.5 * (bounds_W_.upper - bounds_W_.lower);
+  Passage passages[kPacketRays];
+  for (int i = 0; i < kPacketRays; ++i) {
+    if (!(t_low[i] <= queries[i].reach())) continue;
+    // Only the part of the ray within the bounds: floats are of the scenery's size wherever the
+    // sensor is.
+    const Ray& ray_W = queries[i].ray_W();
+    passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
+    Chord chord;
+    if (!meet_box(passages[i].ray, half_size, chord)) continue;
+    passages[i].t_low = std::max(t_low[i], chord.t_in - kEndMargin_m);
+    passages[i].t_high = std::min(queries[i].reach(), chord.t_out + kEndMargin_m);
+  }
+  traverse_packet(scene_->get(), queries, passages);
 }
 
 void SceneryStore::meet_place(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
   const auto& store = *static_cast<const SceneryStore*>(args->geometryUserPtr);
-  RayQuery& query = *context->query;
-  const double reach = query.reach();
-  query.meet_body(*store.places_[args->primID], context->t_shift);
-  if (query.reach() < reach) {
-    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, args->N), args->N, 0) =
-        float_above(query.reach() - context->t_shift);
-  }
+  const PlacedBody& placed = *store.places_[args->primID];
+  for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double t_shift) {
+    query.meet_body(placed, t_shift);
+    return true;
+  });
 }
 
 }  // namespace ardee

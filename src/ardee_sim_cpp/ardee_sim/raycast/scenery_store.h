@@ -13,7 +13,8 @@ namespace ardee {
 /// scene over the places.
 class SceneryStore {
  public:
-  SceneryStore(const EmbreeDevice& device, SceneKind kind) : device_(device), kind_(kind) {}
+  SceneryStore(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
+      : device_(device), masks_(masks), kind_(kind) {}
 
   /// Throws Error and adds nothing if a placement is not usable.
   void add(std::uint32_t first_entity, const std::vector<Placement>& placements);
@@ -24,8 +25,8 @@ class SceneryStore {
 
   /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
   void meet_everywhere(RayQuery& query) const;
-  /// The places, from t_low on.
-  void meet_places(RayQuery& query, double t_low) const;
+  /// The places, each query from its t_low on (infinity: not at all).
+  void meet_places(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
 
   const std::vector<const PlacedBody*>& places() const { return places_; }
   const Bounds& bounds_W() const { return bounds_W_; }
@@ -63,6 +64,7 @@ class SceneryStore {
   const Body* use_body(const std::shared_ptr<const Model>& model, Group& group);
 
   const EmbreeDevice& device_;
+  AlphaMasks& masks_;
   SceneKind kind_;
   std::map<const Model*, Compiled> bodies_;
   std::map<std::uint32_t, Group> groups_;

@@ -14,9 +14,15 @@
 #endif
 
 namespace ardee {
+namespace {
 
-ARDEE_VECTOR_CLONES
-bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]) {
+/// Float arithmetic within a block errs by a few parts in 2^24 of its size.
+constexpr float kBlockSlack = 2e-6f;
+
+/// Möller and Trumbore (1997) for all lanes, with the planes' normals at hand and slack at each
+/// comparison.
+__attribute__((always_inline)) inline bool mark(const TriangleBlock& block, const BlockRay& ray,
+                                                std::int32_t marks[kBlockLanes]) {
   const float ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
   const float dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
   const float slack = ray.slack_m;
@@ -47,6 +53,39 @@ bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t mark
     any |= marks[i];
   }
   return any != 0;
+}
+
+}  // namespace
+
+ARDEE_VECTOR_CLONES
+bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]) {
+  return mark(block, ray, marks);
+}
+
+ARDEE_VECTOR_CLONES
+bool sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
+              const RegionRay& ray, float slack_m, std::int32_t marks[kBlockLanes]) {
+  // From the point of the ray that is nearest to the centre: there floats are of the block's size.
+  const float* d = ray.direction;
+  const float cx = center[0] - ray.origin[0];
+  const float cy = center[1] - ray.origin[1];
+  const float cz = center[2] - ray.origin[2];
+  const float t_near = cx * d[0] + cy * d[1] + cz * d[2];
+  const float ox = t_near * d[0] - cx;
+  const float oy = t_near * d[1] - cy;
+  const float oz = t_near * d[2] - cz;
+  BlockRay local;
+  for (int k = 0; k < 3; ++k) {
+    const float* row = place.m[k];
+    local.origin[k] = row[0] * ox + row[1] * oy + row[2] * oz;
+    local.direction[k] = row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+  }
+  const float t_radius = 2.0f * block.radius * place.scale + 1e-3f;
+  const float t_left = ray.t_high - t_near;
+  local.t_low = t_near < t_radius ? -t_near : -t_radius;
+  local.t_high = t_left < t_radius ? t_left : t_radius;
+  local.slack_m = slack_m / place.scale + kBlockSlack * block.radius;
+  return mark(block, local, marks);
 }
 
 ARDEE_VECTOR_CLONES

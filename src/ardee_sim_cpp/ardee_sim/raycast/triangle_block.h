@@ -21,8 +21,8 @@ struct alignas(64) TriangleBlock {
   Lanes edge2[3];   // v2 - v0
   Lanes normal[3];  // edge1 x edge2
   Lanes length;     // of the longest edge
+  float radius = 0.0f;
   Eigen::Vector3d center;
-  double radius = 0.0;
   std::uint32_t first = 0;  // index of lane 0 among the body's triangles
   std::uint32_t count = 0;  // lanes in use; the others repeat the last
 };
@@ -38,6 +38,24 @@ struct BlockRay {
 
 /// Marks the triangles that the ray may meet: all that it does meet are among them. False: none.
 bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]);
+
+/// Where a block stands in a region: its centre, and what turns (and scales) the region's axes into
+/// the block's.
+struct BlockPlace {
+  float m[3][3];
+  float scale;
+};
+
+/// A unit ray in a region, from t = 0 on.
+struct RegionRay {
+  float origin[3];
+  float direction[3];
+  float t_high;
+};
+
+/// The same for a placed block; `slack_m` is how far the region's floats may be off.
+bool sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
+              const RegionRay& ray, float slack_m, std::int32_t marks[kBlockLanes]);
 
 /// The box about a block, turned and scaled by `m`, its centre moved to `center`.
 void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],

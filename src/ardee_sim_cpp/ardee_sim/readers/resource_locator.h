@@ -10,7 +10,8 @@
 
 namespace ardee {
 
-/// Finds the file behind a URI: model://, package://, file://, an absolute path, or a path beside the referring file.
+/// Finds the file behind a URI: model://, package://, file://, an absolute path, or a path beside
+/// the referring file.
 class ResourceLocator {
  public:
   using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
@@ -22,12 +23,17 @@ class ResourceLocator {
   void add_resource_path(const std::string& folder) { resource_paths_.push_back(folder); }
   void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
 
-  /// The existing file or folder that `uri` names. Throws Error at `source` with the places searched.
+  /// The existing file or folder that `uri` names. Throws Error at `source` with the places
+  /// searched.
   std::string resolve(const std::string& uri, const Source& source) const;
-  /// The .sdf file of the model folder that `uri` names (model.config's <sdf>, highest version up to 1.6 first).
+  /// The .sdf file of the model folder that `uri` names (model.config's <sdf>, highest version up
+  /// to 1.6 first).
   std::string resolve_model(const std::string& uri, const Source& source) const;
 
  private:
+  std::string resolve_package(const std::string& uri, const std::string& rest,
+                              const Source& source) const;
+
   std::vector<std::string> model_paths_;
   std::vector<std::string> resource_paths_;
   PackageFinder find_package_;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "ardee_sim/description/model.h"
+
+namespace ardee::physics {
+
+/// Links that fixed joints hold together: one rigid body. Masses in kg, lengths in m, in the
+/// model's frame M with all joints at zero.
+struct BodyGroup {
+  std::vector<std::size_t> links;
+  /// Moved by no force: a kinematic link is among them, or they are fixed to the world.
+  bool kinematic = false;
+  double mass_kg = 0.0;
+  Eigen::Vector3d com_M{0, 0, 0};
+  Eigen::Matrix3d inertia_M = Eigen::Matrix3d::Zero();  // about the centre of mass
+  /// The part of the mass that gravity pulls on.
+  double gravity_mass_kg = 0.0;
+  Eigen::Vector3d gravity_com_M{0, 0, 0};
+};
+
+struct BodyGroups {
+  std::vector<BodyGroup> groups;
+  std::vector<std::size_t> of_link;  // group of each link
+  std::size_t world = kNone;         // the group that stands for the world, if a joint names it
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+};
+
+/// Index of a link by name; throws Error naming the joint if there is none.
+std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint);
+
+/// Throws Error naming the link if a body that must move has no mass or no positive-definite
+/// inertia.
+BodyGroups group_links(const Model& model);
+
+}  // namespace ardee::physics

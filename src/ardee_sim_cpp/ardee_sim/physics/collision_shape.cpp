@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/collision_shape.h"
+
+#include <cmath>
+#include <limits>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::physics {
+namespace {
+
+bool is_size(double value) { return std::isfinite(value) && value > 0.0; }
+
+bool is_size(const Eigen::Vector3d& value) {
+  return is_size(value.x()) && is_size(value.y()) && is_size(value.z());
+}
+
+/// What is wrong with a geometry; empty if nothing.
+struct Fault {
+  std::string operator()(const Box& box) const {
+    return is_size(box.size_m) ? "" : "found a box whose size is not positive";
+  }
+  std::string operator()(const Sphere& sphere) const {
+    return is_size(sphere.radius_m) ? "" : "found a sphere whose radius is not positive";
+  }
+  std::string operator()(const Cylinder& cylinder) const {
+    return is_size(cylinder.radius_m) && is_size(cylinder.length_m)
+               ? ""
+               : "found a cylinder whose radius or length is not positive";
+  }
+  std::string operator()(const Plane& plane) const {
+    return plane.normal.allFinite() && plane.normal.norm() > 1e-9
+               ? ""
+               : "found a plane without a normal";
+  }
+  std::string operator()(const Mesh& mesh) const {
+    if (!mesh.file) return "found mesh '" + mesh.uri + "' without data";
+    return mesh.scale.allFinite() && mesh.scale.cwiseAbs().minCoeff() > 0.0
+               ? ""
+               : "found mesh '" + mesh.uri + "' with a scale of zero";
+  }
+  std::string operator()(const Heightmap& heightmap) const {
+    return heightmap.grid ? "" : "found heightmap '" + heightmap.uri + "' without data";
+  }
+};
+
+bool is_valid(const Surface& surface) {
+  const double numbers[] = {surface.mu,          surface.mu2,
+                            surface.slip1,       surface.slip2,
+                            surface.kp_n_per_m,  surface.kd_n_s_per_m,
+                            surface.min_depth_m, surface.max_correcting_velocity_m_per_s,
+                            surface.restitution, surface.bounce_threshold_m_per_s};
+  for (const double number : numbers) {
+    if (!(number >= 0.0)) return false;
+  }
+  return surface.fdir1.allFinite();
+}
+
+Eigen::AlignedBox3d transformed(const Eigen::AlignedBox3d& box, const Pose& X_WS) {
+  const Eigen::Vector3d center = X_WS * box.center();
+  const Eigen::Vector3d reach = X_WS.q.toRotationMatrix().cwiseAbs() * (0.5 * box.sizes());
+  return {center - reach, center + reach};
+}
+
+struct Bounds {
+  double scale;
+  const Pose& X_WS;
+
+  Eigen::AlignedBox3d operator()(const Box& box) const {
+    const Eigen::Vector3d half = 0.5 * scale * box.size_m;
+    return transformed({-half, half}, X_WS);
+  }
+  Eigen::AlignedBox3d operator()(const Sphere& sphere) const {
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(scale * sphere.radius_m);
+    return {X_WS.p - reach, X_WS.p + reach};
+  }
+  Eigen::AlignedBox3d operator()(const Cylinder& cylinder) const {
+    const Eigen::Vector3d axis = X_WS.q * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d across =
+        (Eigen::Vector3d::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    const Eigen::Vector3d reach =
+        scale * (0.5 * cylinder.length_m * axis.cwiseAbs() + cylinder.radius_m * across);
+    return {X_WS.p - reach, X_WS.p + reach};
+  }
+  Eigen::AlignedBox3d operator()(const Plane&) const {
+    const Eigen::Vector3d far = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+    return {-far, far};
+  }
+  Eigen::AlignedBox3d operator()(const Mesh& mesh) const {
+    const Eigen::AlignedBox3d box = mesh_bounds(mesh);
+    return transformed({scale * box.min(), scale * box.max()}, X_WS);
+  }
+  Eigen::AlignedBox3d operator()(const Heightmap& heightmap) const {
+    const Eigen::AlignedBox3d box = HeightField(heightmap.grid).bounds();
+    return transformed({scale * box.min(), scale * box.max()}, X_WS);
+  }
+};
+
+void place(dGeomID geom, const Pose& X_WS) {
+  const dQuaternion q = {X_WS.q.w(), X_WS.q.x(), X_WS.q.y(), X_WS.q.z()};
+  dGeomSetPosition(geom, X_WS.p.x(), X_WS.p.y(), X_WS.p.z());
+  dGeomSetQuaternion(geom, q);
+}
+
+}  // namespace
+
+void check_collision(const Model& model, const Link& link, const Collision& collision) {
+  std::string fault = std::visit(Fault{}, collision.geometry);
+  if (!collision.X_LC.is_finite()) fault = "found a pose that is not finite";
+  if (!is_valid(collision.surface)) fault = "found a surface number below zero or not a number";
+  if (fault.empty()) return;
+  throw Error(link.source, "model '" + model.name + "', link '" + link.name + "', collision '" +
+                               collision.name + "': " + fault);
+}
+
+Eigen::AlignedBox3d shape_bounds(const Geometry& geometry, double scale, const Pose& X_WS) {
+  return std::visit(Bounds{scale, X_WS}, geometry);
+}
+
+Pose shape_pose(const Collision& collision, const Pose& X_WC, double scale) {
+  const auto* heightmap = std::get_if<Heightmap>(&collision.geometry);
+  if (!heightmap) return X_WC;
+  return X_WC * Pose{scale * heightmap->position_m, Eigen::Quaterniond::Identity()};
+}
+
+CollisionShape ShapeFactory::make(const Collision& collision, const Pose& X_WC, double scale) {
+  CollisionShape shape;
+  shape.collision = &collision;
+  shape.scale = scale;
+  shape.X_WS = shape_pose(collision, X_WC, scale);
+  shape.bounds = shape_bounds(collision.geometry, scale, shape.X_WS);
+  if (const auto* box = std::get_if<Box>(&collision.geometry)) {
+    const Eigen::Vector3d size = scale * box->size_m;
+    shape.geom.reset(dCreateBox(nullptr, size.x(), size.y(), size.z()));
+  } else if (const auto* sphere = std::get_if<Sphere>(&collision.geometry)) {
+    shape.geom.reset(dCreateSphere(nullptr, scale * sphere->radius_m));
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&collision.geometry)) {
+    shape.geom.reset(
+        dCreateCylinder(nullptr, scale * cylinder->radius_m, scale * cylinder->length_m));
+  } else if (const auto* plane = std::get_if<Plane>(&collision.geometry)) {
+    const Eigen::Vector3d normal = shape.X_WS.q * plane->normal.normalized();
+    shape.geom.reset(
+        dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), normal.dot(shape.X_WS.p)));
+    return shape;
+  } else if (const auto* mesh = std::get_if<Mesh>(&collision.geometry)) {
+    shape.mesh = meshes_.get(*mesh, scale);
+    shape.geom.reset(dCreateTriMesh(nullptr, shape.mesh->data.get(), nullptr, nullptr, nullptr));
+  } else if (const auto* heightmap = std::get_if<Heightmap>(&collision.geometry)) {
+    std::weak_ptr<const HeightField>& slot = fields_[heightmap->grid.get()];
+    shape.field = slot.lock();
+    if (!shape.field) {
+      shape.field = std::make_shared<const HeightField>(heightmap->grid);
+      slot = shape.field;
+    }
+    return shape;
+  }
+  place(shape.geom.get(), shape.X_WS);
+  return shape;
+}
+
+Eigen::Matrix3d shape_rotation(const CollisionShape& shape) {
+  if (shape.field || std::holds_alternative<Plane>(shape.collision->geometry)) {
+    return shape.X_WS.q.toRotationMatrix();
+  }
+  return to_matrix(dGeomGetRotation(shape.geom.get()));
+}
+
+}  // namespace ardee::physics

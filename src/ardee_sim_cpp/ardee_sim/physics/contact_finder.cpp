@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/contact_finder.h"
+
+#include <algorithm>
+
+namespace ardee::physics {
+namespace {
+
+constexpr std::size_t kRowsPerContact = 3;
+
+Eigen::AlignedBox3d geom_bounds(dGeomID geom) {
+  dReal aabb[6];
+  dGeomGetAABB(geom, aabb);
+  return {Eigen::Vector3d(aabb[0], aabb[2], aabb[4]), Eigen::Vector3d(aabb[1], aabb[3], aabb[5])};
+}
+
+ContactSide side(const DynamicModel& model, std::size_t shape, const PhysicsParams& params) {
+  const DynamicModel::Shape& item = model.shapes()[shape];
+  return {&item.shape, model.body(item.group), model.mass_kg() * params.gravity_m_per_s2.norm()};
+}
+
+bool moves(const DynamicModel& model, std::size_t shape) {
+  return !model.is_kinematic(model.shapes()[shape].group);
+}
+
+}  // namespace
+
+void ContactFinder::gather(const std::vector<std::unique_ptr<DynamicModel>>& models) {
+  moving_.resize(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    Moving& item = moving_[i];
+    item.model = models[i].get();
+    item.bounds.clear();
+    item.all.setEmpty();
+    item.rows = item.model->rows();
+    item.island = i;
+    for (const DynamicModel::Shape& shape : item.model->shapes()) {
+      item.bounds.push_back(geom_bounds(shape.shape.geom.get()));
+      item.all.extend(item.bounds.back());
+    }
+  }
+}
+
+void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
+  if (item.bounds.empty()) return;
+  near_.clear();
+  scenery_.query(item.all, near_);
+  const std::size_t before = contacts_.count();
+  for (std::size_t i = 0; i < item.bounds.size(); ++i) {
+    if (!moves(*item.model, i)) continue;
+    const ContactSide mine = side(*item.model, i, params);
+    for (const CollisionShape* shape : near_) {
+      if (!shape->bounds.intersects(item.bounds[i])) continue;
+      contacts_.collide(mine, {shape, nullptr, 0.0}, params);
+    }
+  }
+  item.rows += kRowsPerContact * (contacts_.count() - before);
+}
+
+void ContactFinder::touch_self(Moving& item, const PhysicsParams& params) {
+  const std::size_t before = contacts_.count();
+  for (const auto& [i, j] : item.model->self_pairs()) {
+    if (!item.bounds[i].intersects(item.bounds[j])) continue;
+    contacts_.collide(side(*item.model, i, params), side(*item.model, j, params), params);
+  }
+  item.rows += kRowsPerContact * (contacts_.count() - before);
+}
+
+void ContactFinder::touch(std::size_t first, std::size_t second, const PhysicsParams& params) {
+  Moving& a = moving_[first];
+  const Moving& b = moving_[second];
+  if (!a.all.intersects(b.all)) return;
+  const std::size_t before = contacts_.count();
+  for (std::size_t i = 0; i < a.bounds.size(); ++i) {
+    if (!a.bounds[i].intersects(b.all)) continue;
+    for (std::size_t j = 0; j < b.bounds.size(); ++j) {
+      if (!a.bounds[i].intersects(b.bounds[j])) continue;
+      // The first side of a contact is one that moves.
+      if (moves(*a.model, i)) {
+        contacts_.collide(side(*a.model, i, params), side(*b.model, j, params), params);
+      } else if (moves(*b.model, j)) {
+        contacts_.collide(side(*b.model, j, params), side(*a.model, i, params), params);
+      }
+    }
+  }
+  if (contacts_.count() == before) return;
+  a.rows += kRowsPerContact * (contacts_.count() - before);
+  moving_[island_of(second)].island = island_of(first);
+}
+
+void ContactFinder::find(const std::vector<std::unique_ptr<DynamicModel>>& models,
+                         const PhysicsParams& params) {
+  scenery_.begin_step();
+  gather(models);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    touch_scenery(moving_[i], params);
+    touch_self(moving_[i], params);
+    for (std::size_t j = i + 1; j < moving_.size(); ++j) touch(i, j, params);
+  }
+}
+
+std::size_t ContactFinder::island_of(std::size_t index) {
+  while (moving_[index].island != index) index = moving_[index].island;
+  return index;
+}
+
+std::size_t ContactFinder::largest_island_rows() {
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    Moving& root = moving_[island_of(i)];
+    if (&root != &moving_[i]) root.rows += moving_[i].rows;
+  }
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (moving_[i].island == i) largest = std::max(largest, moving_[i].rows);
+  }
+  return largest;
+}
+
+}  // namespace ardee::physics

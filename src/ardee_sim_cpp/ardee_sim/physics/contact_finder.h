@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/physics/contact_joints.h"
+#include "ardee_sim/physics/dynamic_model.h"
+#include "ardee_sim/physics/scenery_index.h"
+
+namespace ardee::physics {
+
+/// Finds what touches what in a step: each model against the scenery near it, itself and the other
+/// models, always in the order in which they were added.
+class ContactFinder {
+ public:
+  ContactFinder(SceneryIndex& scenery, ContactJoints& contacts)
+      : scenery_(scenery), contacts_(contacts) {}
+
+  void find(const std::vector<std::unique_ptr<DynamicModel>>& models, const PhysicsParams& params);
+
+  /// Upper bound of the constraint rows of the largest island: models that touch one another are
+  /// solved together.
+  std::size_t largest_island_rows();
+
+ private:
+  /// A model's shapes as they stand before the step.
+  struct Moving {
+    const DynamicModel* model;
+    std::vector<Eigen::AlignedBox3d> bounds;
+    Eigen::AlignedBox3d all;
+    std::size_t rows;
+    std::size_t island;  // index of a model of the same island, its own at the root
+  };
+
+  void gather(const std::vector<std::unique_ptr<DynamicModel>>& models);
+  void touch_scenery(Moving& item, const PhysicsParams& params);
+  void touch_self(Moving& item, const PhysicsParams& params);
+  void touch(std::size_t first, std::size_t second, const PhysicsParams& params);
+  std::size_t island_of(std::size_t index);
+
+  SceneryIndex& scenery_;
+  ContactJoints& contacts_;
+  std::vector<Moving> moving_;
+  std::vector<const CollisionShape*> near_;
+};
+
+}  // namespace ardee::physics

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/contact_joints.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace ardee::physics {
+namespace {
+
+constexpr double kMaxStiffness = 1e15;    // N/m, N s/m: as good as rigid
+constexpr double kLeastStiffness = 1e-6;  // N s/m: as good as nothing
+
+/// The first friction direction in the world: the first surface's that has one, along the contact
+/// plane.
+std::optional<Eigen::Vector3d> friction_direction(const ContactSide& a, const ContactSide& b,
+                                                  const Eigen::Vector3d& normal) {
+  for (const ContactSide* side : {&a, &b}) {
+    const Eigen::Vector3d& fdir1 = side->shape->collision->surface.fdir1;
+    if (fdir1.squaredNorm() < 1e-18) continue;
+    const Eigen::Vector3d direction = shape_rotation(*side->shape) * fdir1.normalized();
+    const Eigen::Vector3d tangent = direction - direction.dot(normal) * normal;
+    if (tangent.norm() < 1e-6) return std::nullopt;
+    return tangent.normalized();
+  }
+  return std::nullopt;
+}
+
+void copy(const Eigen::Vector3d& from, dReal* to) {
+  for (int i = 0; i < 3; ++i) to[i] = from[i];
+}
+
+}  // namespace
+
+ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
+                            double weight_n) {
+  ContactLaw law;
+  law.mu = std::min(a.mu, b.mu);
+  law.mu2 = std::min(a.mu2, b.mu2);
+  law.slip1 = a.slip1 + b.slip1;
+  law.slip2 = a.slip2 + b.slip2;
+  const double kp = std::min(1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m), kMaxStiffness);
+  const double kd = std::min(a.kd_n_s_per_m + b.kd_n_s_per_m, kMaxStiffness);
+  const double total = std::max(params.step_s * kp + kd, kLeastStiffness);
+  law.erp = params.step_s * kp / total;
+  law.cfm = 1.0 / total;
+  law.min_depth_m = std::max({params.contact_surface_layer_m, a.min_depth_m, b.min_depth_m});
+  law.max_push_m_per_s =
+      std::min({params.max_correcting_velocity_m_per_s, a.max_correcting_velocity_m_per_s,
+                b.max_correcting_velocity_m_per_s}) +
+      2.0 * weight_n * law.cfm;
+  law.restitution = std::min(a.restitution, b.restitution);
+  law.bounce_threshold_m_per_s = std::min(a.bounce_threshold_m_per_s, b.bounce_threshold_m_per_s);
+  return law;
+}
+
+ContactJoints::ContactJoints(dWorldID world) : world_(world), group_(dJointGroupCreate(0)) {}
+
+void ContactJoints::clear() {
+  dJointGroupEmpty(group_.get());
+  count_ = 0;
+}
+
+void ContactJoints::join(const ContactSide& a, const ContactSide& b, const ContactLaw& law,
+                         double step_s, const ContactPoint& point) {
+  dContact contact{};
+  contact.surface.mode = dContactApprox1 | dContactMu2 | dContactSoftERP | dContactSoftCFM;
+  contact.surface.mu = law.mu;
+  contact.surface.mu2 = law.mu2;
+  contact.surface.soft_erp = law.erp;
+  contact.surface.soft_cfm = law.cfm;
+  if (law.restitution > 0.0) {
+    contact.surface.mode |= dContactBounce;
+    contact.surface.bounce = law.restitution;
+    contact.surface.bounce_vel = law.bounce_threshold_m_per_s;
+  }
+  if (law.slip1 > 0.0) contact.surface.mode |= dContactSlip1;
+  if (law.slip2 > 0.0) contact.surface.mode |= dContactSlip2;
+  contact.surface.slip1 = law.slip1;
+  contact.surface.slip2 = law.slip2;
+  copy(point.position, contact.geom.pos);
+  copy(point.normal, contact.geom.normal);
+  // The engine knows one layer and one greatest push for all contacts; here each has its own, so
+  // the push is worked out here and handed on as the depth that gives it.
+  const double rate = law.erp / step_s;
+  const double push =
+      std::min(rate * std::max(0.0, point.depth_m - law.min_depth_m), law.max_push_m_per_s);
+  contact.geom.depth = rate > 0.0 ? push / rate : 0.0;
+  if (const auto direction = friction_direction(a, b, point.normal)) {
+    contact.surface.mode |= dContactFDir1;
+    copy(*direction, contact.fdir1);
+  }
+  dJointAttach(dJointCreateContact(world_, group_.get(), &contact), a.body, b.body);
+  ++count_;
+}
+
+void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
+                            const PhysicsParams& params) {
+  const Surface& surface_a = a.shape->collision->surface;
+  const Surface& surface_b = b.shape->collision->surface;
+  points_.clear();
+  const int most = std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});
+  collide_shapes(*a.shape, *b.shape, most, points_);
+  if (points_.empty()) return;
+  const double weight_n = b.body ? std::min(a.weight_n, b.weight_n) : a.weight_n;
+  const ContactLaw law = combine_surfaces(surface_a, surface_b, params, weight_n);
+  for (const ContactPoint& point : points_) join(a, b, law, params.step_s, point);
+}
+
+}  // namespace ardee::physics

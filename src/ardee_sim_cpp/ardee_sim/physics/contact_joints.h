@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "ardee_sim/description/world.h"
+#include "ardee_sim/physics/collision_shape.h"
+#include "ardee_sim/physics/narrow_phase.h"
+#include "ardee_sim/physics/ode_types.h"
+
+namespace ardee::physics {
+
+/// One side of a contact: a shape and the body that carries it, null for scenery.
+struct ContactSide {
+  const CollisionShape* shape = nullptr;
+  dBodyID body = nullptr;
+  double weight_n = 0.0;  // of the whole model
+};
+
+/// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in
+/// parallel, the smaller friction, restitution and threshold of the two.
+struct ContactLaw {
+  double mu = 0.0;
+  double mu2 = 0.0;
+  double slip1 = 0.0;
+  double slip2 = 0.0;
+  double erp = 0.0;
+  double cfm = 0.0;
+  double min_depth_m = 0.0;
+  double max_push_m_per_s = 0.0;
+  double restitution = 0.0;
+  double bounce_threshold_m_per_s = 0.0;
+};
+
+/// `weight_n`: that of the lighter model; a soft contact may always push with twice that, else it
+/// would sink for ever.
+ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
+                            double weight_n);
+
+/// The contacts of one step.
+class ContactJoints {
+ public:
+  explicit ContactJoints(dWorldID world);
+
+  /// Collides two shapes and joins their bodies where they overlap. `a` has a body that moves.
+  void collide(const ContactSide& a, const ContactSide& b, const PhysicsParams& params);
+  void clear();
+  std::size_t count() const { return count_; }
+
+ private:
+  void join(const ContactSide& a, const ContactSide& b, const ContactLaw& law, double step_s,
+            const ContactPoint& point);
+
+  dWorldID world_;
+  JointGroupHandle group_;
+  std::size_t count_ = 0;
+  std::vector<ContactPoint> points_;
+};
+
+}  // namespace ardee::physics

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/dynamic_model.h"
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::physics {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
+constexpr double kWorldReach =
+    1e6;  // m: nothing of a field is so far away; a body there has been thrown
+
+void set_mass(dBodyID body, const BodyGroup& group) {
+  const Eigen::Matrix3d& i = group.inertia_M;
+  dMass mass;
+  dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
+                     i(1, 2));
+  dBodySetMass(body, &mass);
+}
+
+bool pulls_all_or_nothing(const BodyGroup& group) {
+  return group.gravity_mass_kg == group.mass_kg || group.gravity_mass_kg == 0.0;
+}
+
+}  // namespace
+
+DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, const Pose& X_WM,
+                           ShapeFactory& factory)
+    : model_(std::move(model)) {
+  if (model_->links.empty()) {
+    throw Error(model_->source,
+                "model '" + model_->name + "': found no link, expected one or more");
+  }
+  if (!X_WM.is_finite() || X_WM.p.norm() > kWorldReach) {
+    throw Error(model_->source, "model '" + model_->name +
+                                    "': found a pose that is not finite or "
+                                    "beyond the world's range");
+  }
+  for (const Joint& joint : model_->joints) check_joint(*model_, joint);
+  groups_ = group_links(*model_);
+  for (std::size_t i = 0; i < model_->links.size(); ++i) {
+    if (model_->links[i].name == model_->canonical_link) canonical_ = i;
+  }
+  make_bodies(world, X_WM);
+  make_shapes(factory);
+  make_joints(world, X_WM);
+  find_self_pairs();
+}
+
+void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
+  for (const BodyGroup& group : groups_.groups) {
+    bodies_.emplace_back(dBodyCreate(world));
+    dBodyID body = bodies_.back().get();
+    mass_kg_ += group.mass_kg;
+    if (group.kinematic) {
+      dBodySetKinematic(body);
+    } else {
+      set_mass(body, group);
+    }
+    // Exact rotation over a step: a wheel turns by rate times step, not by twice the arc tangent of
+    // half that.
+    dBodySetFiniteRotationMode(body, 1);
+    dBodySetAutoDisableFlag(body, 0);
+    dBodySetGravityMode(body, group.gravity_mass_kg == group.mass_kg ? 1 : 0);
+    set_body_pose(body, X_WM * Pose{group.com_M, Eigen::Quaterniond::Identity()});
+  }
+  for (std::size_t i = 0; i < model_->links.size(); ++i) {
+    Pose X_BL = model_->links[i].X_ML;
+    X_BL.p -= groups_.groups[groups_.of_link[i]].com_M;
+    X_BL_.push_back(X_BL);
+  }
+}
+
+void DynamicModel::make_shapes(ShapeFactory& factory) {
+  for (std::size_t i = 0; i < model_->links.size(); ++i) {
+    const Link& link = model_->links[i];
+    for (const Collision& collision : link.collisions) {
+      check_collision(*model_, link, collision);
+      if (std::holds_alternative<Plane>(collision.geometry) ||
+          std::holds_alternative<Heightmap>(collision.geometry)) {
+        throw Error(link.source, "model '" + model_->name + "', link '" + link.name +
+                                     "': found a plane or heightmap on a model that can move, "
+                                     "expected it on a static one");
+      }
+      const std::size_t group = groups_.of_link[i];
+      shapes_.push_back({factory.make(collision, Pose{}, 1.0), group, i});
+      dGeomID geom = shapes_.back().shape.geom.get();
+      const Pose X_BC = X_BL_[i] * collision.X_LC;
+      const dQuaternion q = {X_BC.q.w(), X_BC.q.x(), X_BC.q.y(), X_BC.q.z()};
+      dGeomSetBody(geom, body(group));
+      dGeomSetOffsetPosition(geom, X_BC.p.x(), X_BC.p.y(), X_BC.p.z());
+      dGeomSetOffsetQuaternion(geom, q);
+    }
+  }
+}
+
+std::size_t DynamicModel::child_group(const Joint& joint) const {
+  return groups_.of_link[link_index(*model_, joint.child, joint)];
+}
+
+std::size_t DynamicModel::parent_group(const Joint& joint) const {
+  if (joint.parent == "world") return groups_.world;
+  return groups_.of_link[link_index(*model_, joint.parent, joint)];
+}
+
+void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
+  for (const Joint& joint : model_->joints) {
+    joints_.emplace_back();
+    if (joint.type == JointType::kFixed) continue;
+    const std::size_t child = child_group(joint), parent = parent_group(joint);
+    if (child == parent) {
+      throw Error(joint.source, "joint '" + joint.name + "' of model '" + model_->name +
+                                    "': found its two links fixed to each other");
+    }
+    const Link& link = model_->links[link_index(*model_, joint.child, joint)];
+    joints_.back() = std::make_unique<ModelJoint>(world, joint, body(child), body(parent),
+                                                  X_WM * link.X_ML * joint.X_CJ);
+    rows_ += kRowsPerJoint;
+  }
+}
+
+void DynamicModel::find_self_pairs() {
+  std::vector<ShapePair> joined;
+  for (const Joint& joint : model_->joints) {
+    joined.emplace_back(child_group(joint), parent_group(joint));
+  }
+  const auto is_joined = [&](std::size_t a, std::size_t b) {
+    for (const ShapePair& pair : joined) {
+      if (pair == ShapePair(a, b) || pair == ShapePair(b, a)) return true;
+    }
+    return false;
+  };
+  const auto collides = [&](const Shape& shape) {
+    return model_->self_collide || model_->links[shape.link].self_collide;
+  };
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
+      const std::size_t a = shapes_[i].group, b = shapes_[j].group;
+      if (a == b || is_joined(a, b) || (is_kinematic(a) && is_kinematic(b))) continue;
+      if (collides(shapes_[i]) && collides(shapes_[j])) self_pairs_.emplace_back(i, j);
+    }
+  }
+}
+
+void DynamicModel::move_body(std::size_t group, const Pose& motion) {
+  set_body_pose(body(group), motion * body_pose(body(group)));
+}
+
+void DynamicModel::prepare_step(const StepSettings& step, const Vector3d& gravity_m_per_s2) {
+  for (const auto& joint : joints_) {
+    if (joint) joint->prepare(step);
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyGroup& group = groups_.groups[i];
+    if (group.kinematic || pulls_all_or_nothing(group)) continue;
+    const Vector3d force = group.gravity_mass_kg * gravity_m_per_s2;
+    const Vector3d at = body_pose(body(i)) * Vector3d(group.gravity_com_M - group.com_M);
+    dBodyAddForceAtPos(body(i), force.x(), force.y(), force.z(), at.x(), at.y(), at.z());
+  }
+}
+
+void DynamicModel::finish_step() {
+  for (const auto& joint : joints_) {
+    if (joint) joint->measure();
+  }
+}
+
+void DynamicModel::check_state() const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Pose X_WB = body_pose(body(i));
+    const Vector3d v = to_vector(dBodyGetLinearVel(body(i)));
+    const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
+    const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
+    const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
+                          v.cwiseAbs().maxCoeff() <= kMaxInput &&
+                          w.cwiseAbs().maxCoeff() <= kMaxInput;
+    if (finite && in_range) continue;
+    const std::string link =
+        groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;
+    throw Error("model '" + model_->name + "', link '" + link + "': found a position or velocity " +
+                (finite ? "beyond the world's range" : "that is not finite"));
+  }
+}
+
+}  // namespace ardee::physics

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "ardee_sim/physics/body_groups.h"
+#include "ardee_sim/physics/collision_shape.h"
+#include "ardee_sim/physics/model_joint.h"
+#include "ardee_sim/physics/ode_types.h"
+#include "ardee_sim/physics/physics_world.h"
+
+namespace ardee::physics {
+
+/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from
+/// where sums overflow.
+constexpr double kMaxInput = 1e9;
+
+/// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one
+/// body, whose frame lies at its centre of mass, parallel to the model's frame when all joints are
+/// at zero.
+class DynamicModel : public PhysicsModel {
+ public:
+  struct Shape {
+    CollisionShape shape;
+    std::size_t group;
+    std::size_t link;
+  };
+  using ShapePair = std::pair<std::size_t, std::size_t>;
+
+  /// Throws Error and leaves nothing in the world if the description cannot be simulated.
+  DynamicModel(dWorldID world, std::shared_ptr<const Model> model, const Pose& X_WM,
+               ShapeFactory& factory);
+
+  const Model& description() const override { return *model_; }
+  Pose pose() const override;
+  void set_pose(const Pose& X_WM) override;
+  void set_twist(const Twist& twist_W) override;
+  Pose link_pose(std::size_t link) const override;
+  Twist link_twist(std::size_t link) const override;
+  double joint_position(std::size_t joint) const override;
+  double joint_velocity(std::size_t joint) const override;
+  void set_joint_position(std::size_t joint, double position) override;
+  void set_joint_motor(std::size_t joint, double velocity, double max_effort) override;
+  void set_joint_spring(std::size_t joint, const JointSpring& spring) override;
+  void set_joint_limits(std::size_t joint, double lower, double upper) override;
+  void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
+                    const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) override;
+  void apply_joint_effort(std::size_t joint, double effort) override;
+
+  const std::vector<Shape>& shapes() const { return shapes_; }
+  /// Pairs of this model's own shapes that may touch.
+  const std::vector<ShapePair>& self_pairs() const { return self_pairs_; }
+  dBodyID body(std::size_t group) const { return bodies_[group].get(); }
+  bool is_kinematic(std::size_t group) const { return groups_.groups[group].kinematic; }
+  double mass_kg() const { return mass_kg_; }
+  const std::vector<BodyHandle>& bodies() const { return bodies_; }
+  /// An upper bound of the constraint rows of its joints.
+  std::size_t rows() const { return rows_; }
+
+  void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
+  void finish_step();
+  /// Throws Error naming model and link if a body is not at a finite place within the world's
+  /// range.
+  void check_state() const;
+
+ private:
+  void make_bodies(dWorldID world, const Pose& X_WM);
+  void make_shapes(ShapeFactory& factory);
+  void make_joints(dWorldID world, const Pose& X_WM);
+  void find_self_pairs();
+  std::size_t parent_group(const Joint& joint) const;
+  std::size_t child_group(const Joint& joint) const;
+  /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
+  std::vector<std::size_t> hanging_on(std::size_t joint) const;
+  ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
+  void move_body(std::size_t group, const Pose& motion);
+
+  std::shared_ptr<const Model> model_;
+  BodyGroups groups_;
+  std::size_t canonical_ = 0;
+  double mass_kg_ = 0.0;
+  std::size_t rows_ = 0;
+  std::vector<BodyHandle> bodies_;
+  std::vector<Pose> X_BL_;                           // each link in its body
+  std::vector<Shape> shapes_;                        // after the bodies that carry them
+  std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
+  std::vector<ShapePair> self_pairs_;
+};
+
+}  // namespace ardee::physics

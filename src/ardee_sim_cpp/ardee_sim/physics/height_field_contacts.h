@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/description/geometry.h"
+#include "ardee_sim/physics/height_field.h"
+
+namespace ardee::physics {
+
+/// A point where a shape reaches below the ground. The normal points out of the ground; moving the
+/// shape along it by `depth_m` frees this point.
+struct GroundContact {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;
+  double depth_m = 0.0;
+};
+using GroundContacts = std::vector<GroundContact>;
+
+/// How far a point lies below the ground, measured down, with the ground's normal there; negative
+/// above it, minus infinity outside the field.
+double depth_below(const HeightField& field, const Eigen::Vector3d& point, Eigen::Vector3d& normal);
+
+/// Adds a contact unless one stands there already.
+void add_contact(const GroundContact& contact, GroundContacts& contacts);
+
+/// Adds a contact at a point of a shape if it lies below the ground.
+void add_point(const HeightField& field, const Eigen::Vector3d& point, GroundContacts& contacts);
+
+/// All poses are in the field's frame. Contacts are appended in a fixed order.
+void collide_sphere(const HeightField& field, const Eigen::Vector3d& center, double radius_m,
+                    GroundContacts& contacts);
+
+/// A cylinder on its side touches with its two rims and, over a ridge between them, its middle:
+/// each is a circle whose deepest points over faces and over convex edges of the ground are found
+/// in closed form, so that a rolling wheel meets no steps. A cylinder on end touches with eight
+/// points of the lower rim.
+void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder& cylinder,
+                      GroundContacts& contacts);
+
+/// Corners of the box, points of its edges over ridges, and peaks of the ground inside the box.
+void collide_box(const HeightField& field, const Pose& X_FB, const Box& box,
+                 GroundContacts& contacts);
+
+/// Vertices, each times `scale`, below the ground.
+void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
+                      const std::vector<Eigen::Vector3f>& vertices, GroundContacts& contacts);
+
+/// Keeps at most `max_contacts`: the deepest, then each time the one farthest from those kept.
+void reduce_contacts(GroundContacts& contacts, std::size_t max_contacts);
+
+}  // namespace ardee::physics

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/model_joint.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::physics {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kMaxNumber = 1e9;  // SI: beyond any robot's, and far from where sums overflow
+
+bool has_two_axes(JointType type) {
+  return type == JointType::kUniversal || type == JointType::kRevolute2;
+}
+
+/// The angle by which q turns about a unit axis, in (-pi, pi].
+double twist_angle(const Quaterniond& q, const Vector3d& axis) {
+  const double angle = 2.0 * std::atan2(q.vec().dot(axis), q.w());
+  return std::remainder(angle, 2.0 * M_PI);
+}
+
+/// `angle` with whole turns added to lie nearest to `near`.
+double unwrap(double angle, double near) { return near + std::remainder(angle - near, 2.0 * M_PI); }
+
+void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
+  std::ostringstream what;
+  what << "joint '" << joint.name << "' of model '" << model.name << "': ";
+  if (!axis.axis.allFinite() || axis.axis.norm() < 1e-9) {
+    throw Error(joint.source, what.str() + "found an axis of no length, expected a unit vector");
+  }
+  if (!(axis.lower <= axis.upper)) {
+    what << "found limits " << axis.lower << " to " << axis.upper
+         << ", expected the lower not above the upper";
+    throw Error(joint.source, what.str());
+  }
+  const double numbers[] = {axis.damping, axis.friction, axis.spring_stiffness};
+  for (const double number : numbers) {
+    if (number >= 0.0 && number <= kMaxNumber) continue;
+    what << "found damping, friction or stiffness " << number << ", expected one in [0, "
+         << kMaxNumber << "]";
+    throw Error(joint.source, what.str());
+  }
+  if (!(std::abs(axis.spring_reference) <= kMaxNumber) || !(axis.effort >= 0.0) ||
+      !(axis.velocity >= 0.0)) {
+    throw Error(joint.source,
+                what.str() +
+                    "found a reference that is not finite or a negative limit of effort or "
+                    "velocity");
+  }
+}
+
+}  // namespace
+
+void check_joint(const Model& model, const Joint& joint) {
+  const std::string name = "joint '" + joint.name + "' of model '" + model.name + "': ";
+  if (joint.type == JointType::kScrew) {
+    throw Error(joint.source,
+                name + "found type screw, which the physics engine has no counterpart for");
+  }
+  if (!joint.X_CJ.is_finite()) throw Error(joint.source, name + "found a pose that is not finite");
+  if (joint.type == JointType::kFixed || joint.type == JointType::kBall) return;
+  check_axis(model, joint, joint.axis);
+  if (!has_two_axes(joint.type)) return;
+  check_axis(model, joint, joint.axis2);
+  const double cosine = joint.axis.axis.normalized().dot(joint.axis2.axis.normalized());
+  if (joint.type == JointType::kUniversal && std::abs(cosine) > 1e-3) {
+    throw Error(joint.source, name + "found two axes that are not at right angles");
+  }
+  if (std::abs(cosine) > 1.0 - 1e-6) {
+    throw Error(joint.source, name + "found two axes along one line");
+  }
+}
+
+ModelJoint::ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyID parent,
+                       const Pose& X_WJ)
+    : type_(joint.type), child_(child), parent_(parent) {
+  const Pose X_WC = body_pose(child), X_WP = body_pose(parent);
+  const Vector3d axis_W = X_WJ.q * joint.axis.axis.normalized();
+  const Vector3d axis2_W =
+      has_two_axes(type_) ? Vector3d(X_WJ.q * joint.axis2.axis.normalized()) : axis_W;
+  axis_P_ = X_WP.q.conjugate() * axis_W;
+  axis2_C_ = X_WC.q.conjugate() * axis2_W;
+  axis2_P_ = X_WP.q.conjugate() * axis2_W;
+  q_PC0_ = X_WP.q.conjugate() * X_WC.q;
+  anchor_P_ = X_WP.inverse() * X_WJ.p;
+  anchor_C_ = X_WC.inverse() * X_WJ.p;
+  make_joint(world, X_WJ.p, axis_W, axis2_W);
+  if (dBodyIsKinematic(child) && dBodyIsKinematic(parent)) {
+    dJointDisable(joint_.get());  // nothing moves either of them
+    return;
+  }
+  make_drives(world, joint, axis_W, axis2_W);
+}
+
+void ModelJoint::make_joint(dWorldID world, const Vector3d& anchor, const Vector3d& axis_W,
+                            const Vector3d& axis2_W) {
+  if (type_ == JointType::kPrismatic) {
+    joint_.reset(dJointCreateSlider(world, nullptr));
+    dJointAttach(joint_.get(), child_, parent_);
+    dJointSetSliderAxis(joint_.get(), axis_W.x(), axis_W.y(), axis_W.z());
+  } else if (type_ == JointType::kBall) {
+    joint_.reset(dJointCreateBall(world, nullptr));
+    dJointAttach(joint_.get(), child_, parent_);
+    dJointSetBallAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else if (type_ == JointType::kRevolute2) {
+    // The first axis is fixed in the parent, the second in the child, here and in a universal
+    // joint.
+    joint_.reset(dJointCreateHinge2(world, nullptr));
+    dJointAttach(joint_.get(), parent_, child_);
+    dJointSetHinge2Anchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+    dJointSetHinge2Axes(joint_.get(), axis_W.data(), axis2_W.data());
+  } else if (type_ == JointType::kUniversal) {
+    joint_.reset(dJointCreateUniversal(world, nullptr));
+    dJointAttach(joint_.get(), parent_, child_);
+    dJointSetUniversalAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+    dJointSetUniversalAxis1(joint_.get(), axis_W.x(), axis_W.y(), axis_W.z());
+    dJointSetUniversalAxis2(joint_.get(), axis2_W.x(), axis2_W.y(), axis2_W.z());
+  } else {
+    joint_.reset(dJointCreateHinge(world, nullptr));
+    dJointAttach(joint_.get(), child_, parent_);
+    dJointSetHingeAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+    dJointSetHingeAxis(joint_.get(), axis_W.x(), axis_W.y(), axis_W.z());
+  }
+}
+
+void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d& axis_W,
+                             const Vector3d& axis2_W) {
+  if (type_ == JointType::kPrismatic) {
+    drive_ = JointDrive::linear(world, child_, parent_, joint_.get(), axis_W, joint.axis);
+  } else if (type_ == JointType::kBall) {
+    ball_damping_ = joint.axis.damping;
+    if (ball_damping_ < 1e-12) return;
+    ball_damper_.reset(dJointCreateAMotor(world, nullptr));
+    dJointAttach(ball_damper_.get(), child_, parent_);
+    dJointSetAMotorMode(ball_damper_.get(), dAMotorUser);
+    dJointSetAMotorNumAxes(ball_damper_.get(), 3);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d unit = Vector3d::Unit(i);
+      dJointSetAMotorAxis(ball_damper_.get(), i, 0, unit.x(), unit.y(), unit.z());
+      dJointSetAMotorParam(ball_damper_.get(), dParamFMax + dParamGroup * i, dInfinity);
+      dJointSetAMotorParam(ball_damper_.get(), dParamCFM + dParamGroup * i, 1.0 / ball_damping_);
+    }
+  } else {
+    JointAxis first = joint.axis;
+    if (type_ == JointType::kContinuous) {
+      first.lower = -dInfinity;
+      first.upper = dInfinity;
+    }
+    drive_ = JointDrive::rotational(world, child_, parent_, 2, axis_W, first);
+    if (has_two_axes(type_)) {
+      drive2_ = JointDrive::rotational(world, child_, parent_, 1, axis2_W, joint.axis2);
+    }
+  }
+  for (std::optional<JointDrive>* drive : {&drive_, &drive2_}) {
+    if (*drive) (*drive)->set_stop_softness(joint.stop_erp, joint.stop_cfm);
+  }
+}
+
+Vector3d ModelJoint::axis_W() const { return body_pose(parent_).q * axis_P_; }
+
+Vector3d ModelJoint::axis2_W() const { return body_pose(child_).q * axis2_C_; }
+
+Vector3d ModelJoint::relative_rate() const {
+  return to_vector(dBodyGetAngularVel(child_)) - to_vector(dBodyGetAngularVel(parent_));
+}
+
+double ModelJoint::measured() const {
+  const Pose X_WC = body_pose(child_), X_WP = body_pose(parent_);
+  if (type_ == JointType::kBall) return 0.0;
+  if (type_ == JointType::kPrismatic) {
+    return (X_WP.inverse() * (X_WC * anchor_C_) - anchor_P_).dot(axis_P_);
+  }
+  if (has_two_axes(type_)) {
+    // The first axis alone moves the second.
+    const Vector3d turned = X_WP.q.conjugate() * (X_WC.q * axis2_C_);
+    const Vector3d start = axis2_P_ - axis2_P_.dot(axis_P_) * axis_P_;
+    return std::atan2(axis_P_.cross(start).dot(turned), start.dot(turned));
+  }
+  // q_PC = turn * q_PC0, with the turn about the axis in the parent.
+  return twist_angle(X_WP.q.conjugate() * X_WC.q * q_PC0_.conjugate(), axis_P_);
+}
+
+double ModelJoint::angle2() const {
+  // What the child turns beyond the first axis: q_PC = turn1 * turn2 * q_PC0.
+  const Quaterniond q_PC = body_pose(parent_).q.conjugate() * body_pose(child_).q;
+  const Quaterniond turn1(Eigen::AngleAxisd(position_, axis_P_));
+  return twist_angle(turn1.conjugate() * q_PC * q_PC0_.conjugate(), axis2_P_);
+}
+
+double ModelJoint::velocity() const {
+  if (type_ == JointType::kBall) return 0.0;
+  if (type_ == JointType::kPrismatic) {
+    const Vector3d anchor = body_pose(child_) * anchor_C_;
+    dVector3 v_child, v_parent;
+    dBodyGetPointVel(child_, anchor.x(), anchor.y(), anchor.z(), v_child);
+    dBodyGetPointVel(parent_, anchor.x(), anchor.y(), anchor.z(), v_parent);
+    return (to_vector(v_child) - to_vector(v_parent)).dot(axis_W());
+  }
+  return relative_rate().dot(axis_W());
+}
+
+double ModelJoint::clamp(double position) const { return drive_ ? drive_->clamp(position) : 0.0; }
+
+Pose ModelJoint::motion_to(double position) const {
+  const double change = clamp(position) - position_;
+  const Vector3d axis = axis_W();
+  if (type_ == JointType::kPrismatic) return {change * axis, Quaterniond::Identity()};
+  const Quaterniond turn(Eigen::AngleAxisd(change, axis));
+  const Vector3d anchor = body_pose(parent_) * anchor_P_;
+  return {anchor - turn * anchor, turn};
+}
+
+void ModelJoint::set_motor(double velocity, double max_effort) {
+  if (drive_) drive_->set_motor(velocity, max_effort);
+}
+
+void ModelJoint::set_spring(const JointSpring& spring) {
+  if (drive_) drive_->set_spring(spring);
+}
+
+void ModelJoint::set_limits(double lower, double upper) {
+  if (drive_) drive_->set_limits(lower, upper);
+}
+
+void ModelJoint::add_effort(double effort) { effort_ += effort; }
+
+void ModelJoint::apply_effort() {
+  if (effort_ == 0.0 || !drive_) return;
+  const Vector3d effort = drive_->clamp_effort(effort_) * axis_W();
+  effort_ = 0.0;
+  if (type_ == JointType::kPrismatic) {
+    const Vector3d anchor = body_pose(child_) * anchor_C_;
+    dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(),
+                       anchor.z());
+    dBodyAddForceAtPos(parent_, -effort.x(), -effort.y(), -effort.z(), anchor.x(), anchor.y(),
+                       anchor.z());
+    return;
+  }
+  dBodyAddTorque(child_, effort.x(), effort.y(), effort.z());
+  dBodyAddTorque(parent_, -effort.x(), -effort.y(), -effort.z());
+}
+
+void ModelJoint::prepare(const StepSettings& step) {
+  if (drive_) drive_->prepare(position_, velocity(), step);
+  if (drive2_) drive2_->prepare(position2_, relative_rate().dot(axis2_W()), step);
+  apply_effort();
+}
+
+void ModelJoint::measure() {
+  const double now = measured();
+  position_ = type_ == JointType::kPrismatic ? now : unwrap(now, position_);
+  if (drive2_) position2_ = unwrap(angle2(), position2_);
+}
+
+}  // namespace ardee::physics

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "ardee_sim/description/model.h"
+#include "ardee_sim/physics/joint_drive.h"
+#include "ardee_sim/physics/ode_types.h"
+
+namespace ardee::physics {
+
+/// A joint between two bodies, with the bodies standing as all joints at zero when it is made.
+/// Positions and velocities are those of the child against the parent about the first axis, as SDF
+/// and URDF count them.
+class ModelJoint {
+ public:
+  /// X_WJ: the joint's frame in the world.
+  ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyID parent, const Pose& X_WJ);
+
+  double position() const { return position_; }
+  double velocity() const;
+  /// Where the child has to go, as a motion of the world, for the first axis to stand at `position`
+  /// within its limits.
+  Pose motion_to(double position) const;
+  /// The position is taken as it is from now on, whatever turns it has made.
+  void set_position(double position) { position_ = position; }
+  double clamp(double position) const;
+
+  void set_motor(double velocity, double max_effort);
+  void set_spring(const JointSpring& spring);
+  void set_limits(double lower, double upper);
+  /// Kept for the next step.
+  void add_effort(double effort);
+
+  /// Before a step: rows, efforts.
+  void prepare(const StepSettings& step);
+  /// After a step: follows the position over many turns.
+  void measure();
+
+ private:
+  void make_joint(dWorldID world, const Eigen::Vector3d& anchor, const Eigen::Vector3d& axis_W,
+                  const Eigen::Vector3d& axis2_W);
+  void make_drives(dWorldID world, const Joint& joint, const Eigen::Vector3d& axis_W,
+                   const Eigen::Vector3d& axis2_W);
+  Eigen::Vector3d axis_W() const;
+  Eigen::Vector3d axis2_W() const;
+  Eigen::Vector3d relative_rate() const;
+  double measured() const;
+  double angle2() const;
+  void apply_effort();
+
+  JointType type_;
+  dBodyID child_;
+  dBodyID parent_;
+  JointHandle joint_;
+  std::optional<JointDrive> drive_;
+  std::optional<JointDrive> drive2_;
+  JointHandle ball_damper_;
+  double ball_damping_ = 0.0;
+  Eigen::Vector3d axis_P_;    // the first axis, fixed in the parent
+  Eigen::Vector3d axis2_C_;   // the second, fixed in the child
+  Eigen::Vector3d axis2_P_;   // the second in the parent, all joints at zero
+  Eigen::Quaterniond q_PC0_;  // child in parent, all joints at zero
+  Eigen::Vector3d anchor_P_;
+  Eigen::Vector3d anchor_C_;
+  double position_ = 0.0;
+  double position2_ = 0.0;
+  double effort_ = 0.0;
+};
+
+/// Throws Error naming the joint if it cannot be simulated.
+void check_joint(const Model& model, const Joint& joint);
+
+}  // namespace ardee::physics

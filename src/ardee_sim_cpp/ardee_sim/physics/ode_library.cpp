@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/ode_library.h"
+
+#include <ode/ode.h>
+
+#include <cstdarg>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::physics {
+namespace {
+
+std::mutex holders_mutex;
+int holders = 0;
+thread_local bool complained = false;
+
+// ODE ends the process when these return, and they may not throw: all input is kept within ranges
+// in which it has no reason to call them.
+void on_failure(int, const char* format, va_list arguments) {
+  std::fputs("physics engine: ", stderr);
+  std::vfprintf(stderr, format, arguments);
+  std::fputs("\n", stderr);
+}
+
+// The solver's only messages say that it met a singular system.
+void on_message(int, const char*, va_list) { complained = true; }
+
+}  // namespace
+
+OdeLibrary::OdeLibrary() {
+  const std::lock_guard<std::mutex> lock(holders_mutex);
+  if (holders == 0) {
+    if (!dInitODE2(0)) throw Error("physics engine: cannot initialise");
+    dSetErrorHandler(on_failure);
+    dSetDebugHandler(on_failure);
+    dSetMessageHandler(on_message);
+  }
+  ++holders;
+  prepare_thread();
+}
+
+OdeLibrary::~OdeLibrary() {
+  const std::lock_guard<std::mutex> lock(holders_mutex);
+  if (--holders == 0) dCloseODE();
+}
+
+void OdeLibrary::prepare_thread() { dAllocateODEDataForThread(dAllocateMaskAll); }
+
+bool OdeLibrary::take_complaint() { return std::exchange(complained, false); }
+
+}  // namespace ardee::physics

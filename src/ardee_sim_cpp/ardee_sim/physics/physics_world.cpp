@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/physics/physics_world.h"
+
+#include <algorithm>
+
+#include "ardee_sim/core/error.h"
+#include "ardee_sim/physics/contact_finder.h"
+#include "ardee_sim/physics/contact_joints.h"
+#include "ardee_sim/physics/dynamic_model.h"
+#include "ardee_sim/physics/ode_library.h"
+#include "ardee_sim/physics/scenery_index.h"
+#include "ardee_sim/physics/solver.h"
+
+namespace ardee {
+namespace {
+
+using physics::DynamicModel;
+
+void check_params(const PhysicsParams& params) {
+  const bool valid =
+      params.step_s >= 1e-6 && params.step_s <= 1.0 && params.gravity_m_per_s2.norm() < 1e6 &&
+      params.iterations > 0 && params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 &&
+      params.cfm <= 1e6 && params.erp >= 0.0 && params.erp <= 1.0 && params.max_contacts >= 0;
+  if (!valid) {
+    throw Error(
+        "physics: found a step, iteration count, SOR, CFM, ERP or gravity out of range, "
+        "expected 1e-6 <= step <= 1, iterations > 0, 0 < sor < 2, cfm >= 0, 0 <= erp <= 1");
+  }
+}
+
+}  // namespace
+
+struct PhysicsWorld::Impl {
+  Impl(const PhysicsParams& wanted, Log sink)
+      : log(std::move(sink)),
+        world(dWorldCreate()),
+        solver(world.get()),
+        contacts(world.get()),
+        scenery(factory),
+        finder(scenery, contacts) {
+    set_params(wanted);
+  }
+
+  void set_params(const PhysicsParams& wanted);
+  void solve();
+  void step();
+
+  physics::OdeLibrary library;
+  PhysicsParams params;
+  Log log;
+  physics::WorldHandle world;
+  physics::Solver solver;
+  physics::ContactJoints contacts;
+  physics::ShapeFactory factory;
+  physics::SceneryIndex scenery;
+  physics::ContactFinder finder;
+  std::vector<std::unique_ptr<DynamicModel>> models;  // in the order in which they came
+  std::vector<dBodyID> bodies;
+  std::size_t contact_count = 0;
+};
+
+void PhysicsWorld::Impl::set_params(const PhysicsParams& wanted) {
+  check_params(wanted);
+  params = wanted;
+  const Eigen::Vector3d& g = params.gravity_m_per_s2;
+  dWorldSetGravity(world.get(), g.x(), g.y(), g.z());
+  dWorldSetERP(world.get(), params.erp);
+  dWorldSetQuickStepNumIterations(world.get(), params.iterations);
+  dWorldSetQuickStepW(world.get(), params.sor);
+  dWorldSetContactSurfaceLayer(world.get(), 0.0);
+  dWorldSetContactMaxCorrectingVel(world.get(), dInfinity);
+  dWorldSetAutoDisableFlag(world.get(), 0);
+}
+
+void PhysicsWorld::Impl::solve() {
+  bodies.clear();
+  for (const auto& model : models) {
+    for (const auto& body : model->bodies()) bodies.push_back(body.get());
+  }
+  solver.step(params, finder.largest_island_rows(), bodies);
+  contacts.clear();
+}
+
+void PhysicsWorld::Impl::step() {
+  physics::OdeLibrary::prepare_thread();
+  for (const auto& model : models) model->check_state();
+  for (const auto& model : models) {
+    model->prepare_step({params.step_s, params.erp, std::max(params.cfm, physics::kLeastCfm)},
+                        params.gravity_m_per_s2);
+  }
+  contacts.clear();  // what a step that threw may have left
+  finder.find(models, params);
+  contact_count = contacts.count();
+  solve();
+  for (const auto& model : models) model->finish_step();
+  for (const auto& model : models) model->check_state();
+}
+
+PhysicsWorld::PhysicsWorld(const PhysicsParams& params, Log log)
+    : impl_(std::make_unique<Impl>(params, std::move(log))) {}
+
+PhysicsWorld::~PhysicsWorld() = default;
+
+const PhysicsParams& PhysicsWorld::params() const { return impl_->params; }
+
+void PhysicsWorld::set_params(const PhysicsParams& params) { impl_->set_params(params); }
+
+PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM) {
+  auto added =
+      std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM, impl_->factory);
+  impl_->models.push_back(std::move(added));
+  return *impl_->models.back();
+}
+
+void PhysicsWorld::remove_model(PhysicsModel& model) {
+  const auto found = std::find_if(impl_->models.begin(), impl_->models.end(),
+                                  [&](const auto& item) { return item.get() == &model; });
+  if (found == impl_->models.end()) throw Error("physics: found no such model to remove");
+  impl_->models.erase(found);
+}
+
+PhysicsWorld::SceneryId PhysicsWorld::add_scenery(const std::vector<Placement>& placements) {
+  return impl_->scenery.add(placements);
+}
+
+void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
+
+void PhysicsWorld::step() { impl_->step(); }
+
+void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
+
+PhysicsWorld::Stats PhysicsWorld::stats() const {
+  return {impl_->contact_count, impl_->scenery.tested(), impl_->scenery.built(),
+          impl_->solver.was_direct()};
+}
+
+}  // namespace ardee

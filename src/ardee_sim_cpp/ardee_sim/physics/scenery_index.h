@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "ardee_sim/description/scenery.h"
+#include "ardee_sim/physics/collision_shape.h"
+
+namespace ardee::physics {
+
+/// All static shapes, in a uniform grid over the ground plan, so that what lies near a robot is
+/// found at a cost that does not depend on how much there is. Shapes are built when something first
+/// comes near and dropped when nothing has been near for a while: a far plant is a pose and a box.
+class SceneryIndex {
+ public:
+  explicit SceneryIndex(ShapeFactory& factory) : factory_(factory) {}
+
+  /// Throws Error and adds nothing if a shape cannot be built.
+  std::uint32_t add(const std::vector<Placement>& placements);
+  void remove(std::uint32_t id);
+
+  /// Begins a step: shapes that were long not asked for may be dropped.
+  void begin_step();
+  /// Shapes whose bounds meet `box`, in the order in which they were added. They stay until the
+  /// next begin_step.
+  void query(const Eigen::AlignedBox3d& box, std::vector<const CollisionShape*>& shapes);
+
+  /// Bounds compared by the queries of this step, and shapes alive: what a step costs.
+  std::size_t tested() const { return tested_; }
+  std::size_t built() const { return active_.size(); }
+
+ private:
+  struct PrototypeShape {
+    const Collision* collision;
+    Pose X_MC;
+  };
+  /// The collisions of one description, in its own frame.
+  struct Prototype {
+    std::shared_ptr<const Model> model;
+    std::vector<PrototypeShape> shapes;
+  };
+  struct Instance {
+    Pose X_WM;
+    double scale;
+    std::uint32_t prototype;
+  };
+  struct Entry {
+    Eigen::AlignedBox3f bounds;  // rounded outwards
+    std::uint32_t instance;
+    std::uint32_t shape;
+  };
+  struct Set {
+    std::vector<Prototype> prototypes;
+    std::vector<Instance> instances;
+    std::vector<Entry> entries;
+  };
+  /// Set in the upper, entry in the lower 32 bits: ordered as added.
+  using Reference = std::uint64_t;
+  struct Active {
+    CollisionShape shape;
+    std::uint64_t last_used;
+  };
+
+  static std::uint32_t prototype_of(const std::shared_ptr<const Model>& model, Set& set,
+                                    std::map<const Model*, std::uint32_t>& known);
+  static void add_instance(const Placement& placement, std::uint32_t prototype, Set& set);
+  const Entry& entry(Reference reference) const;
+  void gather(const std::vector<Reference>& references, const Eigen::AlignedBox3f& box);
+  const CollisionShape& activate(Reference reference);
+
+  ShapeFactory& factory_;
+  std::uint32_t next_id_ = 1;
+  std::map<std::uint32_t, Set> sets_;
+  std::unordered_map<std::uint64_t, std::vector<Reference>> cells_;
+  std::vector<Reference> everywhere_;
+  std::unordered_map<Reference, Active> active_;
+  std::uint64_t step_ = 0;
+  std::size_t tested_ = 0;
+  std::vector<Reference> hits_;
+};
+
+}  // namespace ardee::physics

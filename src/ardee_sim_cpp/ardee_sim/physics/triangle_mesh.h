@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "ardee_sim/description/geometry.h"
+#include "ardee_sim/physics/ode_types.h"
+
+namespace ardee::physics {
+
+/// The triangles of a Mesh, scaled and centred, in the form that ODE wants.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Eigen::AlignedBox3d bounds;
+  TriMeshDataHandle data;
+};
+
+/// Corner to corner bounds of a mesh as scaled and centred, without building it.
+Eigen::AlignedBox3d mesh_bounds(const Mesh& mesh);
+
+/// Meshes built so far: shapes that use the same part at the same scale share one.
+class MeshCache {
+ public:
+  std::shared_ptr<const TriangleMesh> get(const Mesh& mesh, double scale);
+
+ private:
+  using Key = std::tuple<const MeshFile*, std::string, bool, double, double, double>;
+
+  std::map<Key, std::weak_ptr<const TriangleMesh>> meshes_;
+};
+
+}  // namespace ardee::physics

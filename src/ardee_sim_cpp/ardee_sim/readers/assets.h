@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/description/geometry.h"
+#include "ardee_sim/readers/material_script.h"
+#include "ardee_sim/readers/resource_locator.h"
+
+namespace ardee {
+
+/// The files that descriptions refer to, each read once: meshes, heightmaps, material scripts.
+class Assets {
+ public:
+  Assets(ResourceLocator locator, Log& log) : locator_(std::move(locator)), log_(log) {}
+
+  const ResourceLocator& locator() const { return locator_; }
+  Log& log() { return log_; }
+
+  std::shared_ptr<const MeshFile> mesh(const std::string& uri, const Source& source);
+  std::shared_ptr<const HeightGrid> heights(const std::string& uri, const Eigen::Vector3d& size_m,
+                                            const Source& source);
+  /// The material `name` of the scripts at `uris` (files or folders; textures are looked for there
+  /// as well) or of Gazebo's own; grey with a warning if there is none.
+  Material material(const std::string& name, const std::vector<std::string>& uris,
+                    const Source& source);
+  /// The image file behind a texture's URI; empty with a warning if there is none.
+  std::string texture(const std::string& uri, const Source& source);
+
+ private:
+  std::optional<std::string> try_resolve(const std::string& uri, const Source& source) const;
+  const MaterialScript& script(const std::string& path);
+  std::string find_texture(const std::string& file, const std::vector<std::string>& folders) const;
+
+  ResourceLocator locator_;
+  Log& log_;
+  std::map<std::string, std::shared_ptr<const MeshFile>> meshes_;
+  std::map<std::string, std::shared_ptr<const HeightGrid>> heights_;
+  std::map<std::string, MaterialScript> scripts_;
+};
+
+}  // namespace ardee

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/collada_check.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace ardee {
+namespace {
+
+using Names = std::set<std::string, std::less<>>;
+
+/// Calls use(begin, end) for each word of a text.
+template <typename Use>
+void each_word(const std::string& text, Use use) {
+  constexpr const char* kSpace = " \t\r\n";
+  std::size_t begin = text.find_first_not_of(kSpace);
+  while (begin != std::string::npos) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
+    use(text.data() + begin, text.data() + end);
+    begin = text.find_first_not_of(kSpace, end);
+  }
+}
+
+/// How many numbers an element's text holds; an Error if anything else is in it.
+template <typename Number>
+std::size_t count_numbers(const Node& node) {
+  std::size_t count = 0;
+  each_word(node.text(), [&](const char* begin, const char* end) {
+    Number value{};
+    const auto [stop, status] = std::from_chars(*begin == '+' ? begin + 1 : begin, end, value);
+    if (status != std::errc() || stop != end) {
+      throw node.error("found '" + std::string(begin, std::min(end, begin + 40)) +
+                       "' among its values, expected numbers");
+    }
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (!std::isfinite(value)) throw node.error("found a value that is not finite");
+    }
+    ++count;
+  });
+  return count;
+}
+
+std::size_t whole_number(const Node& node, const char* name, std::size_t fallback) {
+  if (!node.has_attribute(name)) return fallback;
+  const std::string text = node.attribute(name);
+  std::size_t value = 0;
+  const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || stop != text.data() + text.size() || value > (1u << 30)) {
+    throw node.error("found " + std::string(name) + "='" + text + "', expected a whole number");
+  }
+  return value;
+}
+
+class ColladaCheck {
+ public:
+  void check(const Node& root) {
+    collect(root);
+    for (const Node& node : references_) check_reference(node);
+    for (const auto& entry : nodes_) check_holds(entry.second, {});
+  }
+
+ private:
+  /// All ids and numbers, in one walk.
+  void collect(const Node& node) {
+    static const Names kIndices{"p", "v", "vcount", "h"};
+    static const Names kValues{"float_array", "matrix", "translate", "rotate", "scale",
+                               "lookat",      "skew",   "color",     "float"};
+    const std::string_view name = node.name();
+    const std::string id = node.attribute("id");
+    if (!id.empty()) ids_.insert(id);
+    if (name == "float_array") {
+      check_array(node, id);
+    } else if (kIndices.count(name) != 0) {
+      count_numbers<std::int32_t>(node);
+    } else if (kValues.count(name) != 0) {
+      count_numbers<float>(node);
+    } else if (name == "node" && !id.empty()) {
+      nodes_.emplace(id, node);
+    } else if (name == "input" || name == "accessor" || name == "instance_geometry" ||
+               name == "instance_node" || name == "instance_controller") {
+      references_.push_back(node);
+    }
+    node.each([this](const Node& child) { collect(child); });
+  }
+
+  void check_array(const Node& node, const std::string& id) {
+    node.required_attribute("count");
+    const std::size_t count = whole_number(node, "count", 0);
+    const std::size_t found = count_numbers<float>(node);
+    if (found != count) {
+      throw node.error("found " + std::to_string(found) + " numbers, expected " +
+                       std::to_string(count));
+    }
+    arrays_[id] = found;
+  }
+
+  void check_reference(const Node& node) const {
+    const std::string_view name = node.name();
+    const bool by_source = name == "input" || name == "accessor";
+    const std::string target = node.required_attribute(by_source ? "source" : "url");
+    if (name == "input") {
+      node.required_attribute("semantic");
+      whole_number(node, "offset", 0);
+      whole_number(node, "set", 0);
+    }
+    if (target[0] != '#') return;  // in another file, which nobody opens
+    if (ids_.count(target.substr(1)) == 0) {
+      throw node.error("found a reference to '" + target + "', expected an id of the file");
+    }
+    if (name == "accessor") check_accessor(node, target.substr(1));
+  }
+
+  void check_accessor(const Node& node, const std::string& array) const {
+    const auto found = arrays_.find(array);
+    if (found == arrays_.end()) return;  // names, not numbers
+    node.required_attribute("count");
+    const std::size_t count = whole_number(node, "count", 0);
+    const std::size_t stride = whole_number(node, "stride", 1);
+    std::size_t width = 0;
+    node.each("param", [&width](const Node&) { ++width; });
+    const std::size_t most = std::max(width, stride);
+    const std::size_t end =
+        whole_number(node, "offset", 0) + (count == 0 ? 0 : (count - 1) * stride + most);
+    if (end > found->second) {
+      throw node.error("found items up to value " + std::to_string(end) + " of array '" + array +
+                       "', expected at most its " + std::to_string(found->second));
+    }
+  }
+
+  /// That no node comes again within itself, through <instance_node>.
+  void check_holds(const Node& node, Names above) {
+    constexpr std::size_t kMaxVisits = 200'000;
+    if (++visits_ > kMaxVisits) throw node.error("found too many nodes, expected fewer");
+    const std::string id = node.attribute("id");
+    if (!id.empty() && !above.insert(id).second) {
+      throw node.error("found node '" + id + "' within itself, expected a tree");
+    }
+    node.each("node", [&](const Node& child) { check_holds(child, above); });
+    node.each("instance_node", [&](const Node& instance) {
+      const auto target = nodes_.find(instance.attribute("url").substr(1));
+      if (target != nodes_.end()) check_holds(target->second, above);
+    });
+  }
+
+  Names ids_;
+  std::map<std::string, std::size_t> arrays_;  // numbers in each
+  std::map<std::string, Node, std::less<>> nodes_;
+  std::vector<Node> references_;
+  std::size_t visits_ = 0;
+};
+
+}  // namespace
+
+void check_collada(const Node& root) {
+  if (root.name() != "COLLADA") throw root.error("found this root element, expected <COLLADA>");
+  ColladaCheck().check(root);
+}
+
+}  // namespace ardee

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/image.h"
+
+#include <Magick++.h>
+
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+namespace ardee {
+namespace {
+
+constexpr std::size_t kMaxSide = 16384;
+constexpr std::size_t kMaxPixels = std::size_t{1} << 26;
+constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 29;
+
+void initialize_library() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    Magick::InitializeMagick(nullptr);
+    Magick::ResourceLimits::thread(1);  // leave the cores to the simulation
+    Magick::ResourceLimits::width(kMaxSide);
+    Magick::ResourceLimits::height(kMaxSide);
+  });
+}
+
+/// The decoder for a file's first bytes. The library is never left to guess, as some of its formats
+/// run programs.
+std::string format_of(const std::string& path, const Source& source) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string head(8, '\0');
+  if (!stream.read(head.data(), static_cast<std::streamsize>(head.size()))) {
+    throw Error(source, "found a truncated image '" + path + "', expected a whole one");
+  }
+  if (head == "\x89PNG\r\n\x1a\n") return "png";
+  if (head.compare(0, 3, "\xff\xd8\xff") == 0) return "jpeg";
+  const std::string four = head.substr(0, 4);
+  if (four == std::string("II*\0", 4) || four == std::string("MM\0*", 4)) return "tiff";
+  if (head.compare(0, 2, "BM") == 0) return "bmp";
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".tga" || extension == ".TGA") return "tga";
+  throw Error(source, "found '" + path + "', expected a PNG, JPEG, TIFF, TGA or BMP image");
+}
+
+void check_size(std::size_t width, std::size_t height, const std::string& path,
+                const Source& source) {
+  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide ||
+      width * height > kMaxPixels) {
+    throw Error(source, "found an image of " + std::to_string(width) + " x " +
+                            std::to_string(height) + " pixels in '" + path + "', expected 1 to " +
+                            std::to_string(kMaxSide) + " a side and at most " +
+                            std::to_string(kMaxPixels) + " in all");
+  }
+}
+
+/// The library's message without the program's name before it.
+std::string reason(const Magick::Exception& problem) {
+  const std::string text = problem.what();
+  const std::size_t colon = text.find(": ");
+  return colon == std::string::npos ? text : text.substr(colon + 2);
+}
+
+/// Errors, and warnings of a corrupt image (truncation is one of them), are let through; remarks of
+/// a decoder about tags that it does not know are not.
+template <typename Action>
+void tolerate_remarks(Action action) {
+  try {
+    action();
+  } catch (const Magick::WarningCoder&) {
+    // What was asked for has been done.
+  }
+}
+
+Magick::Image decode(const std::string& path, const Source& source) {
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error || bytes > kMaxFileBytes) {
+    throw Error(source, "cannot read '" + path + "', expected an image file of at most " +
+                            std::to_string(kMaxFileBytes) + " bytes");
+  }
+  initialize_library();
+  const std::string format = format_of(path, source);
+  try {
+    Magick::Image header;
+    tolerate_remarks([&] { header.ping(format + ":" + path); });
+    check_size(header.columns(), header.rows(), path, source);
+    Magick::Image image;
+    tolerate_remarks([&] { image.read(format + ":" + path + "[0]"); });
+    check_size(image.columns(), image.rows(), path, source);
+    if (format == "tga" || format == "tiff")
+      image.autoOrient();  // they may start at the lower edge
+    return image;
+  } catch (const Magick::Exception& problem) {
+    throw Error(source,
+                "found '" + path + "', expected a readable image (" + reason(problem) + ")");
+  }
+}
+
+template <typename Sample>
+std::vector<Sample> pixels(Magick::Image& image, const char* map, Magick::StorageType storage,
+                           std::size_t channels, const std::string& path, const Source& source) {
+  std::vector<Sample> samples(image.columns() * image.rows() * channels);
+  try {
+    image.write(0, 0, image.columns(), image.rows(), map, storage, samples.data());
+  } catch (const Magick::Exception& problem) {
+    throw Error(source, "cannot convert '" + path + "' (" + reason(problem) + ")");
+  }
+  return samples;
+}
+
+Image empty_image(const Magick::Image& decoded, int channels) {
+  Image image;
+  image.width = static_cast<int>(decoded.columns());
+  image.height = static_cast<int>(decoded.rows());
+  image.channels = channels;
+  image.bits = decoded.depth() > 8 ? 16 : 8;
+  return image;
+}
+
+}  // namespace
+
+Image read_color_image(const std::string& path, const Source& source) {
+  Magick::Image decoded = decode(path, source);
+  Image image = empty_image(decoded, 4);
+  image.samples8 = pixels<std::uint8_t>(decoded, "RGBA", Magick::CharPixel, 4, path, source);
+  return image;
+}
+
+Image read_gray_image(const std::string& path, const Source& source) {
+  Magick::Image decoded = decode(path, source);
+  Image image = empty_image(decoded, 1);
+  image.samples16 = pixels<std::uint16_t>(decoded, "R", Magick::ShortPixel, 1, path, source);
+  return image;
+}
+
+}  // namespace ardee

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/loader.h"
+
+#include "ardee_sim/readers/assets.h"
+#include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/readers/urdf_reader.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace ardee {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
+
+std::string read_description(const std::string& path) {
+  return read_text_file(path, Source{path, 0, ""}, kMaxFileBytes);
+}
+
+/// Gives the memory of a large parsed document back to the system, as the C library would keep it.
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+bool is_sdf(const Node& root) { return root.name() == "sdf" || root.name() == "gazebo"; }
+
+}  // namespace
+
+struct Loader::Impl {
+  Impl(ResourceLocator locator, Log given_log)
+      : log(std::move(given_log)), assets(std::move(locator), log), sdf(assets) {}
+
+  World read_world(const XmlFile& document);
+
+  Log log;
+  Assets assets;
+  SdfReader sdf;
+};
+
+Loader::Loader(ResourceLocator locator, Log log)
+    : impl_(std::make_unique<Impl>(std::move(locator), std::move(log))) {}
+Loader::~Loader() = default;
+Loader::Loader(Loader&&) noexcept = default;
+
+World Loader::Impl::read_world(const XmlFile& document) {
+  const Node root = document.root();
+  if (!is_sdf(root)) throw root.error("found this root element, expected <sdf> with a <world>");
+  return sdf.read_world(root);
+}
+
+World Loader::load_world(const std::string& path) {
+  World world = impl_->read_world(XmlFile::read(path, Source{path, 0, ""}));
+  release_free_memory();
+  return world;
+}
+
+World Loader::load_world_text(const std::string& xml, const std::string& name) {
+  return impl_->read_world(XmlFile(xml, name));
+}
+
+std::shared_ptr<const Model> Loader::load_model(const std::string& path) {
+  return load_model_text(read_description(path), path);
+}
+
+std::shared_ptr<const Model> Loader::load_model_text(const std::string& xml,
+                                                     const std::string& name) {
+  const XmlFile document(xml, name);
+  const Node root = document.root();
+  if (is_sdf(root)) return impl_->sdf.read_model(root);
+  if (root.name() == "robot") return read_urdf(xml, root, impl_->assets);
+  throw root.error("found this root element, expected <sdf> or <robot>");
+}
+
+}  // namespace ardee

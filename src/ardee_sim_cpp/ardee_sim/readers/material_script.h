@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "ardee_sim/core/error.h"
+#include "ardee_sim/description/material.h"
+
+namespace ardee {
+
+/// The materials of an OGRE script by name; Material::texture_path holds the file name as written.
+using MaterialScript = std::map<std::string, Material>;
+
+/// Reads the materials of an OGRE script: of each the first technique, its colours, cull modes,
+/// alpha rejection and first texture. What else a script may say is passed over. `known` holds the
+/// materials that a parent may be taken from. Throws Error with `name` and the line if a block does
+/// not end.
+MaterialScript parse_material_script(const std::string& text, const std::string& name,
+                                     const MaterialScript& known = {});
+
+/// The colours that Gazebo brings with it (Gazebo/Grey, Gazebo/Orange, ...).
+const MaterialScript& gazebo_materials();
+
+}  // namespace ardee

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/core/error.h"
+#include "ardee_sim/description/geometry.h"
+
+namespace ardee {
+
+/// Reads a DAE, STL, OBJ or PLY file. The up-axis tag of a DAE is not applied, its unit and node
+/// transforms are, as Gazebo and rviz do. Textures are file paths as written in the mesh, resolved
+/// beside it or in ../materials/textures where they exist. Throws Error at `source` if the file is
+/// broken, empty or holds values that are not finite.
+MeshFile read_mesh_file(const std::string& path, const Source& source);
+
+/// The names of a mesh file's parts, for messages: 'a', 'b'.
+std::string part_names(const MeshFile& file);
+
+}  // namespace ardee

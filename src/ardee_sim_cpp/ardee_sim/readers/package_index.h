@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ardee {
+
+/// Where the packages of ROS_PACKAGE_PATH lie, found by their package.xml as rospack does. The
+/// folders are walked once, at the first question.
+class PackageIndex {
+ public:
+  explicit PackageIndex(std::vector<std::string> roots) : roots_(std::move(roots)) {}
+
+  std::optional<std::string> find(const std::string& package);
+
+ private:
+  void walk(const std::string& folder, int depth);
+
+  std::vector<std::string> roots_;
+  bool walked_ = false;
+  std::map<std::string, std::string> folders_;
+};
+
+/// The parts of a colon-separated list, empty ones left out.
+std::vector<std::string> split_path_list(const std::string& list);
+
+}  // namespace ardee

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/resource_locator.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "ardee_sim/readers/package_index.h"
+#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/readers/xml.h"
+
+namespace ardee {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<std::string> environment_list(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? split_path_list(value) : std::vector<std::string>{};
+}
+
+std::string normal(const fs::path& path) { return path.lexically_normal().string(); }
+
+/// The first of `places` that exists, or an Error that lists them.
+std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
+                           const Source& source) {
+  std::string searched;
+  for (const fs::path& place : places) {
+    std::error_code error;
+    if (fs::exists(place, error)) return normal(place);
+    searched += (searched.empty() ? "" : ", ") + normal(place);
+  }
+  throw Error(source, "found '" + uri + "', expected an existing file; searched: " +
+                          (searched.empty() ? "nowhere (no path is set)" : searched));
+}
+
+/// The version of a model.config's <sdf version="1.5">; 0 if it has none.
+double sdf_version(const Node& sdf) {
+  const std::string version = sdf.attribute("version");
+  char* end = nullptr;
+  const double value = std::strtod(version.c_str(), &end);
+  return end == version.c_str() ? 0.0 : value;
+}
+
+constexpr double kNewestVersion = 1.6;
+
+/// The file name that a model.config gives for the newest version that we read, else its last.
+std::string choose_sdf(const Node& config) {
+  std::optional<Node> best;
+  std::optional<Node> last;
+  config.each("sdf", [&](const Node& candidate) {
+    last = candidate;
+    const double version = sdf_version(candidate);
+    if (version <= kNewestVersion && (!best || version > sdf_version(*best))) best = candidate;
+  });
+  if (!last) throw config.error("found no <sdf>, expected one with the name of the model's file");
+  return (best ? *best : *last).required_text();
+}
+
+}  // namespace
+
+ResourceLocator ResourceLocator::from_environment() {
+  ResourceLocator locator;
+  locator.model_paths_ = environment_list("GAZEBO_MODEL_PATH");
+  locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
+  auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
+  locator.find_package_ = [index](const std::string& package) { return index->find(package); };
+  return locator;
+}
+
+std::string ResourceLocator::resolve(const std::string& uri, const Source& source) const {
+  const std::size_t mark = uri.find("://");
+  const std::string scheme = mark == std::string::npos ? "" : uri.substr(0, mark);
+  const std::string rest = mark == std::string::npos ? uri : uri.substr(mark + 3);
+  if (rest.empty()) throw Error(source, "found an empty path '" + uri + "', expected a file's");
+  if (scheme == "package") return resolve_package(uri, rest, source);
+  std::vector<fs::path> places;
+  if (scheme == "model") {
+    for (const std::string& folder : model_paths_) places.push_back(fs::path(folder) / rest);
+  } else if (fs::path(rest).is_absolute() && (scheme.empty() || scheme == "file")) {
+    places.push_back(rest);
+  } else if (scheme == "file") {
+    for (const auto* folders : {&resource_paths_, &model_paths_}) {
+      for (const std::string& folder : *folders) places.push_back(fs::path(folder) / rest);
+    }
+    for (const auto* folders : {&resource_paths_, &model_paths_}) {
+      for (const std::string& folder : *folders) {
+        places.push_back(fs::path(normal(folder + "/..")) / rest);
+      }
+    }
+    places.push_back(fs::path(folder_of(source.file)) / rest);
+  } else if (scheme.empty()) {
+    places.push_back(fs::path(folder_of(source.file)) / rest);
+  } else {
+    throw Error(source, "found '" + uri + "', expected model://, package://, file:// or a path");
+  }
+  return first_existing(places, uri, source);
+}
+
+std::string ResourceLocator::resolve_package(const std::string& uri, const std::string& rest,
+                                             const Source& source) const {
+  const std::size_t slash = std::min(rest.find('/'), rest.size());
+  const std::string package = rest.substr(0, slash);
+  const auto folder = find_package_ ? find_package_(package) : std::nullopt;
+  if (!folder) {
+    throw Error(source, "found '" + uri + "', expected a known package; searched for package '" +
+                            package + "' on ROS_PACKAGE_PATH and in /usr/share");
+  }
+  const std::string inside = slash < rest.size() ? rest.substr(slash + 1) : "";
+  return first_existing({fs::path(*folder) / inside}, uri, source);
+}
+
+std::string ResourceLocator::resolve_model(const std::string& uri, const Source& source) const {
+  std::string place = resolve(uri, source);
+  std::error_code error;
+  if (!fs::is_directory(place, error)) return place;
+  const fs::path folder(place);
+  const fs::path config = folder / "model.config";
+  if (fs::is_regular_file(config, error)) {
+    const XmlFile document(read_text_file(config.string(), source, std::size_t{1} << 20),
+                           config.string());
+    return first_existing({folder / choose_sdf(document.root())}, uri, document.root().source());
+  }
+  return first_existing({folder / "model.sdf"}, uri, source);
+}
+
+}  // namespace ardee

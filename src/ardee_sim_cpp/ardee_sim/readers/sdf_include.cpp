@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "ardee_sim/readers/schema.h"
+#include "ardee_sim/readers/sdf_link.h"
+#include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_scene.h"
+#include "ardee_sim/readers/text_file.h"
+
+namespace ardee {
+namespace {
+
+constexpr std::size_t kMaxIncludeDepth = 32;
+constexpr int kMaxLabel = 65535;
+constexpr double kMaxScale = 1e6;
+
+const char* static_key(std::optional<bool> make_static) {
+  if (!make_static) return "as written\n";
+  return *make_static ? "static\n" : "moving\n";
+}
+
+}  // namespace
+
+/// Marks a file as being read, for as long as this lives.
+class SdfReader::Reading {
+ public:
+  Reading(std::vector<std::string>& files, const std::string& path) : files_(files) {
+    files_.push_back(path);
+  }
+  ~Reading() { files_.pop_back(); }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+ private:
+  std::vector<std::string>& files_;
+};
+
+const SdfReader::ModelFile& SdfReader::included_file(const Node& include,
+                                                     std::optional<bool> make_static) {
+  if (!make_static) {
+    if (const auto own = include.child("static")) make_static = own->to_boolean();
+  }
+  const auto uri = include.child("uri");
+  if (!uri) throw include.error("found no <uri>, expected one");
+  const std::string text = uri->text();
+  std::string key = static_key(make_static);
+  if (text.find("://") == std::string::npos) key += folder_of(include.file()) + '\n';
+  key += text;
+  const auto known = by_uri_.find(key);
+  if (known != by_uri_.end()) return *known->second;
+  const std::string path = assets_.locator().resolve_model(uri->required_text(), uri->source());
+  const ModelFile& file = read_file(path, *uri, make_static);
+  by_uri_[key] = &file;
+  return file;
+}
+
+const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const Node& include,
+                                                 std::optional<bool> make_static) {
+  const std::string key = static_key(make_static) + path;
+  const auto known = files_.find(key);
+  if (known != files_.end()) return known->second;
+  if (std::find(reading_.begin(), reading_.end(), path) != reading_.end()) {
+    std::string chain;
+    for (const std::string& file : reading_) chain += file + " -> ";
+    throw include.error("found an include cycle " + chain + path + ", expected none");
+  }
+  if (reading_.size() >= kMaxIncludeDepth) {
+    throw include.error("found includes nested more than " + std::to_string(kMaxIncludeDepth) +
+                        " deep, expected fewer");
+  }
+  const Reading mark(reading_, path);
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
+  const XmlFile document(read_text_file(path, include.source(), kMaxBytes), path);
+  const Node root = document.root();
+  if (root.name() != "sdf" && root.name() != "gazebo") {
+    throw root.error("found this root element, expected <sdf>");
+  }
+  ModelFile file;
+  const Scope scope{read_version(root), make_static};
+  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  if (const auto model = root.child("model")) file.model = read_model(*model, scope);
+  root.each("light", [&file](const Node& light) { file.lights.push_back(read_sdf_light(light)); });
+  if (!file.model && file.lights.empty()) {
+    throw root.error("found no <model> and no <light>, expected one");
+  }
+  return files_[key] = std::move(file);
+}
+
+Instance SdfReader::read_include(const Node& include, const ModelFile& file,
+                                 UniqueNames& names) const {
+  Instance made;
+  made.model = file.model;
+  const auto name = include.child("name");
+  made.name = names.claim(name ? name->required_text() : file.model->name);
+  const auto pose = include.child("pose");
+  made.pose = pose ? pose->to_pose() : file.model->own_pose;
+  made.is_static = file.model->is_static;
+  if (const auto scale = include.child("ardee:scale")) {
+    made.scale = scale->to_number(0.0, kMaxScale);
+    if (!(made.scale > 0.0)) {
+      throw scale->error("found '" + scale->text() + "', expected a positive number");
+    }
+    if (!made.is_static) throw scale->error("found a scale, expected it on static models only");
+  }
+  if (const auto label = include.child("ardee:label")) {
+    made.label = static_cast<std::uint32_t>(label->to_integer(1, kMaxLabel));
+  }
+  if (include.child("plugin")) {
+    auto with_plugins = std::make_shared<Model>(*file.model);
+    include.each("plugin", [&with_plugins](const Node& plugin) {
+      with_plugins->plugins.push_back(read_plugin(plugin));
+    });
+    made.model = with_plugins;
+  }
+  return made;
+}
+
+}  // namespace ardee

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/sdf_joint.h"
+
+#include <cmath>
+#include <map>
+
+namespace ardee {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+JointType joint_type(const Node& joint) {
+  static const std::map<std::string, JointType> types{{"fixed", JointType::kFixed},
+                                                      {"revolute", JointType::kRevolute},
+                                                      {"continuous", JointType::kContinuous},
+                                                      {"prismatic", JointType::kPrismatic},
+                                                      {"ball", JointType::kBall},
+                                                      {"universal", JointType::kUniversal},
+                                                      {"revolute2", JointType::kRevolute2},
+                                                      {"screw", JointType::kScrew}};
+  const std::string type = joint.required_attribute("type");
+  const auto found = types.find(type);
+  if (found != types.end()) return found->second;
+  throw joint.error("found joint type '" + type +
+                    "', expected fixed, revolute, prismatic, ball, universal, revolute2 or screw");
+}
+
+bool in_model_frame(const Node& axis, double sdf_version) {
+  constexpr double kFirstInJointFrame = 1.5;
+  return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame);
+}
+
+/// SDF says "no limit" by a negative value.
+double unlimited_if_negative(const Node& axis, const char* path) {
+  const auto node = axis.find(path);
+  const double value = node ? node->to_limit() : kInfinity;
+  return value < 0.0 ? kInfinity : value;
+}
+
+JointAxis read_axis(const Node& axis) {
+  JointAxis made;
+  const Node xyz = axis.required("xyz");
+  made.axis = xyz.to_vector3();
+  if (!(made.axis.norm() > 1e-9)) {
+    throw xyz.error("found '" + xyz.text() + "', expected an axis longer than zero");
+  }
+  made.axis.normalize();
+  if (const auto lower = axis.find("limit/lower")) made.lower = lower->to_limit();
+  if (const auto upper = axis.find("limit/upper")) made.upper = upper->to_limit();
+  if (made.lower > made.upper) {
+    throw axis.required("limit").error("found a lower limit above the upper, expected it below");
+  }
+  made.effort = unlimited_if_negative(axis, "limit/effort");
+  made.velocity = unlimited_if_negative(axis, "limit/velocity");
+  made.damping = axis.number("dynamics/damping", 0.0, 0.0);
+  made.friction = axis.number("dynamics/friction", 0.0, 0.0);
+  made.spring_stiffness = axis.number("dynamics/spring_stiffness", 0.0, 0.0);
+  made.spring_reference = axis.number("dynamics/spring_reference", 0.0);
+  return made;
+}
+
+}  // namespace
+
+SdfJoint read_sdf_joint(const Node& node, double sdf_version) {
+  SdfJoint made;
+  Joint& joint = made.joint;
+  joint.name = node.required_attribute("name");
+  joint.type = joint_type(node);
+  joint.source = node.source();
+  joint.parent = node.required("parent").required_text();
+  joint.child = node.required("child").required_text();
+  joint.X_CJ = node.pose();
+  const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
+  const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
+  if (!free) {
+    const Node axis = node.required("axis");
+    joint.axis = read_axis(axis);
+    made.axis_in_model = in_model_frame(axis, sdf_version);
+  }
+  if (two) {
+    const Node axis2 = node.required("axis2");
+    joint.axis2 = read_axis(axis2);
+    made.axis2_in_model = in_model_frame(axis2, sdf_version);
+  }
+  const bool unlimited = std::isinf(joint.axis.lower) && std::isinf(joint.axis.upper);
+  if (joint.type == JointType::kRevolute && unlimited) joint.type = JointType::kContinuous;
+  if (joint.type == JointType::kScrew) {
+    // SDF's pitch counts radians a metre, of a left-handed screw.
+    const double pitch_rad_per_m = node.number("thread_pitch", 1.0);
+    if (pitch_rad_per_m == 0.0) throw node.error("found a thread pitch of zero, expected another");
+    joint.thread_pitch_m = -2.0 * kPi / pitch_rad_per_m;
+  }
+  joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
+  joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
+  return made;
+}
+
+Joint finish_sdf_joint(const SdfJoint& read, const Pose& X_MC) {
+  Joint joint = read.joint;
+  Eigen::Quaterniond q_MJ = X_MC.q * joint.X_CJ.q;
+  if (joint.child == "world") {
+    // The pose of such a joint is given in the model's frame.
+    q_MJ = joint.X_CJ.q;
+    joint.X_CJ = X_MC.inverse() * joint.X_CJ;
+    std::swap(joint.parent, joint.child);
+    joint.axis.axis = -joint.axis.axis;
+    joint.axis2.axis = -joint.axis2.axis;
+  }
+  if (read.axis_in_model) joint.axis.axis = q_MJ.conjugate() * joint.axis.axis;
+  if (read.axis2_in_model) joint.axis2.axis = q_MJ.conjugate() * joint.axis2.axis;
+  return joint;
+}
+
+}  // namespace ardee

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/sdf_link.h"
+
+#include "ardee_sim/readers/sdf_geometry.h"
+#include "ardee_sim/readers/sdf_material.h"
+
+namespace ardee {
+namespace {
+
+constexpr int kMaxContacts = 100000;
+constexpr double kMaxStiffness = 1e20;
+
+/// SDF's defaults: one kilogram, unit inertia.
+Inertial read_inertial(const Node& link) {
+  Inertial made;
+  made.mass_kg = 1.0;
+  made.inertia_kg_m2 = Eigen::Matrix3d::Identity();
+  const auto inertial = link.child("inertial");
+  if (!inertial) return made;
+  made.mass_kg = inertial->number("mass", 1.0);
+  made.X_LI = inertial->pose();
+  if (const auto inertia = inertial->child("inertia")) {
+    const double xy = inertia->number("ixy", 0.0);
+    const double xz = inertia->number("ixz", 0.0);
+    const double yz = inertia->number("iyz", 0.0);
+    made.inertia_kg_m2 << inertia->number("ixx", 1.0), xy, xz, xy, inertia->number("iyy", 1.0), yz,
+        xz, yz, inertia->number("izz", 1.0);
+  }
+  return made;
+}
+
+void read_contact(const Node& contact, Surface& surface) {
+  surface.kp_n_per_m = contact.number("ode/kp", surface.kp_n_per_m, 0.0, kMaxStiffness);
+  surface.kd_n_s_per_m = contact.number("ode/kd", surface.kd_n_s_per_m, 0.0, kMaxStiffness);
+  surface.soft_cfm = contact.number("ode/soft_cfm", surface.soft_cfm, 0.0);
+  surface.soft_erp = contact.number("ode/soft_erp", surface.soft_erp, 0.0);
+  surface.max_correcting_velocity_m_per_s =
+      contact.number("ode/max_vel", surface.max_correcting_velocity_m_per_s, -1.0);
+  surface.min_depth_m = contact.number("ode/min_depth", surface.min_depth_m);
+}
+
+Collision read_collision(const Node& node, Geometry geometry) {
+  Collision made;
+  made.name = node.required_attribute("name");
+  made.X_LC = node.pose();
+  made.geometry = std::move(geometry);
+  made.surface = read_sdf_surface(node);
+  made.laser_retro = node.number("laser_retro", 0.0);
+  return made;
+}
+
+Visual read_visual(const Node& node, Geometry geometry, Assets& assets) {
+  Visual made;
+  made.name = node.required_attribute("name");
+  made.X_LV = node.pose();
+  made.geometry = std::move(geometry);
+  if (const auto material = node.child("material")) {
+    made.material = read_sdf_material(*material, assets);
+  }
+  made.cast_shadows = node.boolean("cast_shadows", true);
+  made.transparency = node.number("transparency", 0.0, 0.0, 1.0);
+  made.laser_retro = node.number("laser_retro", 0.0);
+  return made;
+}
+
+}  // namespace
+
+Surface read_sdf_surface(const Node& collision) {
+  Surface made;
+  made.max_contacts = collision.integer("max_contacts", made.max_contacts, 0, kMaxContacts);
+  const auto surface = collision.child("surface");
+  if (!surface) return made;
+  made.mu = surface->number("friction/ode/mu", made.mu, 0.0, kMaxStiffness);
+  made.mu2 = surface->number("friction/ode/mu2", made.mu2, 0.0, kMaxStiffness);
+  made.fdir1 = surface->vector3("friction/ode/fdir1", made.fdir1);
+  made.slip1 = surface->number("friction/ode/slip1", made.slip1, 0.0);
+  made.slip2 = surface->number("friction/ode/slip2", made.slip2, 0.0);
+  if (const auto contact = surface->child("contact")) read_contact(*contact, made);
+  made.restitution = surface->number("bounce/restitution_coefficient", made.restitution, 0.0, 1.0);
+  made.bounce_threshold_m_per_s =
+      surface->number("bounce/threshold", made.bounce_threshold_m_per_s, 0.0, kMaxStiffness);
+  return made;
+}
+
+PluginDescription read_plugin(const Node& plugin) {
+  PluginDescription made;
+  made.filename = plugin.required_attribute("filename");
+  made.name = plugin.attribute("name", made.filename);
+  made.element = plugin.to_element();
+  return made;
+}
+
+SensorDescription read_sensor(const Node& sensor) {
+  SensorDescription made;
+  made.name = sensor.required_attribute("name");
+  made.type = sensor.required_attribute("type");
+  made.update_rate_hz = sensor.number("update_rate", 0.0, 0.0);
+  made.X_LS = sensor.pose();
+  made.element = sensor.to_element();
+  sensor.each("plugin", [&made](const Node& node) { made.plugins.push_back(read_plugin(node)); });
+  return made;
+}
+
+Link read_sdf_link(const Node& link, Assets& assets) {
+  Link made;
+  made.name = link.required_attribute("name");
+  made.source = link.source();
+  made.X_ML = link.pose();
+  made.inertial = read_inertial(link);
+  link.each("collision", [&](const Node& node) {
+    if (auto geometry = read_sdf_geometry(node, assets)) {
+      made.collisions.push_back(read_collision(node, std::move(*geometry)));
+    }
+  });
+  link.each("visual", [&](const Node& node) {
+    if (auto geometry = read_sdf_geometry(node, assets)) {
+      made.visuals.push_back(read_visual(node, std::move(*geometry), assets));
+    }
+  });
+  link.each("sensor", [&](const Node& node) { made.sensors.push_back(read_sensor(node)); });
+  for (const char* name : {"projector", "audio_source", "audio_sink", "light", "battery"}) {
+    if (const auto node = link.child(name)) {
+      assets.log().warn(node->source().to_string() + ": not supported in a link, left out");
+    }
+  }
+  made.gravity = link.boolean("gravity", true);
+  made.kinematic = link.boolean("kinematic", false);
+  made.self_collide = link.boolean("self_collide", false);
+  made.linear_decay = link.number("velocity_decay/linear", 0.0, 0.0, 1.0);
+  made.angular_decay = link.number("velocity_decay/angular", 0.0, 0.0, 1.0);
+  return made;
+}
+
+}  // namespace ardee

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ardee_sim/description/world.h"
+#include "ardee_sim/readers/assets.h"
+#include "ardee_sim/readers/unique_names.h"
+#include "ardee_sim/readers/xml.h"
+
+namespace ardee {
+
+/// Reads SDF 1.2-1.6. Included model files are read once and kept for later worlds and models.
+class SdfReader {
+ public:
+  explicit SdfReader(Assets& assets) : assets_(assets) {}
+
+  /// `root` is a document's <sdf>.
+  World read_world(const Node& root);
+  std::shared_ptr<const Model> read_model(const Node& root);
+
+ private:
+  /// An included file: a model, or lights alone.
+  struct ModelFile {
+    std::shared_ptr<const Model> model;
+    std::vector<Light> lights;
+  };
+  /// How a model is to be read: the version of its file, and whether what holds it makes it static
+  /// or not.
+  struct Scope {
+    double version = 0.0;
+    std::optional<bool> make_static;
+  };
+  class Reading;
+
+  std::shared_ptr<const Model> read_model(const Node& model, const Scope& scope);
+  void read_nested(const Node& model, const Scope& scope, UniqueNames& names, Model& made);
+  void add_nested(Instance nested, Model& made);
+  const ModelFile& included_file(const Node& include, std::optional<bool> make_static);
+  const ModelFile& read_file(const std::string& path, const Node& include,
+                             std::optional<bool> make_static);
+  Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names) const;
+  void read_world_models(const Node& world, const Scope& scope, World& made);
+  double read_version(const Node& root);
+  std::size_t count_placements(const Model& model, const Source& source);
+
+  Assets& assets_;
+  std::map<std::string, ModelFile> files_;                    // by path and staticness
+  std::unordered_map<std::string, const ModelFile*> by_uri_;  // the same by how they are named
+  std::unordered_map<const Model*, std::size_t>
+      placements_;                    // of models that files_ or a world hold
+  std::vector<std::string> reading_;  // files being read, outermost first
+};
+
+/// Takes a nested model into the one that holds it: links and joints get names `child::link`.
+void merge_model(const Model& nested, const Pose& X_MN, const std::string& name, Model& made);
+
+}  // namespace ardee

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/schema.h"
+#include "ardee_sim/readers/sdf_link.h"
+#include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_scene.h"
+
+namespace ardee {
+
+World SdfReader::read_world(const Node& root) {
+  const Scope scope{read_version(root), std::nullopt};
+  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  const Node node = root.required("world");
+  World made;
+  made.name = node.attribute("name", made.name);
+  made.source = node.source();
+  made.physics = read_sdf_physics(node, assets_.log());
+  if (const auto scene = node.child("scene")) made.scene = read_sdf_scene(*scene);
+  if (const auto camera = node.find("gui/camera")) made.gui_camera = camera->pose();
+  if (const auto place = node.child("spherical_coordinates")) {
+    made.spherical_coordinates = read_spherical_coordinates(*place);
+  }
+  reading_.assign(1, root.file());
+  read_world_models(node, scope, made);
+  reading_.clear();
+  return made;
+}
+
+void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
+  UniqueNames names;
+  UniqueNames light_names;
+  const auto add_light = [&](Light light) {
+    light.name = light_names.claim(light.name);
+    made.lights.push_back(std::move(light));
+  };
+  world.each([&](const Node& child) {
+    const std::string_view kind = child.name();
+    if (kind == "include") {
+      const ModelFile& file = included_file(child, std::nullopt);
+      for (const Light& light : file.lights) add_light(light);
+      if (file.model) made.models.push_back(read_include(child, file, names));
+    } else if (kind == "model") {
+      Instance instance;
+      instance.model = read_model(child, scope);
+      instance.name = names.claim(instance.model->name);
+      if (instance.name != instance.model->name) {
+        assets_.log().warn(child.source().to_string() + ": a second model '" +
+                           instance.model->name + "' is named '" + instance.name + "'");
+      }
+      instance.pose = instance.model->own_pose;
+      instance.is_static = instance.model->is_static;
+      made.models.push_back(std::move(instance));
+    } else if (kind == "light") {
+      add_light(read_sdf_light(child));
+    } else if (kind == "plugin") {
+      made.plugins.push_back(read_plugin(child));
+    } else if (kind == "actor" || kind == "road" || kind == "population" || kind == "state" ||
+               kind == "joint") {
+      assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
+    }
+  });
+}
+
+}  // namespace ardee

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/description/element.h"
+#include "ardee_sim/description/material.h"
+
+namespace ardee {
+
+/// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
+constexpr double kAbsurd = 1e9;
+
+/// One element of a parsed document with typed access to its contents. A value that does not parse
+/// or lies outside its bounds is an Error with file, line and element. Cheap to copy; valid as long
+/// as its XmlFile.
+class Node {
+ public:
+  Node(const tinyxml2::XMLElement& element, const std::string& file)
+      : element_(&element), file_(&file) {}
+
+  std::string_view name() const { return element_->Name(); }
+  const std::string& file() const { return *file_; }
+  int line() const { return element_->GetLineNum(); }
+  Source source() const { return {*file_, line(), std::string(name())}; }
+  Error error(const std::string& what) const { return Error(source(), what); }
+
+  std::optional<Node> child(const char* name) const;
+  /// The child at the end of a path "a/b/c".
+  std::optional<Node> find(std::string_view path) const;
+  Node required(const char* name) const;
+  /// Calls visit(Node) for each child element, or each of that name.
+  template <typename Visit>
+  void each(const char* child_name, Visit visit) const {
+    for (const auto* e = element_->FirstChildElement(child_name); e;
+         e = e->NextSiblingElement(child_name)) {
+      visit(Node(*e, *file_));
+    }
+  }
+  template <typename Visit>
+  void each(Visit visit) const {
+    each(nullptr, visit);
+  }
+
+  bool has_attribute(const char* name) const { return element_->Attribute(name) != nullptr; }
+  std::string attribute(const char* name, const std::string& fallback = "") const;
+  /// Not empty, or an Error.
+  std::string required_attribute(const char* name) const;
+
+  /// All text directly inside, trimmed.
+  std::string text() const;
+  std::string required_text() const;
+  double to_number(double low = -kAbsurd, double high = kAbsurd) const;
+  /// As to_number, and "inf"; magnitudes from 1e15 on count as infinite.
+  double to_limit() const;
+  int to_integer(int low, int high) const;
+  bool to_boolean() const;
+  Eigen::Vector2d to_vector2() const;
+  Eigen::Vector3d to_vector3() const;
+  Pose to_pose() const;
+  Color to_color() const;
+
+  // The same of a child (or of what a path "a/b" leads to), with a value for its absence.
+  std::string text(std::string_view path, const std::string& fallback) const;
+  double number(std::string_view path, double fallback, double low = -kAbsurd,
+                double high = kAbsurd) const;
+  int integer(std::string_view path, int fallback, int low, int high) const;
+  bool boolean(std::string_view path, bool fallback) const;
+  Eigen::Vector3d vector3(std::string_view path, const Eigen::Vector3d& fallback) const;
+  Pose pose() const;
+  Color color(std::string_view path, const Color& fallback) const;
+
+  /// The element and all below it as plain data.
+  Element to_element() const;
+
+ private:
+  template <std::size_t kCount>
+  std::size_t parse_numbers(double (&values)[kCount], std::size_t least, const char* what) const;
+
+  const tinyxml2::XMLElement* element_;
+  const std::string* file_;
+};
+
+/// A parsed XML document and the name that stands for it in messages.
+class XmlFile {
+ public:
+  /// Throws Error if the text is no well-formed XML, declares entities, or nests deeper than is
+  /// sane.
+  XmlFile(const std::string& text, const std::string& name);
+  static XmlFile read(const std::string& path, const Source& source);
+  XmlFile(const XmlFile&) = delete;
+  XmlFile& operator=(const XmlFile&) = delete;
+
+  Node root() const { return Node(*document_.RootElement(), name_); }
+
+ private:
+  tinyxml2::XMLDocument document_;
+  std::string name_;
+};
+
+/// How deep the elements of an XML text nest, found without recursion.
+std::size_t xml_depth(std::string_view text);
+
+/// Checks what an XML library would stumble over: entity declarations, a depth that overflows the
+/// stack.
+void check_xml_text(std::string_view text, const std::string& name);
+
+}  // namespace ardee

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "bench/triangle_soup.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::bench {
+
+void TriangleSoup::add(const Model& model, const Pose& X, double scale,
+                       const Eigen::Vector2d& center, double radius_m) {
+  for (const Link& link : model.links) {
+    for (const Visual& visual : link.visuals) {
+      Pose X_MV = link.X_ML * visual.X_LV;
+      X_MV.p *= scale;
+      const Pose X_V = X * X_MV;
+      if (const auto* mesh = std::get_if<Mesh>(&visual.geometry)) {
+        add_mesh(*mesh, X_V, scale);
+      } else if (const auto* map = std::get_if<Heightmap>(&visual.geometry)) {
+        add_heightmap(*map, X_V, center, radius_m);
+      } else if (const auto* plane = std::get_if<Plane>(&visual.geometry)) {
+        add_plane(*plane, X_V);
+      } else {
+        throw Error(model.source, "visual '" + visual.name +
+                                      "': found another shape, expected mesh, heightmap or plane");
+      }
+    }
+  }
+}
+
+void TriangleSoup::add_mesh(const Mesh& mesh, const Pose& X, double scale) {
+  if (mesh.center) throw Error("mesh '" + mesh.uri + "': found a centred one, expected none");
+  for (const SubMesh& part : mesh.file->parts) {
+    if (!mesh.submesh.empty() && part.name != mesh.submesh) continue;
+    const auto base = static_cast<std::uint32_t>(vertices.size());
+    for (const Eigen::Vector3f& vertex : part.vertices) {
+      const Eigen::Vector3d scaled = scale * mesh.scale.cwiseProduct(vertex.cast<double>());
+      vertices.push_back((X * scaled).cast<float>());
+    }
+    for (const auto& triangle : part.triangles) {
+      triangles.push_back({base + triangle[0], base + triangle[1], base + triangle[2]});
+    }
+  }
+}
+
+void TriangleSoup::add_heightmap(const Heightmap& map, const Pose& X, const Eigen::Vector2d& center,
+                                 double radius_m) {
+  const HeightGrid& grid = *map.grid;
+  const Eigen::Vector2d cell_m(grid.size_m.x() / (grid.columns - 1),
+                               grid.size_m.y() / (grid.rows - 1));
+  const Eigen::Vector2d corner = (X.p + map.position_m).head<2>() - grid.size_m / 2.0;
+  const auto range = [&](int axis, int count) {
+    const double middle = (center[axis] - corner[axis]) / cell_m[axis];
+    const double reach = radius_m / cell_m[axis];
+    return std::pair<int, int>{std::max(0, static_cast<int>(std::floor(middle - reach))),
+                               std::min(count - 1, static_cast<int>(std::ceil(middle + reach)))};
+  };
+  const auto [column_0, column_1] = range(0, grid.columns);
+  const auto [row_0, row_1] = range(1, grid.rows);
+  const auto base = static_cast<std::uint32_t>(vertices.size());
+  const int width = column_1 - column_0 + 1;
+  for (int row = row_0; row <= row_1; ++row) {
+    for (int column = column_0; column <= column_1; ++column) {
+      const Eigen::Vector3d p(column * cell_m.x() - grid.size_m.x() / 2.0,
+                              row * cell_m.y() - grid.size_m.y() / 2.0, grid.at(column, row));
+      vertices.push_back((X * (map.position_m + p)).cast<float>());
+    }
+  }
+  const auto at = [&](int column, int row) {
+    return base + static_cast<std::uint32_t>((row - row_0) * width + (column - column_0));
+  };
+  for (int row = row_0; row < row_1; ++row) {
+    for (int column = column_0; column < column_1; ++column) {
+      triangles.push_back({at(column, row), at(column + 1, row), at(column + 1, row + 1)});
+      triangles.push_back({at(column, row), at(column + 1, row + 1), at(column, row + 1)});
+    }
+  }
+}
+
+void TriangleSoup::add_plane(const Plane& plane, const Pose& X) {
+  const auto base = static_cast<std::uint32_t>(vertices.size());
+  // Its x and y axes as far as its normal lets them; a normal along x has none and is not expected.
+  const Eigen::Vector3d across = plane.normal.cross(Eigen::Vector3d::UnitX()).normalized();
+  const Eigen::Vector3d along = across.cross(plane.normal).normalized();
+  for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
+    const Eigen::Vector3d p = x * plane.size_m.x() * along + y * plane.size_m.y() * across;
+    vertices.push_back((X * p).cast<float>());
+  }
+  triangles.push_back({base, base + 1, base + 2});
+  triangles.push_back({base, base + 2, base + 3});
+}
+
+}  // namespace ardee::bench

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "ros/arguments.h"
+
+#include <getopt.h>
+
+#include <charconv>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::node {
+namespace {
+
+std::uint64_t parse_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || stopped != end) {
+    throw Error("found seed '" + text + "', expected a whole number from 0");
+  }
+  return seed;
+}
+
+/// The parameter's value, or `fallback` where it is not set.
+template <typename Value>
+Value parameter(const ros::NodeHandle& node, const std::string& name, const Value& fallback,
+                const std::string& expected) {
+  Value value = fallback;
+  if (node.hasParam(name) && !node.getParam(name, value)) {
+    throw Error("parameter " + node.resolveName(name) + ": expected " + expected);
+  }
+  return value;
+}
+
+double number(const ros::NodeHandle& node, const std::string& name, double fallback, double low,
+              double high) {
+  const std::string expected =
+      "a number from " + std::to_string(low) + " to " + std::to_string(high);
+  const double value = parameter(node, name, fallback, expected);
+  if (!(value >= low && value <= high)) {
+    throw Error("parameter " + node.resolveName(name) + ": found " + std::to_string(value) +
+                ", expected " + expected);
+  }
+  return value;
+}
+
+int whole_number(const ros::NodeHandle& node, const std::string& name, int fallback) {
+  const std::string expected = "a whole number from 0";
+  const int value = parameter(node, name, fallback, expected);
+  if (value < 0) {
+    throw Error("parameter " + node.resolveName(name) + ": found " + std::to_string(value) +
+                ", expected " + expected);
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string usage() {
+  return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--verbose] [-h]\n"
+         "  WORLD         world file (SDF 1.3 to 1.6); default: the parameter ~world\n"
+         "  -u, --paused  start with the clock stopped\n"
+         "  --seed N      root of all random numbers, a whole number from 0\n"
+         "  --verbose     log at debug level\n"
+         "  -h, --help    this text\n"
+         "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
+         "            ~publish_world_tf ~scenery_radius ~verbose\n";
+}
+
+CommandLine parse_command_line(int argc, char** argv) {
+  static const option kOptions[] = {{"paused", no_argument, nullptr, 'u'},
+                                    {"seed", required_argument, nullptr, 's'},
+                                    {"verbose", no_argument, nullptr, 'v'},
+                                    {"help", no_argument, nullptr, 'h'},
+                                    {nullptr, 0, nullptr, 0}};
+  CommandLine line;
+  opterr = 0;
+  for (int found = 0; (found = getopt_long(argc, argv, ":uh", kOptions, nullptr)) != -1;) {
+    switch (found) {
+      case 'u':
+        line.paused = true;
+        break;
+      case 's':
+        line.seed = parse_seed(optarg);
+        break;
+      case 'v':
+        line.verbose = true;
+        break;
+      case 'h':
+        line.help = true;
+        break;
+      case ':':
+        throw Error(std::string("found no value after ") + argv[optind - 1]);
+      default:
+        throw Error(std::string("found unknown argument ") + argv[optind - 1] + "\n" + usage());
+    }
+  }
+  if (argc - optind > 1) throw Error("found more than one world\n" + usage());
+  if (optind < argc) line.world = argv[optind];
+  return line;
+}
+
+Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& node) {
+  Settings settings;
+  settings.world = command_line.world;
+  if (settings.world.empty()) {
+    settings.world = parameter<std::string>(node, "world", "", "the path of a world file");
+  }
+  if (settings.world.empty()) throw Error("found no world file\n" + usage());
+  settings.paused = command_line.paused.value_or(parameter(node, "paused", false, "true or false"));
+  settings.seed = command_line.seed ? *command_line.seed
+                                    : static_cast<std::uint64_t>(whole_number(node, "seed", 0));
+  const double factor = number(node, "real_time_factor", -1.0, -1e9, 1e9);
+  if (factor >= 0.0) settings.real_time_factor = factor;
+  settings.threads = whole_number(node, "threads", 0);
+  settings.clock_rate_hz = number(node, "pub_clock_frequency", settings.clock_rate_hz, 0.0, 1e9);
+  settings.publish_world_tf = parameter(node, "publish_world_tf", true, "true or false");
+  settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
+  return settings;
+}
+
+}  // namespace ardee::node

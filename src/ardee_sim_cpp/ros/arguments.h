@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace ardee::node {
+
+/// What the simulator node is told on its command line; what is absent comes from its parameters.
+struct CommandLine {
+  std::string world;
+  std::optional<bool> paused;
+  std::optional<std::uint64_t> seed;
+  bool verbose = false;
+  bool help = false;
+};
+
+/// Reads the command line without ROS's own arguments. Throws Error for what it does not know.
+CommandLine parse_command_line(int argc, char** argv);
+
+/// How to call the node, for -h.
+std::string usage();
+
+/// The settings of the node.
+struct Settings {
+  std::string world;
+  bool paused = false;
+  std::uint64_t seed = 0;
+  std::optional<double> real_time_factor;  // 0: as fast as the machine can; none: the world's
+  int threads = 0;                         // of the ray casts; 0: all cores
+  double clock_rate_hz = 100.0;            // of /clock, in simulated time; 0: each step
+  bool publish_world_tf = true;
+  double scenery_radius_m = 6.0;
+};
+
+/// The command line over the node's private parameters. Throws Error for a parameter of the wrong
+/// type or out of bounds.
+Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& private_node);
+
+}  // namespace ardee::node

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "ros/conversions.h"
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee::node {
+
+ros::Time to_ros(TimeNs time_ns) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(time_ns));
+}
+
+geometry_msgs::Point to_point(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+geometry_msgs::Quaternion to_quaternion(const Eigen::Quaterniond& q) {
+  geometry_msgs::Quaternion message;
+  message.x = q.x();
+  message.y = q.y();
+  message.z = q.z();
+  message.w = q.w();
+  return message;
+}
+
+geometry_msgs::Pose to_ros(const Pose& pose) {
+  geometry_msgs::Pose message;
+  message.position = to_point(pose.p);
+  message.orientation = to_quaternion(pose.q);
+  return message;
+}
+
+geometry_msgs::Transform to_transform(const Pose& pose) {
+  geometry_msgs::Transform message;
+  message.translation = to_vector(pose.p);
+  message.rotation = to_quaternion(pose.q);
+  return message;
+}
+
+geometry_msgs::Twist to_ros(const Twist& twist) {
+  geometry_msgs::Twist message;
+  message.linear = to_vector(twist.linear);
+  message.angular = to_vector(twist.angular);
+  return message;
+}
+
+Eigen::Vector3d from_ros(const geometry_msgs::Vector3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+
+Eigen::Vector3d from_ros(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
+
+Pose from_ros(const geometry_msgs::Pose& message) {
+  constexpr double kSmallestNorm = 1e-9;
+  Pose pose;
+  pose.p = from_ros(message.position);
+  pose.q = Eigen::Quaterniond(message.orientation.w, message.orientation.x, message.orientation.y,
+                              message.orientation.z);
+  if (!pose.is_finite()) throw Error("found a pose that is not finite");
+  if (pose.q.norm() < kSmallestNorm) {
+    pose.q = Eigen::Quaterniond::Identity();
+  } else {
+    pose.q.normalize();
+  }
+  return pose;
+}
+
+Twist from_ros(const geometry_msgs::Twist& twist) {
+  return {from_ros(twist.linear), from_ros(twist.angular)};
+}
+
+bool is_finite(const Twist& twist) { return twist.linear.allFinite() && twist.angular.allFinite(); }
+
+}  // namespace ardee::node

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3.h>
+#include <ros/time.h>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/time.h"
+
+namespace ardee::node {
+
+ros::Time to_ros(TimeNs time_ns);
+geometry_msgs::Point to_point(const Eigen::Vector3d& point);
+geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector);
+geometry_msgs::Quaternion to_quaternion(const Eigen::Quaterniond& q);
+geometry_msgs::Pose to_ros(const Pose& pose);
+geometry_msgs::Transform to_transform(const Pose& pose);
+geometry_msgs::Twist to_ros(const Twist& twist);
+
+Eigen::Vector3d from_ros(const geometry_msgs::Vector3& vector);
+Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
+/// A quaternion of zeros (a message nobody filled in) is no rotation, others are normalised. Throws
+/// Error if anything is not finite.
+Pose from_ros(const geometry_msgs::Pose& pose);
+Twist from_ros(const geometry_msgs::Twist& twist);
+bool is_finite(const Twist& twist);
+
+}  // namespace ardee::node

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gazebo_msgs/ApplyBodyWrench.h>
+#include <gazebo_msgs/ApplyJointEffort.h>
+#include <gazebo_msgs/BodyRequest.h>
+#include <gazebo_msgs/JointRequest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ros/conversions.h"
+#include "ros/services.h"
+
+namespace ardee::node {
+namespace {
+
+TimeNs start_time(const Stage& stage, const ros::Time& wanted) {
+  return std::max(stage.simulation.now_ns(), static_cast<TimeNs>(wanted.toNSec()));
+}
+
+/// The wrench is in the axes of the reference frame, and the force acts at reference_point in it.
+/// In the world's axes the point is counted from the body's centre of mass, so that a request
+/// without a point pushes without turning.
+std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest& request) {
+  const LinkRef ref = require_link(stage, request.body_name);
+  if (!ref.entity.robot->is_dynamic()) throw Error("'" + request.body_name + "' does not move");
+  const Pose X_WR = frame_in_world(stage, request.reference_frame, "reference_frame").pose;
+  const bool in_world = request.reference_frame.empty() || request.reference_frame == "world" ||
+                        request.reference_frame == "map";
+  const Eigen::Vector3d point_R = from_ros(request.reference_point);
+  const Pose X_WL = ref.entity.robot->link_pose(ref.link);
+  const auto& inertial = ref.entity.robot->model().links[ref.link].inertial;
+  const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d::Zero().eval();
+
+  Wrench wrench;
+  wrench.robot = ref.entity.robot.get();
+  wrench.link = ref.link;
+  wrench.force_W = X_WR.q * from_ros(request.wrench.force);
+  wrench.torque_W = X_WR.q * from_ros(request.wrench.torque);
+  const Eigen::Vector3d point_W = in_world ? X_WL * center_L + point_R : X_WR * point_R;
+  wrench.point_L = X_WL.inverse() * point_W;
+  wrench.start_ns = start_time(stage, request.start_time);
+  wrench.duration_ns = request.duration.toNSec();
+  if (!wrench.force_W.allFinite() || !wrench.torque_W.allFinite() || !wrench.point_L.allFinite()) {
+    throw Error("found a wrench or reference_point that is not finite");
+  }
+  stage.simulation.wrenches().add(wrench);
+  return "ApplyBodyWrench: wrench added";
+}
+
+std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortRequest& request) {
+  const JointRef ref = require_joint(stage, request.joint_name);
+  if (!std::isfinite(request.effort)) throw Error("found an effort that is not finite");
+  if (ref.entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
+    throw Error("joint '" + request.joint_name + "' is fixed");
+  }
+  stage.runner.efforts().add({ref.entity.name(), ref.joint, request.effort,
+                              start_time(stage, request.start_time), request.duration.toNSec()});
+  return "ApplyJointEffort: effort set";
+}
+
+}  // namespace
+
+void add_force_services(ServiceServers& servers, Stage& stage) {
+  servers.add<gazebo_msgs::ApplyBodyWrench>(
+      "apply_body_wrench", "ApplyBodyWrench",
+      [&stage](const auto& request, auto&) { return apply_wrench(stage, request); });
+  servers.add<gazebo_msgs::BodyRequest>(
+      "clear_body_wrenches", "ClearBodyWrenches", [&stage](const auto& request, auto&) {
+        const LinkRef ref = require_link(stage, request.body_name);
+        stage.simulation.wrenches().clear(*ref.entity.robot, ref.link);
+        return "";
+      });
+  servers.add<gazebo_msgs::ApplyJointEffort>(
+      "apply_joint_effort", "ApplyJointEffort",
+      [&stage](const auto& request, auto&) { return apply_effort(stage, request); });
+  servers.add<gazebo_msgs::JointRequest>(
+      "clear_joint_forces", "ClearJointForces", [&stage](const auto& request, auto&) {
+        const JointRef ref = require_joint(stage, request.joint_name);
+        stage.runner.efforts().clear(ref.entity.name(), ref.joint);
+        return "";
+      });
+}
+
+}  // namespace ardee::node

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <gazebo_msgs/GetModelState.h>
+#include <gazebo_msgs/SetModelConfiguration.h>
+#include <gazebo_msgs/SetModelState.h>
+
+#include <cmath>
+
+#include "ros/conversions.h"
+#include "ros/services.h"
+
+namespace ardee::node {
+namespace {
+
+std::string get_state(Stage& stage, const gazebo_msgs::GetModelStateRequest& request,
+                      gazebo_msgs::GetModelStateResponse& response) {
+  require_model(stage, request.model_name);
+  frame_in_world(stage, request.relative_entity_name, "relative_entity_name");
+  const RelativeState state =
+      stage.simulation.state(request.model_name, request.relative_entity_name);
+  response.header.stamp = to_ros(stage.simulation.now_ns());
+  response.header.frame_id = request.relative_entity_name;
+  response.pose = to_ros(state.pose);
+  response.twist = to_ros(state.twist);
+  return "GetModelState: got properties";
+}
+
+void set_state(Stage& stage, const gazebo_msgs::ModelState& wanted) {
+  require_model(stage, wanted.model_name);
+  frame_in_world(stage, wanted.reference_frame, "reference_frame");
+  const RelativeState state{from_ros(wanted.pose), from_ros(wanted.twist)};
+  if (!is_finite(state.twist)) throw Error("found a twist that is not finite");
+  stage.simulation.set_state(wanted.model_name, state, wanted.reference_frame);
+}
+
+/// All joints are found before the first is moved.
+std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationRequest& request) {
+  const Entity& entity = require_model(stage, request.model_name);
+  if (request.joint_names.size() != request.joint_positions.size()) {
+    throw Error("found " + std::to_string(request.joint_names.size()) + " joint_names and " +
+                std::to_string(request.joint_positions.size()) +
+                " joint_positions, expected one position a name");
+  }
+  std::vector<std::size_t> joints;
+  for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
+    const JointRef ref = require_joint(stage, entity.name() + "::" + request.joint_names[i]);
+    if (entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
+      throw Error("joint '" + request.joint_names[i] + "' is fixed");
+    }
+    if (!std::isfinite(request.joint_positions[i])) {
+      throw Error("joint '" + request.joint_names[i] + "': found a position that is not finite");
+    }
+    joints.push_back(ref.joint);
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    entity.robot->dynamics().set_joint_position(joints[i], request.joint_positions[i]);
+  }
+  return "SetModelConfiguration: success";
+}
+
+}  // namespace
+
+void add_model_state_services(ServiceServers& servers, Stage& stage) {
+  servers.add<gazebo_msgs::GetModelState>("get_model_state", "GetModelState",
+                                          [&stage](const auto& request, auto& response) {
+                                            return get_state(stage, request, response);
+                                          });
+  servers.add<gazebo_msgs::SetModelState>("set_model_state", "SetModelState",
+                                          [&stage](const auto& request, auto&) {
+                                            set_state(stage, request.model_state);
+                                            return "SetModelState: set model state done";
+                                          });
+  servers.add<gazebo_msgs::SetModelConfiguration>(
+      "set_model_configuration", "SetModelConfiguration",
+      [&stage](const auto& request, auto&) { return set_joints(stage, request); });
+  servers.listen<gazebo_msgs::ModelState>(
+      "set_model_state", "SetModelState",
+      [&stage](const auto& wanted) { set_state(stage, wanted); });
+}
+
+}  // namespace ardee::node

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+
+#include <map>
+#include <string>
+
+#include "ardee_sim/devices/reading.h"
+#include "ardee_sim/devices/robot.h"
+
+namespace ardee::node {
+
+/// Joins the frame that a robot's odometry is given in to the frame `world`, on /tf_static, so that
+/// markers in `world` and a robot below `odom` are seen together. The transform is what the first
+/// reading says: none where odometry is the pose in the world, the starting point where it is the
+/// wheels'.
+class OdometryFrames {
+ public:
+  explicit OdometryFrames(bool enabled);
+
+  void on_reading(const Robot& robot, const OdometryReading& reading);
+  void on_reading(const Robot& robot, const TransformReading& reading);
+  template <typename Other>
+  void on_reading(const Robot&, const Other&) {}
+
+  /// The frames of this robot are no longer published.
+  void forget(const std::string& robot_name);
+  /// Frames are learned anew: odometry has started again.
+  void restart() { frames_.clear(); }
+
+ private:
+  struct Frame {
+    std::string robot_name;
+    Pose X_WO;
+  };
+  void learn(const Robot& robot, const Header& header, const Pose& X_OB, bool planar);
+  void publish();
+
+  bool enabled_;
+  ros::Publisher publisher_;
+  std::map<std::string, Frame> frames_;
+};
+
+}  // namespace ardee::node

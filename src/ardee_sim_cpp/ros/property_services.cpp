@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <gazebo_msgs/GetJointProperties.h>
+#include <gazebo_msgs/GetLinkProperties.h>
+#include <gazebo_msgs/GetModelProperties.h>
+#include <gazebo_msgs/GetWorldProperties.h>
+
+#include "ros/conversions.h"
+#include "ros/services.h"
+
+namespace ardee::node {
+namespace {
+
+std::string get_world(Stage& stage, gazebo_msgs::GetWorldPropertiesResponse& response) {
+  response.sim_time = seconds(stage.simulation.now_ns());
+  for (const auto& entity : stage.simulation.entities()) {
+    response.model_names.push_back(entity->name());
+  }
+  response.rendering_enabled = false;
+  return "GetWorldProperties: got properties";
+}
+
+std::string get_model(Stage& stage, const std::string& name,
+                      gazebo_msgs::GetModelPropertiesResponse& response) {
+  const Entity& entity = require_model(stage, name);
+  const Model& model = entity.robot->model();
+  response.canonical_body_name = model.canonical_link;
+  for (const Link& link : model.links) {
+    response.body_names.push_back(link.name);
+    for (const Collision& collision : link.collisions) {
+      response.geom_names.push_back(collision.name);
+    }
+  }
+  for (const Joint& joint : model.joints) response.joint_names.push_back(joint.name);
+  for (const Instance& child : model.instances) response.child_model_names.push_back(child.name);
+  response.is_static = entity.is_static();
+  return "GetModelProperties: got properties";
+}
+
+std::string get_link(Stage& stage, const std::string& name,
+                     gazebo_msgs::GetLinkPropertiesResponse& response) {
+  const LinkRef ref = require_link(stage, name);
+  const Link& link = ref.entity.robot->model().links[ref.link];
+  response.gravity_mode = link.gravity;
+  const Inertial inertial = link.inertial.value_or(Inertial{});
+  response.com = to_ros(inertial.X_LI);
+  response.mass = inertial.mass_kg;
+  response.ixx = inertial.inertia_kg_m2(0, 0);
+  response.ixy = inertial.inertia_kg_m2(0, 1);
+  response.ixz = inertial.inertia_kg_m2(0, 2);
+  response.iyy = inertial.inertia_kg_m2(1, 1);
+  response.iyz = inertial.inertia_kg_m2(1, 2);
+  response.izz = inertial.inertia_kg_m2(2, 2);
+  return "GetLinkProperties: got properties";
+}
+
+std::uint8_t gazebo_type(JointType type) {
+  using Response = gazebo_msgs::GetJointPropertiesResponse;
+  switch (type) {
+    case JointType::kRevolute:
+    case JointType::kRevolute2:
+      return Response::REVOLUTE;
+    case JointType::kContinuous:
+      return Response::CONTINUOUS;
+    case JointType::kPrismatic:
+    case JointType::kScrew:
+      return Response::PRISMATIC;
+    case JointType::kBall:
+      return Response::BALL;
+    case JointType::kUniversal:
+      return Response::UNIVERSAL;
+    case JointType::kFixed:
+      break;
+  }
+  return Response::FIXED;
+}
+
+std::string get_joint(Stage& stage, const std::string& name,
+                      gazebo_msgs::GetJointPropertiesResponse& response) {
+  const JointRef ref = require_joint(stage, name);
+  const Joint& joint = ref.entity.robot->model().joints[ref.joint];
+  response.type = gazebo_type(joint.type);
+  response.damping = {joint.axis.damping};
+  if (joint.type != JointType::kFixed) {
+    response.position = {ref.entity.robot->dynamics().joint_position(ref.joint)};
+    response.rate = {ref.entity.robot->dynamics().joint_velocity(ref.joint)};
+  }
+  return "GetJointProperties: got properties";
+}
+
+}  // namespace
+
+void add_property_services(ServiceServers& servers, Stage& stage) {
+  servers.add<gazebo_msgs::GetWorldProperties>(
+      "get_world_properties", "GetWorldProperties",
+      [&stage](const auto&, auto& response) { return get_world(stage, response); });
+  servers.add<gazebo_msgs::GetModelProperties>(
+      "get_model_properties", "GetModelProperties", [&stage](const auto& request, auto& response) {
+        return get_model(stage, request.model_name, response);
+      });
+  servers.add<gazebo_msgs::GetLinkProperties>("get_link_properties", "GetLinkProperties",
+                                              [&stage](const auto& request, auto& response) {
+                                                return get_link(stage, request.link_name, response);
+                                              });
+  servers.add<gazebo_msgs::GetJointProperties>(
+      "get_joint_properties", "GetJointProperties", [&stage](const auto& request, auto& response) {
+        return get_joint(stage, request.joint_name, response);
+      });
+}
+
+}  // namespace ardee::node

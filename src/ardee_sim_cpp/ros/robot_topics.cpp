@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "ros/robot_topics.h"
+
+#include <ros/console.h>
+#include <ros/names.h>
+
+#include <utility>
+
+#include "ardee_sim/core/error.h"
+#include "ros/conversions.h"
+#include "ros/reading_to_message.h"
+
+namespace ardee::node {
+namespace {
+
+constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
+constexpr std::uint32_t kCommandQueue = 10;
+constexpr double kWarningPeriod_s = 5.0;
+
+template <std::size_t kKind>
+using MessageOf = decltype(to_message(std::declval<std::variant_alternative_t<kKind, Reading>>()));
+
+template <std::size_t... kKinds>
+ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
+                              std::index_sequence<kKinds...>) {
+  ros::Publisher publisher;
+  const auto try_kind = [&](auto kind) {
+    if (output.kind == kind) {
+      publisher = node.advertise<MessageOf<kind>>(output.topic, kOutputQueue);
+    }
+  };
+  (try_kind(std::integral_constant<std::size_t, kKinds>()), ...);
+  return publisher;
+}
+
+/// Odometry is measured at all times: OdometryFrames reads it.
+bool always_demanded(const Output& output) {
+  return output.kind == reading_kind<OdometryReading>() ||
+         output.kind == reading_kind<TransformReading>();
+}
+
+void require_valid(const std::string& topic) {
+  std::string why;
+  if (!ros::names::validate(topic, why)) {
+    throw Error("found topic '" + topic + "', expected a valid name: " + why);
+  }
+}
+
+}  // namespace
+
+ros::Publisher RobotTopics::advertise(const Output& output) {
+  require_valid(output.topic);
+  ros::Publisher publisher =
+      advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
+  if (!publisher) {
+    throw Error("topic " + output.topic + " is already published with another type");
+  }
+  return publisher;
+}
+
+ros::Subscriber RobotTopics::subscribe(const Input& input) {
+  require_valid(input.topic);
+  const auto on_message = [on_command = input.on_command,
+                           topic = input.topic](const geometry_msgs::Twist::ConstPtr& message) {
+    const Twist command = from_ros(*message);
+    if (is_finite(command)) {
+      on_command(command);
+    } else {
+      ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s,
+                               topic << ": found a command that is not finite; it is ignored");
+    }
+  };
+  ros::Subscriber subscriber = node_.subscribe<geometry_msgs::Twist>(
+      input.topic, kCommandQueue, on_message, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
+  if (!subscriber) {
+    throw Error("topic " + input.topic + " is already subscribed to with another type");
+  }
+  return subscriber;
+}
+
+void RobotTopics::add(Entity& entity) {
+  Topics topics;
+  for (const auto& device : entity.devices) {
+    for (Output& output : device->outputs()) {
+      topics.routes.push_back({&output, entity.robot.get(), advertise(output)});
+    }
+    for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
+  }
+  const Topics& kept = topics_[entity.name()] = std::move(topics);
+  for (const Route& route : kept.routes) routes_[route.output] = &route;
+}
+
+void RobotTopics::remove(const std::string& entity_name) {
+  const auto found = topics_.find(entity_name);
+  if (found == topics_.end()) return;
+  for (const Route& route : found->second.routes) routes_.erase(route.output);
+  topics_.erase(found);
+  frames_.forget(entity_name);
+}
+
+void RobotTopics::update_demand() {
+  for (const auto& [name, topics] : topics_) {
+    for (const Route& route : topics.routes) {
+      route.output->demanded =
+          always_demanded(*route.output) || route.publisher.getNumSubscribers() > 0;
+    }
+  }
+}
+
+void RobotTopics::on_reading(const Output& output, const Reading& reading) {
+  const auto found = routes_.find(&output);
+  if (found == routes_.end()) return;
+  const Route& route = *found->second;
+  std::visit(
+      [&](const auto& measured) {
+        frames_.on_reading(*route.robot, measured);
+        if (route.publisher.getNumSubscribers() > 0) route.publisher.publish(to_message(measured));
+      },
+      reading);
+}
+
+}  // namespace ardee::node

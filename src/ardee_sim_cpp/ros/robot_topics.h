@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <ros/node_handle.h>
+
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ardee_sim/simulation/entity.h"
+#include "ros/odometry_frames.h"
+
+namespace ardee::node {
+
+/// The topics of the robots' devices: publishers of what they measure, subscribers to their
+/// commands. They come when a robot is spawned and go when it is removed.
+class RobotTopics : public ReadingSink {
+ public:
+  explicit RobotTopics(OdometryFrames& frames) : frames_(frames) {}
+
+  /// Throws Error if a topic cannot be had; then none of the entity's is there.
+  void add(Entity& entity);
+  void remove(const std::string& entity_name);
+  /// Tells the devices which of their outputs somebody listens to.
+  void update_demand();
+  void on_reading(const Output& output, const Reading& reading) override;
+
+ private:
+  struct Route {
+    Output* output = nullptr;
+    const Robot* robot = nullptr;
+    ros::Publisher publisher;
+  };
+  struct Topics {
+    std::vector<Route> routes;
+    std::vector<ros::Subscriber> subscribers;
+  };
+  ros::Publisher advertise(const Output& output);
+  ros::Subscriber subscribe(const Input& input);
+
+  OdometryFrames& frames_;
+  ros::NodeHandle node_;
+  std::map<std::string, Topics> topics_;
+  std::unordered_map<const Output*, const Route*> routes_;
+};
+
+}  // namespace ardee::node

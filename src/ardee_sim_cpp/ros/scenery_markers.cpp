@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "ros/scenery_markers.h"
+
+#include <ros/node_handle.h>
+
+#include <algorithm>
+
+#include "ros/conversions.h"
+#include "ros/ground_marker.h"
+
+namespace ardee::node {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr double kMove_m = 1.5;  // how far a model goes before the markers are renewed
+constexpr char kFrame[] = "world";
+
+}  // namespace
+
+SceneryMarkers::SceneryMarkers(const Simulation& simulation, double radius_m)
+    : simulation_(simulation), radius_m_(radius_m) {
+  publisher_ =
+      ros::NodeHandle().advertise<visualization_msgs::MarkerArray>("/ardee/scenery", 1, true);
+}
+
+void SceneryMarkers::update() {
+  if (publisher_.getNumSubscribers() == 0) return;
+  const bool changed = scenery_changed();
+  std::vector<Eigen::Vector3d> now = eyes();
+  if (!changed && !eyes_moved(now)) return;
+  if (changed) shapes_.clear();
+  eyes_ = std::move(now);
+  publish();
+}
+
+std::vector<Eigen::Vector3d> SceneryMarkers::eyes() const {
+  std::vector<Eigen::Vector3d> eyes;
+  for (const auto& entity : simulation_.entities()) {
+    if (!entity->is_static()) eyes.push_back(entity->robot->pose().p);
+  }
+  if (eyes.empty()) eyes.push_back(default_eye());
+  return eyes;
+}
+
+Eigen::Vector3d SceneryMarkers::default_eye() const {
+  constexpr double kFarthest_m = 50.0;
+  if (const auto& camera = simulation_.world().gui_camera) {
+    const Eigen::Vector3d view = camera->q * Eigen::Vector3d::UnitX();
+    const double distance_m = view.z() < 0.0 ? -camera->p.z() / view.z() : 0.0;
+    const bool looks_down = distance_m > 0.0 && distance_m < kFarthest_m;
+    return looks_down ? Eigen::Vector3d(camera->p + distance_m * view) : camera->p;
+  }
+  Eigen::AlignedBox3d bounds;
+  for (const auto& entity : simulation_.entities()) {
+    for (const Placement& placement : entity->placements) bounds.extend(placement.X_WM.p);
+  }
+  return bounds.isEmpty() ? Eigen::Vector3d::Zero().eval() : bounds.center().eval();
+}
+
+bool SceneryMarkers::eyes_moved(const std::vector<Eigen::Vector3d>& eyes) const {
+  if (eyes.size() != eyes_.size()) return true;
+  for (std::size_t i = 0; i < eyes.size(); ++i) {
+    if ((eyes[i] - eyes_[i]).head<2>().norm() > kMove_m) return true;
+  }
+  return false;
+}
+
+bool SceneryMarkers::scenery_changed() {
+  std::vector<Standing> standing;
+  for (const auto& entity : simulation_.entities()) {
+    if (!entity->is_static()) continue;
+    standing.push_back({entity->robot->entity(), entity->robot->pose()});
+  }
+  const auto same = [](const Standing& a, const Standing& b) {
+    return a.entity == b.entity && a.pose.p == b.pose.p && a.pose.q.coeffs() == b.pose.q.coeffs();
+  };
+  const bool changed =
+      !std::equal(standing.begin(), standing.end(), standing_.begin(), standing_.end(), same);
+  standing_ = std::move(standing);
+  return changed;
+}
+
+void SceneryMarkers::publish() {
+  visualization_msgs::MarkerArray message;
+  for (const auto& entity : simulation_.entities()) {
+    if (entity->is_static()) append(*entity, message);
+  }
+  std::set<MarkerId> shown;
+  for (const Marker& marker : message.markers) shown.emplace(marker.ns, marker.id);
+  for (const MarkerId& gone : shown_) {
+    if (shown.count(gone) > 0) continue;
+    Marker marker;
+    marker.header.frame_id = kFrame;
+    marker.action = Marker::DELETE;
+    marker.ns = gone.first;
+    marker.id = gone.second;
+    message.markers.push_back(marker);
+  }
+  shown_ = std::move(shown);
+  publisher_.publish(message);
+}
+
+void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArray& message) {
+  int first_id = 0;  // the same placement has the same ids as long as it stands
+  for (const Placement& placement : entity.placements) {
+    const std::vector<MarkerShape>& shapes = shapes_of(placement.model);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      append_shape(shapes[i], placement, {entity.name(), first_id + static_cast<int>(i)}, message);
+    }
+    first_id += static_cast<int>(shapes.size());
+  }
+}
+
+void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& placement,
+                                  const MarkerId& id,
+                                  visualization_msgs::MarkerArray& message) const {
+  const double within_m = radius_m_ + placement.scale * shape.reach_m;
+  const bool near = std::any_of(eyes_.begin(), eyes_.end(), [&](const Eigen::Vector3d& eye) {
+    return (eye - placement.X_WM.p).head<2>().norm() <= within_m;
+  });
+  if (!near) return;
+  const Pose X_WS = placement.X_WM * Pose{placement.scale * shape.X_MS.p, shape.X_MS.q};
+  Marker marker = shape.marker;
+  if (shape.heightmap) {
+    append_ground(*shape.heightmap, X_WS, placement.scale, eyes_, radius_m_, marker);
+    if (marker.points.empty()) return;
+  }
+  marker.header.frame_id = kFrame;
+  marker.ns = id.first;
+  marker.id = id.second;
+  marker.action = Marker::ADD;
+  marker.pose = to_ros(X_WS);
+  marker.scale = to_vector(placement.scale * from_ros(marker.scale));
+  message.markers.push_back(std::move(marker));
+}
+
+const std::vector<MarkerShape>& SceneryMarkers::shapes_of(
+    const std::shared_ptr<const Model>& model) {
+  const auto found = shapes_.find(model);
+  if (found != shapes_.end()) return found->second;
+  return shapes_[model] = marker_shapes(*model);
+}
+
+}  // namespace ardee::node

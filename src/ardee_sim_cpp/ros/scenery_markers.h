@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ros/publisher.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "ardee_sim/simulation/simulation.h"
+#include "ros/marker_shapes.h"
+
+namespace ardee::node {
+
+/// /ardee/scenery: what stands still near the moving models, for rviz; latched, frame `world`.
+/// Without a moving model, what is near the point that the world's camera looks at. It costs
+/// nothing while nobody listens.
+class SceneryMarkers {
+ public:
+  SceneryMarkers(const Simulation& simulation, double radius_m);
+
+  /// Publishes anew if a model has moved far enough or the scenery has changed.
+  void update();
+
+ private:
+  using MarkerId = std::pair<std::string, int>;
+  struct Standing {
+    std::uint32_t entity = 0;
+    Pose pose;
+  };
+
+  std::vector<Eigen::Vector3d> eyes() const;
+  Eigen::Vector3d default_eye() const;
+  bool eyes_moved(const std::vector<Eigen::Vector3d>& eyes) const;
+  bool scenery_changed();
+  void publish();
+  void append(const Entity& entity, visualization_msgs::MarkerArray& message);
+  void append_shape(const MarkerShape& shape, const Placement& placement, const MarkerId& id,
+                    visualization_msgs::MarkerArray& message) const;
+  const std::vector<MarkerShape>& shapes_of(const std::shared_ptr<const Model>& model);
+
+  const Simulation& simulation_;
+  double radius_m_;
+  ros::Publisher publisher_;
+  std::vector<Eigen::Vector3d> eyes_;
+  std::vector<Standing> standing_;
+  std::set<MarkerId> shown_;
+  std::map<std::shared_ptr<const Model>, std::vector<MarkerShape>> shapes_;
+};
+
+}  // namespace ardee::node

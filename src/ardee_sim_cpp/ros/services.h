@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/readers/loader.h"
+#include "ardee_sim/simulation/simulation.h"
+#include "ros/robot_topics.h"
+#include "ros/runner.h"
+#include "ros/service_servers.h"
+
+namespace ardee::node {
+
+/// What the services act on. All references outlive them.
+struct Stage {
+  Simulation& simulation;
+  Loader& loader;
+  RobotTopics& topics;
+  Runner& runner;
+};
+
+/// The services of Gazebo's node API and /ardee/step, one file a group.
+void add_spawn_services(ServiceServers& servers, Stage& stage);
+void add_control_services(ServiceServers& servers, Stage& stage);
+void add_model_state_services(ServiceServers& servers, Stage& stage);
+void add_link_state_services(ServiceServers& servers, Stage& stage);
+void add_property_services(ServiceServers& servers, Stage& stage);
+void add_physics_services(ServiceServers& servers, Stage& stage);
+void add_force_services(ServiceServers& servers, Stage& stage);
+
+/// The model of that name; throws Error if there is none.
+Entity& require_model(Stage& stage, const std::string& name);
+
+/// A link, found by "model::link".
+struct LinkRef {
+  Entity& entity;
+  std::size_t link;
+};
+LinkRef require_link(Stage& stage, const std::string& scoped_name);
+
+/// A joint, found by "model::joint" or by a joint's name that a moving model has.
+struct JointRef {
+  Entity& entity;
+  std::size_t joint;
+};
+JointRef require_joint(Stage& stage, const std::string& name);
+
+/// State in the world of a model, a model::link or the world (""); throws Error for an unknown one
+/// with `field`, the request's field it came in.
+RelativeState frame_in_world(Stage& stage, const std::string& reference, const std::string& field);
+
+}  // namespace ardee::node

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "ros/simulator_node.h"
+
+#include <ros/package.h>
+#include <ros/ros.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "ros/log_to_ros.h"
+
+namespace ardee::node {
+namespace {
+
+constexpr char kNodeName[] = "gazebo";  // its private services are those that users' code calls
+constexpr int kBadInput = 2;
+
+std::optional<std::string> find_package(const std::string& package) {
+  const std::string path = ros::package::getPath(package);
+  return path.empty() ? std::nullopt : std::optional<std::string>(path);
+}
+
+ResourceLocator make_locator() {
+  ResourceLocator locator = ResourceLocator::from_environment();
+  locator.set_package_finder(find_package);
+  return locator;
+}
+
+/// A world file by its path, or by its name below Gazebo's resource paths.
+World load_world(Loader& loader, const std::string& world) {
+  const std::filesystem::path path(world);
+  if (std::filesystem::exists(path)) return loader.load_world(world);
+  if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
+  return loader.load_world(make_locator().resolve(world, Source{"", 0, "world"}));
+}
+
+/// tf_prefix of a namespace or of one around it, as tf::resolve finds it.
+std::string tf_prefix(const std::string& robot_namespace) {
+  const ros::NodeHandle node("/" + robot_namespace);
+  std::string key;
+  std::string prefix;
+  if (node.searchParam("tf_prefix", key)) node.getParam(key, prefix);
+  return prefix;
+}
+
+SimulationOptions simulation_options(const Settings& settings) {
+  SimulationOptions options;
+  options.seed = settings.seed;
+  options.rays.threads = settings.threads;
+  options.tf_prefix = tf_prefix;
+  return options;
+}
+
+void use_simulated_time() {
+  if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
+}
+
+void log_at_debug_level() {
+  if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Debug)) {
+    ros::console::notifyLoggerLevelsChanged();
+  }
+}
+
+}  // namespace
+
+SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
+    : loader_(make_locator(), Log(log_to_ros())),
+      simulation_(load_world(loader_, settings.world), simulation_options(settings), log_to_ros()),
+      frames_(settings.publish_world_tf),
+      topics_(frames_),
+      states_(private_node, simulation_),
+      clock_(settings.clock_rate_hz),
+      scenery_(simulation_, settings.scenery_radius_m),
+      runner_(simulation_, {topics_, states_, clock_, frames_}, [this] { scenery_.update(); }),
+      stage_{simulation_, loader_, topics_, runner_},
+      servers_(private_node) {
+  for (const auto& entity : simulation_.entities()) topics_.add(*entity);
+  simulation_.set_sink(&topics_);
+  if (settings.real_time_factor) {
+    PhysicsParams physics = simulation_.physics();
+    physics.real_time_update_rate_hz = *settings.real_time_factor / physics.step_s;
+    simulation_.set_physics(physics);
+    runner_.follow_physics();
+  }
+  runner_.set_paused(settings.paused);
+  add_spawn_services(servers_, stage_);
+  add_control_services(servers_, stage_);
+  add_model_state_services(servers_, stage_);
+  add_link_state_services(servers_, stage_);
+  add_property_services(servers_, stage_);
+  add_physics_services(servers_, stage_);
+  add_force_services(servers_, stage_);
+  ROS_INFO_STREAM("seed " << settings.seed << ", " << simulation_.entities().size()
+                          << " models, step " << simulation_.physics().step_s << " s"
+                          << (settings.paused ? ", paused" : ""));
+}
+
+namespace {
+
+void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
+  if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
+  SimulatorNode node(read_settings(command_line, private_node), private_node);
+  use_simulated_time();
+  node.run();
+}
+
+}  // namespace
+
+int run_simulator(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // log lines are there when they are written
+  ros::init(argc, argv, kNodeName);
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  CommandLine command_line;
+  try {
+    command_line = parse_command_line(argc, argv);
+  } catch (const Error& error) {
+    std::cerr << "simulator: " << error.what() << "\n";
+    return kBadInput;
+  }
+  if (command_line.help) {
+    std::cout << usage();
+    return 0;
+  }
+  const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
+  try {
+    run_node(command_line, private_node);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return kBadInput;
+  }
+  return 0;
+}
+
+}  // namespace ardee::node

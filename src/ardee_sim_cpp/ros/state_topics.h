@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ros/publisher.h>
+
+#include "ardee_sim/simulation/simulation.h"
+
+namespace ardee::node {
+
+/// model_states and link_states of Gazebo: names, poses and velocities in the world of all models
+/// and of all their links, at each step, as long as somebody listens. Plants that a field model
+/// includes are part of that model and not listed, as in Gazebo.
+class StateTopics {
+ public:
+  StateTopics(ros::NodeHandle& private_node, const Simulation& simulation);
+
+  void publish();
+
+ private:
+  const Simulation& simulation_;
+  ros::Publisher models_;
+  ros::Publisher links_;
+};
+
+/// Velocity of a model's frame in the world: it moves with the first link.
+Twist model_twist(const Robot& robot);
+
+}  // namespace ardee::node

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// What a ray returns must not depend on threads, on near regions or on their timing.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "scenes.h"
+
+namespace ardee::test {
+namespace {
+
+/// A crumpled sheet of triangles, edges shared, everywhere overlapping its neighbours when placed
+/// densely.
+std::shared_ptr<Model> crumpled(std::uint64_t seed, bool both_sides) {
+  Rng rng(mix_bits(seed));
+  SubMesh part;
+  part.name = "sheet";
+  const int n = 12;
+  for (int k = 0; k < (n + 1) * (n + 1); ++k) {
+    const double u = 1.2 * (k % (n + 1)) / n - 0.6;
+    const double v = 1.2 * static_cast<double>(k / (n + 1)) / n;
+    part.vertices.emplace_back(static_cast<float>(u + 0.05 * rng.normal()),
+                               static_cast<float>(0.1 * rng.normal()),
+                               static_cast<float>(v + 0.05 * rng.normal()));
+  }
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      const auto a = static_cast<std::uint32_t>(row * (n + 1) + column);
+      const std::uint32_t b = a + 1, c = a + n + 1, d = a + n + 2;
+      part.triangles.push_back({a, b, d});
+      part.triangles.push_back({a, d, c});
+    }
+  }
+  auto model = model_of(mesh_of({part}), {}, both_sides ? two_sided() : Material{});
+  Visual stem = model->links[0].visuals[0];
+  stem.geometry = Cylinder{0.02, 1.5};
+  stem.X_LV.p.z() = 0.75;
+  model->links[0].visuals.push_back(stem);
+  return model;
+}
+
+/// Plants on a jittered grid, every tenth one twice at the very same place (ties), with a ground
+/// under them.
+std::vector<Placement> field(int side, double spacing, const Eigen::Vector3d& corner) {
+  const std::vector<std::shared_ptr<Model>> models = {crumpled(1, true), crumpled(2, false),
+                                                      crumpled(3, true)};
+  Rng rng(mix_bits(77));
+  std::vector<Placement> placements;
+  for (int k = 0; k < side * side; ++k) {
+    const Eigen::Vector3d p =
+        corner + Eigen::Vector3d(spacing * (k % side) + 0.1 * rng.normal(),
+                                 spacing * (k / side) + 0.1 * rng.normal(), 0);
+    const Pose pose =
+        Pose::from_xyz_rpy(p, {0.1 * rng.normal(), 0.1 * rng.normal(), 6.3 * rng.uniform()});
+    const auto& model = models[static_cast<std::size_t>(k % 3)];
+    placements.push_back(placed(model, pose, 0.8 + 0.4 * rng.uniform(), 1));
+    if (k % 10 == 0) placements.push_back(placements.back());
+  }
+  auto grid = std::make_shared<HeightGrid>();
+  grid->columns = grid->rows = 33;
+  grid->size_m = {40, 40};
+  for (int k = 0; k < 33 * 33; ++k)
+    grid->heights_m.push_back(static_cast<float>(0.1 * rng.uniform()));
+  Heightmap map;
+  map.grid = grid;
+  placements.push_back(placed(model_of(map), {corner + Eigen::Vector3d(8, 8, 0), {1, 0, 0, 0}}));
+  return placements;
+}
+
+bool same(const std::vector<RayHit>& a, const std::vector<RayHit>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(RayHit)) == 0;
+}
+
+RayOptions options(bool flatten, double radius_m, int threads, std::size_t budget = 512u << 20) {
+  RayOptions result;
+  result.flatten = flatten;
+  result.flattened_radius_m = radius_m;
+  result.threads = threads;
+  result.flattened_budget_bytes = budget;
+  return result;
+}
+
+class SameBytes : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(NearAndFarFromTheOrigin, SameBytes, ::testing::Values(0.0, 800.0));
+
+TEST_P(SameBytes, ForAnyThreadsAndAnyRegions) {
+  const Eigen::Vector3d corner(GetParam(), -0.7 * GetParam(), 0.02 * GetParam());
+  const auto placements = field(40, 0.4, corner);
+  std::vector<std::unique_ptr<TestScene>> scenes;
+  for (const RayOptions& each : {options(false, 6, 1), options(false, 6, 2), options(false, 6, 8),
+                                 options(true, 1, 1), options(true, 3, 8), options(true, 50, 1),
+                                 options(true, 50, 2), options(true, 6, 2, 400000)}) {
+    scenes.push_back(std::make_unique<TestScene>(SceneKind::kVisual, each));
+    scenes.back()->scene.add_scenery(1000, placements);
+    scenes.back()->scene.add_model(3, crumpled(9, true));
+  }
+  Rng rng(mix_bits(42));
+  int finite = 0;
+  for (int scan = 0; scan < 24; ++scan) {
+    const Pose eye =
+        Pose::from_xyz_rpy(corner + Eigen::Vector3d(16 * rng.uniform(), 16 * rng.uniform(),
+                                                    scan % 6 == 5 ? 40.0 : 0.5),
+                           {rng.normal(), rng.normal(), 6.3 * rng.uniform()});
+    const Pose other =
+        Pose::from_xyz_rpy(corner + Eigen::Vector3d(16 * rng.uniform(), 8, 0.3), {0.2, 0, 1});
+    const RayPattern pattern =
+        scan % 2 == 0 ? random_pattern(6000, static_cast<std::uint64_t>(scan)) : fan(6000, -3, 3);
+    std::vector<RayHit> first;
+    for (const auto& scene : scenes) {
+      scene->scene.set_link_poses(3, {other});
+      const auto hits = scene->cast(eye, pattern, 60.0f);
+      if (first.empty()) first = hits;
+      ASSERT_TRUE(same(first, hits)) << "scan " << scan << ", scene " << (&scene - scenes.data());
+    }
+    for (const RayHit& hit : first) finite += std::isfinite(hit.range_m) ? 1 : 0;
+  }
+  EXPECT_GT(finite, 50000);
+}
+
+TEST(SameBytes, WhileRegionsFollowADrivingSensor) {
+  const auto placements = field(40, 0.4, {0, 0, 0});
+  TestScene still(SceneKind::kVisual, options(false, 0, 1));
+  TestScene near(SceneKind::kVisual, options(true, 2.0, 2));
+  still.scene.add_scenery(0, placements);
+  near.scene.add_scenery(0, placements);
+  const RayPattern pattern = fan(541, -2.3, 2.3);
+  for (int k = 0; k < 300; ++k) {
+    const Pose eye = Pose::from_xyz_rpy({0.05 * k, 8.0, 0.25}, {0.01, 0.02, 0.002 * k});
+    ASSERT_TRUE(same(still.cast(eye, pattern), near.cast(eye, pattern))) << k;
+  }
+}
+
+TEST(SameBytes, AgainAfterRemovalAndReturn) {
+  const auto placements = field(20, 0.4, {0, 0, 0});
+  TestScene scene(SceneKind::kVisual);
+  scene.scene.add_scenery(0, placements);
+  const Pose eye = Pose::from_xyz_rpy({4, 4, 0.5}, {0, 0, 0});
+  const RayPattern pattern = random_pattern(5000, 1);
+  const auto before = scene.cast(eye, pattern);
+  scene.scene.remove_scenery(0);
+  for (const RayHit& hit : scene.cast(eye, pattern)) ASSERT_EQ(hit.range_m, kInfinity);
+  scene.scene.add_scenery(0, placements);
+  EXPECT_TRUE(same(before, scene.cast(eye, pattern)));
+}
+
+/// The nearest of all triangles of the visual meshes, by brute force in long double.
+double nearest(const std::vector<Placement>& placements, const Eigen::Vector3d& o,
+               const Eigen::Vector3d& d) {
+  using V = Eigen::Matrix<long double, 3, 1>;
+  long double best = std::numeric_limits<long double>::infinity();
+  for (const Placement& placement : placements) {
+    const auto& shape = placement.model->links[0].visuals[0];
+    if (!std::holds_alternative<Mesh>(shape.geometry)) continue;
+    const SubMesh& part = std::get<Mesh>(shape.geometry).file->parts[0];
+    const V lo = (placement.X_WM.inverse() * o / placement.scale).cast<long double>();
+    const V ld = (placement.X_WM.q.conjugate() * d / placement.scale).cast<long double>();
+    for (const auto& corners : part.triangles) {
+      const V a = part.vertices[corners[0]].cast<long double>();
+      const V e1 = part.vertices[corners[1]].cast<long double>() - a;
+      const V e2 = part.vertices[corners[2]].cast<long double>() - a;
+      const V n = e1.cross(e2);
+      const long double slope = n.dot(ld);
+      if (slope == 0 || (slope > 0 && !shape.material->two_sided)) continue;
+      const V c = a - lo;
+      const V r = c.cross(ld);
+      const long double u = r.dot(e2) / slope, v = -r.dot(e1) / slope, t = n.dot(c) / slope;
+      if (u >= 0 && v >= 0 && u + v <= 1 && t >= 0) best = std::min(best, t);
+    }
+  }
+  return static_cast<double>(best);
+}
+
+TEST(Truth, NearestOfAllTrianglesByBruteForce) {
+  for (const double offset : {0.0, 900.0}) {
+    auto placements = field(6, 0.5, {offset, offset, 0});
+    placements.pop_back();
+    for (Placement& placement : placements) {
+      auto bare = std::make_shared<Model>(*placement.model);
+      bare->links[0].visuals.resize(1);
+      placement.model = bare;
+    }
+    for (const bool flatten : {true, false}) {
+      TestScene scene(SceneKind::kVisual, options(flatten, 6, 1));
+      scene.scene.add_scenery(0, placements);
+      const Pose eye = Pose::from_xyz_rpy({offset + 1.3, offset + 1.4, 0.5}, {0, 0, 0});
+      const RayPattern pattern = random_pattern(600, 8);
+      const auto hits = scene.cast(eye, pattern);
+      for (std::size_t k = 0; k < hits.size(); ++k) {
+        const Eigen::Vector3d d = pattern.directions_S[k].cast<double>().normalized();
+        const double expected = nearest(placements, eye.p, d);
+        if (std::isinf(expected)) {
+          EXPECT_EQ(hits[k].range_m, kInfinity);
+        } else {
+          EXPECT_NEAR(hits[k].range_m, expected, 1e-6 + 1e-7 * expected);
+        }
+      }
+    }
+  }
+}
+
+TEST(Truth, FarFromTheOriginAsExactAsNear) {
+  for (const Eigen::Vector3d& corner :
+       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1024, -2048, 16)}) {
+    for (const bool flatten : {true, false}) {
+      TestScene scene(SceneKind::kVisual, options(flatten, 6, 1));
+      const Pose pose{corner + Eigen::Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()};
+      scene.scene.add_scenery(0, {placed(model_of(mesh_of({box_mesh("box", {1, 1, 1})})), pose),
+                                  placed(model_of(Cylinder{0.01, 1}),
+                                         {corner + Eigen::Vector3d(0, 2, 0), {1, 0, 0, 0}})});
+      EXPECT_FLOAT_EQ(scene.one(corner, {1, 0, 0}).range_m, 2.5f);
+      EXPECT_FLOAT_EQ(scene.one(corner, {0, 1, 0}).range_m, 1.99f);
+      // The edge lies where it lies, to a micrometre.
+      const Eigen::Vector3d up(0, 0, 1);
+      EXPECT_TRUE(std::isfinite(scene.one(corner + 0.499999 * up, {1, 0, 0}).range_m));
+      EXPECT_EQ(scene.one(corner + 0.500001 * up, {1, 0, 0}).range_m, kInfinity);
+    }
+  }
+}
+
+TEST(Truth, TwoScenesInOneProcess) {
+  TestScene a(SceneKind::kVisual), b(SceneKind::kVisual);
+  a.scene.add_scenery(0, {placed(model_of(Sphere{1}), {{5, 0, 0}, {1, 0, 0, 0}})});
+  b.scene.add_scenery(0, {placed(model_of(Sphere{1}), {{9, 0, 0}, {1, 0, 0, 0}})});
+  EXPECT_FLOAT_EQ(a.one({0, 0, 0}, {1, 0, 0}).range_m, 4.0f);
+  EXPECT_FLOAT_EQ(b.one({0, 0, 0}, {1, 0, 0}).range_m, 8.0f);
+}
+
+}  // namespace
+}  // namespace ardee::test

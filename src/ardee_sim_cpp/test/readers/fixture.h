@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/readers/loader.h"
+
+namespace ardee {
+
+/// A folder of its own for one test, gone afterwards.
+class TempFolder {
+ public:
+  TempFolder() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "ardee_readers_XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~TempFolder() { std::filesystem::remove_all(path_); }
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path file = std::filesystem::path(path_) / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    return file.string();
+  }
+  /// A model folder as Gazebo keeps them: model.config and model.sdf with `body` inside <model
+  /// name="NAME">.
+  void write_model(const std::string& name, const std::string& body,
+                   const std::string& version = "1.5") const {
+    write(name + "/model.config", "<model><sdf version='" + version + "'>model.sdf</sdf></model>");
+    write(name + "/model.sdf",
+          "<sdf version='" + version + "'><model name='" + name + "'>" + body + "</model></sdf>");
+  }
+
+ private:
+  std::string path_;
+};
+
+/// A loader over a temporary model folder and the test data, with what it says recorded.
+class ReadersTest : public ::testing::Test {
+ protected:
+  ReadersTest() : loader_(make_locator(), make_log()) {}
+
+  static std::string data(const std::string& name) {
+    return std::string(ARDEE_TEST_DATA "/") + name;
+  }
+
+  std::shared_ptr<const Model> model(const std::string& body, const std::string& version = "1.5") {
+    return loader_.load_model_text(
+        "<sdf version='" + version + "'><model name='m'>" + body + "</model></sdf>", "test.sdf");
+  }
+  World world(const std::string& body, const std::string& version = "1.5") {
+    return loader_.load_world_text(
+        "<sdf version='" + version + "'><world name='w'>" + body + "</world></sdf>", "test.world");
+  }
+  std::shared_ptr<const Model> robot(const std::string& body) {
+    return loader_.load_model_text("<robot name='r'>\n" + body + "</robot>", "test.urdf");
+  }
+
+  /// What an action throws; empty if nothing.
+  template <typename Action>
+  static std::string error_of(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  bool warned(const std::string& part) const {
+    return std::any_of(warnings_->begin(), warnings_->end(), [&part](const std::string& text) {
+      return text.find(part) != std::string::npos;
+    });
+  }
+
+  TempFolder folder_;
+  std::shared_ptr<std::vector<std::string>> warnings_ =
+      std::make_shared<std::vector<std::string>>();
+  Loader loader_;
+
+ private:
+  ResourceLocator make_locator() const {
+    ResourceLocator locator;
+    locator.add_model_path(folder_.path());
+    locator.add_model_path(data(""));
+    const std::string root = folder_.path();
+    locator.set_package_finder([root](const std::string& package) -> std::optional<std::string> {
+      const std::string path = root + "/" + package;
+      if (std::filesystem::is_directory(path)) return path;
+      if (package == "test_data") return data("");
+      return std::nullopt;
+    });
+    return locator;
+  }
+  Log make_log() {
+    auto warnings = warnings_;
+    return Log([warnings](LogLevel level, const std::string& text) {
+      if (level == LogLevel::kWarning) warnings->push_back(text);
+    });
+  }
+};
+
+#define EXPECT_HAS(text, part)                               \
+  EXPECT_NE(std::string(text).find(part), std::string::npos) \
+      << "in: " << (text) << "\nmissing: " << (part)
+
+inline void expect_near(const Eigen::Vector3d& found, const Eigen::Vector3d& expected,
+                        double tolerance = 1e-9) {
+  EXPECT_LT((found - expected).norm(), tolerance)
+      << "found " << found.transpose() << ", expected " << expected.transpose();
+}
+
+}  // namespace ardee

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/package_index.h"
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+class Locator : public ::testing::Test {
+ protected:
+  Locator() {
+    locator_.add_model_path(folder_.path() + "/models");
+    locator_.add_resource_path(folder_.path() + "/share");
+  }
+  std::string error_of(const std::string& uri) const {
+    try {
+      locator_.resolve(uri, Source{"f.sdf", 3, "uri"});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TempFolder folder_;
+  ResourceLocator locator_;
+};
+
+TEST_F(Locator, FindsModelUris) {
+  const std::string file = folder_.write("models/a/meshes/m.dae", "");
+  EXPECT_EQ(locator_.resolve("model://a/meshes/m.dae", {}), file);
+}
+
+TEST_F(Locator, FindsFileUrisOnResourceAndModelPathsAndTheirParents) {
+  const std::string on_models = folder_.write("models/ground/h.png", "");
+  const std::string on_share = folder_.write("share/media/t.png", "");
+  const std::string beside = folder_.write("media/parent.png", "");
+  EXPECT_EQ(locator_.resolve("file://ground/h.png", {}), on_models);
+  EXPECT_EQ(locator_.resolve("file://media/t.png", {}), on_share);
+  EXPECT_EQ(locator_.resolve("file://media/parent.png", {}), beside);
+  EXPECT_EQ(locator_.resolve("file://" + beside, {}), beside);
+  EXPECT_EQ(locator_.resolve(beside, {}), beside);
+}
+
+TEST_F(Locator, FindsPathsBesideTheReferringFile) {
+  const std::string mesh = folder_.write("x/meshes/m.dae", "");
+  EXPECT_EQ(locator_.resolve("meshes/m.dae", Source{folder_.path() + "/x/model.sdf", 1, ""}), mesh);
+}
+
+TEST_F(Locator, SaysWhereItSearched) {
+  const std::string error = error_of("model://a/b.dae");
+  EXPECT_HAS(error,
+             "f.sdf:3: <uri>: found 'model://a/b.dae', expected an existing file; searched: ");
+  EXPECT_HAS(error, folder_.path() + "/models/a/b.dae");
+  EXPECT_HAS(error_of("http://x/y"), "expected model://, package://, file:// or a path");
+  EXPECT_HAS(error_of("model://"), "found an empty path");
+  EXPECT_HAS(error_of("package://nobody/x"), "searched for package 'nobody'");
+}
+
+TEST_F(Locator, ChoosesTheNewestSdfUpTo16) {
+  folder_.write("models/a/model.config",
+                "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf>"
+                "<sdf version='1.5'>mid.sdf</sdf><sdf version='1.9'>new.sdf</sdf></model>");
+  for (const char* name : {"old", "mid", "model", "new"})
+    folder_.write("models/a/" + std::string(name) + ".sdf", "");
+  EXPECT_EQ(locator_.resolve_model("model://a", {}), folder_.path() + "/models/a/model.sdf");
+  folder_.write("models/b/model.config",
+                "<model><sdf version='1.7'>x.sdf</sdf><sdf version='1.9'>y.sdf</sdf></model>");
+  folder_.write("models/b/y.sdf", "");
+  EXPECT_EQ(locator_.resolve_model("model://b", {}), folder_.path() + "/models/b/y.sdf");
+}
+
+TEST_F(Locator, TakesModelSdfWithoutAConfigAndAFileAsItIs) {
+  const std::string sdf = folder_.write("models/a/model.sdf", "");
+  EXPECT_EQ(locator_.resolve_model("model://a", {}), sdf);
+  EXPECT_EQ(locator_.resolve_model("model://a/model.sdf", {}), sdf);
+}
+
+TEST_F(Locator, FindsPackagesByTheirManifest) {
+  folder_.write("src/deep/pkg_folder/package.xml", "<package><name> my_pkg </name></package>");
+  folder_.write("src/ignored/CATKIN_IGNORE", "");
+  folder_.write("src/ignored/other/package.xml", "<package><name>other</name></package>");
+  PackageIndex index({folder_.path() + "/src"});
+  EXPECT_EQ(index.find("my_pkg"), folder_.path() + "/src/deep/pkg_folder");
+  EXPECT_EQ(index.find("other"), std::nullopt);
+  EXPECT_EQ(index.find("no_such_package"), std::nullopt);
+}
+
+TEST(PathList, LeavesOutEmptyParts) {
+  EXPECT_EQ(split_path_list("/a::/b:"), (std::vector<std::string>{"/a", "/b"}));
+}
+
+}  // namespace
+}  // namespace ardee

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+class SdfJointTest : public ReadersTest {
+ protected:
+  Joint joint(const std::string& type, const std::string& body,
+              const std::string& version = "1.5") {
+    // The child is turned by 90 degrees about z: its x is the model's y.
+    return model(
+               "<link name='a'/><link name='b'><pose>1 0 0 0 0 1.5707963267948966</pose></link>"
+               "<joint name='j' type='" +
+                   type + "'><parent>a</parent><child>b</child>" + body + "</joint>",
+               version)
+        ->joints.at(0);
+  }
+};
+
+TEST_F(SdfJointTest, AxisIsInTheJointFrameSince15) {
+  expect_near(joint("revolute", "<axis><xyz>2 0 0</xyz></axis>", "1.5").axis.axis, {1, 0, 0});
+  expect_near(joint("revolute", "<axis><xyz>2 0 0</xyz></axis>", "1.6").axis.axis, {1, 0, 0});
+}
+
+TEST_F(SdfJointTest, AxisIsInTheModelFrameUpTo14) {
+  for (const char* version : {"1.3", "1.4"}) {
+    // The model's x is the child's -y.
+    expect_near(joint("revolute", "<axis><xyz>1 0 0</xyz></axis>", version).axis.axis, {0, -1, 0});
+  }
+}
+
+TEST_F(SdfJointTest, UseParentModelFrameDecidesWhereGiven) {
+  const std::string in_model =
+      "<axis><xyz>1 0 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>";
+  const std::string in_joint =
+      "<axis><xyz>1 0 0</xyz><use_parent_model_frame>0</use_parent_model_frame></axis>";
+  expect_near(joint("revolute", in_model, "1.6").axis.axis, {0, -1, 0});
+  expect_near(joint("revolute", in_joint, "1.4").axis.axis, {1, 0, 0});
+}
+
+TEST_F(SdfJointTest, TheJointsOwnPoseTurnsAModelAxisToo) {
+  // Joint turned back by 90 degrees: its axes are the model's.
+  const Joint j =
+      joint("revolute", "<pose>0 0 0.5 0 0 -1.5707963267948966</pose><axis><xyz>1 0 0</xyz></axis>",
+            "1.4");
+  expect_near(j.axis.axis, {1, 0, 0});
+  expect_near(j.X_CJ.p, {0, 0, 0.5});
+}
+
+TEST_F(SdfJointTest, ReadsAllThatActsAlongTheAxis) {
+  const Joint j = joint("revolute", R"(<axis><xyz>0 0 1</xyz>
+      <limit><lower>-0.5</lower><upper>0.7</upper><effort>10</effort><velocity>3</velocity></limit>
+      <dynamics><damping>0.1</damping><friction>0.2</friction>
+        <spring_stiffness>100</spring_stiffness><spring_reference>0.3</spring_reference></dynamics></axis>
+      <physics><ode><limit><cfm>0.01</cfm><erp>0.4</erp></limit>
+        <implicit_spring_damper>1</implicit_spring_damper></ode></physics>)");
+  EXPECT_EQ(j.type, JointType::kRevolute);
+  EXPECT_EQ(j.axis.lower, -0.5);
+  EXPECT_EQ(j.axis.upper, 0.7);
+  EXPECT_EQ(j.axis.effort, 10.0);
+  EXPECT_EQ(j.axis.velocity, 3.0);
+  EXPECT_EQ(j.axis.damping, 0.1);
+  EXPECT_EQ(j.axis.friction, 0.2);
+  EXPECT_EQ(j.axis.spring_stiffness, 100.0);
+  EXPECT_EQ(j.axis.spring_reference, 0.3);
+  EXPECT_EQ(j.stop_cfm, 0.01);
+  EXPECT_EQ(j.stop_erp, 0.4);
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(SdfJointTest, RevoluteWithoutLimitsIsContinuous) {
+  const Joint j = joint("revolute",
+                        "<axis><xyz>0 0 1</xyz><limit><lower>-1e16</lower><upper>1e16</upper>"
+                        "<effort>-1</effort><velocity>-1</velocity></limit></axis>");
+  EXPECT_EQ(j.type, JointType::kContinuous);
+  EXPECT_TRUE(std::isinf(j.axis.effort) && std::isinf(j.axis.velocity));
+  EXPECT_EQ(joint("revolute", "<axis><xyz>0 0 1</xyz></axis>").type, JointType::kContinuous);
+  EXPECT_EQ(joint("revolute", "<axis><xyz>0 0 1</xyz><limit><lower>0</lower></limit></axis>").type,
+            JointType::kRevolute);
+}
+
+TEST_F(SdfJointTest, KnowsAllTypes) {
+  const std::string axis = "<axis><xyz>0 0 1</xyz></axis>";
+  const std::string axes = axis + "<axis2><xyz>0 1 0</xyz></axis2>";
+  EXPECT_EQ(joint("fixed", "").type, JointType::kFixed);
+  EXPECT_EQ(joint("ball", "").type, JointType::kBall);
+  EXPECT_EQ(joint("prismatic", axis).type, JointType::kPrismatic);
+  EXPECT_EQ(joint("universal", axes).type, JointType::kUniversal);
+  expect_near(joint("revolute2", axes).axis2.axis, {0, 1, 0});
+  // 2 pi radians a metre, left-handed: one metre back in a turn.
+  EXPECT_NEAR(
+      joint("screw", axis + "<thread_pitch>6.283185307179586</thread_pitch>").thread_pitch_m, -1.0,
+      1e-12);
+  EXPECT_HAS(error_of([&] { joint("gearbox", axis); }), "found joint type 'gearbox', expected");
+}
+
+TEST_F(SdfJointTest, AChildWorldChangesPlacesWithTheParent) {
+  const auto m = model(
+      "<link name='a'><pose>0 0 2 0 0 0</pose></link><joint name='j' type='revolute'>"
+      "<parent>a</parent><child>world</child><axis><xyz>0 0 1</xyz></axis></joint>");
+  const Joint& j = m->joints.at(0);
+  EXPECT_EQ(j.parent, "world");
+  EXPECT_EQ(j.child, "a");
+  expect_near(j.axis.axis, {0, 0, -1});
+  expect_near(j.X_CJ.p, {0, 0, -2});
+}
+
+TEST_F(SdfJointTest, MayHangOnTheWorld) {
+  const auto m = model(
+      "<link name='a'/><joint name='j' "
+      "type='fixed'><parent>world</parent><child>a</child></joint>");
+  EXPECT_EQ(m->joints.at(0).parent, "world");
+}
+
+}  // namespace
+}  // namespace ardee

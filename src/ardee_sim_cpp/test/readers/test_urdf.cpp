@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+using Urdf = ReadersTest;
+
+constexpr const char* kTwoLinks = "<link name='a'/><link name='b'/>";
+
+std::string joint(const std::string& type, const std::string& more, const std::string& name = "j") {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='a'/><child link='b'/>" +
+         more + "</joint>";
+}
+
+TEST_F(Urdf, ReadsLinks) {
+  const auto m = robot(R"(<link name='a'>
+      <inertial><origin xyz='0.1 0 0' rpy='0 0 0'/><mass value='2'/>
+        <inertia ixx='3' ixy='0.1' ixz='0.2' iyy='4' iyz='0.3' izz='5'/></inertial>
+      <collision><origin xyz='0 0 1' rpy='0 0 1.5707963267948966'/><geometry><box size='1 2 3'/></geometry></collision>
+      <collision><geometry><cylinder radius='0.5' length='2'/></geometry></collision>
+      <collision name='own'><geometry><sphere radius='0.25'/></geometry></collision>
+      <visual><geometry><mesh filename='package://test_data/meshes/cube_mm.stl' scale='0.001 0.001 0.002'/></geometry></visual>
+    </link>)");
+  const Link& link = m->links.at(0);
+  EXPECT_EQ(m->name, "r");
+  EXPECT_EQ(m->canonical_link, "a");
+  EXPECT_EQ(link.inertial->mass_kg, 2.0);
+  expect_near(link.inertial->X_LI.p, {0.1, 0, 0});
+  EXPECT_EQ(link.inertial->inertia_kg_m2(2, 1), 0.3);
+  ASSERT_EQ(link.collisions.size(), 3u);
+  EXPECT_EQ(link.collisions[0].name, "a_collision");
+  EXPECT_EQ(link.collisions[1].name, "a_collision_1");
+  EXPECT_EQ(link.collisions[2].name, "own");
+  expect_near(link.collisions[0].X_LC * Eigen::Vector3d(1, 0, 0), {0, 1, 1});
+  EXPECT_EQ(std::get<Box>(link.collisions[0].geometry).size_m, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<Cylinder>(link.collisions[1].geometry).length_m, 2.0);
+  EXPECT_EQ(std::get<Sphere>(link.collisions[2].geometry).radius_m, 0.25);
+  const Mesh& mesh = std::get<Mesh>(link.visuals.at(0).geometry);
+  EXPECT_EQ(mesh.scale, Eigen::Vector3d(0.001, 0.001, 0.002));
+  EXPECT_EQ(mesh.file->parts.at(0).triangles.size(), 12u);
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(Urdf, PlacesLinksByTheirJoints) {
+  const auto m = robot(R"(<link name='c'/><link name='b'/><link name='a'/>
+      <joint name='bc' type='fixed'><parent link='b'/><child link='c'/><origin xyz='1 0 0'/></joint>
+      <joint name='ab' type='fixed'><parent link='a'/><child link='b'/><origin xyz='0 0 2' rpy='0 0 1.5707963267948966'/></joint>)");
+  EXPECT_EQ(m->canonical_link, "a");
+  EXPECT_EQ(m->links.at(0).name, "c");
+  expect_near(m->find_link("b")->X_ML.p, {0, 0, 2});
+  expect_near(m->find_link("c")->X_ML.p, {0, 1, 2});
+  expect_near(m->joints.at(0).X_CJ.p, {0, 0, 0});
+}
+
+TEST_F(Urdf, KeepsMasslessLinksAndFixedJoints) {
+  const auto m = robot(kTwoLinks + joint("continuous", "<axis xyz='0 2 0'/>"));
+  EXPECT_EQ(m->links.size(), 2u);
+  EXPECT_FALSE(m->links[0].inertial || m->links[1].inertial);
+  EXPECT_EQ(m->joints.at(0).type, JointType::kContinuous);
+  expect_near(m->joints.at(0).axis.axis, {0, 1, 0});
+  EXPECT_TRUE(std::isinf(m->joints.at(0).axis.upper));
+  EXPECT_NO_THROW(robot(kTwoLinks + joint("fixed", "<axis xyz='0 0 0'/>")));
+}
+
+TEST_F(Urdf, ReadsJointsAndTheSpringsOfListingA25) {
+  const auto m = robot(
+      kTwoLinks +
+      joint("revolute",
+            "<axis xyz='0 -1 0'/>"
+            "<limit effort='10' velocity='20' lower='-0.682' upper='0.1'/>"
+            "<dynamics damping='1' friction='0.5' spring_stiffness='100' spring_reference='0.2'/>"
+            "<safety_controller k_velocity='1'/>"));
+  const Joint& j = m->joints.at(0);
+  EXPECT_EQ(j.type, JointType::kRevolute);
+  EXPECT_EQ(j.axis.lower, -0.682);
+  EXPECT_EQ(j.axis.upper, 0.1);
+  EXPECT_EQ(j.axis.effort, 10.0);
+  EXPECT_EQ(j.axis.velocity, 20.0);
+  EXPECT_EQ(j.axis.damping, 1.0);
+  EXPECT_EQ(j.axis.friction, 0.5);
+  EXPECT_EQ(j.axis.spring_stiffness, 100.0);
+  EXPECT_EQ(j.axis.spring_reference, 0.2);
+  EXPECT_EQ(
+      robot(kTwoLinks + joint("prismatic", "<limit effort='1' velocity='1' lower='0' upper='1'/>"))
+          ->joints[0]
+          .type,
+      JointType::kPrismatic);
+}
+
+TEST_F(Urdf, ReadsColours) {
+  const auto m = robot(R"(<material name='paint'><color rgba='0.1 0.2 0.3 0.5'/></material>
+    <link name='a'>
+      <visual><geometry><sphere radius='1'/></geometry><material name='paint'/></visual>
+      <visual><geometry><sphere radius='1'/></geometry><material name='own'><color rgba='1 0 0 1'/>
+        <texture filename='package://test_data/images/rgb.png'/></material></visual>
+      <visual><geometry><sphere radius='1'/></geometry></visual>
+    </link>)");
+  const auto& v = m->links.at(0).visuals;
+  EXPECT_TRUE(v[0].material->diffuse.isApprox(Color(0.1f, 0.2f, 0.3f, 0.5f)));
+  EXPECT_TRUE(v[1].material->diffuse.isApprox(Color(1, 0, 0, 1)));
+  EXPECT_HAS(v[1].material->texture_path, "images/rgb.png");
+  EXPECT_FALSE(v[2].material);
+}
+
+TEST_F(Urdf, AppliesLinkBlocks) {
+  const auto m = robot(R"(<link name='a'>
+      <collision><geometry><sphere radius='1'/></geometry></collision>
+      <collision><geometry><sphere radius='2'/></geometry></collision>
+      <visual><geometry><sphere radius='1'/></geometry></visual></link>
+    <gazebo reference='a'><mu1>0.7</mu1><mu2>0.6</mu2><fdir1>1 0 0</fdir1><kp>1e6</kp><kd>100</kd>
+      <minDepth>0.001</minDepth><maxVel>0.2</maxVel><maxContacts>3</maxContacts></gazebo>
+    <gazebo reference='a'><selfCollide>true</selfCollide><turnGravityOff>true</turnGravityOff>
+      <dampingFactor>0.1</dampingFactor><laserRetro>5</laserRetro><material>Gazebo/Orange</material></gazebo>)");
+  const Link& link = m->links.at(0);
+  for (const Collision& c : link.collisions) {
+    EXPECT_EQ(c.surface.mu, 0.7);
+    EXPECT_EQ(c.surface.mu2, 0.6);
+    EXPECT_EQ(c.surface.fdir1, Eigen::Vector3d(1, 0, 0));
+    EXPECT_EQ(c.surface.kp_n_per_m, 1e6);
+    EXPECT_EQ(c.surface.kd_n_s_per_m, 100.0);
+    EXPECT_EQ(c.surface.min_depth_m, 0.001);
+    EXPECT_EQ(c.surface.max_correcting_velocity_m_per_s, 0.2);
+    EXPECT_EQ(c.surface.max_contacts, 3);
+    EXPECT_EQ(c.laser_retro, 5.0);
+  }
+  EXPECT_TRUE(link.self_collide);
+  EXPECT_FALSE(link.gravity);
+  EXPECT_EQ(link.linear_decay, 0.1);
+  EXPECT_EQ(link.visuals.at(0).laser_retro, 5.0);
+  EXPECT_EQ(link.visuals.at(0).material->name, "Gazebo/Orange");
+  EXPECT_NEAR(link.visuals.at(0).material->diffuse[1], 0.5088, 1e-6);
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(Urdf, AppliesAVisualBlockToAllVisuals) {
+  const auto m =
+      robot(R"(<link name='a'><visual><geometry><sphere radius='1'/></geometry></visual></link>
+    <gazebo reference='a'><visual><material><diffuse>0.1 0.2 0.3 1</diffuse></material>
+      <transparency>0.5</transparency></visual></gazebo>)");
+  const Visual& v = m->links.at(0).visuals.at(0);
+  EXPECT_TRUE(v.material->diffuse.isApprox(Color(0.1f, 0.2f, 0.3f, 1)));
+  EXPECT_EQ(v.transparency, 0.5);
+}
+
+TEST_F(Urdf, AppliesJointBlocks) {
+  const auto m = robot(kTwoLinks + joint("continuous", "") + R"(<gazebo reference='j'>
+      <stopCfm>0.01</stopCfm><stopErp>0.3</stopErp><springStiffness>50</springStiffness>
+      <springReference>0.1</springReference><implicitSpringDamper>1</implicitSpringDamper>
+      <provideFeedback>true</provideFeedback><fudgeFactor>0</fudgeFactor>
+      <disableFixedJointLumping>true</disableFixedJointLumping></gazebo>)");
+  const Joint& j = m->joints.at(0);
+  EXPECT_EQ(j.stop_cfm, 0.01);
+  EXPECT_EQ(j.stop_erp, 0.3);
+  EXPECT_EQ(j.axis.spring_stiffness, 50.0);
+  EXPECT_EQ(j.axis.spring_reference, 0.1);
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(Urdf, KeepsSensorsOnTheirLinksAndPluginsOnTheModel) {
+  const auto m = robot(kTwoLinks + joint("fixed", "") + R"(
+    <gazebo reference='b'><sensor name='scan' type='gpu_ray'><update_rate>40</update_rate>
+      <plugin name='p' filename='laser.so'><topicName>scan</topicName></plugin></sensor></gazebo>
+    <gazebo><static>true</static><plugin name='drive' filename='drive.so'><torque>10</torque></plugin></gazebo>)");
+  EXPECT_TRUE(m->find_link("a")->sensors.empty());
+  const SensorDescription& s = m->find_link("b")->sensors.at(0);
+  EXPECT_EQ(s.type, "gpu_ray");
+  EXPECT_EQ(s.update_rate_hz, 40.0);
+  EXPECT_EQ(s.plugins.at(0).element.child("topicName")->text, "scan");
+  EXPECT_EQ(s.plugins.at(0).element.child("topicName")->source.line, 4);
+  EXPECT_EQ(s.plugins.at(0).element.child("topicName")->source.file, "test.urdf");
+  EXPECT_TRUE(m->is_static);
+  EXPECT_EQ(m->plugins.at(0).filename, "drive.so");
+}
+
+TEST_F(Urdf, WarnsOfWhatItDoesNotKnow) {
+  robot(
+      std::string("<link name='a'><inertail/></link>") +
+      "<gazebo reference='nobody'><mu1>1</mu1></gazebo><gazebo reference='a'><mu3>1</mu3></gazebo>"
+      "<gazebo><plugni/></gazebo>");
+  EXPECT_EQ(warnings_->size(), 4u);
+  EXPECT_TRUE(warned("test.urdf:2: <inertail>: not an element of <link> in URDF"));
+  EXPECT_TRUE(warned("found reference 'nobody', expected a link or joint"));
+  EXPECT_TRUE(warned("<mu3>: not known in a <gazebo> block of a link"));
+  EXPECT_TRUE(warned("<plugni>: not known in a <gazebo> block of the model"));
+}
+
+TEST_F(Urdf, WarnsOfMimicAndUndefinedMaterials) {
+  robot(kTwoLinks + joint("continuous", "<mimic joint='j'/>"));
+  EXPECT_TRUE(warned("<mimic>: not supported"));
+}
+
+TEST_F(Urdf, ARootLinkCalledWorldIsTheWorld) {
+  const auto m = robot(
+      "<link name='world'/><link name='a'/><joint name='j' type='fixed'>"
+      "<parent link='world'/><child link='a'/><origin xyz='0 0 1'/></joint>");
+  ASSERT_EQ(m->links.size(), 1u);
+  EXPECT_EQ(m->canonical_link, "a");
+  EXPECT_EQ(m->joints.at(0).parent, "world");
+  EXPECT_EQ(m->links.at(0).X_ML.p.z(), 1.0);
+}
+
+}  // namespace
+}  // namespace ardee
