@@ -35,7 +35,8 @@ bool in_model_frame(const Node& axis, double sdf_version) {
 double unlimited_if_negative(const Node& axis, const char* path) {
   const auto node = axis.find(path);
   const double value = node ? node->to_limit() : kInfinity;
-  return value < 0.0 ? kInfinity : value;
+  if (value < 0.0) return kInfinity;
+  return value;
 }
 
 JointAxis read_axis(const Node& axis) {

@@ -25,7 +25,8 @@ TEST(Pose, InverseUndoes) {
 
 TEST(Pose, AnglesComeBack) {
   for (const Eigen::Vector3d& rpy :
-       {Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(-3.0, 1.5, -2.0), Eigen::Vector3d(0, 0, M_PI)}) {
+       {Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(-3.0, 1.5, -2.0),
+        Eigen::Vector3d(0, 0, M_PI)}) {
     EXPECT_TRUE(rpy_from_quaternion(quaternion_from_rpy(rpy)).isApprox(rpy, 1e-9));
   }
 }

@@ -29,7 +29,8 @@ TEST(RateTimer, ARateThatDividesTheStepIsPeriodic) {
 }
 
 TEST(RateTimer, ARateThatDoesNotKeepsItsMeanWithoutDrift) {
-  // 30 Hz at a step of 7 ms over 70,000 s: exactly 2,100,000 periods, none off its grid by a step or more.
+  // 30 Hz at a step of 7 ms over 70,000 s: exactly 2,100,000 periods, none off its grid by a step
+  // or more.
   RateTimer timer(30.0);
   timer.start_at(1);
   std::uint64_t fired = 0;

@@ -46,10 +46,9 @@ TEST(Parameters, ReadsTypedValuesAndDefaults) {
 TEST(Parameters, ABadValueSaysFileLineElementFoundExpected) {
   for (const char* bad : {"fast", "nan", "inf", "1e999", "", "1 2", "0x10", "1,5"}) {
     const Element element = block({{"rate", bad}});
-    const std::string message =
-        message_of([&] { Parameters(element).number("rate", 1.0); });
-    EXPECT_EQ(message, "robot.urdf:11: <rate>: found '" + std::string(bad) +
-                           "', expected a finite number");
+    const std::string message = message_of([&] { Parameters(element).number("rate", 1.0); });
+    EXPECT_EQ(message,
+              "robot.urdf:11: <rate>: found '" + std::string(bad) + "', expected a finite number");
   }
 }
 

@@ -18,8 +18,10 @@ TEST(Scenery, NestedPosesScalesAndLabelsMultiplyDown) {
   const auto plant = model_with_link();
   auto plot = std::make_shared<Model>();
   plot->instances.push_back({plant, "a", Pose::from_xyz_rpy({1, 0, 0}, {0, 0, 0}), 1.5, 0, true});
-  plot->instances.push_back({plant, "b", Pose::from_xyz_rpy({0, 2, 0}, {0, 0, M_PI / 2}), 1.0, 9, true});
-  const Instance field{plot, "field", Pose::from_xyz_rpy({10, 0, 0}, {0, 0, -M_PI / 2}), 2.0, 4, true};
+  plot->instances.push_back(
+      {plant, "b", Pose::from_xyz_rpy({0, 2, 0}, {0, 0, M_PI / 2}), 1.0, 9, true});
+  const Instance field{plot, "field", Pose::from_xyz_rpy({10, 0, 0}, {0, 0, -M_PI / 2}),
+                       2.0,  4,       true};
 
   const auto placements = flatten_scenery(field);
   ASSERT_EQ(placements.size(), 2u);  // the plot itself has no links

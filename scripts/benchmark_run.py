@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""scripts/benchmark in a workspace that is built and sourced."""
+import argparse
+import json
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+from typing import Any, Dict, List
+
+import benchmark_field
+import benchmark_measure
+import benchmark_table
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
+KINDS = ("start", "physics", "lidar", "rtf")
+SIZES = [200, 2_000, 20_000, 200_000]
+
+
+def say(text: str) -> None:
+    """Progress."""
+    print(f"   {text}", file=sys.stderr, flush=True)
+
+
+def kinds(text: str) -> List[str]:
+    """argparse type: a list with commas."""
+    found = text.split(",")
+    unknown = [kind for kind in found if kind not in KINDS]
+    if unknown:
+        raise argparse.ArgumentTypeError(
+            f"found {unknown[0]!r}, expected some of {','.join(KINDS)}"
+        )
+    return found
+
+
+def positive(text: str) -> int:
+    """argparse type: a whole number from 1."""
+    value = int(text)
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"found {value}, expected a whole number from 1")
+    return value
+
+
+def options() -> argparse.Namespace:
+    """The command line of scripts/benchmark."""
+    parser = argparse.ArgumentParser(prog="scripts/benchmark")
+    parser.add_argument("--plants", type=positive, nargs="+", default=SIZES)
+    parser.add_argument("--only", type=kinds, default=list(KINDS))
+    parser.add_argument("--repeat", type=positive, default=3)
+    parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--window-s", type=float, default=8.0, help="wall time of a drive with ROS")
+    found = parser.parse_args()
+    if not 0.5 <= found.window_s <= 100.0:
+        parser.error(f"--window-s: found {found.window_s}, expected 0.5 to 100")
+    if found.json and not found.json.resolve().parent.is_dir():
+        parser.error(f"--json: the folder of {found.json} does not exist")
+    return found
+
+
+def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict[str, Any]]:
+    """Every size, every repetition: medians by number of plants."""
+    urdf = benchmark_measure.make_urdf(work)
+    results = {}  # type: Dict[int, Dict[str, Any]]
+    for size in sorted(set(found.plants)):
+        say(f"{size} plants: generate")
+        folder = work / f"plants_{size}"
+        field = benchmark_field.generate(size, folder, FARM_WORLD)
+        repetitions = []
+        for number in range(1, found.repeat + 1):
+            repetitions.append(
+                benchmark_measure.measure(
+                    field,
+                    urdf,
+                    found.only,
+                    found.window_s,
+                    lambda what: say(f"{field.plants} plants: {what}, {number} of {found.repeat}"),
+                )
+            )
+        results[field.plants] = benchmark_table.derive(benchmark_table.medians(repetitions))
+        shutil.rmtree(folder)
+    return results
+
+
+def stop_here(number: int, _frame: Any) -> None:
+    """Any signal that ends the benchmark leaves through the clean-up."""
+    raise SystemExit(128 + number)
+
+
+def main() -> int:
+    """Exit code of the benchmark; a missed budget is no failure."""
+    found = options()
+    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    for number in ending:
+        signal.signal(number, stop_here)
+    work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_benchmark_"))
+    try:
+        about = benchmark_table.machine()
+        results = measure_all(found, work)
+        print(benchmark_table.header(about, found.repeat))
+        print(benchmark_table.table(results))
+        if found.json:
+            figures = {"machine": about, "repeat": found.repeat, "plants": results}
+            found.json.write_text(json.dumps(figures, indent=2) + "\n")
+        return 0
+    except (RuntimeError, TimeoutError, OSError) as error:
+        print(f"scripts/benchmark: {error}", file=sys.stderr)
+        return 1
+    finally:
+        for number in ending:
+            signal.signal(number, signal.SIG_IGN)
+        shutil.rmtree(work, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

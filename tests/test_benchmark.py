@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""scripts/benchmark on the smallest field: every figure is there. How large they are is not for a test to say."""
+import json
+import math
+import pathlib
+import subprocess
+
+import benchmark_field
+import benchmark_table
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
+
+
+def run(*arguments: str) -> subprocess.CompletedProcess:
+    """The benchmark, in the workspace that the tests run in."""
+    command = ["/usr/bin/python3", str(SCRIPTS / "benchmark_run.py"), *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "figures.json"
+    done = run("--plants", "200", "--repeat", "1", "--window-s", "0.5", "--json", str(path))
+    assert done.returncode == 0, done.stderr
+    figures = json.loads(path.read_text())["plants"]["200"]
+    for row in benchmark_table.ROWS:
+        value = benchmark_table.value_at(figures, row.path)
+        assert value is not None and math.isfinite(value) and value > 0.0, row.text
+        assert row.text in done.stdout
+    # The robot drove, and its scans arrived.
+    assert 0.4 < figures["node"]["speed_m_s"] < 0.6
+    assert 35.0 < figures["node"]["scans_per_simulated_s"] < 45.0
+    # Rays that race each other have to meet the same things.
+    assert figures["lidar"]["flat_agreement"] > 0.99
+    assert figures["engine"]["placements"] == 201
+
+
+def test_bad_arguments_are_named() -> None:
+    done = run("--only", "start,nonsense")
+    assert done.returncode == 2
+    assert "found 'nonsense', expected some of start,physics,lidar,rtf" in done.stderr
+
+
+def test_fields_are_whole_and_about_square() -> None:
+    for plants in (200, 2_000, 20_000, 100_000, 200_000):
+        rows = benchmark_field.rows_of(plants)
+        assert plants % rows == 0 and rows % 2 == 0
+        length_m = plants / rows * benchmark_field.STALK_SPACING_M
+        assert 0.3 < rows * benchmark_field.ROW_SPACING_M / length_m < 3.0
+
+
+def test_medians_and_missed_budgets() -> None:
+    repetitions = [{"node": {"start_s": value}} for value in (0.5, 3.5, 3.2)]
+    figures = benchmark_table.medians(repetitions)
+    assert figures == {"node": {"start_s": 3.2}}
+    start = benchmark_table.ROWS[0]
+    assert start.cell(200, figures, figures) == "3.20 (<= 1.00) !"
+    assert start.cell(20_001, figures, figures) == "3.20 (<= 10.00)  "
+    assert start.cell(200_001, figures, figures) == "3.20  "
+    assert start.cell(200, {}, {}) == "-"
