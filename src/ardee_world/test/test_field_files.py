@@ -104,7 +104,8 @@ def test_a_plan_of_the_users_own(generate_field, tmp_path):
 
 def test_many_plants(generate_field, tmp_path):
     shape = ("--plots-x", "10", "--plots-y", "5", "--stalks-per-row", "1000")
-    assert generate_field(*BASE, *shape, "--output", tmp_path)[0] == 0
+    place = ("--format", "sdf", "--output", tmp_path)
+    assert generate_field(*BASE, *shape, *place)[0] == 0
     text = (tmp_path / "field" / "model.sdf").read_text()
     assert (
         text.count("<include>")

@@ -4,15 +4,16 @@
 import argparse
 import shutil
 from pathlib import Path
-from typing import List, Sequence
+from typing import Dict, List, Optional, Sequence
 
 from ardee_models.cli import run
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.output import model_directory, write_file
+from ardee_models.terrain import Ground
 from ardee_models.terrain_files import ground_model
 from ardee_models.writers.metadata import model_config
-from ardee_world.seating import is_generated, seat
+from ardee_world.seating import is_generated, read_table, seat, seat_table, table_name
 from ardee_world.urdf_file import check_xml, split_field
 from ardee_world.writers.world import world_text
 
@@ -44,12 +45,24 @@ def find_terrain(name: str, folders: Sequence[Path], models: Sequence[Path]) -> 
     return find_model(Path(name).name, models)
 
 
-def _write_field(text: str, plots: str, models: Path) -> None:
+def _table(field: Path, model: str, ground: Optional[Ground]) -> Dict[str, str]:
+    """Name to text of the table of plants beside a field's file, if it keeps one, on the ground if one is given."""
+    name = table_name(model)
+    if name is None:
+        return {}
+    path = field.parent / name
+    text = read_table(path)
+    return {name: seat_table(text, path, ground) if ground else text}
+
+
+def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> None:
     with model_directory(models, FIELD) as folder:
         about = "Field of customized crop plots"
         (folder / "model.config").write_text(model_config(FIELD, about))
         (folder / "model.sdf").write_text(text)
         (folder / "plots.xacro").write_text(plots)
+        for name, rows in table.items():
+            (folder / name).write_text(rows)
 
 
 def assemble(args: argparse.Namespace) -> Path:
@@ -61,10 +74,12 @@ def assemble(args: argparse.Namespace) -> Path:
     model, plots = split_field(field)
     check_xml(geofence.read_text(encoding="utf-8", errors="replace"), geofence)
     ground = ground_model(terrain.name, [terrain.parent, *models])
-    if is_generated(model) and not args.keep_heights:
+    seated = is_generated(model) and not args.keep_heights
+    table = _table(field, model, ground if seated else None)
+    if seated:
         model = seat(model, ground)
     out = args.output
-    _write_field(model, plots, out / "models")
+    _write_field(model, plots, table, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
         shutil.copytree(terrain, folder, dirs_exist_ok=True)
     write_file(out / GEOFENCE, geofence.read_bytes())

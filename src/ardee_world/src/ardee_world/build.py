@@ -45,7 +45,9 @@ def build_fields(plans: Path, models: Path, urdf: Path, folders: Sequence[Path])
         if missing:
             print(f"{path.stem}: left out, there is no model {', '.join(missing)}")
             continue
-        values.update(name=path.stem, output=str(models), model_path=tuple(map(str, folders)))
+        # Includes: the .urdf.xacro is copied to where no table lies beside it
+        values.update(name=path.stem, output=str(models), format="sdf")
+        values.update(model_path=tuple(map(str, folders)))
         field = make_configured(values) / f"{path.stem}.urdf.xacro"
         write_file(urdf / field.name, field.read_bytes())
     write_file(urdf / "empty.urdf.xacro", EMPTY.encode())

@@ -169,7 +169,7 @@ def make_configured(values: Values) -> Path:
     }
     terrain = ground_model(sources.terrain, folders) if sources.terrain else None
     layout = generate(config, pool, sources.seed, terrain, _plan(sources), pools)
-    return write_field(layout, sources.name, Path(sources.output))
+    return write_field(layout, sources.name, Path(sources.output), sources.format)
 
 
 def main() -> int:

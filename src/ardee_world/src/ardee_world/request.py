@@ -11,6 +11,7 @@ from ardee_models.options import kind_of, option, scalar_fields
 from ardee_models.strict_yaml import Mapping, read_yaml_lines, value_of
 from ardee_world.config import GROUPS, FieldConfig
 
+LARGEST_SDF = 20_000  # plants and clutter of a field that is written as includes, if nothing else is said
 _WHOLE = (0, 2**63)
 Values = Dict[str, Any]
 
@@ -27,6 +28,12 @@ class Sources:
         None, "terrain model at the world's origin to stand on (default level)"
     )
     centers: Any = option(None, "CSV file of stalk centres x_m,y_m of your own instead of a plan")
+    format: str = option(
+        "auto",
+        "model.sdf with an include a plant, or a table plants.csv that only this simulator reads, as a stream;"
+        f" auto: stream above {LARGEST_SDF} plants",
+        choices=("auto", "sdf", "stream"),
+    )
     seed: int = option(0, "root of all random numbers", _WHOLE)
 
 
