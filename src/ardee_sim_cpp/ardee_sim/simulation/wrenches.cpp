@@ -11,7 +11,21 @@ void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
 }
 
+constexpr double kMost = 1e9;  // N, N m; and m from the link: far beyond anything on a field
+
+bool is_sane(const Eigen::Vector3d& vector) {
+  return vector.allFinite() && vector.cwiseAbs().maxCoeff() <= kMost;
+}
+
 }  // namespace
+
+void Wrenches::add(const Wrench& wrench) {
+  if (!is_sane(wrench.force_W) || !is_sane(wrench.torque_W) || !is_sane(wrench.point_L)) {
+    throw Error(
+        "found a wrench with a number that is not finite or beyond 1e9, expected N, N m, m");
+  }
+  wrenches_.push_back(wrench);
+}
 
 void Wrenches::clear(const Robot& robot, std::size_t link) {
   erase_if(wrenches_,

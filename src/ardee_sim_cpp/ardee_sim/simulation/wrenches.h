@@ -23,7 +23,8 @@ struct Wrench {
 /// The pushes in force; several on one body add up.
 class Wrenches {
  public:
-  void add(const Wrench& wrench) { wrenches_.push_back(wrench); }
+  /// Throws Error for a wrench beyond what the physics takes, and then keeps what there was.
+  void add(const Wrench& wrench);
   void clear(const Robot& robot, std::size_t link);
   void clear(const Robot& robot);
   void clear_all() { wrenches_.clear(); }
