@@ -11,9 +11,7 @@ from ardee_models.options import kind_of, option, scalar_fields
 from ardee_models.strict_yaml import Mapping, read_yaml_lines, value_of
 from ardee_world.config import GROUPS, FieldConfig
 
-LARGEST_SDF = (
-    20_000  # plants and clutter of a field that is written as includes, if nothing else is said
-)
+LARGEST_SDF = 20_000  # plants and clutter; a larger field is a stream if nothing is said
 _WHOLE = (0, 2**63)
 Values = Dict[str, Any]
 
