@@ -15,7 +15,7 @@ from ardee_models.lookup import search_path, terrain_model
 MODEL = "small-corn-stalk-plot"  # as farm.world includes it
 TERRAIN = "heightmap_ground"
 ROWS, STALKS_PER_ROW = 4, 50
-TALLEST_M = 1.1
+SHORTEST_M, TALLEST_M = 0.35, 1.1  # seedlings would have to be scaled up to the field's mean height
 BEFORE_THE_ROW_M = 0.8
 RIDE_HEIGHT_M = 0.175  # of base_footprint above the ground
 HALF_TRACK_M = 0.22  # the robot's wheels stand within this of its middle, along x and y
@@ -36,7 +36,8 @@ def young_corn() -> List[str]:
     """Names of the corn models on the model path that a picture from behind the robot looks over."""
     folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
     metrics = [p for f in folders if f for p in pathlib.Path(f).glob("corn_variant_*/metrics.json")]
-    found = {p.parent.name for p in metrics if json.loads(p.read_text())["height_m"] < TALLEST_M}
+    heights = {p.parent.name: json.loads(p.read_text())["height_m"] for p in metrics}
+    found = {name for name, height in heights.items() if SHORTEST_M < height < TALLEST_M}
     if not found:
         raise RuntimeError(f"no young corn_variant_* on GAZEBO_MODEL_PATH: {folders}")
     return sorted(found)

@@ -5,6 +5,7 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
     **generate_distutils_setup(
-        packages=["ardee_models", "ardee_models.writers"], package_dir={"": "src"}
+        packages=["ardee_models", "ardee_models.prepare", "ardee_models.writers"],
+        package_dir={"": "src"},
     )
 )

@@ -6,7 +6,7 @@ import sys
 import pytest
 import yaml
 
-from ardee_models import cli
+from ardee_models import crop_cli
 from ardee_models.config import config_dir
 from ardee_models.crops import make_crop
 from ardee_models.errors import GeneratorError
@@ -15,7 +15,7 @@ from ardee_models.output import model_directory
 
 
 def _params_file(tmp_path, change):
-    data = yaml.safe_load((config_dir() / "corn.yaml").read_text())
+    data = yaml.safe_load((config_dir() / "species" / "corn.yaml").read_text())
     change(data)
     path = tmp_path / "corn.yaml"
     path.write_text(yaml.safe_dump(data))
@@ -26,24 +26,44 @@ def _params_file(tmp_path, change):
     "change, message",
     [
         (
-            lambda d: d["architecture"].update(leaf_numbr=3),
-            "architecture: unknown key 'leaf_numbr'",
+            lambda d: d["architecture"]["leaves"].update(numbr=3),
+            "architecture.leaves: unknown key 'numbr'",
         ),
         (
-            lambda d: d["architecture"].pop("curvature_deg"),
-            "architecture: missing key 'curvature_deg'",
+            lambda d: d["architecture"]["leaves"].pop("curvature_deg"),
+            "architecture.leaves: missing key 'curvature_deg'",
         ),
         (
-            lambda d: d["architecture"].update(curvature_deg=999),
+            lambda d: d["architecture"]["leaves"].update(curvature_deg=999),
             r"curvature_deg: found 999, expected a value in",
         ),
         (
-            lambda d: d["architecture"].update(leaf_number=2.5),
-            "leaf_number: found 2.5, expected a finite int",
+            lambda d: d["architecture"]["leaves"].update(number=3.5),
+            "leaves.number: found 3.5, expected a finite int",
         ),
         (
-            lambda d: d["stages"]["V8"].update(tassel="no!"),
-            "stages.V8.tassel: found 'no!', expected bool",
+            lambda d: d["stages"]["V8"].update(season="spring"),
+            "stages.V8.season: found 'spring', expected early mid late",
+        ),
+        (
+            lambda d: d["architecture"].update(tassel=7),
+            "architecture.tassel: found 7, expected a mapping",
+        ),
+        (
+            lambda d: d["architecture"]["leaves"].update(venation="odd"),
+            "venation: found 'odd', expected 'parallel' or 'pinnate'",
+        ),
+        (
+            lambda d: d["stages"]["V8"].update(collared_leaves=19, lost_leaves=1),
+            "stages.V8.collared_leaves: found 19, expected at most leaves.number, 18",
+        ),
+        (
+            lambda d: d.update(counters=["V", "Q"]),
+            r"expected rows, and counters among V L D, found",
+        ),
+        (
+            lambda d: d["colours"].update(leaf=[1, 2]),
+            r"colours.leaf: found \(1.0, 2.0\), expected red, green, blue",
         ),
         (
             lambda d: d["stages"]["V8"].update(stalk_height_m=float("nan")),
@@ -72,8 +92,11 @@ def test_files_that_are_no_yaml_mapping(tmp_path, text):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (["--species", "wheat", "--stage", "V8"], "unknown species 'wheat', known: corn"),
-        (["--stage", "V99"], "unknown stage 'V99' of corn, known: V4"),
+        (
+            ["--species", "wheat", "--stage", "V8"],
+            "unknown species 'wheat', known: corn, sorghum, tobacco",
+        ),
+        (["--stage", "V99"], "unknown stage 'V99', known: V1 to V18 (collared leaves); VT R1"),
         (["--stage", "V8", "--params", "nowhere.yaml"], "nowhere.yaml: cannot be read"),
     ],
 )
@@ -81,10 +104,17 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
     base = ["generate_crop", "--name", "x", "--output", str(tmp_path / "out")]
     monkeypatch.setattr(sys, "argv", base + arguments)
     with pytest.raises(SystemExit) as exit_:
-        cli.generate_crop_main()
+        crop_cli.generate_crop_main()
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", f"/nowhere:{tmp_path}")
+    assert crop_cli.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+    assert capsys.readouterr().out.strip() == str(tmp_path / "mine")
+    assert crop_model("mine", [tmp_path]).label == 1
 
 
 @pytest.mark.parametrize("name", ["../x", "", ".hidden", "a/b", "a b", "<x>"])

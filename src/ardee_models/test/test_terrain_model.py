@@ -52,8 +52,22 @@ def test_orientation_row_0_is_north_and_column_0_is_west():
     terrain = Terrain(heights, 16.0)
     assert terrain.height_at(np.array([-8.0]), np.array([8.0]))[0] == 1.0
     assert terrain.height_at(np.array([-7.5]), np.array([8.0]))[0] == 0.5
-    assert terrain.height_at(np.array([-7.5]), np.array([7.5]))[0] == 0.25
+    # on the cut of the cell, which runs from its corner at -x -y to that at +x +y
+    assert terrain.height_at(np.array([-7.5]), np.array([7.5]))[0] == 0.0
+    assert terrain.height_at(np.array([-7.75]), np.array([7.75]))[0] == 0.5
     assert terrain.height_at(np.array([-99.0, 8.0]), np.array([99.0, -8.0])).tolist() == [1.0, 0.0]
+
+
+def test_a_cell_is_the_two_triangles_that_the_simulator_has():
+    # corners at -x -y, +x -y, -x +y, +x +y of one cell of 1 m
+    near, right, left, far = 0.1, 0.7, -0.4, 1.3
+    heights = np.zeros((17, 17))
+    heights[8, 8], heights[8, 9], heights[7, 8], heights[7, 9] = near, right, left, far
+    terrain = Terrain(heights, 16.0)
+    u, v = (a.ravel() for a in np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 9)))
+    below = near + u * (right - near) + v * (far - right)
+    above = near + v * (left - near) + u * (far - left)
+    np.testing.assert_allclose(terrain.height_at(u, v), np.where(u >= v, below, above), atol=1e-12)
 
 
 def test_what_is_read_back_is_what_was_written(tmp_path):

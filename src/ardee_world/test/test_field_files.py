@@ -38,6 +38,10 @@ def test_no_plant_is_lost_between_sdf_truth_and_plan(generate_field, tmp_path):
     assert data["planned"] == 200 and 160 < data["emerged"] < 200
     assert len({include.findtext("name") for include in includes}) == len(includes)
     for include, row in zip(includes, truth):
+        assert (row["species"], row["stage"]) == (
+            "corn",
+            {"corn_a": "V6", "corn_b": "V8"}[row["model"]],
+        )
         assert include.findtext("name") == f"plant_{row['id']}"
         assert include.findtext("uri") == f"model://{row['model']}"
         pose = [float(v) for v in include.findtext("pose").split()]
@@ -100,7 +104,8 @@ def test_a_plan_of_the_users_own(generate_field, tmp_path):
 
 def test_many_plants(generate_field, tmp_path):
     shape = ("--plots-x", "10", "--plots-y", "5", "--stalks-per-row", "1000")
-    assert generate_field(*BASE, *shape, "--output", tmp_path)[0] == 0
+    place = ("--format", "sdf", "--output", tmp_path)
+    assert generate_field(*BASE, *shape, *place)[0] == 0
     text = (tmp_path / "field" / "model.sdf").read_text()
     assert (
         text.count("<include>")
@@ -118,7 +123,7 @@ def test_many_plants(generate_field, tmp_path):
         (("--models", "ground"), "neither metrics.json nor a collision cylinder"),
         (("--terrain", "moon"), "model 'moon': not found"),
         (("--terrain", "corn_a"), "no <heightmap>"),
-        (("--emergence-max", "1.01"), "emergence: found 0.9 to 1.01"),
+        (("--emergence-max", "1.01"), "emergence max: found 1.01, expected 0 to 1"),
         (("--noise-covariance", "1", "2", "1"), "positive definite"),
         (("--noise-covariance", "1"), "found 1 numbers"),
         (("--stalks-per-row", "0"), "stalks per row: found 0"),

@@ -43,7 +43,7 @@ def test_plots_are_spaced_as_asked():
     )
     x, y = row_positions(plots), row_starts(plots)
     assert x[1, 0] - x[0, -1] == pytest.approx(2.0)
-    np.testing.assert_allclose(np.diff(y), -(3.32 + 5.0))
+    np.testing.assert_allclose(np.diff(y), 3.32 + 5.0)
     plan = plan_centres(plots)
     assert sorted(set(plan.plot)) == list(range(6))
     assert (

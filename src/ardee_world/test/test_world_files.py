@@ -13,6 +13,12 @@ WORLDS = {
     "custom.world": ["heightmap_ground", "small-corn-stalk-plot"],
     "flat_farm.world": ["ground_plane", "flat-corn-stalk-plot"],
     "empty.world": ["sun", "ground_plane"],
+    "corn.world": ["heightmap_tractor", "corn-field"],
+    "sorghum.world": ["heightmap_ground", "sorghum-field"],
+    "tobacco.world": ["heightmap_tobacco", "tobacco-field"],
+    "scenario_1_artificial.world": ["heightmap_flat", "scenario-1-artificial-plot"],
+    "scenario_2_corn.world": ["heightmap_ground", "scenario-2-corn-plot"],
+    "scenario_3_sorghum.world": ["heightmap_ground", "scenario-3-sorghum-plot"],
 }
 
 
@@ -24,7 +30,20 @@ def test_worlds_include_what_the_build_makes(package, name):
 
 
 def test_every_world_is_tested(package):
-    assert sorted(path.name for path in (package / "worlds").iterdir()) == sorted(WORLDS)
+    assert sorted(path.name for path in (package / "worlds").glob("*.world")) == sorted(WORLDS)
+
+
+@pytest.mark.parametrize("name", [name for name in WORLDS if name != "empty.world"])
+def test_every_field_world_says_where_a_robot_starts(package, name):
+    start = yaml.safe_load((package / "worlds" / name.replace(".world", ".start.yaml")).read_text())
+    assert sorted(start) == ["x_m", "y_m", "yaw_rad", "z_m"] and start["z_m"] == 0.175
+
+
+@pytest.mark.parametrize("name", WORLDS)
+def test_what_a_world_includes_has_a_plan_or_is_a_model(package, name):
+    here = {p.stem for folder in ("fields", "terrains") for p in (package / folder).glob("*.yaml")}
+    elsewhere = {"heightmap_ground", "heightmap_flat", "ground_plane", "sun"}
+    assert set(WORLDS[name]) <= here | elsewhere
 
 
 def test_farm_world_is_that_of_the_thesis(package):
@@ -92,7 +111,7 @@ def test_rviz_configuration_shows_the_scenery_in_the_world(package):
 
 def test_hook_appends_once_after_the_users_models(package):
     hook = package / "env-hooks" / "30.ardee_world.sh"
-    script = f'set -u; . "{hook}"; . "{hook}"; echo "$GAZEBO_MODEL_PATH"'
+    script = f'set -u; . "{hook}"; . "{hook}"; echo "$GAZEBO_MODEL_PATH $GAZEBO_RESOURCE_PATH"'
     environment = {
         "CATKIN_ENV_HOOK_WORKSPACE": "/ws",
         "GAZEBO_MODEL_PATH": "/mine",
@@ -101,4 +120,6 @@ def test_hook_appends_once_after_the_users_models(package):
     result = subprocess.run(
         ["sh", "-c", script], env=environment, capture_output=True, text=True, check=True
     )
-    assert result.stdout.strip() == "/mine:/ws/share/ardee_world/models"
+    assert (
+        result.stdout.strip() == "/mine:/ws/share/ardee_world/models /ws/share/ardee_world/models"
+    )

@@ -9,25 +9,15 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ardee_models.config import config_dir, from_mapping, read_yaml
-from ardee_models.crops import make_crop
 from ardee_models.errors import GeneratorError
 from ardee_models.output import model_directory, write_file
 from ardee_models.terrain import TerrainParams, generate_terrain
 from ardee_models.textures import media_textures
-from ardee_models.variants import Variant
+from ardee_models.variants import build_crops
 from ardee_models.writers.terrain import write_terrain
 
 _TERRAIN_SEED = 1
 _MEDIA_SEED = 1
-
-
-def build_crops(models: Path) -> None:
-    """The variants of config/corn_variants.yaml."""
-    path = config_dir() / "corn_variants.yaml"
-    for name, entry in read_yaml(path).items():
-        variant = from_mapping(Variant, entry, f"{path}: {name}")
-        make_crop(variant.species, variant.stage, variant.seed, name, models)
 
 
 def build_terrains(models: Path) -> None:

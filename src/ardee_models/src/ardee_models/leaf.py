@@ -1,39 +1,52 @@
 # SPDX-License-Identifier: MIT
-"""A grass leaf blade: curved midrib, width profile, fold along the midrib, wavy edges."""
+"""A leaf blade: curved midrib, width profile, fold along the midrib, wavy edges."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from ardee_models.mesh import sheet, unit
-from ardee_models.params import Architecture
+from ardee_models.params import Leaves
 from ardee_models.plant import Mesh
 
 _FINE_STEPS = 8  # integration steps a segment of the midrib
 _TIP_WIDTH = 0.03  # of the largest width: keeps the last triangles from collapsing
 _COLLAR_LENGTH = 0.08  # part of the blade in which the fold at the collar opens
+_STRIP_MARGIN = 0.04  # of a texture strip, kept free at its sides
 
 
 @dataclass(frozen=True)
 class Blade:
-    """One blade: where it starts, how it is directed (angles from the vertical), its size and its edge waves' phase."""
+    """One blade: where it starts, how it is directed (angles from the vertical), its size, its state."""
 
+    rank: int
     origin: np.ndarray
     azimuth_rad: float
     azimuth_drift_rad: float
     insertion_rad: float
     curvature_rad: float
+    twist_rad: float
+    fold_extra_rad: float
     length_m: float
     width_m: float
     wave_phase_rad: float
+    dryness: float
+    strip: int
+    strips: int
 
 
-def width_profile(s: np.ndarray, klig: float, s_wmax: float) -> np.ndarray:
-    """Relative width at relative length s: parabola from klig to 1 at s_wmax, then to the tip (Dornbusch 2011)."""
+def width_profile(s: np.ndarray, klig: float, s_wmax: float, tip_power: float) -> np.ndarray:
+    """Relative width at s: parabola from klig to 1 at s_wmax (Dornbusch 2011), then 1 - b^p to the tip."""
     base = klig + (1.0 - klig) * (1.0 - (1.0 - s / s_wmax) ** 2)
     beyond = np.clip((s - s_wmax) / (1.0 - s_wmax), 0.0, 1.0)
-    tip = (1.0 - beyond**2) ** 0.8
-    return np.maximum(np.where(s < s_wmax, base, tip), _TIP_WIDTH)
+    return np.maximum(np.where(s < s_wmax, base, 1.0 - beyond**tip_power), _TIP_WIDTH)
+
+
+def profile_area(klig: float, s_wmax: float, tip_power: float) -> float:
+    """Area of the outline over length times width: the integral of the width profile."""
+    return s_wmax * (klig + (1.0 - klig) * 2.0 / 3.0) + (1.0 - s_wmax) * tip_power / (
+        tip_power + 1.0
+    )
 
 
 def midrib(blade: Blade, power: float, segments: int) -> tuple:
@@ -53,23 +66,50 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
     return path[::_FINE_STEPS], direction(fine[::_FINE_STEPS])
 
 
-def blade_mesh(blade: Blade, shape: Architecture, segments: int) -> Mesh:
-    """Three columns of vertices (edge, midrib, edge): 4 triangles a segment, upper side along the normals."""
+def _half_widths(blade: Blade, shape: Leaves, s: np.ndarray) -> np.ndarray:
+    """Half widths whose trapezoids have the outline's area, however few they are."""
+    outline = (shape.blade_klig, shape.blade_s_wmax, shape.blade_tip_power)
+    relative = width_profile(s, *outline)
+    polygon = float(np.sum((relative[1:] + relative[:-1]) / 2) / (len(s) - 1))
+    return 0.5 * blade.width_m * relative * profile_area(*outline) / polygon
+
+
+def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarray) -> tuple:
+    """Sideways and upward parts, over the half width, of vertices at `offsets` -1..1 across the blade."""
+    opening = np.exp(-s / _COLLAR_LENGTH)[:, None]
+    blade_fold = np.radians(shape.fold_blade_deg) + blade.fold_extra_rad
+    fold = blade_fold + (np.radians(shape.fold_base_deg) - blade_fold) * opening
+    across = np.abs(offsets)[None, :]
+    # from the midrib to the edge the slope falls by edge_droop
+    slope = fold - np.radians(shape.edge_droop_deg) * across * (1.0 - opening)
+    phase = 2.0 * np.pi * shape.wave_count * s[:, None] + blade.wave_phase_rad
+    shift = np.where(offsets > 0.0, 0.6 * np.pi, 0.0)[None, :]
+    wave = shape.wave_amplitude * across**2 * (1.0 - opening) * np.sin(phase + shift)
+    return np.sign(offsets)[None, :] * across * np.cos(slope), across * np.sin(slope) + wave
+
+
+def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
+    """`columns` (odd: one is the midrib; 2: edges only) of vertices, upper side along the normals."""
     s = np.linspace(0.0, 1.0, segments + 1)
     centre, tangent = midrib(blade, shape.curvature_power, segments)
     azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
-    side = np.stack((np.sin(azimuth), -np.cos(azimuth), np.zeros_like(s)), -1)
-    up = unit(np.cross(side, tangent))
-    half = 0.5 * blade.width_m * width_profile(s, shape.blade_klig, shape.blade_s_wmax)
-    opening = np.exp(-s / _COLLAR_LENGTH)
-    fold = np.radians(shape.fold_blade_deg + (shape.fold_base_deg - shape.fold_blade_deg) * opening)
-    wave = shape.wave_amplitude * half * (1.0 - opening)
-    phase = 2.0 * np.pi * shape.wave_count * s + blade.wave_phase_rad
-    columns = []
-    for sign, shift in ((-1.0, 0.0), (0.0, 0.0), (1.0, 0.6 * np.pi)):
-        lift = abs(sign) * (half * np.sin(fold) + wave * np.sin(phase + shift))
-        columns.append(centre + (sign * half * np.cos(fold))[:, None] * side + lift[:, None] * up)
-    points = np.stack(columns, axis=1)
+    flat_side = np.stack((np.sin(azimuth), -np.cos(azimuth), np.zeros_like(s)), -1)
+    flat_up = unit(np.cross(flat_side, tangent))
+    roll = (blade.twist_rad * s)[:, None]
+    side = np.cos(roll) * flat_side + np.sin(roll) * flat_up
+    up = np.cos(roll) * flat_up - np.sin(roll) * flat_side
+    half = _half_widths(blade, shape, s)[:, None]
+    offsets = np.linspace(-1.0, 1.0, columns)
+    sideways, lift = _cross_section(blade, shape, s, offsets)
+    if columns == 2:  # no midrib to fold along: the flat blade keeps its area
+        sideways, lift = np.broadcast_to(offsets, sideways.shape), np.zeros_like(lift)
+    points = (
+        centre[:, None, :]
+        + (half * sideways)[..., None] * side[:, None, :]
+        + (half * lift)[..., None] * up[:, None, :]
+    )
     points[..., 2] = np.maximum(points[..., 2], 0.0)  # a drooping tip rests on the ground
-    u, v = np.broadcast_arrays(np.array([0.0, 0.5, 1.0])[None, :], s[:, None])
+    low = (blade.strip + _STRIP_MARGIN) / blade.strips
+    high = (blade.strip + 1.0 - _STRIP_MARGIN) / blade.strips
+    u, v = np.broadcast_arrays((low + (high - low) * (offsets + 1.0) / 2.0)[None, :], s[:, None])
     return sheet(points, np.stack((u, v), axis=-1))

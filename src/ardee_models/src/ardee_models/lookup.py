@@ -24,6 +24,8 @@ class CropModel:
     height_m: float
     stalk_radius_m: float
     label: int
+    species: str = ""
+    stage: str = ""
 
 
 def search_path(extra: Sequence[Path] = ()) -> List[Path]:
@@ -41,7 +43,8 @@ def find_model(name: str, folders: Sequence[Path]) -> Path:
     raise GeneratorError(f"model {name!r}: not found, looked in {looked}")
 
 
-def _sdf_root(model: Path) -> ElementTree.Element:
+def sdf_root(model: Path) -> ElementTree.Element:
+    """The root element of a model's SDF."""
     path = model / "model.sdf"
     try:
         return ElementTree.parse(path).getroot()
@@ -69,7 +72,7 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
     model = find_model(name, folders)
     path = model / METRICS_FILE
     if not path.is_file():
-        cylinder = _sdf_root(model).find(".//collision/geometry/cylinder")
+        cylinder = sdf_root(model).find(".//collision/geometry/cylinder")
         if cylinder is None:
             raise GeneratorError(
                 f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height"
@@ -79,11 +82,13 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
             _numbers(cylinder, "radius", 1, model)[0],
         )
         data = {"height_m": height, "stalk_radius_m": radius, "label": 1}
+        species = stage = ""
     else:
         try:
             data = json.loads(path.read_text(encoding="utf-8"))
+            species, stage = (str(data.get(key, "")) for key in ("species", "stage"))
             data = {key: float(data[key]) for key in ("height_m", "stalk_radius_m", "label")}
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
             raise GeneratorError(
                 f"{path}: expected numbers height_m, stalk_radius_m, label: {error!r}"
             ) from error
@@ -91,18 +96,30 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
         raise GeneratorError(
             f"{model}: found height {data['height_m']} m, radius {data['stalk_radius_m']} m"
         )
-    return CropModel(name, data["height_m"], data["stalk_radius_m"], int(data["label"]))
+    return CropModel(
+        name, data["height_m"], data["stalk_radius_m"], int(data["label"]), species, stage
+    )
+
+
+def resource(uri: str, folders: Sequence[Path]) -> Path:
+    """The file behind file://a/b or model://a/b: below the first folder that has it, or of GAZEBO_RESOURCE_PATH."""
+    path = Path(uri.split("://", 1)[-1])
+    entries = os.environ.get("GAZEBO_RESOURCE_PATH", "").split(":")
+    for folder in [*folders, *(Path(entry) for entry in entries if entry)]:
+        if (folder / path).is_file():
+            return folder / path
+    return folders[0] / path
 
 
 def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     """The ground of a heightmap model: height = pos.z + pixel / largest value of the pixel type * size.z."""
     model = find_model(name, folders)
-    heightmap = _sdf_root(model).find(".//collision/geometry/heightmap")
+    heightmap = sdf_root(model).find(".//collision/geometry/heightmap")
     if heightmap is None:
         raise GeneratorError(f"{model}/model.sdf: no <heightmap> in a collision")
     uri = heightmap.findtext("uri", "").strip()
     size, pos = _numbers(heightmap, "size", 3, model), _numbers(heightmap, "pos", 3, model)
-    image_path = model.parent / uri.split("://", 1)[-1]
+    image_path = resource(uri, [model.parent, *folders])
     if size[0] != size[1] or size[0] <= 0 or pos[:2] != [0.0, 0.0]:
         raise GeneratorError(
             f"{model}/model.sdf: <heightmap>: expected a square size, and pos 0 0 z"

@@ -7,6 +7,8 @@ import numpy as np
 
 from ardee_models.plant import Mesh
 
+_TINY = 1e-15  # m2
+
 
 def grid_triangles(rows: int, columns: int) -> np.ndarray:
     """Two triangles a cell of a rows x columns grid of vertices stored row by row."""
@@ -31,6 +33,8 @@ def sheet(points: np.ndarray, texcoords: np.ndarray) -> Mesh:
     normals = np.zeros_like(vertices)
     for corner in range(3):
         np.add.at(normals, triangles[:, corner], face_normals)
+    flat = np.linalg.norm(normals, axis=1) < _TINY  # all triangles there are degenerate
+    normals[flat] = (0.0, 0.0, 1.0)
     return Mesh(vertices, unit(normals), texcoords.reshape(-1, 2), triangles)
 
 
@@ -48,6 +52,10 @@ def tube(centres: np.ndarray, radii: np.ndarray, side: np.ndarray, sides: int) -
     u, v = np.broadcast_arrays(angles[None, :] / (2.0 * np.pi), (along / along[-1])[:, None])
     texcoords = np.stack((u, v), axis=-1).reshape(-1, 2)
     triangles = grid_triangles(len(centres), sides + 1)
+    rings = triangles // (sides + 1)
+    # a ring of radius zero is a point: the triangles with two corners in it are none
+    points_at = np.sum(radii[rings] <= 0.0, axis=1)
+    triangles = triangles[points_at < 2]
     return Mesh(points.reshape(-1, 3), directions.reshape(-1, 3), texcoords, triangles)
 
 

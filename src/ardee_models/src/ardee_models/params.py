@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parameters of a crop plant, read from config/<species>.yaml (which gives their sources)."""
+"""Parameters of a crop, read from config/species/<species>.yaml (which gives their sources)."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,23 +7,46 @@ from typing import Optional, Tuple
 
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
 from ardee_models.errors import GeneratorError
+from ardee_models.organ_params import BraceRoots, Colours, Ears, Flowers, Panicle, Tassel, Tillers
+from ardee_models.stages import Stage, resolve_stage
 
 
 @dataclass(frozen=True)
-class Architecture:
-    """What all stages of a species share; angles in degrees, lengths in metres."""
+class Stalk:
+    """The stem: spacing of leaves along it, its surface, how it stands."""
 
-    leaf_number: int = bounded(3, 60)
-    phyllotaxy_mean_deg: float = bounded(0, 360)
-    phyllotaxy_sd_deg: float = bounded(0, 90)
     ligule_ratio: float = bounded(0.5, 2.0)
-    leaf_length_max_m: float = bounded(0.01, 3)
-    leaf_length_cv: float = bounded(0, 0.3)
+    node_swelling: float = bounded(1, 2)
+    sheath_m: float = bounded(0, 0.02)
+    lean_sd_deg: float = bounded(0, 20)
+    height_cv: float = bounded(0, 0.3)
+    diameter_cv: float = bounded(0, 0.3)
+
+
+@dataclass(frozen=True)
+class Phyllotaxy:
+    """Angle from each leaf to the next, seen from above."""
+
+    mean_deg: float = bounded(0, 360)
+    sd_deg: float = bounded(0, 90)
+
+
+@dataclass(frozen=True)
+class Leaves:
+    """Number, size by rank, blade outline and posture; angles from the vertical in degrees, lengths in metres."""
+
+    venation: str
+    number: int = bounded(3, 60)
+    number_sd: float = bounded(0, 5)
+    length_max_m: float = bounded(0.01, 3)
+    length_cv: float = bounded(0, 0.3)
     rank_of_largest: float = bounded(0.05, 1)
     area_skew: float = bounded(1e-6, 0.5)
-    width_to_length: float = bounded(0.01, 1)
-    blade_klig: float = bounded(0.05, 1)
+    length_to_width: float = bounded(1, 50)
+    length_to_width_ends: float = bounded(1, 50)
+    blade_klig: float = bounded(0.02, 1)
     blade_s_wmax: float = bounded(0.1, 0.9)
+    blade_tip_power: float = bounded(0.5, 5)
     insertion_angle_deg: float = bounded(0, 90)
     insertion_angle_top_deg: float = bounded(0, 90)
     insertion_sd_deg: float = bounded(0, 30)
@@ -31,79 +54,106 @@ class Architecture:
     curvature_sd_deg: float = bounded(0, 60)
     curvature_power: float = bounded(0.5, 5)
     azimuth_drift_sd_deg: float = bounded(0, 60)
+    twist_sd_deg: float = bounded(0, 90)
     fold_base_deg: float = bounded(0, 89)
     fold_blade_deg: float = bounded(0, 89)
+    edge_droop_deg: float = bounded(0, 89)
     wave_amplitude: float = bounded(0, 1)
     wave_count: float = bounded(0, 20)
-    node_swelling: float = bounded(1, 2)
-    whorl_length_fractions: Tuple[float, ...] = bounded(0.05, 1)
-    stalk_height_cv: float = bounded(0, 0.3)
-    tassel_branches: int = bounded(0, 40)
-    tassel_length_m: float = bounded(0.01, 1)
-    tassel_branch_length_m: float = bounded(0.01, 1)
+    dry_droop_deg: float = bounded(0, 120)
 
 
 @dataclass(frozen=True)
-class Stage:
-    """What changes as the plant grows."""
+class YoungLeaves:
+    """Leaves that have not reached their size: first (lowest) to last (topmost)."""
 
-    collared_leaves: int = bounded(1, 60)
-    lost_leaves: int = bounded(0, 59)
-    stalk_height_m: float = bounded(0.02, 6)
-    base_diameter_m: float = bounded(0.001, 0.2)
-    top_diameter_m: float = bounded(0.001, 0.2)
-    tassel: bool
-    senescence: float = bounded(0, 1)
+    length_first: float = bounded(0.05, 1)
+    length_last: float = bounded(0.02, 1)
+    insertion_deg: float = bounded(0, 90)
+    curvature_factor: float = bounded(0, 2)
+    fold_extra_deg: float = bounded(0, 60)
+
+
+@dataclass(frozen=True)
+class Architecture:
+    """What all stages of a species share; a section that a species has not is None."""
+
+    stalk: Stalk
+    phyllotaxy: Phyllotaxy
+    leaves: Leaves
+    young_leaves: YoungLeaves
+    tassel: Optional[Tassel] = None
+    ears: Optional[Ears] = None
+    panicle: Optional[Panicle] = None
+    flowers: Optional[Flowers] = None
+    tillers: Optional[Tillers] = None
+    brace_roots: Optional[BraceRoots] = None
 
 
 @dataclass(frozen=True)
 class CropParams:
-    """One species at one stage: all that `generate` needs besides the random stream."""
+    """One species at one stage: all that the generator needs besides the random stream."""
 
     species: str
-    material_prefix: str
     label: int
+    density_per_m2: float
     stage_name: str
     architecture: Architecture
+    colours: Colours
     stage: Stage
 
 
 @dataclass(frozen=True)
-class _File:
+class SpeciesFile:
+    """A species' parameter file."""
+
     species: str
-    material_prefix: str
-    label: int = bounded(0, 65535)
-    architecture: dict
+    architecture: Architecture
+    colours: Colours
+    counters: Tuple[str, ...]
     stages: dict
+    label: int = bounded(0, 65535)
+    density_per_m2: float = bounded(0.01, 1000)
 
 
 def known_species() -> list:
     """Species that have a parameter file."""
-    files = config_dir().glob("*.yaml")
-    return sorted(path.stem for path in files if not path.stem.endswith("_variants"))
+    return sorted(path.stem for path in (config_dir() / "species").glob("*.yaml"))
 
 
-def load_params(species: str, stage: str, path: Optional[Path] = None) -> CropParams:
-    """Parameters of `species` at `stage`, from `path` or the package's own file."""
+def load_species(species: str, path: Optional[Path] = None) -> tuple:
+    """Parameter file of `species`, from `path` or the package's own: content and path."""
     if path is None:
         if species not in known_species():
             raise GeneratorError(
                 f"unknown species {species!r}, known: {', '.join(known_species())}"
             )
-        path = config_dir() / f"{species}.yaml"
-    data = from_mapping(_File, read_yaml(path), str(path))
-    if stage not in data.stages:
-        known = ", ".join(map(str, data.stages))
-        raise GeneratorError(f"{path}: unknown stage {stage!r} of {species}, known: {known}")
-    architecture = from_mapping(Architecture, data.architecture, f"{path}: architecture")
-    where = f"{path}: stages.{stage}"
-    parsed = from_mapping(Stage, data.stages[stage], where)
-    if parsed.collared_leaves > architecture.leaf_number:
+        path = config_dir() / "species" / f"{species}.yaml"
+    data = from_mapping(SpeciesFile, read_yaml(path), str(path))
+    if data.architecture.leaves.venation not in ("parallel", "pinnate"):
         raise GeneratorError(
-            f"{where}.collared_leaves: found {parsed.collared_leaves}, expected at most leaf_number"
+            f"{path}.architecture.leaves.venation: found {data.architecture.leaves.venation!r},"
+            " expected 'parallel' or 'pinnate'"
         )
-    if parsed.lost_leaves >= parsed.collared_leaves:
+    return data, path
+
+
+def load_params(species: str, stage: str, path: Optional[Path] = None) -> CropParams:
+    """Parameters of `species` at `stage`, one of the file's rows or a count between them."""
+    data, path = load_species(species, path)
+    row = resolve_stage(data.stages, data.counters, stage, f"{path}: stages")
+    most = data.architecture.leaves.number
+    if row.collared_leaves > most:
         raise GeneratorError(
-            f"{where}.lost_leaves: found {parsed.lost_leaves}, expected less than collared_leaves"
+            f"{path}: stages.{stage}.collared_leaves: found {row.collared_leaves},"
+            f" expected at most leaves.number, {most}"
         )
-    return CropParams(data.species, data.material_prefix, data.label, stage, architecture, parsed)
+    return CropParams(
+        data.species,
+        data.label,
+        data.density_per_m2,
+        stage,
+        data.architecture,
+        data.colours,
+        row,
+    )

@@ -34,21 +34,20 @@ class Organ:
 
 @dataclass(frozen=True)
 class Plant:
-    """All that the writers need of one plant."""
+    """Organs of one plant at one level of detail."""
 
     species: str
     stage: str
-    material_prefix: str
     label: int
-    senescence: float
-    stalk_height_m: float
-    stalk_radius_m: float
-    leaf_count: int
     organs: Tuple[Organ, ...]
 
-    def height_m(self) -> float:
-        """Height of the highest vertex above the ground."""
-        return float(max(organ.mesh.vertices[:, 2].max() for organ in self.organs))
+    def organ(self, name: str) -> Organ:
+        """The organ of that name."""
+        return next(organ for organ in self.organs if organ.name == name)
+
+    def vertices(self) -> np.ndarray:
+        """All vertices."""
+        return np.concatenate([organ.mesh.vertices for organ in self.organs])
 
     def triangle_count(self) -> int:
         """Triangles in all organs."""

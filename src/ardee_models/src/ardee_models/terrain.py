@@ -2,6 +2,7 @@
 """Field terrain as a square grid of heights: ridges along the crop rows and smooth bumps."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -57,6 +58,13 @@ class TerrainParams:
                 raise GeneratorError(f"terrain {what}: found {found}, expected {expected}")
 
 
+class Ground(Protocol):
+    """Anything that has a height at each place."""
+
+    def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
+        """Height [m] of the ground at places of its frame."""
+
+
 @dataclass(frozen=True)
 class Terrain:
     """Heights [m] on a square grid that spans exactly size_m; row 0 at +y, column 0 at -x, centred on the origin."""
@@ -65,16 +73,18 @@ class Terrain:
     size_m: float
 
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
-        """Bilinear height; outside the grid that of its edge."""
+        """Height on the two triangles of each cell, cut from its corner at -x -y to that at +x +y as the simulator's
+        are; outside the grid that of its edge."""
         last = len(self.heights_m) - 1
         column = np.clip((np.asarray(x_m) / self.size_m + 0.5) * last, 0.0, last)
         row = np.clip((0.5 - np.asarray(y_m) / self.size_m) * last, 0.0, last)
         c, r = np.minimum(column.astype(int), last - 1), np.minimum(row.astype(int), last - 1)
-        fc, fr = column - c, row - r
+        u, v = column - c, 1.0 - (row - r)  # in the cell, from its corner at -x -y
         h = self.heights_m
-        upper = h[r, c] * (1.0 - fc) + h[r, c + 1] * fc
-        lower = h[r + 1, c] * (1.0 - fc) + h[r + 1, c + 1] * fc
-        return upper * (1.0 - fr) + lower * fr
+        near, far = h[r + 1, c], h[r, c + 1]
+        beside = np.where(u >= v, h[r + 1, c + 1], h[r, c])
+        first, second = np.maximum(u, v), np.minimum(u, v)
+        return near + first * (beside - near) + second * (far - beside)
 
 
 def ridge_profile(y_m: np.ndarray, params: TerrainParams) -> np.ndarray:

@@ -28,7 +28,7 @@ light: cast_shadows diffuse specular attenuation direction spot pose frame
 attenuation: range linear constant quadratic
 spot: inner_angle outer_angle falloff
 spherical_coordinates: surface_model world_frame_orientation latitude_deg longitude_deg elevation heading_deg
-model: static self_collide allow_auto_disable enable_wind include model link joint plugin gripper pose frame
+model: static self_collide allow_auto_disable enable_wind include model link joint plugin gripper pose frame ardee:instances
 link: gravity enable_wind self_collide kinematic must_be_base_link velocity_decay inertial collision visual sensor projector audio_sink audio_source battery light pose frame
 velocity_decay: linear angular
 inertial: mass pose frame inertia density

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
@@ -11,8 +12,6 @@ namespace ardee {
 namespace {
 
 constexpr std::size_t kMaxIncludeDepth = 32;
-constexpr int kMaxLabel = 65535;
-constexpr double kMaxScale = 1e6;
 
 const char* static_key(std::optional<bool> make_static) {
   if (!make_static) return "as written\n";
@@ -42,19 +41,23 @@ const SdfReader::ModelFile& SdfReader::included_file(const Node& include,
   }
   const auto uri = include.child("uri");
   if (!uri) throw include.error("found no <uri>, expected one");
-  const std::string text = uri->text();
+  return included_file(uri->required_text(), uri->source(), make_static);
+}
+
+const SdfReader::ModelFile& SdfReader::included_file(const std::string& uri, const Source& source,
+                                                     std::optional<bool> make_static) {
   std::string key = static_key(make_static);
-  if (text.find("://") == std::string::npos) key += folder_of(include.file()) + '\n';
-  key += text;
+  if (uri.find("://") == std::string::npos) key += folder_of(source.file) + '\n';
+  key += uri;
   const auto known = by_uri_.find(key);
   if (known != by_uri_.end()) return *known->second;
-  const std::string path = assets_.locator().resolve_model(uri->required_text(), uri->source());
-  const ModelFile& file = read_file(path, *uri, make_static);
+  const std::string path = assets_.locator().resolve_model(uri, source);
+  const ModelFile& file = read_file(path, source, make_static);
   by_uri_[key] = &file;
   return file;
 }
 
-const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const Node& include,
+const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const Source& source,
                                                  std::optional<bool> make_static) {
   const std::string key = static_key(make_static) + path;
   const auto known = files_.find(key);
@@ -62,15 +65,15 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   if (std::find(reading_.begin(), reading_.end(), path) != reading_.end()) {
     std::string chain;
     for (const std::string& file : reading_) chain += file + " -> ";
-    throw include.error("found an include cycle " + chain + path + ", expected none");
+    throw Error(source, "found an include cycle " + chain + path + ", expected none");
   }
   if (reading_.size() >= kMaxIncludeDepth) {
-    throw include.error("found includes nested more than " + std::to_string(kMaxIncludeDepth) +
-                        " deep, expected fewer");
+    throw Error(source, "found includes nested more than " + std::to_string(kMaxIncludeDepth) +
+                            " deep, expected fewer");
   }
   const Reading mark(reading_, path);
   constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-  const XmlFile document(read_text_file(path, include.source(), kMaxBytes), path);
+  const XmlFile document(read_text_file(path, source, kMaxBytes), path);
   const Node root = document.root();
   if (root.name() != "sdf" && root.name() != "gazebo") {
     throw root.error("found this root element, expected <sdf>");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
@@ -10,7 +11,6 @@ namespace {
 
 constexpr double kNewestVersion = 1.6;
 constexpr std::size_t kMaxLinks = 100'000;
-constexpr std::size_t kMaxPlacements = 20'000'000;
 
 /// The joint with its axes in its own frame. Links of nested models are in `model` already.
 Joint finished_joint(const SdfJoint& read, const Model& model) {
@@ -92,6 +92,8 @@ void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& 
       nested.pose = nested.model->own_pose;
       nested.is_static = nested.model->is_static;
       add_nested(std::move(nested), made);
+    } else if (child.name() == "ardee:instances") {
+      read_instances(child, names, made);
     } else if (child.name() == "gripper") {
       assets_.log().warn(child.source().to_string() + ": not supported, left out");
     }

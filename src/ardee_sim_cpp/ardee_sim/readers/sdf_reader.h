@@ -41,8 +41,11 @@ class SdfReader {
   std::shared_ptr<const Model> read_model(const Node& model, const Scope& scope);
   void read_nested(const Node& model, const Scope& scope, UniqueNames& names, Model& made);
   void add_nested(Instance nested, Model& made);
+  void read_instances(const Node& node, UniqueNames& names, Model& made);
   const ModelFile& included_file(const Node& include, std::optional<bool> make_static);
-  const ModelFile& read_file(const std::string& path, const Node& include,
+  const ModelFile& included_file(const std::string& uri, const Source& source,
+                                 std::optional<bool> make_static);
+  const ModelFile& read_file(const std::string& path, const Source& source,
                              std::optional<bool> make_static);
   Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names) const;
   void read_world_models(const Node& world, const Scope& scope, World& made);

@@ -11,11 +11,9 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/element.h"
 #include "ardee_sim/description/material.h"
+#include "ardee_sim/readers/limits.h"
 
 namespace ardee {
-
-/// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
-constexpr double kAbsurd = 1e9;
 
 /// One element of a parsed document with typed access to its contents. A value that does not parse
 /// or lies outside its bounds is an Error with file, line and element. Cheap to copy; valid as long

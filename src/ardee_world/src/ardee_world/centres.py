@@ -1,34 +1,75 @@
 # SPDX-License-Identifier: MIT
-"""A planting strategy of the user's own: a CSV file of mean stalk centres (thesis Figure 4.4, centers_user)."""
+"""A planting strategy of the user's own (thesis Figure 4.4, centers_user): stalk centres in a CSV file or a list."""
 
 import csv
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
 from ardee_models.errors import GeneratorError
 from ardee_world.config import MAX_PLANTS
-from ardee_world.plots import Plan
+from ardee_world.plots import Plan, Row
+
+_COLUMNS = "numbers in columns x_m, y_m (and, if you like, whole numbers in plot, row)"
+
+
+def plan_of(points_m: np.ndarray, plot: np.ndarray, row: np.ndarray) -> Plan:
+    """A plan of centres in the field's frame. Plants of one plot and row are a row, in the order given."""
+    place = np.zeros(len(points_m), dtype=int)
+    along = np.tile([0.0, -1.0], (len(points_m), 1))
+    pairs = np.column_stack((plot, row))
+    _, inverse, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
+    rows = []
+    for members in np.split(np.argsort(inverse.ravel(), kind="stable"), np.cumsum(counts)[:-1]):
+        place[members] = np.arange(len(members))
+        rows.append(Row(int(plot[members[0]]), int(row[members[0]]), points_m[members]))
+    return Plan(points_m, plot, row, place, along, tuple(rows))
+
+
+def _line(path: Path, number: int, entry: dict) -> tuple:
+    try:
+        x, y = float(entry["x_m"]), float(entry["y_m"])
+        plot, row = (int(entry.get(name) or 0) for name in ("plot", "row"))
+    except (KeyError, TypeError, ValueError):
+        x = float("nan")
+    if None in entry or None in entry.values() or not np.isfinite(x) or not np.isfinite(y):
+        found = {k: v for k, v in entry.items() if k is not None}
+        raise GeneratorError(f"{path}: line {number}: found {found}, expected {_COLUMNS}")
+    return x, y, plot, row
 
 
 def read_centres(path: Path) -> Plan:
-    """Columns x_m and y_m, in the field's frame; all in one plot, one row."""
+    """Columns x_m and y_m, in the field's frame; without columns plot and row all in one row."""
+    lines = []
     try:
         with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+            reader = csv.DictReader(file)
+            for entry in reader:
+                lines.append(_line(path, reader.line_num, entry))
+                if len(lines) > MAX_PLANTS:
+                    break
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise GeneratorError(f"{path}: cannot be read: {error}") from error
-    if not 1 <= len(rows) <= MAX_PLANTS:
-        raise GeneratorError(f"{path}: found {len(rows)} stalk centres, expected 1 to {MAX_PLANTS}")
-    points = np.empty((len(rows), 2))
-    for i, row in enumerate(rows):
-        try:
-            points[i] = float(row["x_m"]), float(row["y_m"])
-        except (KeyError, TypeError, ValueError):
-            points[i] = np.nan
-        if not np.isfinite(points[i]).all():
-            raise GeneratorError(
-                f"{path}: line {i + 2}: found {row}, expected finite numbers in columns x_m, y_m"
-            )
-    zeros = np.zeros(len(rows), dtype=int)
-    return Plan(points, zeros, zeros, np.arange(len(rows)))
+    if not 1 <= len(lines) <= MAX_PLANTS:
+        raise GeneratorError(
+            f"{path}: found {len(lines)} stalk centres, expected 1 to {MAX_PLANTS}"
+        )
+    table = np.array(lines)
+    return plan_of(table[:, :2], table[:, 2].astype(int), table[:, 3].astype(int))
+
+
+def listed_centres(points: Sequence, where: str) -> Plan:
+    """The same from a list of [x, y] in a YAML file."""
+    good = isinstance(points, (list, tuple)) and all(
+        isinstance(p, (list, tuple))
+        and len(p) == 2
+        and all(isinstance(v, (int, float)) and np.isfinite(v) for v in p)
+        for p in points
+    )
+    if not good or not 1 <= len(points) <= MAX_PLANTS:
+        raise GeneratorError(
+            f"{where}: centers: expected a list of 1 to {MAX_PLANTS} pairs [x, y] in m"
+        )
+    zeros = np.zeros(len(points), dtype=int)
+    return plan_of(np.array(points, dtype=float), zeros, zeros)

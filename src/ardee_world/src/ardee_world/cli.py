@@ -2,196 +2,174 @@
 """Command `generate_field`."""
 
 import argparse
+import dataclasses
+import typing
 from pathlib import Path
+from typing import Any, Dict, Optional
 
 from ardee_models.cli import run, seed_number
 from ardee_models.errors import GeneratorError
-from ardee_models.lookup import crop_model, search_path, terrain_model
-from ardee_world.centres import read_centres
-from ardee_world.config import FieldConfig, Plots
+from ardee_models.lookup import crop_model, search_path
+from ardee_models.options import kind_of, plain_name, scalar_fields, unit_of
+from ardee_models.terrain_files import ground_model
+from ardee_world.centres import listed_centres, read_centres
+from ardee_world.clutter import KINDS
+from ardee_world.config import FieldConfig
 from ardee_world.layout import generate
+from ardee_world.plots import Plan
+from ardee_world.request import Sources, Values, configure, groups, yaml_values
 from ardee_world.writers.field import write_field
 
-
-def _plan_arguments(parser: argparse.ArgumentParser) -> None:
-    usual = Plots()
-    group = parser.add_argument_group("planting plan; rows run along -y of the field's frame")
-    whole = (
-        ("--rows", usual.rows_per_plot, "rows per plot"),
-        ("--plots-x", usual.plots_x, "number of plots along x"),
-        ("--plots-y", usual.plots_y, "number of plots along y"),
-    )
-    for flag, value, text in whole:
-        group.add_argument(
-            flag, type=int, default=value, metavar="N", help=f"{text} (default {value})"
-        )
-    metres = (
-        ("--row-spacing", usual.row_spacing_m, "between rows"),
-        ("--stalk-spacing", usual.stalk_spacing_m, "between stalks in a row"),
-        (
-            "--plot-spacing-x",
-            usual.plot_spacing_x_m,
-            "between the outer rows of plots side by side",
-        ),
-        (
-            "--plot-spacing-y",
-            usual.plot_spacing_y_m,
-            "between the ends of plots one behind the other",
-        ),
-        ("--headland", usual.headland_m, "from the field's origin to the first stalks"),
-    )
-    for flag, value, text in metres:
-        group.add_argument(
-            flag, type=float, default=value, metavar="M", help=f"{text} [m] (default {value:g})"
-        )
-    length = group.add_mutually_exclusive_group()
-    length.add_argument(
-        "--row-length",
-        type=float,
-        default=usual.row_length_m,
-        metavar="M",
-        help="length of rows [m]",
-    )
-    length.add_argument("--stalks-per-row", type=int, metavar="N", help="instead of --row-length")
-    group.add_argument(
-        "--centers", type=Path, metavar="CSV", help="stalk centres x_m,y_m of your own instead"
-    )
+_TITLES = {
+    "sources": "models and files",
+    "plots": "planting plan; rows run along -y of the field's frame unless turned",
+    "shape": "row shape and headlands",
+    "stand": "gaps, doubles and lodging",
+    "clutter": "weeds, stones and litter",
+    "field": "variation and position",
+}
+_SPECIAL = (
+    "origin_latitude_deg",
+    "origin_longitude_deg",
+    "seed",
+    "noise_covariance_m2",
+    "world_pose",
+)
+_METAVARS = {int: "N", float: "X", str: "TEXT"}
+_UNIT_METAVARS = {"m": "M", "m^2": "M2", "deg": "DEG", "1/m^2": "DENSITY"}
 
 
-def _random_arguments(parser: argparse.ArgumentParser) -> None:
-    usual = FieldConfig()
-    group = parser.add_argument_group("variation")
+def _default_text(value: Any) -> str:
+    if value is None or value == ():
+        return ""
+    if isinstance(value, tuple):
+        value = " ".join(f"{v:g}" if isinstance(v, float) else str(v) for v in value)
+    return f" (default {value:g})" if isinstance(value, float) else f" (default {value})"
+
+
+def _add_option(group: Any, cls: type, field: dataclasses.Field) -> None:
+    kind, unit, meta = kind_of(cls, field), unit_of(field.name), field.metadata
+    arguments: Dict[str, Any] = {"dest": field.name, "default": argparse.SUPPRESS}
+    if typing.get_origin(kind) is tuple:
+        kind = typing.get_args(kind)[0]
+        arguments["nargs"] = "+"
+    if kind is typing.Any:
+        kind = str
+    arguments["type"] = kind
+    if meta["choices"]:
+        arguments["choices"] = meta["choices"]
+    else:
+        arguments["metavar"] = _UNIT_METAVARS.get(unit, _METAVARS[kind])
+    unit_text = f" [{unit}]" if unit else ""
+    arguments["help"] = meta["text"] + unit_text + _default_text(field.default).replace("%", "%%")
+    flag = meta["flag"] or plain_name(field.name).replace("_", "-")
+    group.add_argument(f"--{flag}", **arguments)
+
+
+def _add_special(group: Any) -> None:
+    usual, none = FieldConfig(), argparse.SUPPRESS
     group.add_argument(
         "--noise-covariance",
+        dest="noise_covariance_m2",
         type=float,
         nargs="+",
-        default=list(usual.noise_covariance_m2),
+        default=none,
         metavar="M2",
         help="placement noise [m^2]: XX YY, or XX XY YY; x across the rows (default 0.000225 0 0.00125)",
     )
-    for flag, value, text in (
-        ("min", usual.emergence_min, "lowest"),
-        ("max", usual.emergence_max, "highest"),
-    ):
-        group.add_argument(
-            f"--emergence-{flag}",
-            type=float,
-            default=value,
-            metavar="P",
-            help=f"{text} probability (default {value})",
-        )
-    for flag in ("min", "max"):
-        group.add_argument(
-            f"--stalk-height-{flag}",
-            type=float,
-            metavar="M",
-            help="plant height [m] (default: model's)",
-        )
     group.add_argument(
-        "--seed", type=seed_number, default=0, help="root of all random numbers (default 0)"
-    )
-
-
-def make_parser() -> argparse.ArgumentParser:
-    """Arguments of thesis Figure 4.4."""
-    parser = argparse.ArgumentParser(
-        prog="generate_field",
-        description="Write a random crop field as a Gazebo model directory with its ground truth.",
-    )
-    parser.add_argument(
-        "--models",
-        nargs="+",
-        required=True,
-        metavar="MODEL",
-        help="pool of crop models to draw from",
-    )
-    parser.add_argument("--name", required=True, help="name of the field's model")
-    parser.add_argument(
-        "--output", type=Path, required=True, help="folder of models to write it in"
-    )
-    parser.add_argument(
-        "--model-path",
-        type=Path,
-        nargs="+",
-        default=[],
-        metavar="DIR",
-        help="folders of models before GAZEBO_MODEL_PATH",
-    )
-    _plan_arguments(parser)
-    _random_arguments(parser)
-    place = parser.add_argument_group("position")
-    place.add_argument(
-        "--terrain",
-        metavar="MODEL",
-        help="heightmap model at the world's origin to stand on (default level)",
-    )
-    place.add_argument(
         "--world-pose",
         type=float,
         nargs=3,
-        default=list(FieldConfig().world_pose),
+        default=none,
         metavar=("X", "Y", "YAW"),
-        help="where the world will include the field [m m rad] (default 0 0 -1.57, as farm.world does)",
+        help=f"where the world will include the field [m m rad] (default {' '.join(map(str, usual.world_pose))},"
+        " as farm.world does)",
     )
-    place.add_argument(
+    group.add_argument(
         "--gps-origin",
+        dest="gps_origin_deg",
         type=float,
         nargs=2,
+        default=none,
         metavar=("LAT", "LON"),
         help="of the world's origin [deg]",
     )
+    group.add_argument(
+        "--seed", type=seed_number, default=none, help="root of all random numbers (default 0)"
+    )
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line: with so many arguments the usage would bury it."""
+
+    def error(self, message: str) -> typing.NoReturn:
+        """Exit 2."""
+        self.exit(2, f"{self.prog}: {message} (--help lists all arguments)\n")
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Arguments of thesis Figure 4.4, and more."""
+    parser = _Parser(
+        prog="generate_field",
+        description="Write a random crop field as a Gazebo model directory with its ground truth.",
+        epilog="A YAML file has the same options as keys with their unit: row_spacing_m, emergence_min, ...; "
+        "arguments win over it.",
+    )
+    parser.add_argument("yaml", nargs="?", type=Path, metavar="FIELD.yaml", help="file of options")
+    for name, cls in groups().items():
+        if name == "aliases":
+            continue
+        group = parser.add_argument_group(_TITLES[name])
+        for field in scalar_fields(cls):
+            if field.name not in _SPECIAL:
+                _add_option(group, cls, field)
+        if name == "plots":
+            group.add_argument(
+                "--stalks-per-row",
+                type=int,
+                default=argparse.SUPPRESS,
+                metavar="N",
+                help="instead of --row-length",
+            )
+        if name == "field":
+            _add_special(group)
     return parser
 
 
-def _config(args: argparse.Namespace) -> FieldConfig:
-    covariance = args.noise_covariance
-    if len(covariance) == 2:
-        covariance = [covariance[0], 0.0, covariance[1]]
-    if len(covariance) != 3:
-        raise GeneratorError(
-            f"noise covariance: found {len(covariance)} numbers, expected XX YY or XX XY YY"
-        )
-    length = args.row_length
-    if args.stalks_per_row is not None:
-        if args.stalks_per_row < 1:
-            raise GeneratorError(
-                f"stalks per row: found {args.stalks_per_row}, expected a whole number from 1"
-            )
-        length = round((args.stalks_per_row - 1) * args.stalk_spacing, 9)
-    latitude, longitude = args.gps_origin or (None, None)
-    return FieldConfig(
-        plots=Plots(
-            rows_per_plot=args.rows,
-            plots_x=args.plots_x,
-            plots_y=args.plots_y,
-            row_length_m=length,
-            row_spacing_m=args.row_spacing,
-            stalk_spacing_m=args.stalk_spacing,
-            plot_spacing_x_m=args.plot_spacing_x,
-            plot_spacing_y_m=args.plot_spacing_y,
-            headland_m=args.headland,
-        ),
-        noise_covariance_m2=tuple(covariance),
-        emergence_min=args.emergence_min,
-        emergence_max=args.emergence_max,
-        stalk_height_min_m=args.stalk_height_min,
-        stalk_height_max_m=args.stalk_height_max,
-        origin_latitude_deg=latitude,
-        origin_longitude_deg=longitude,
-        world_pose=tuple(args.world_pose),
-    )
+def _plan(sources: Sources) -> Optional[Plan]:
+    if sources.centers is None:
+        return None
+    if isinstance(sources.centers, str):
+        return read_centres(Path(sources.centers))
+    return listed_centres(sources.centers, sources.name)
 
 
 def make_field(args: argparse.Namespace) -> Path:
     """Arguments to a written field."""
-    config = _config(args)
-    config.validate()
-    folders = search_path(args.model_path)
-    pool = tuple(crop_model(name, folders) for name in args.models)
-    terrain = terrain_model(args.terrain, folders) if args.terrain else None
-    centres = read_centres(args.centers) if args.centers else None
-    layout = generate(config, pool, args.seed, terrain, centres)
-    return write_field(layout, args.name, args.output, from_file=centres is not None)
+    given: Values = vars(args)
+    file = given.pop("yaml", None)
+    if "row_length_m" in given and "stalks_per_row" in given:
+        raise GeneratorError("found --row-length and --stalks-per-row, expected one of them")
+    values = yaml_values(file) if file else {}
+    if "row_length_m" in given:
+        values.pop("stalks_per_row", None)
+    return make_configured({**values, **given})
+
+
+def make_configured(values: Values) -> Path:
+    """Options by key to a written field."""
+    sources, config = configure(values)
+    folders = search_path([Path(folder) for folder in sources.model_path])
+    pool = tuple(crop_model(name, folders) for name in sources.models)
+    pools = {
+        kind: tuple(crop_model(n, folders) for n in getattr(config.clutter, f"{kind}_models"))
+        for kind in KINDS
+        if getattr(config.clutter, f"{kind}_density_per_m2") > 0.0
+    }
+    terrain = ground_model(sources.terrain, folders) if sources.terrain else None
+    layout = generate(config, pool, sources.seed, terrain, _plan(sources), pools)
+    return write_field(layout, sources.name, Path(sources.output), sources.format)
 
 
 def main() -> int:

@@ -1,38 +1,125 @@
 # SPDX-License-Identifier: MIT
-"""What a field shall be: the arguments of the thesis's field generator (Figure 4.4), checked."""
+"""What a field shall be: the arguments of the thesis's field generator (Figure 4.4) and more, checked."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from typing import Optional, Tuple
 
 import numpy as np
 
 from ardee_models.errors import GeneratorError
+from ardee_models.options import check, option
 
 MAX_PLANTS = 5_000_000
+_FAR_M = 1e5
+_LENGTH = (0.0, _FAR_M)
+_PROBABILITY = (0.0, 1.0)
+_COUNT = (1, 100_000)
 
 
 @dataclass(frozen=True)
 class Plots:
-    """Where plants are planned. Rows run along y, plots are counted along x and y."""
+    """Where plants are planned. Rows run along the row direction, plots are counted along x (across) and y (along)."""
 
-    rows_per_plot: int = 4
-    plots_x: int = 1
-    plots_y: int = 1
-    row_length_m: float = 8.134  # 50 plants
-    row_spacing_m: float = 0.762  # 30 inches, usual for corn
-    stalk_spacing_m: float = 0.166  # 32,000 plants an acre in 30 inch rows (OSU's optimum)
-    plot_spacing_x_m: float = 1.524  # between the outer rows of neighbouring plots
-    plot_spacing_y_m: float = 1.5
-    headland_m: float = 1.0  # from the field's origin to the first plant
+    rows_per_plot: int = option(4, "rows per plot", _COUNT, flag="rows")
+    plots_x: int = option(1, "number of plots side by side", _COUNT)
+    plots_y: int = option(1, "number of plots one behind the other", _COUNT)
+    row_length_m: float = option(8.134, "length of rows (50 plants)", _LENGTH)
+    # 30 inches, usual for corn
+    row_spacing_m: float = option(0.762, "between rows", (0.01, _FAR_M))
+    # 32,000 plants an acre in 30 inch rows (OSU's optimum)
+    stalk_spacing_m: float = option(0.166, "between stalks in a row", (0.01, _FAR_M))
+    plot_spacing_x_m: float = option(1.524, "between the outer rows of plots side by side", _LENGTH)
+    plot_spacing_y_m: float = option(1.5, "between the ends of plots one behind the other", _LENGTH)
+    headland_m: float = option(1.0, "from the field's origin to the first stalks", _LENGTH)
 
     def stalks_per_row(self) -> int:
         """First stalk at the start of the row, last at or before its end."""
         return int(math.floor(self.row_length_m / self.stalk_spacing_m + 1e-6)) + 1
 
     def planned_count(self) -> int:
-        """Stalks planned in the whole field."""
+        """Stalks planned in the whole field, if its rows are straight."""
         return self.rows_per_plot * self.plots_x * self.plots_y * self.stalks_per_row()
+
+    def length_m(self) -> float:
+        """From the field's origin to the end of the last plot, along the rows."""
+        between = (self.plots_y - 1) * self.plot_spacing_y_m
+        return self.headland_m + self.plots_y * self.row_length_m + between
+
+
+@dataclass(frozen=True)
+class RowShape:
+    """The line that rows follow, their direction, and rows across the ends of the field."""
+
+    row_shape: str = option(
+        "straight",
+        "line that the rows follow",
+        choices=("straight", "curved", "sine", "expression"),
+    )
+    row_direction_deg: float = option(
+        -90.0, "direction in which rows run, from the field's x axis", (-360.0, 360.0)
+    )
+    curve_radius_m: float = option(50.0, "of curved rows, positive to the left", (-_FAR_M, _FAR_M))
+    sine_amplitude_m: float = option(0.3, "of sine rows", _LENGTH)
+    sine_wavelength_m: float = option(10.0, "of sine rows", (0.1, _FAR_M))
+    row_expression: Optional[str] = option(
+        None, "y(x) [m] of rows of shape expression: x along, y to the left; e.g. '0.2*sin(x/2)'"
+    )
+    island_radius_m: float = option(
+        0.0, "of a round spot that the rows bend around, 0 for none", _LENGTH
+    )
+    island_distance_m: float = option(
+        5.0, "of the spot from the field's origin, along the rows", _LENGTH
+    )
+    island_offset_m: float = option(
+        0.0, "of the spot to the left of the middle lane", (-_FAR_M, _FAR_M)
+    )
+    cross_rows: int = option(0, "rows across each headland", (0, 1000))
+    cross_rows_at: str = option("both", "which headlands", choices=("both", "start", "end"))
+    cross_row_clearance_m: float = option(
+        3.0, "from the rows' ends to the first cross row", _LENGTH
+    )
+
+
+@dataclass(frozen=True)
+class Stand:
+    """Gaps and doubles in the rows, and plants that lean."""
+
+    gaps: int = option(0, "gaps in the rows of the field", (0, MAX_PLANTS))
+    gap_length_m: float = option(1.0, "length of each gap, in whole plants", (0.01, _FAR_M))
+    doubles: float = option(0.0, "probability that two plants stand at a place", _PROBABILITY)
+    double_spacing_m: float = option(0.03, "between the two, along the row", (0.0, 10.0))
+    lodging: float = option(0.0, "probability that a plant leans", _PROBABILITY)
+    lodging_angle_min_deg: float = option(20.0, "least tilt from the vertical", (0.0, 85.0))
+    lodging_angle_max_deg: float = option(70.0, "largest tilt from the vertical", (0.0, 85.0))
+    lodging_direction_deg: Optional[float] = option(
+        None, "to which plants lean, from the field's x axis; any if not given", (-360.0, 360.0)
+    )
+    lodging_direction_sd_deg: float = option(
+        15.0, "standard deviation of that direction", (0.0, 180.0)
+    )
+
+
+@dataclass(frozen=True)
+class Clutter:
+    """What else lies and grows in the field. An image multiplies the density: black none, white all of it."""
+
+    weed_density_per_m2: float = option(0.0, "weeds", (0.0, 10_000.0))
+    weed_models: Tuple[str, ...] = option(
+        ("weed_rosette", "weed_broadleaf", "weed_grass"), "pool of weed models"
+    )
+    weed_image: Optional[str] = option(None, "grey image over the field's bounds: density of weeds")
+    stone_density_per_m2: float = option(0.0, "stones", (0.0, 10_000.0))
+    stone_models: Tuple[str, ...] = option(
+        ("stone_round", "stone_flat", "stone_sharp"), "pool of stone models"
+    )
+    stone_image: Optional[str] = option(None, "grey image: density of stones")
+    litter_density_per_m2: float = option(0.0, "litter: dead leaves and stalks", (0.0, 10_000.0))
+    litter_models: Tuple[str, ...] = option(
+        ("litter_leaf", "litter_stalk"), "pool of litter models"
+    )
+    litter_image: Optional[str] = option(None, "grey image: density of litter")
+    clutter_margin_m: float = option(0.5, "beyond the outer plants", _LENGTH)
 
 
 @dataclass(frozen=True)
@@ -40,19 +127,26 @@ class FieldConfig:
     """A field: plan, randomness, position. Covariance is (xx, xy, yy) in m^2, x across the rows."""
 
     plots: Plots = Plots()
+    shape: RowShape = RowShape()
+    stand: Stand = Stand()
+    clutter: Clutter = Clutter()
     # Along the row: half the variance of spacing, whose best achievable SD is 5 cm (Nielsen, Purdue); across: estimate.
-    noise_covariance_m2: Tuple[float, float, float] = (0.015**2, 0.0, 0.05**2 / 2)
-    emergence_min: float = 0.90  # 90-95 % is an average stand (Hermans)
-    emergence_max: float = 0.98
-    stalk_height_min_m: Optional[float] = None  # none: the models' own heights
-    stalk_height_max_m: Optional[float] = None
-    origin_latitude_deg: Optional[float] = None
-    origin_longitude_deg: Optional[float] = None
-    world_pose: Tuple[float, float, float] = (
-        0.0,
-        0.0,
-        -1.57,
-    )  # x m, y m, yaw rad: where a world includes the field
+    noise_covariance_m2: Tuple[float, float, float] = option(
+        (0.015**2, 0.0, 0.05**2 / 2), "placement noise: XX YY, or XX XY YY; x across the rows"
+    )
+    # 90-95 % is an average stand (Hermans)
+    emergence_min: float = option(0.90, "lowest probability that a plant emerges", _PROBABILITY)
+    emergence_max: float = option(0.98, "highest", _PROBABILITY)
+    stalk_height_min_m: Optional[float] = option(
+        None, "lowest plant height; the models' own if not given", (0.01, 20.0)
+    )
+    stalk_height_max_m: Optional[float] = option(None, "highest plant height", (0.01, 20.0))
+    origin_latitude_deg: Optional[float] = option(None, "", (-89.9, 89.9))
+    origin_longitude_deg: Optional[float] = option(None, "", (-180.0, 180.0))
+    # x m, y m, yaw rad: where a world includes the field
+    world_pose: Tuple[float, float, float] = option(
+        (0.0, 0.0, -1.57), "where the world will include the field, X Y YAW [m m rad]"
+    )
 
     def covariance(self) -> np.ndarray:
         """Placement noise as a 2x2 matrix."""
@@ -61,88 +155,69 @@ class FieldConfig:
 
     def validate(self) -> None:
         """Raise GeneratorError for the first value out of range."""
-        for good, what, found, expected in [*_plot_checks(self.plots), *_field_checks(self)]:
+        for group in GROUPS:
+            check(getattr(self, group))
+        check(self)
+        for good, what, found, expected in _joint_checks(self):
             if not good:
                 raise GeneratorError(f"{what}: found {found}, expected {expected}")
 
 
-def _inside(low: float, value: float, high: float) -> bool:
-    return math.isfinite(value) and low <= value <= high
+GROUPS = tuple(f.name for f in fields(FieldConfig) if is_dataclass(f.default))
 
 
-def _plot_checks(plots: Plots) -> list:
-    checks = []
-    for name in ("rows_per_plot", "plots_x", "plots_y"):
-        value = getattr(plots, name)
-        checks.append(
-            (_inside(1, value, 100_000), name.replace("_", " "), value, "a whole number from 1")
-        )
-    for name, low in (("row_length_m", 0.0), ("row_spacing_m", 0.01), ("stalk_spacing_m", 0.01)):
-        value = getattr(plots, name)
-        checks.append(
-            (_inside(low, value, 1e5), name[:-2].replace("_", " "), value, f"{low:g} to 100000 m")
-        )
-    for name in ("plot_spacing_x_m", "plot_spacing_y_m", "headland_m"):
-        value = getattr(plots, name)
-        checks.append((_inside(0, value, 1e5), name[:-2].replace("_", " "), value, "0 to 100000 m"))
-    if all(check[0] for check in checks):
-        count = plots.planned_count()
-        checks.append((count <= MAX_PLANTS, "planned plants", count, f"at most {MAX_PLANTS}"))
-    return checks
+def _ordered(low: Optional[float], high: Optional[float], what: str, unit: str) -> tuple:
+    good = low is None or high is None or low <= high
+    return good, what, f"minimum {low} above maximum {high}{unit}", "minimum <= maximum"
 
 
-def _field_checks(config: FieldConfig) -> list:
-    xx, xy, yy = config.noise_covariance_m2
-    finite = all(math.isfinite(v) for v in (xx, xy, yy))
-    none_at_all = (xx, xy, yy) == (0.0, 0.0, 0.0)
-    definite = finite and xx > 0 and yy > 0 and xx * yy > xy * xy
-    low, high = config.emergence_min, config.emergence_max
-    short, tall = config.stalk_height_min_m, config.stalk_height_max_m
-    both = (short is None) == (tall is None)
-    latitude, longitude = config.origin_latitude_deg, config.origin_longitude_deg
+def _shape_checks(shape: RowShape) -> list:
+    given = shape.row_expression is not None
     return [
+        (
+            shape.row_shape != "curved" or shape.curve_radius_m != 0.0,
+            "curve radius",
+            shape.curve_radius_m,
+            "another number than zero",
+        ),
+        (
+            given == (shape.row_shape == "expression"),
+            "row expression",
+            repr(shape.row_expression),
+            f"{'one' if shape.row_shape == 'expression' else 'none'} for row shape {shape.row_shape}",
+        ),
+    ]
+
+
+def _joint_checks(config: FieldConfig) -> list:
+    xx, xy, yy = config.noise_covariance_m2
+    none_at_all = (xx, xy, yy) == (0.0, 0.0, 0.0)
+    definite = xx > 0 and yy > 0 and xx * yy > xy * xy
+    short, tall = config.stalk_height_min_m, config.stalk_height_max_m
+    latitude, longitude = config.origin_latitude_deg, config.origin_longitude_deg
+    stand, count = config.stand, config.plots.planned_count()
+    return [
+        (count <= MAX_PLANTS, "planned plants", count, f"at most {MAX_PLANTS}"),
+        *_shape_checks(config.shape),
         (
             definite or none_at_all,
             "noise covariance",
             f"[[{xx}, {xy}], [{xy}, {yy}]]",
             "a positive definite matrix in m^2, or all zeros for no noise",
         ),
+        _ordered(config.emergence_min, config.emergence_max, "emergence", ""),
         (
-            _inside(0, low, 1) and _inside(0, high, 1),
-            "emergence",
-            f"{low} to {high}",
-            "probabilities from 0 to 1",
-        ),
-        (low <= high, "emergence", f"minimum {low} above maximum {high}", "minimum <= maximum"),
-        (both, "stalk height", f"{short} to {tall}", "both a minimum and a maximum, or neither"),
-        (
-            not both or short is None or (0.01 <= short <= tall <= 20.0),
+            (short is None) == (tall is None),
             "stalk height",
-            f"{short} to {tall} m",
-            "0.01 m <= minimum <= maximum <= 20 m",
+            f"{short} to {tall}",
+            "both a minimum and a maximum, or neither",
         ),
+        _ordered(short, tall, "stalk height", " m"),
+        _ordered(stand.lodging_angle_min_deg, stand.lodging_angle_max_deg, "lodging angle", " deg"),
         (
             (latitude is None) == (longitude is None),
             "GPS origin",
             f"{latitude}, {longitude}",
             "both or neither",
-        ),
-        (
-            latitude is None or _inside(-89.9, latitude, 89.9),
-            "latitude",
-            latitude,
-            "-89.9 to 89.9 degrees",
-        ),
-        (
-            longitude is None or _inside(-180, longitude, 180),
-            "longitude",
-            longitude,
-            "-180 to 180 degrees",
-        ),
-        (
-            all(map(math.isfinite, config.world_pose)),
-            "world pose",
-            config.world_pose,
-            "finite numbers",
         ),
     ]

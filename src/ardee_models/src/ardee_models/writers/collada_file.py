@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Plant to COLLADA: z up, metres, one named node an organ, texture images by relative path."""
+"""Meshes to COLLADA: z up, metres, one named node a part, texture images by relative path."""
 
 import datetime
 from pathlib import Path
+from typing import Sequence, Tuple
 
 import collada
 import numpy as np
 from collada import asset, geometry, material, scene, source
 
-from ardee_models.plant import Organ, Plant
+from ardee_models.plant import Mesh
 
 _TIMELESS = datetime.datetime(
     2000, 1, 1
@@ -21,35 +22,37 @@ def _flat(array: np.ndarray) -> np.ndarray:
     return np.round(array, _DECIMALS).astype(np.float32).ravel() + np.float32(0.0)
 
 
-def _material(doc: collada.Collada, organ: Organ, texture_path: str) -> material.Material:
-    image = material.CImage(f"{organ.name}-image", texture_path)
-    surface = material.Surface(f"{organ.name}-surface", image)
-    sampler = material.Sampler2D(f"{organ.name}-sampler", surface)
-    texture = material.Map(sampler, "UVSET0")
+def _material(doc: collada.Collada, name: str, texture_file: str) -> material.Material:
+    parameters: list = []
+    diffuse: object = (0.8, 0.8, 0.8, 1.0)
+    if texture_file:
+        image = material.CImage(f"{name}-image", f"../materials/textures/{texture_file}")
+        surface = material.Surface(f"{name}-surface", image)
+        sampler = material.Sampler2D(f"{name}-sampler", surface)
+        parameters, diffuse = [surface, sampler], material.Map(sampler, "UVSET0")
+        doc.images.append(image)
     effect = material.Effect(
-        f"{organ.name}-effect",
-        [surface, sampler],
+        f"{name}-effect",
+        parameters,
         "lambert",
-        diffuse=texture,
+        diffuse=diffuse,
         ambient=(1.0, 1.0, 1.0, 1.0),
         double_sided=True,
     )
-    result = material.Material(f"{organ.name}-material", f"{organ.name}-material", effect)
-    doc.images.append(image)
+    result = material.Material(f"{name}-material", f"{name}-material", effect)
     doc.effects.append(effect)
     doc.materials.append(result)
     return result
 
 
-def _node(doc: collada.Collada, organ: Organ, texture_path: str) -> scene.Node:
-    mesh = organ.mesh
-    ids = {kind: f"{organ.name}-{kind}" for kind in ("positions", "normals", "texcoords")}
+def _node(doc: collada.Collada, name: str, mesh: Mesh, texture_file: str) -> scene.Node:
+    ids = {kind: f"{name}-{kind}" for kind in ("positions", "normals", "texcoords")}
     sources = [
         source.FloatSource(ids["positions"], _flat(mesh.vertices), ("X", "Y", "Z")),
         source.FloatSource(ids["normals"], _flat(mesh.normals), ("X", "Y", "Z")),
         source.FloatSource(ids["texcoords"], _flat(mesh.texcoords), ("S", "T")),
     ]
-    geom = geometry.Geometry(doc, f"{organ.name}-geometry", organ.name, sources)
+    geom = geometry.Geometry(doc, f"{name}-geometry", name, sources)
     inputs = source.InputList()
     for offset, (semantic, kind) in enumerate(
         (("VERTEX", "positions"), ("NORMAL", "normals"), ("TEXCOORD", "texcoords"))
@@ -59,21 +62,18 @@ def _node(doc: collada.Collada, organ: Organ, texture_path: str) -> scene.Node:
     geom.primitives.append(geom.createTriangleSet(indices, inputs, "material"))
     doc.geometries.append(geom)
     bound = scene.MaterialNode(
-        "material", _material(doc, organ, texture_path), [("UVSET0", "TEXCOORD", "0")]
+        "material", _material(doc, name, texture_file), [("UVSET0", "TEXCOORD", "0")]
     )
-    return scene.Node(organ.name, children=[scene.GeometryNode(geom, [bound])])
+    return scene.Node(name, children=[scene.GeometryNode(geom, [bound])])
 
 
-def write_collada(plant: Plant, path: Path, texture_names: dict) -> None:
-    """Write meshes/<name>.dae; `texture_names` gives the image file in materials/textures of each organ texture."""
+def write_collada(parts: Sequence[Tuple[str, Mesh, str]], path: Path) -> None:
+    """Write a .dae of (name, mesh, image file in materials/textures or "") parts."""
     doc = collada.Collada()
     doc.assetInfo.created = doc.assetInfo.modified = _TIMELESS
     doc.assetInfo.upaxis = asset.UP_AXIS.Z_UP
     doc.assetInfo.unitname, doc.assetInfo.unitmeter = "meter", 1.0
-    nodes = [
-        _node(doc, organ, f"../materials/textures/{texture_names[organ.texture]}")
-        for organ in plant.organs
-    ]
+    nodes = [_node(doc, name, mesh, texture) for name, mesh, texture in parts]
     whole = scene.Scene("scene", nodes)
     doc.scenes.append(whole)
     doc.scene = whole

@@ -1,131 +1,63 @@
 # SPDX-License-Identifier: MIT
-"""Plant to Gazebo model directory: SDF, mesh, OGRE material script, textures, metrics."""
+"""Plant to Gazebo model directory: SDF, meshes of each level of detail, OGRE material script, textures, metrics."""
 
 import json
 from pathlib import Path
-from typing import Dict
+from typing import Dict, Sequence, Tuple
 
 import numpy as np
 from PIL import Image
 
+from ardee_models.cylinder import Cylinder
+from ardee_models.detail import LEVELS
+from ardee_models.metrics import METRICS_FILE
 from ardee_models.output import model_directory
 from ardee_models.plant import Plant
 from ardee_models.writers.collada_file import write_collada
+from ardee_models.writers.crop_sdf import Visual, material_script, model_sdf
 from ardee_models.writers.metadata import model_config
 
-METRICS_FILE = "metrics.json"
 
-_VISUAL = """      <visual name="{visual}">
-        <geometry>
-          <mesh>
-            <uri>model://{model}/meshes/{model}.dae</uri>
-            <submesh>
-              <name>{organ}</name>
-            </submesh>
-          </mesh>
-        </geometry>
-        <material>
-          <script>
-            <uri>model://{model}/materials/scripts</uri>
-            <uri>model://{model}/materials/textures</uri>
-            <name>{prefix}/{organ}</name>
-          </script>
-        </material>
-      </visual>
-"""
-_MODEL = """<?xml version="1.0"?>
-<sdf version="1.5">
-  <model name="{model}">
-    <static>true</static>
-    <link name="link">
-      <collision name="collision">
-        <pose>0 0 {middle:.6f} 0 0 0</pose>
-        <geometry>
-          <cylinder>
-            <radius>{radius:.5f}</radius>
-            <length>{length:.5f}</length>
-          </cylinder>
-        </geometry>
-        <max_contacts>10</max_contacts>
-      </collision>
-{visuals}    </link>
-  </model>
-</sdf>
-"""
-_MATERIAL = """material {prefix}/{organ}
-{{
-  technique
-  {{
-    pass
-    {{
-      alpha_rejection greater 128
-      cull_hardware none
-      cull_software none
-
-      texture_unit
-      {{
-        texture {texture}
-      }}
-    }}
-  }}
-}}
-"""
+def write_text_files(
+    folder: Path, name: str, description: str, visuals: Sequence[Visual], cylinder: Cylinder
+) -> None:
+    """model.config, model.sdf and the material script, and the folders that meshes and textures go into."""
+    for sub in ("meshes", "materials/scripts", "materials/textures"):
+        (folder / sub).mkdir(parents=True, exist_ok=True)
+    (folder / "model.config").write_text(model_config(name, description))
+    (folder / "model.sdf").write_text(model_sdf(name, visuals, cylinder))
+    script = folder / "materials" / "scripts" / f"{name}.material"
+    script.write_text(material_script(name, visuals))
 
 
-def _sdf(plant: Plant, model: str) -> str:
-    visuals = "".join(
-        _VISUAL.format(
-            visual=organ.visual, model=model, organ=organ.name, prefix=plant.material_prefix
-        )
-        for organ in plant.organs
-    )
-    length = round(plant.stalk_height_m, 5)
-    return _MODEL.format(
-        model=model, middle=length / 2, radius=plant.stalk_radius_m, length=length, visuals=visuals
-    )
-
-
-def metrics(plant: Plant, seed: int) -> dict:
-    """The figures a field generator or a test wants without reading the mesh."""
-    low = np.min([organ.mesh.vertices.min(axis=0) for organ in plant.organs], axis=0)
-    high = np.max([organ.mesh.vertices.max(axis=0) for organ in plant.organs], axis=0)
-    return {
-        "species": plant.species,
-        "stage": plant.stage,
-        "seed": seed,
-        "label": plant.label,
-        "height_m": round(plant.height_m(), 5),
-        "stalk_height_m": round(plant.stalk_height_m, 5),
-        "stalk_radius_m": round(plant.stalk_radius_m, 5),
-        "leaf_count": plant.leaf_count,
-        "leaf_area_m2": round(plant.leaf_area_m2(), 5),
-        "triangles": plant.triangle_count(),
-        "bounds_m": [[round(float(v), 5) for v in corner] for corner in (low, high)],
-    }
+def write_metrics(folder: Path, metrics: Dict[str, object]) -> None:
+    """metrics.json, which field generators read instead of the mesh."""
+    (folder / METRICS_FILE).write_text(json.dumps(metrics, indent=2) + "\n")
 
 
 def write_crop(
-    plant: Plant, textures: Dict[str, np.ndarray], seed: int, name: str, parent: Path
+    levels: Tuple[Plant, ...],
+    cylinder: Cylinder,
+    textures: Dict[str, np.ndarray],
+    metrics: Dict[str, object],
+    name: str,
+    parent: Path,
 ) -> Path:
     """Write parent/name, replacing an earlier model of that name; returns its path."""
-    names = {organ.texture: f"{name}_{organ.texture}.png" for organ in plant.organs}
+    plant = levels[0]
+    files = {organ.texture: f"{name}_{organ.texture}.png" for organ in plant.organs}
+    visuals = [
+        Visual(organ.visual, organ.name, files[organ.texture], f"meshes/{name}.dae")
+        for organ in plant.organs
+    ]
+    text = f"{plant.species} at stage {plant.stage}, procedural, seed {metrics['seed']}"
     with model_directory(parent, name) as folder:
-        for sub in ("meshes", "materials/scripts", "materials/textures"):
-            (folder / sub).mkdir(parents=True)
-        text = f"{plant.species} at stage {plant.stage}, procedural, seed {seed}"
-        (folder / "model.config").write_text(model_config(name, text))
-        (folder / "model.sdf").write_text(_sdf(plant, name))
-        (folder / METRICS_FILE).write_text(json.dumps(metrics(plant, seed), indent=2) + "\n")
-        script = "\n".join(
-            _MATERIAL.format(
-                prefix=plant.material_prefix, organ=organ.name, texture=names[organ.texture]
-            )
-            for organ in plant.organs
-        )
-        (folder / "materials/scripts" / f"{name}.material").write_text(script)
-        for key, file_name in names.items():
-            Image.fromarray(textures[key]).save(
-                folder / "materials/textures" / file_name, optimize=True
-            )
-        write_collada(plant, folder / "meshes" / f"{name}.dae", names)
+        write_text_files(folder, name, text, visuals, cylinder)
+        write_metrics(folder, metrics)
+        for key, file_name in files.items():
+            image = Image.fromarray(textures[key])
+            image.save(folder / "materials/textures" / file_name, compress_level=5)
+        for level, detail in zip(levels, LEVELS):
+            parts = [(organ.name, organ.mesh, files[organ.texture]) for organ in level.organs]
+            write_collada(parts, folder / "meshes" / f"{name}{detail.suffix}.dae")
     return parent / name

@@ -1,16 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""Terrain to Gazebo model directory: 16-bit grey image and SDF heightmap."""
+"""Terrain to Gazebo model directory: 16-bit grey image and SDF heightmap (thesis Listing A.23)."""
 
 from pathlib import Path
+from typing import Optional
 
 import numpy as np
 from PIL import Image
 
 from ardee_models.output import model_directory
 from ardee_models.terrain import Terrain
+from ardee_models.terrain_recipe import Look, Surface
 from ardee_models.writers.metadata import model_config
+from ardee_models.writers.terrain_picture import shaded
 
 _LEVELS = 65535
+SURFACE = """        <surface>
+          <friction>
+            <ode>
+              <mu>{mu:g}</mu>
+              <mu2>{mu2:g}</mu2>
+            </ode>
+          </friction>
+          <contact>
+            <ode>
+              <kp>{kp:.1f}</kp>
+              <kd>{kd:.1f}</kd>
+            </ode>
+          </contact>
+        </surface>
+"""
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.5">
   <model name="heightmap">
@@ -24,21 +42,7 @@ _MODEL = """<?xml version="1.0"?>
             <pos>{pos}</pos>
           </heightmap>
         </geometry>
-        <surface>
-          <friction>
-            <ode>
-              <mu>{mu:g}</mu>
-              <mu2>{mu:g}</mu2>
-            </ode>
-          </friction>
-          <contact>
-            <ode>
-              <kp>100000.0</kp>
-              <kd>10000.0</kd>
-            </ode>
-          </contact>
-        </surface>
-      </collision>
+{surface}      </collision>
       <visual name="visual">
         <geometry>
           <heightmap>
@@ -56,12 +60,12 @@ _MODEL = """<?xml version="1.0"?>
 _TEXTURE = """            <texture>
               <diffuse>file://media/materials/textures/{name}_diffusespecular.png</diffuse>
               <normal>file://media/materials/textures/flat_normal.png</normal>
-              <size>1</size>
+              <size>{size:g}</size>
             </texture>
 """
 _BLEND = """            <blend>
-              <min_height>0.5</min_height>
-              <fade_dist>1</fade_dist>
+              <min_height>{low:g}</min_height>
+              <fade_dist>{fade:g}</fade_dist>
             </blend>
 """
 
@@ -76,25 +80,38 @@ def quantise(terrain: Terrain) -> tuple:
     return pixels.astype(np.uint16), span, round(low, 6)
 
 
+def surface_xml(surface: Surface) -> str:
+    """Friction and contact of a collision."""
+    return SURFACE.format(**vars(surface))
+
+
 def write_terrain(
-    terrain: Terrain, friction_mu: float, name: str, image_stem: str, parent: Path
+    terrain: Terrain,
+    friction_mu: float,
+    name: str,
+    image_stem: str,
+    parent: Path,
+    surface: Optional[Surface] = None,
+    look: Look = Look(),
+    description: str = "Field terrain, procedural heightmap",
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; returns its path."""
+    """Write parent/name, replacing an earlier model of that name; its path. A surface wins over the friction."""
     pixels, size_z, pos_z = quantise(terrain)
     relative = f"meshes/heightmaps/{image_stem}.png"
+    felt = surface or Surface(mu=friction_mu, mu2=friction_mu)
+    blends = look.blends[: len(look.textures) - 1]
     sdf = _MODEL.format(
         uri=f"file://{name}/{relative}",
-        size=f"{terrain.size_m:g} {terrain.size_m:g} {size_z:g}",
-        pos=f"0 0 {pos_z:g}",
-        mu=friction_mu,
-        textures="".join(_TEXTURE.format(name=t) for t in ("dirt", "grass", "fungus")),
-        blends=_BLEND * 2,
+        size=f"{terrain.size_m:.9g} {terrain.size_m:.9g} {size_z:.9g}",
+        pos=f"0 0 {pos_z:.9g}",
+        surface=surface_xml(felt),
+        textures="".join(_TEXTURE.format(name=t, size=look.texture_size_m) for t in look.textures),
+        blends="".join(_BLEND.format(low=b.min_height_m, fade=b.fade_m) for b in blends),
     )
     with model_directory(parent, name) as folder:
         (folder / relative).parent.mkdir(parents=True)
         Image.fromarray(pixels).save(folder / relative)
         (folder / "model.sdf").write_text(sdf)
-        (folder / "model.config").write_text(
-            model_config(name, "Field terrain, procedural heightmap")
-        )
+        (folder / "model.config").write_text(model_config(name, description))
+        shaded(terrain).save(folder / "map.png")
     return parent / name

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: MIT
 """Layout to model.sdf: one include a plant, with ARDEE's own scale and label, written as a stream."""
 
-from typing import Iterator
+from typing import Iterator, Sequence, Tuple
 
 from ardee_world.layout import Layout
 
+# Model, kind, number, x y z [m], roll pitch yaw [rad], scale, label
+Placed = Tuple[str, str, int, Sequence[float], Sequence[float], float, int]
 EXTENSION_NAMESPACE = "urn:ardee:sdf"
 _HEAD = """<?xml version="1.0"?>
 <sdf version="1.5" xmlns:ardee="{namespace}">
   <model name="{name}">
     <static>true</static>
 """
-_PLANT = """    <include>
+_ITEM = """    <include>
       <uri>model://%s</uri>
-      <name>plant_%d</name>
-      <pose>%.4f %.4f %.4f 0 0 %.4f</pose>
+      <name>%s_%d</name>
+      <pose>%.4f %.4f %.4f %s %.4f</pose>
       <static>true</static>
 %s      <ardee:label>%d</ardee:label>
     </include>
@@ -24,13 +26,37 @@ _TAIL = """  </model>
 """
 
 
-def sdf_text(layout: Layout, name: str) -> Iterator[str]:
-    """Pieces of the file in order. A plant's number is its place in the plan, so it survives a change of emergence."""
-    yield _HEAD.format(namespace=EXTENSION_NAMESPACE, name=name)
+def _scale_line(scale: float) -> str:
+    return "" if scale == 1.0 else f"      <ardee:scale>{scale:.4f}</ardee:scale>\n"
+
+
+def _plants(layout: Layout) -> Iterator[Placed]:
     names = [model.name for model in layout.pool]
     labels = [model.label for model in layout.pool]
-    columns = (layout.index, layout.position_m, layout.yaw_rad, layout.model, layout.scale)
-    for index, (x, y, z), yaw, model, scale in zip(*(column.tolist() for column in columns)):
-        scale_line = "" if scale == 1.0 else f"      <ardee:scale>{scale:.4f}</ardee:scale>\n"
-        yield _PLANT % (names[model], index, x, y, z, yaw, scale_line, labels[model])
+    columns = (layout.number, layout.position_m, layout.angles_rad, layout.model, layout.scale)
+    for number, place, angles, model, scale in zip(*(column.tolist() for column in columns)):
+        yield names[model], "plant", number, place, angles, scale, labels[model]
+
+
+def _clutter(layout: Layout) -> Iterator[Placed]:
+    for items, heights in layout.clutter:
+        columns = (items.xy_m, heights, items.yaw_rad, items.model, items.scale)
+        rows = zip(*(column.tolist() for column in columns))
+        for number, ((x, y), z, yaw, model, scale) in enumerate(rows):
+            kind = items.pool[model]
+            yield kind.name, items.kind, number, (x, y, z), (0.0, 0.0, yaw), scale, kind.label
+
+
+def placed_items(layout: Layout) -> Iterator[Placed]:
+    """All that stands in the field. A plant's number is its place in the plan, so it survives a change of emergence."""
+    yield from _plants(layout)
+    yield from _clutter(layout)
+
+
+def sdf_text(layout: Layout, name: str) -> Iterator[str]:
+    """Pieces of the file in order."""
+    yield _HEAD.format(namespace=EXTENSION_NAMESPACE, name=name)
+    for model, kind, number, (x, y, z), (roll, pitch, yaw), scale, label in placed_items(layout):
+        tilt = "0 0" if roll == 0.0 and pitch == 0.0 else f"{roll:.4f} {pitch:.4f}"
+        yield _ITEM % (model, kind, number, x, y, z, tilt, yaw, _scale_line(scale), label)
     yield _TAIL

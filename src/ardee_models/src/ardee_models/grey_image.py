@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""Reading grey images of any depth, with a plain message for what is none."""
+
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from ardee_models.errors import GeneratorError
+
+MAX_SIDE_PX = 16384
+
+
+@dataclass(frozen=True)
+class GreyImage:
+    """Pixels (rows, columns), row 0 on top; `white` is the largest value of the pixel type."""
+
+    pixels: np.ndarray
+    white: int
+
+
+def _grey(image: Image.Image, path: Path) -> GreyImage:
+    if max(image.size) > MAX_SIDE_PX:
+        raise GeneratorError(
+            f"{path}: found {image.width} x {image.height} pixels, expected at most {MAX_SIDE_PX} a side"
+        )
+    if image.mode in ("I;16", "I;16B", "I;16L", "I"):
+        return GreyImage(np.asarray(image).astype(np.int64), 65535)
+    if image.mode == "1":
+        return GreyImage(np.asarray(image).astype(np.int64), 1)
+    return GreyImage(np.asarray(image.convert("L")).astype(np.int64), 255)
+
+
+def read_grey(path: Path) -> GreyImage:
+    """A grey image; colours are turned to their luminance."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            with Image.open(path) as image:
+                grey = _grey(image, path)
+    except FileNotFoundError as error:
+        raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
+    except (
+        OSError,
+        ValueError,
+        SyntaxError,
+        Image.DecompressionBombError,
+        Image.DecompressionBombWarning,
+    ) as error:
+        raise GeneratorError(f"{path}: not a readable image: {error}") from error
+    if grey.pixels.min() < 0 or grey.pixels.max() > grey.white:
+        raise GeneratorError(
+            f"{path}: found values {grey.pixels.min()} to {grey.pixels.max()}, expected 0 to {grey.white}"
+        )
+    return grey

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""Command `prepare_crop`: a mesh that a user brings becomes crop models."""
+
+import argparse
+from pathlib import Path
+from typing import List, Optional, Sequence
+
+from ardee_models.crop_cli import default_output
+from ardee_models.errors import GeneratorError
+from ardee_models.params import known_species, load_species
+from ardee_models.prepare.read import read_mesh
+from ardee_models.prepare.write import split_plants, write_plants
+
+
+def positive(text: str) -> float:
+    """argparse type: a number above 0."""
+    value = float(text)
+    if not 0.0 < value < float("inf"):
+        raise ValueError(text)
+    return value
+
+
+def prepare(args: argparse.Namespace) -> List[Path]:
+    """Read, split, write; returns the model directories."""
+    label = args.label
+    if label is None:
+        label = load_species(args.species)[0].label if args.species in known_species() else 0
+    parts = read_mesh(args.mesh, args.up, args.scale)
+    plants = [parts] if args.whole else split_plants(parts, args.gap)
+    facts = {
+        "species": args.species,
+        "stage": args.stage,
+        "season": "unknown",
+        "label": label,
+        "source": args.mesh.name,
+    }
+    return write_plants(plants, args.name, args.output or default_output(), args.stem, facts)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="prepare_crop",
+        description="Make crop models of a mesh file: one for each stalk that stands on the ground,"
+        " drawn from both sides, with a cylinder fitted to its stalk and PNG copies of its textures.",
+    )
+    parser.add_argument("mesh", type=Path, help="mesh file (.dae, .obj, .stl, .ply, .glb, ...)")
+    parser.add_argument(
+        "--name", required=True, help="name of the model; several stalks become NAME_1, NAME_2, ..."
+    )
+    parser.add_argument("--output", type=Path, help="folder of models, as for generate_crop")
+    parser.add_argument(
+        "--up",
+        choices=("auto", "x", "y", "z"),
+        default="auto",
+        help="the file's up axis (default auto: as a .dae says, y for .obj and .gltf, else z)",
+    )
+    parser.add_argument(
+        "--scale", type=positive, help="metres a unit (default: as a .dae says, else 1)"
+    )
+    parser.add_argument(
+        "--gap",
+        type=positive,
+        default=0.06,
+        help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
+    )
+    parser.add_argument("--whole", action="store_true", help="one model of all, do not split")
+    parser.add_argument(
+        "--stem", help="part that is the stalk (default: one called stem, stalk, trunk)"
+    )
+    parser.add_argument("--species", default="unknown", help="species, for metrics.json")
+    parser.add_argument("--stage", default="unknown", help="growth stage, for metrics.json")
+    parser.add_argument(
+        "--label", type=int, help="class id in segmentation (default: the species')"
+    )
+    return parser
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """`prepare_crop MESH --name N`: prints the paths written."""
+    parser = _parser()
+    args = parser.parse_args(arguments)
+    try:
+        if args.label is not None and not 0 <= args.label <= 65535:
+            raise GeneratorError(f"--label: found {args.label}, expected 0 to 65535")
+        for path in prepare(args):
+            print(path)
+    except GeneratorError as error:
+        parser.exit(2, f"{parser.prog}: {error}\n")
+    return 0

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""The literature's range of each metric, by species and stage, from config/ranges.yaml."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Mapping, Optional, Tuple
+
+from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
+from ardee_models.errors import GeneratorError
+
+
+@dataclass(frozen=True)
+class Range:
+    """Least and greatest value of a metric at some stages."""
+
+    stages: Tuple[str, ...]
+    source: str
+    min: float = bounded(0, 1000)
+    max: float = bounded(0, 1000)
+
+
+@dataclass(frozen=True)
+class Check:
+    """A metric of a model beside its range."""
+
+    metric: str
+    value: float
+    low: float
+    high: float
+    source: str
+
+    def holds(self) -> bool:
+        """Whether the value lies in the range, ends included."""
+        return self.low <= self.value <= self.high
+
+
+def load_ranges(path: Optional[Path] = None) -> tuple:
+    """Ranges by species and metric, and the text of each source."""
+    path = path or config_dir() / "ranges.yaml"
+    data = read_yaml(path)
+    sources = data.pop("sources", {})
+    ranges: Dict[str, Dict[str, List[Range]]] = {}
+    for species, metrics in data.items():
+        if not isinstance(metrics, dict):
+            raise GeneratorError(f"{path}: {species}: found {metrics!r}, expected metrics")
+        for metric, rows in metrics.items():
+            where = f"{path}: {species}.{metric}"
+            parsed = [from_mapping(Range, row, f"{where}[{i}]") for i, row in enumerate(rows or [])]
+            for row in parsed:
+                if row.min > row.max or row.source not in sources:
+                    raise GeneratorError(
+                        f"{where}: found {row.min:g} to {row.max:g} from {row.source!r},"
+                        f" expected min <= max and a source among {', '.join(sources)}"
+                    )
+            ranges.setdefault(species, {})[metric] = parsed
+    return ranges, sources
+
+
+def check_metrics(
+    metrics: Mapping[str, object], ranges: Dict[str, Dict[str, List[Range]]]
+) -> List[Check]:
+    """One check for each metric that has a range at the model's stage."""
+    checks = []
+    for metric, rows in ranges.get(str(metrics["species"]), {}).items():
+        for row in rows:
+            if metrics["stage"] in row.stages:
+                value = float(metrics[metric])  # type: ignore[arg-type]
+                checks.append(Check(metric, value, row.min, row.max, row.source))
+    return checks

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""What a terrain shall be: a recipe of shapes and a surface, from arguments or a YAML file, checked."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Tuple
+
+from ardee_models.errors import GeneratorError
+from ardee_models.options import check, option
+from ardee_models.strict_yaml import build, read_yaml_lines
+
+_ANGLE = (-360.0, 360.0)
+_FAR = (-10_000.0, 10_000.0)
+SAMPLES = tuple(2**n + 1 for n in range(4, 13))  # as OGRE's terrain wants
+
+
+def group(default: Any, kind: type) -> Any:
+    """Dataclass field that is a group of options, or a tuple of them."""
+    return dataclasses.field(default=default, metadata={"group": kind})
+
+
+@dataclass(frozen=True)
+class Ridges:
+    """Ridges under crop rows, furrows between: raised cosines along `direction_deg`; a lane lies on the origin."""
+
+    spacing_m: float = option(0.762, "between ridges", (0.1, 10.0))  # 30 inches, usual for corn
+    height_m: float = option(0.05, "of a ridge over the furrow", (0.0, 1.0))
+    half_width_m: float = option(0.25, "from the top of a ridge to its foot", (0.01, 5.0))
+    direction_deg: float = option(0.0, "in which ridges run, from the x axis", _ANGLE)
+
+
+@dataclass(frozen=True)
+class Ruts:
+    """Two wheel tracks of a tractor, with the earth pressed out beside them, and lugs' marks across."""
+
+    offset_m: float = option(0.0, "of the tracks' middle to the left of the origin", _FAR)
+    direction_deg: float = option(0.0, "in which they run", _ANGLE)
+    track_m: float = option(1.524, "between the tracks' middles (60 inches)", (0.1, 10.0))
+    width_m: float = option(0.4, "of a track", (0.05, 3.0))
+    depth_m: float = option(0.06, "of a track", (0.0, 1.0))
+    lug_spacing_m: float = option(0.2, "between lugs' marks", (0.02, 2.0))
+    lug_depth_m: float = option(0.01, "of lugs' marks", (0.0, 0.2))
+
+
+@dataclass(frozen=True)
+class Clods:
+    """Rough ground of one scale: Gaussian heights, or lumps on level ground."""
+
+    size_m: float = option(0.1, "correlation length", (0.005, 100.0))
+    sd_m: float = option(0.008, "standard deviation of heights", (0.0, 0.5))
+    lumps: bool = option(False, "only what stands out: separate clods on level ground")
+
+
+@dataclass(frozen=True)
+class Slope:
+    """The whole ground tilted about the origin."""
+
+    grade_percent: float = option(0.0, "rise over run", (-100.0, 100.0))
+    direction_deg: float = option(0.0, "in which it rises", _ANGLE)
+
+
+@dataclass(frozen=True)
+class Ditch:
+    """A trench with sloping banks; crop ridges, ruts and clods lie in it as everywhere."""
+
+    offset_m: float = option(8.0, "of its middle to the left of the origin", _FAR)
+    direction_deg: float = option(0.0, "in which it runs", _ANGLE)
+    depth_m: float = option(0.4, "below the field", (0.0, 10.0))
+    bottom_width_m: float = option(0.4, "of its level bottom", (0.0, 100.0))
+    bank_width_m: float = option(0.8, "of each bank", (0.01, 100.0))
+
+
+@dataclass(frozen=True)
+class Headland:
+    """Where ridges end: beyond these distances from the origin, along and across them, the ground is level."""
+
+    along_m: float = option(10.0, "half length of the ridged part", (0.0, 10_000.0))
+    across_m: float = option(10_000.0, "half width of the ridged part", (0.0, 10_000.0))
+    fade_m: float = option(0.5, "over which ridges end", (0.0, 100.0))
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What wheels feel: friction along and across, contact stiffness and damping."""
+
+    mu: float = option(0.8, "friction coefficient (rubber on firm soil)", (1e-6, 100.0))
+    mu2: float = option(0.8, "friction coefficient in the second direction", (1e-6, 100.0))
+    kp: float = option(100_000.0, "contact stiffness [N/m] (thesis Listing A.23)", (1.0, 1e12))
+    kd: float = option(10_000.0, "contact damping [N s/m]", (0.0, 1e12))
+
+
+@dataclass(frozen=True)
+class Blend:
+    """Texture k + 1 fades in over `fade_m` above this height over the lowest ground."""
+
+    min_height_m: float = option(0.5, "where the next texture begins", (0.0, 10_000.0))
+    fade_m: float = option(1.0, "over which it fades in", (0.0, 10_000.0))
+
+
+@dataclass(frozen=True)
+class Look:
+    """Textures of the ground and how they blend (thesis Listing A.23)."""
+
+    textures: Tuple[str, ...] = option(("dirt", "grass", "fungus"), "from the lowest ground up")
+    texture_size_m: float = option(1.0, "side of a texture's tile", (0.01, 1000.0))
+    blends: Tuple[Blend, ...] = group((Blend(), Blend()), Blend)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A square of ground about the origin. Every part may be left out but the surface and the look."""
+
+    size_m: float = option(30.0, "side of the square", (1.0, 2000.0))
+    samples: int = option(513, "pixels a side, 2^n + 1", (SAMPLES[0], SAMPLES[-1]))
+    seed: int = option(0, "root of all random numbers", (0, 2**63))
+    ridges: Tuple[Ridges, ...] = group((), Ridges)
+    headland: Tuple[Headland, ...] = group((), Headland)
+    ruts: Tuple[Ruts, ...] = group((), Ruts)
+    clods: Tuple[Clods, ...] = group((), Clods)
+    slope: Slope = group(Slope(), Slope)
+    ditches: Tuple[Ditch, ...] = group((), Ditch)
+    surface: Surface = group(Surface(), Surface)
+    look: Look = group(Look(), Look)
+
+    def validate(self) -> None:
+        """Raise GeneratorError for the first value out of range."""
+        check(self, "terrain ")
+        if self.samples not in SAMPLES:
+            known = ", ".join(map(str, SAMPLES))
+            raise GeneratorError(f"terrain samples: found {self.samples}, expected one of {known}")
+        for name, many in (("ridges", self.ridges), ("headland", self.headland)):
+            if len(many) > 1:
+                raise GeneratorError(f"terrain {name}: found {len(many)}, expected one or none")
+        parts = (*self.ridges, *self.headland, *self.ruts, *self.clods, self.slope, *self.ditches)
+        for part in (*parts, self.surface, self.look, *self.look.blends):
+            check(part, f"terrain {type(part).__name__.lower()} ")
+        if (
+            not 1 <= len(self.look.textures) <= 5
+            or len(self.look.blends) < len(self.look.textures) - 1
+        ):
+            raise GeneratorError(
+                f"terrain look: found {len(self.look.textures)} textures and {len(self.look.blends)} blends, "
+                "expected 1 to 5 textures and a blend between each two"
+            )
+
+
+def read_recipe(path: Path) -> Recipe:
+    """A recipe from its YAML file; one ridges or headland mapping may stand without a list."""
+    mapping = read_yaml_lines(path)
+    for key in ("ridges", "headland"):
+        if isinstance(mapping.get(key), dict):
+            mapping[key] = [mapping[key]]
+    recipe = build(Recipe, mapping)
+    try:
+        recipe.validate()
+    except GeneratorError as error:
+        raise GeneratorError(f"{path}: {error}") from error
+    return recipe

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+
+namespace ardee {
+
+/// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
+constexpr double kAbsurd = 1e9;
+/// Of one instance of a model.
+constexpr double kMaxScale = 1e6;
+constexpr int kMaxLabel = 65535;
+/// Static models in a world, at any depth.
+constexpr std::size_t kMaxPlacements = 20'000'000;
+
+}  // namespace ardee

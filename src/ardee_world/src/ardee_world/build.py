@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""What the build generates: clutter models, terrains of recipes, fields; each YAML file makes a model of its name."""
+
+import argparse
+from pathlib import Path
+from typing import Dict, List, Sequence
+
+from ardee_models.errors import GeneratorError
+from ardee_models.lookup import find_model
+from ardee_models.output import write_file
+from ardee_models.terrain_features import follow
+from ardee_models.terrain_recipe import read_recipe
+from ardee_models.writers.terrain import write_terrain
+from ardee_world.cli import make_configured
+from ardee_world.clutter_models import MODELS, write_clutter_model
+from ardee_world.request import yaml_values
+from ardee_world.urdf_file import EMPTY
+
+
+def build_terrains(recipes: Path, models: Path) -> None:
+    """Heightmaps of all recipes in a folder."""
+    for path in sorted(recipes.glob("*.yaml")):
+        recipe, name = read_recipe(path), path.stem
+        write_terrain(
+            follow(recipe), recipe.surface.mu, name, name, models, recipe.surface, recipe.look
+        )
+
+
+def missing_models(values: Dict[str, object], folders: Sequence[Path]) -> List[str]:
+    """Crop models that a field names and that are in none of the folders."""
+    missing = []
+    for name in values.get("models", ()):
+        try:
+            find_model(name, folders)
+        except GeneratorError:
+            missing.append(name)
+    return missing
+
+
+def build_fields(plans: Path, models: Path, urdf: Path, folders: Sequence[Path]) -> None:
+    """Fields of all plans in a folder. A field whose crop models are not there is left out, and said so."""
+    for path in sorted(plans.glob("*.yaml")):
+        values = yaml_values(path)
+        missing = missing_models(values, folders)
+        if missing:
+            print(f"{path.stem}: left out, there is no model {', '.join(missing)}")
+            continue
+        # Includes: the .urdf.xacro is copied to where no table lies beside it
+        values.update(name=path.stem, output=str(models), format="sdf")
+        values.update(model_path=tuple(map(str, folders)))
+        field = make_configured(values) / f"{path.stem}.urdf.xacro"
+        write_file(urdf / field.name, field.read_bytes())
+    write_file(urdf / "empty.urdf.xacro", EMPTY.encode())
+
+
+def main() -> int:
+    """`python3 -m ardee_world.build --source DIR --share DIR --model-path DIR`."""
+    parser = argparse.ArgumentParser(prog="ardee_world.build", description=__doc__)
+    parser.add_argument(
+        "--source", type=Path, required=True, help="folder that holds terrains/ and fields/"
+    )
+    parser.add_argument(
+        "--share", type=Path, required=True, help="folder to fill with models/ and urdf/"
+    )
+    parser.add_argument(
+        "--model-path", type=Path, nargs="+", required=True, help="folders of crop models"
+    )
+    args = parser.parse_args()
+    try:
+        models = args.share / "models"
+        for name in MODELS:
+            write_clutter_model(name, models)
+        build_terrains(args.source / "terrains", models)
+        folders = [models, *args.model_path]
+        build_fields(args.source / "fields", models, args.share / "urdf", folders)
+    except GeneratorError as error:
+        parser.exit(2, f"{parser.prog}: {error}\n")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

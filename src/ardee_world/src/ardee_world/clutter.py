@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Weeds, stones and litter: Poisson scattered over the field's bounds, evenly or as an image says."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional, Tuple
+
+import numpy as np
+
+from ardee_models.errors import GeneratorError
+from ardee_models.grey_image import read_grey
+from ardee_models.lookup import CropModel
+from ardee_world.config import Clutter
+from ardee_world.streams import Streams
+
+KINDS = ("weed", "stone", "litter")
+# SD of the logarithm of an item's size over its model's (estimate); cut at two deviations.
+_SIZE_LOG_SD = 0.25
+MAX_ITEMS = 5_000_000
+
+
+@dataclass(frozen=True)
+class Items:
+    """Items of one kind in the field's frame."""
+
+    kind: str
+    pool: Tuple[CropModel, ...]
+    xy_m: np.ndarray
+    yaw_rad: np.ndarray
+    model: np.ndarray
+    scale: np.ndarray
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """A rectangle in the field's frame."""
+
+    low_m: np.ndarray
+    high_m: np.ndarray
+
+    def area_m2(self) -> float:
+        """Of the rectangle."""
+        return float(np.prod(self.high_m - self.low_m))
+
+
+def bounds_of(points_m: np.ndarray, margin_m: float) -> Bounds:
+    """The rectangle round the planned centres."""
+    return Bounds(points_m.min(axis=0) - margin_m, points_m.max(axis=0) + margin_m)
+
+
+def _brightness(path: Optional[str]) -> Optional[np.ndarray]:
+    """Row 0 at the lower edge, 0 black to 1 white."""
+    if path is None:
+        return None
+    image = read_grey(Path(path))
+    share = image.pixels[::-1].astype(float) / image.white
+    if not share.any():
+        raise GeneratorError(f"{path}: found a black image, expected a brighter pixel somewhere")
+    return share
+
+
+def _scatter(
+    count: int, bounds: Bounds, share: Optional[np.ndarray], streams: Streams, kind: str
+) -> np.ndarray:
+    """Places: uniform over the bounds, or over pixels as bright as they are."""
+    spot = streams.of(kind, 1).random((count, 2))
+    if share is not None:
+        cumulative = np.cumsum(share.ravel())
+        drawn = streams.of(kind, 2).random(count) * cumulative[-1]
+        pixel = np.searchsorted(cumulative, drawn, side="right").clip(max=share.size - 1)
+        corner = np.column_stack((pixel % share.shape[1], pixel // share.shape[1]))
+        spot = (corner + spot) / np.array([share.shape[1], share.shape[0]])
+    return bounds.low_m + spot * (bounds.high_m - bounds.low_m)
+
+
+def draw_items(
+    kind: str, config: Clutter, pool: Tuple[CropModel, ...], bounds: Bounds, streams: Streams
+) -> Optional[Items]:
+    """Items of a kind, or None where its density is zero. More of them leave the first ones where they were."""
+    density = getattr(config, f"{kind}_density_per_m2")
+    if density == 0.0:
+        return None
+    share = _brightness(getattr(config, f"{kind}_image"))
+    mean = density * bounds.area_m2() * (1.0 if share is None else float(share.mean()))
+    if mean > MAX_ITEMS:
+        raise GeneratorError(
+            f"{kind} density: found {density:g} 1/m^2 on {bounds.area_m2():.0f} m^2, expected at most {MAX_ITEMS} items"
+        )
+    count = int(streams.of(kind, 0).poisson(mean))
+    sizes = streams.of(kind, 5).standard_normal(count).clip(-2.0, 2.0)
+    return Items(
+        kind=kind,
+        pool=pool,
+        xy_m=_scatter(count, bounds, share, streams, kind),
+        yaw_rad=streams.of(kind, 3).uniform(-np.pi, np.pi, count),
+        model=streams.of(kind, 4).integers(0, len(pool), count),
+        scale=np.exp(_SIZE_LOG_SD * sizes),
+    )

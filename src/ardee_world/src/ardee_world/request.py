@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""What is asked of the field generator: a field's options and where its models are, from arguments and a YAML file."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, Optional, Tuple
+
+from ardee_models.errors import GeneratorError
+from ardee_models.options import kind_of, option, scalar_fields
+from ardee_models.strict_yaml import Mapping, read_yaml_lines, value_of
+from ardee_world.config import GROUPS, FieldConfig
+
+LARGEST_SDF = 20_000  # plants and clutter; a larger field is a stream if nothing is said
+_WHOLE = (0, 2**63)
+Values = Dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Sources:
+    """Names and folders; in a YAML file paths are relative to the file."""
+
+    models: Tuple[str, ...] = option((), "pool of crop models to draw from")
+    name: Optional[str] = option(None, "name of the field's model")
+    output: Optional[str] = option(None, "folder of models to write it in")
+    model_path: Tuple[str, ...] = option((), "folders of models before GAZEBO_MODEL_PATH")
+    terrain: Optional[str] = option(
+        None, "terrain model at the world's origin to stand on (default level)"
+    )
+    centers: Any = option(None, "CSV file of stalk centres x_m,y_m of your own instead of a plan")
+    format: str = option(
+        "auto",
+        "model.sdf with an include a plant, or a table plants.csv that only this simulator reads, as a stream;"
+        f" auto: stream above {LARGEST_SDF} plants",
+        choices=("auto", "sdf", "stream"),
+    )
+    seed: int = option(0, "root of all random numbers", _WHOLE)
+
+
+_PATHS = ("output", "centers", "weed_image", "stone_image", "litter_image")
+
+
+@dataclass(frozen=True)
+class _Aliases:
+    """Options that are given in another form than they are kept in."""
+
+    noise_covariance_m2: Tuple[float, ...] = ()
+    stalks_per_row: Optional[int] = option(None, "instead of the row length", (1, 1_000_000))
+    gps_origin_deg: Optional[Tuple[float, float]] = option(
+        None, "latitude and longitude of the world's origin", (-180.0, 180.0)
+    )
+
+
+def groups() -> Dict[str, type]:
+    """Name to class of the groups of options, the field's own last."""
+    named = {name: type(getattr(FieldConfig(), name)) for name in GROUPS}
+    return {"sources": Sources, **named, "field": FieldConfig, "aliases": _Aliases}
+
+
+def all_fields() -> Dict[str, Tuple[type, dataclasses.Field]]:
+    """Key to the class and field that an option fills."""
+    return {f.name: (cls, f) for cls in groups().values() for f in scalar_fields(cls)}
+
+
+def _relative(value: str, folder: Path) -> str:
+    return str(folder / Path(value).expanduser())
+
+
+def yaml_values(path: Path) -> Values:
+    """Options of a YAML file by key."""
+    known, mapping = all_fields(), read_yaml_lines(path)
+    values: Values = {}
+    for key, raw in mapping.items():
+        if key not in known:
+            raise mapping.error(key, f"unknown key {key!r}, known: {', '.join(sorted(known))}")
+        if key == "centers" and not isinstance(raw, str):
+            values[key] = raw
+        else:
+            values[key] = _from_yaml(known, mapping, key)
+        if key in _PATHS and isinstance(values[key], str):
+            values[key] = _relative(values[key], path.parent)
+        if key == "model_path":
+            values[key] = tuple(_relative(folder, path.parent) for folder in values[key])
+    if "row_length_m" in values and "stalks_per_row" in values:
+        raise mapping.error("stalks_per_row", "found row_length_m too, expected one of them")
+    return values
+
+
+def _from_yaml(known: dict, mapping: Mapping, key: str) -> Any:
+    cls, field = known[key]
+    if kind_of(cls, field) is Any:
+        return mapping[key]
+    return value_of(cls, field, mapping, key)
+
+
+def _covariance(values: Tuple[float, ...]) -> Tuple[float, float, float]:
+    if len(values) == 2:
+        return float(values[0]), 0.0, float(values[1])
+    if len(values) != 3:
+        raise GeneratorError(
+            f"noise covariance: found {len(values)} numbers, expected XX YY or XX XY YY"
+        )
+    return tuple(map(float, values))
+
+
+def _resolve_aliases(values: Values) -> Values:
+    made = dict(values)
+    if "noise_covariance_m2" in made:
+        made["noise_covariance_m2"] = _covariance(made["noise_covariance_m2"])
+    stalks = made.pop("stalks_per_row", None)
+    if stalks is not None:
+        if stalks < 1:
+            raise GeneratorError(
+                f"stalks per row: found {stalks}, expected a whole number, at least 1"
+            )
+        plots = type(FieldConfig().plots)
+        spacing = made.get("stalk_spacing_m", plots().stalk_spacing_m)
+        made["row_length_m"] = round((stalks - 1) * spacing, 9)
+    origin = made.pop("gps_origin_deg", None)
+    if origin is not None:
+        made["origin_latitude_deg"], made["origin_longitude_deg"] = origin
+    return made
+
+
+def configure(values: Values) -> Tuple[Sources, FieldConfig]:
+    """Options by key, all of them checked, to what the generator takes."""
+    values = _resolve_aliases(values)
+    made = {}
+    for group, cls in groups().items():
+        if group in ("field", "aliases"):
+            continue
+        names = {f.name for f in scalar_fields(cls)}
+        made[group] = cls(**{k: v for k, v in values.items() if k in names})
+    sources = made.pop("sources")
+    own = {f.name for f in scalar_fields(FieldConfig)}
+    config = FieldConfig(**made, **{k: v for k, v in values.items() if k in own})
+    config.validate()
+    for key in ("name", "output", "models"):
+        if not getattr(sources, key):
+            raise GeneratorError(
+                f"{key}: found none, expected --{key} or the key {key} of a YAML file"
+            )
+    return sources, config

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Sets the plants of a generated field on another ground: the z of every plant becomes the ground's height."""
+
+import re
+from pathlib import Path
+from typing import Optional
+
+import numpy as np
+
+from ardee_models.errors import GeneratorError
+from ardee_models.terrain import Ground
+from ardee_world.writers.instances import HEADER
+from ardee_world.writers.sdf import EXTENSION_NAMESPACE
+
+_TABLE = re.compile(r"<ardee:instances>\s*([A-Za-z0-9_][A-Za-z0-9_.-]*)\s*</ardee:instances>")
+_POSE = re.compile(r"(<include>.*?<pose>)([^<]*)(</pose>)", re.DOTALL)
+
+
+def is_generated(model: str) -> bool:
+    """Whether the field generator wrote it; only of its plants is it known that they stand on the ground."""
+    return EXTENSION_NAMESPACE in model[:400]
+
+
+def seat(model: str, ground: Ground) -> str:
+    """The text of model.sdf with its includes, in a world that includes it without a turn, on the ground."""
+    poses = [match.group(2).split() for match in _POSE.finditer(model)]
+    if not poses:
+        return model
+    try:
+        xy = np.array([pose[:2] for pose in poses], dtype=float)
+    except ValueError as error:
+        raise GeneratorError(f"field: found a pose that is no six numbers: {error}") from error
+    heights = iter(ground.height_at(xy[:, 0], xy[:, 1]).tolist())
+
+    def placed(match: "re.Match") -> str:
+        x, y, _, *turn = match.group(2).split()
+        return f"{match.group(1)}{x} {y} {next(heights) + 0.0:.4f} {' '.join(turn)}{match.group(3)}"
+
+    return _POSE.sub(placed, model)
+
+
+def table_name(model: str) -> Optional[str]:
+    """Name of the table of plants that a model.sdf keeps beside it, if it does."""
+    found = _TABLE.search(model)
+    return found.group(1) if found else None
+
+
+def read_table(path: Path) -> str:
+    """Text of a table of plants."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GeneratorError(f"{path}: cannot be read: {error}") from error
+    if not text.startswith(HEADER):
+        found = text[:80].split("\n")[0]
+        raise GeneratorError(f"{path}:1: found {found!r}, expected the header {HEADER.strip()!r}")
+    return text
+
+
+def seat_table(text: str, path: Path, ground: Ground) -> str:
+    """The text of a table of plants on the ground; `path` is for messages."""
+    rows = [line.split(",") for line in text.splitlines()[1:]]
+    xy = np.empty((len(rows), 2))
+    for number, row in enumerate(rows):
+        try:
+            if len(row) != HEADER.count(",") + 1:
+                raise ValueError(f"{len(row)} columns")
+            xy[number] = float(row[2]), float(row[3])
+        except ValueError as error:
+            raise GeneratorError(
+                f"{path}:{number + 2}: found {','.join(row)[:80]!r}, expected {HEADER.strip()}: {error}"
+            ) from error
+    for row, height in zip(rows, ground.height_at(xy[:, 0], xy[:, 1]).tolist()):
+        row[4] = f"{height + 0.0:.4f}"
+    return HEADER + "".join(",".join(row) + "\n" for row in rows)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""Gaps in the rows, doubles, and plants that lean."""
+
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from ardee_models.errors import GeneratorError
+from ardee_world.config import Stand
+from ardee_world.plots import Plan
+from ardee_world.streams import Streams
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Consecutive places of a row where nothing was sown; `first` indexes the plan."""
+
+    first: int
+    count: int
+
+    def places(self) -> slice:
+        """Into the plan."""
+        return slice(self.first, self.first + self.count)
+
+
+def draw_gaps(plan: Plan, stand: Stand, stalk_spacing_m: float, rng: np.random.Generator) -> tuple:
+    """Gaps of whole plants that do not touch each other nor a row's end, each place as likely as any other."""
+    if stand.gaps == 0:
+        return ()
+    count = max(int(round(stand.gap_length_m / stalk_spacing_m)), 1)
+    total = len(plan.centres_m)
+    new_row = (np.diff(plan.row) != 0) | (np.diff(plan.plot) != 0)
+    starts = np.concatenate(([0], np.flatnonzero(new_row) + 1))
+    ends = np.append(starts[1:], total)
+    row_of = np.repeat(np.arange(len(starts)), ends - starts)
+    place = np.arange(total)
+    candidates = place[(place > starts[row_of]) & (place + count < ends[row_of])]
+    taken = np.zeros(total, bool)
+    gaps = []
+    for first in rng.permutation(candidates).tolist():
+        if not taken[first - 1 : first + count + 1].any():
+            taken[first : first + count] = True
+            gaps.append(Gap(first, count))
+            if len(gaps) == stand.gaps:
+                return tuple(sorted(gaps, key=lambda gap: gap.first))
+    raise GeneratorError(
+        f"gaps: found {stand.gaps} of {count} plants each, expected at most about {len(gaps)} in these rows"
+    )
+
+
+@dataclass(frozen=True)
+class Lean:
+    """Tilt from the vertical and the direction of the top, from the field's x axis; zero where a plant stands."""
+
+    tilt_rad: np.ndarray
+    direction_rad: np.ndarray
+
+    def at(self, index: np.ndarray) -> "Lean":
+        """Of some plants."""
+        return Lean(self.tilt_rad[index], self.direction_rad[index])
+
+
+def draw_lean(count: int, stand: Stand, streams: Streams, prefix: str = "") -> Lean:
+    """A plant leans with probability `lodging`, by a uniform angle, in a normal or uniform direction."""
+    if stand.lodging == 0.0:
+        return Lean(np.zeros(count), np.zeros(count))
+    leans = streams.of(prefix + "lodging").random(count) < stand.lodging
+    low, high = np.radians((stand.lodging_angle_min_deg, stand.lodging_angle_max_deg))
+    tilt = streams.of(prefix + "lodging_angle").uniform(low, high, count)
+    rng = streams.of(prefix + "lodging_direction")
+    mean = stand.lodging_direction_deg  # type: Optional[float]
+    if mean is None:
+        towards = rng.uniform(-np.pi, np.pi, count)
+    else:
+        deviation = np.radians(stand.lodging_direction_sd_deg)
+        towards = np.radians(mean) + deviation * rng.standard_normal(count)
+        towards = (towards + np.pi) % (2.0 * np.pi) - np.pi
+    return Lean(np.where(leans, tilt, 0.0), np.where(leans, towards, 0.0))
+
+
+def roll_pitch_yaw(yaw_rad: np.ndarray, lean: Lean) -> np.ndarray:
+    """(n, 3) angles about the fixed axes of plants turned by yaw, then tilted about their foot."""
+    angles = np.zeros((len(yaw_rad), 3))
+    angles[:, 2] = yaw_rad
+    leaning = np.flatnonzero(lean.tilt_rad)
+    if len(leaning):
+        tilt, towards = lean.tilt_rad[leaning], lean.direction_rad[leaning]
+        turns = np.column_stack((towards, tilt, yaw_rad[leaning] - towards))
+        angles[leaning] = Rotation.from_euler("ZYZ", turns).as_euler("xyz")
+    return angles

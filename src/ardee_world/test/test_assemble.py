@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: MIT
+"""A field and a terrain put together into a world."""
+
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+
+from ardee_models.lookup import terrain_model
+from ardee_world import assemble
+from ardee_world.urdf_file import EMPTY, SEPARATOR
+
+BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", "0", "0")
+
+
+@pytest.fixture()
+def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
+    """Run the command in a folder with a field, an empty field and a geofence; returns code and standard error."""
+    assert generate_field(*BASE, "--output", tmp_path / "models")[0] == 0
+    (tmp_path / "share" / "pkg").mkdir(parents=True)
+    (tmp_path / "share" / "pkg" / "empty.urdf.xacro").write_text(EMPTY)
+    (tmp_path / "share" / "pkg" / "my.geofence").write_text("<robot/>\n")
+    monkeypatch.chdir(tmp_path)
+
+    def call(
+        field="models/field/field.urdf.xacro",
+        terrain="pkg/ground",
+        geofence="pkg/my.geofence",
+        *more,
+    ):
+        words = [
+            "assemble",
+            field,
+            terrain,
+            geofence,
+            "--output",
+            "out",
+            "--search",
+            "share",
+            *more,
+        ]
+        monkeypatch.setattr(sys, "argv", words)
+        try:
+            code = assemble.main()
+        except SystemExit as exit_:
+            code = exit_.code
+        return code, capsys.readouterr().err
+
+    return call
+
+
+def test_the_world_includes_both_at_its_origin(put_together, tmp_path):
+    assert put_together() == (0, "")
+    world = ElementTree.parse(tmp_path / "out/worlds/custom.world").getroot().find("world")
+    includes = [(i.findtext("uri"), i.findtext("pose")) for i in world.findall("include")]
+    assert includes == [
+        ("model://custom_heightmap", "0 0 0 0 0 0"),
+        ("model://custom_field", "0 0 0 0 0 0"),
+    ]
+    assert world.findtext("physics/max_step_size") == "0.005"
+    for name in (
+        "custom_field/model.config",
+        "custom_field/plots.xacro",
+        "custom_heightmap/model.sdf",
+    ):
+        assert (tmp_path / "out/models" / name).is_file()
+    assert (
+        tmp_path / "out/ardee_geofence/custom_gps_behavior.geofence"
+    ).read_text() == "<robot/>\n"
+
+
+def test_plants_of_a_generated_field_stand_on_the_terrain(put_together, tmp_path, models):
+    assert put_together()[0] == 0
+    poses = (
+        ElementTree.parse(tmp_path / "out/models/custom_field/model.sdf")
+        .getroot()
+        .findall(".//include/pose")
+    )
+    values = np.array([[float(v) for v in pose.text.split()] for pose in poses])
+    ground = terrain_model("ground", [models]).height_at(values[:, 0], values[:, 1])
+    np.testing.assert_allclose(values[:, 2], ground, atol=5.1e-5)
+    assert np.ptp(ground) > 0.03
+    before = (
+        ElementTree.parse(tmp_path / "models/field/model.sdf").getroot().findall(".//include/pose")
+    )
+    planned = np.array([[float(v) for v in pose.text.split()] for pose in before])
+    np.testing.assert_array_equal(np.delete(values, 2, axis=1), np.delete(planned, 2, axis=1))
+
+
+def test_heights_can_be_kept_and_those_of_others_always_are(put_together, tmp_path):
+    made = tmp_path / "out/models/custom_field/model.sdf"
+    assert (
+        put_together(
+            "models/field/field.urdf.xacro", "ground", "pkg/my.geofence", "--keep-heights"
+        )[0]
+        == 0
+    )
+    assert made.read_bytes() == (tmp_path / "models/field/model.sdf").read_bytes()
+    other = "<sdf><model name='m'><include><uri>x</uri><pose>1 2 3 0 0 0</pose></include></model></sdf>\n"
+    (tmp_path / "other.urdf.xacro").write_text(f"{other}{SEPARATOR}\n<robot/>\n")
+    assert put_together("other.urdf.xacro")[0] == 0 and made.read_text() == other
+
+
+def test_a_fields_and_a_terrains_name_will_do(put_together, tmp_path, monkeypatch, models):
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{models}:{tmp_path / 'models'}")
+    assert put_together("field", "ground") == (0, "")
+    assert put_together("pkg/empty.urdf.xacro", str(models / "ground")) == (0, "")
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("<sdf/>\n<robot/>\n", f"found 0 lines {SEPARATOR}, expected one"),
+        (f"<sdf/>\n{SEPARATOR}\n{SEPARATOR}\n<robot/>\n", f"found 2 lines {SEPARATOR}"),
+        (
+            f"<sdf>\n\n</sd>\n{SEPARATOR}\n<robot/>\n",
+            "bad.urdf.xacro:3: not valid XML: mismatched tag",
+        ),
+        (f"<sdf/>\n{SEPARATOR}\n<robot>\n\n<plot>\n</robot>\n", "bad.urdf.xacro:6: not valid XML"),
+        ("\x00", "found 0 lines"),
+    ],
+)
+def test_bad_field_files_leave_the_earlier_world(put_together, tmp_path, text, message):
+    assert put_together()[0] == 0
+    before = {p: p.read_bytes() for p in (tmp_path / "out").rglob("*") if p.is_file()}
+    (tmp_path / "bad.urdf.xacro").write_text(text)
+    code, error = put_together("bad.urdf.xacro")
+    assert code == 2 and message in error and error.count("\n") == 1
+    assert before == {p: p.read_bytes() for p in (tmp_path / "out").rglob("*") if p.is_file()}
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (("no.urdf.xacro",), "field 'no.urdf.xacro': no such file"),
+        (("pkg/empty.urdf.xacro", "moon"), "model 'moon': not found"),
+        (("pkg/empty.urdf.xacro", "ground", "no.geofence"), "geofence 'no.geofence': no such file"),
+    ],
+)
+def test_what_is_not_there_is_said(put_together, arguments, message):
+    code, error = put_together(*arguments)
+    assert code == 2 and message in error
+
+
+@pytest.mark.parametrize("script", ["run_custom_world", "run_demo_world"])
+def test_the_scripts_say_what_they_do(package, script):
+    path = package.parents[1] / "scripts" / script
+    result = subprocess.run([path, "-h"], capture_output=True, text=True, check=True)
+    assert "FIELD" in result.stdout and "TERRAIN" in result.stdout and "-y" in result.stdout
+    assert subprocess.run([path, "--no"], capture_output=True).returncode == 2

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: MIT
+"""YAML files and bad input: one message that says where, exit 2, the previous output untouched."""
+
+import csv
+import json
+
+import pytest
+from PIL import Image
+
+BASE = ("--models", "corn_a", "corn_b", "--name", "field")
+
+
+def _bytes(folder):
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+@pytest.fixture()
+def plan(tmp_path):
+    """Write a YAML file with more lines; returns its path."""
+
+    def write(*lines):
+        path = tmp_path / "field.yaml"
+        path.write_text(
+            "\n".join(("name: field", "models: [corn_a, corn_b]", "output: out", *lines)) + "\n"
+        )
+        return path
+
+    return write
+
+
+def test_yaml_and_arguments_make_the_same_field(generate_field, tmp_path, plan):
+    path = plan(
+        "seed: 5",
+        "rows_per_plot: 6",
+        "noise_covariance_m2: [1e-4, 4e-4]",
+        "stalks_per_row: 30",
+        "gaps: 3",
+    )
+    assert generate_field(path) == (0, "")
+    arguments = (
+        "--seed",
+        5,
+        "--rows",
+        6,
+        "--noise-covariance",
+        "1e-4",
+        "4e-4",
+        "--stalks-per-row",
+        30,
+        "--gaps",
+        3,
+    )
+    assert generate_field(*BASE, *arguments, "--output", tmp_path / "b")[0] == 0
+    assert _bytes(tmp_path / "out") == _bytes(tmp_path / "b")  # its output is relative to the file
+
+
+def test_arguments_win_over_the_file(generate_field, tmp_path, plan):
+    path = plan("seed: 5", "rows_per_plot: 6", "stalks_per_row: 30")
+    assert generate_field(path, "--rows", 2, "--row-length", "1.66")[0] == 0
+    truth = json.loads((tmp_path / "out" / "field" / "truth.json").read_text())
+    assert truth["planned"] == 2 * 11 and truth["seed"] == 5
+
+
+def test_centres_listed_in_the_file(generate_field, tmp_path, plan):
+    path = plan(
+        "centers: [[1, 2], [3.5, 4]]",
+        "noise_covariance_m2: [0, 0]",
+        "emergence_min: 1",
+        "emergence_max: 1",
+    )
+    assert generate_field(path)[0] == 0
+    with (tmp_path / "out" / "field" / "truth.csv").open() as file:
+        assert [(row["x_m"], row["y_m"]) for row in csv.DictReader(file)] == [
+            ("1.0", "2.0"),
+            ("3.5", "4.0"),
+        ]
+
+
+def test_rows_of_a_users_own_plan(generate_field, tmp_path):
+    path = tmp_path / "plan.csv"
+    path.write_text("x_m,y_m,row,plot\n0,0,0,0\n1,0,1,0\n0,-1,0,0\n1,-1,1,0\n")
+    certain = ("--noise-covariance", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
+    assert generate_field(*BASE, *certain, "--centers", path, "--output", tmp_path)[0] == 0
+    truth = json.loads((tmp_path / "field" / "truth.json").read_text())
+    assert [row["line_m"] for row in truth["rows"]] == [[[0, 0], [0, -1]], [[1, 0], [1, -1]]]
+    assert truth["plants"]["place"] == [0, 0, 1, 1]
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [
+        ("row_spaceing_m: 1", "field.yaml:4: unknown key 'row_spaceing_m', known: "),
+        (
+            "row_spacing_m: wide",
+            "field.yaml:4: row_spacing_m: found 'wide', expected 0.01 to 100000 m",
+        ),
+        ("rows_per_plot: 2.5", "field.yaml:4: rows_per_plot: found 2.5, expected a whole number"),
+        ("rows_per_plot: true", "field.yaml:4: rows_per_plot: found True"),
+        ("doubles: 1.5", "field.yaml:4: doubles: found 1.5, expected 0 to 1"),
+        ("stalk_spacing_m: -0.1", "field.yaml:4: stalk_spacing_m: found -0.1"),
+        ("row_shape: spiral", "field.yaml:4: row_shape: found 'spiral', expected one of straight"),
+        ("name: again", "field.yaml:4: found key 'name' a second time, first in line 1"),
+        ("models: [1]", "field.yaml:4: found key 'models' a second time"),
+        ("noise_covariance_m2: 3", "field.yaml:4: noise_covariance_m2: found 3, expected a list"),
+        ("centers: [[1, 2], [3]]", "centers: expected a list of 1 to"),
+        ("world_pose: [0, 0]", "field.yaml:4: world_pose: found [0, 0], expected 3 values"),
+        ("a: [", "field.yaml: not valid YAML"),
+        ("seed: -1", "field.yaml:4: seed: found -1"),
+    ],
+)
+def test_bad_files_name_file_and_line(generate_field, tmp_path, plan, line, message):
+    assert generate_field(plan())[0] == 0
+    before = _bytes(tmp_path / "out")
+    code, error = generate_field(plan(line))
+    assert code == 2 and message in error and error.count("\n") == 1
+    assert _bytes(tmp_path / "out") == before
+
+
+@pytest.fixture()
+def bad_files(tmp_path):
+    """Files that are not what they should be."""
+    (tmp_path / "not.png").write_text("no image")
+    Image.new("L", (4, 4)).save(tmp_path / "black.png")
+    (tmp_path / "broken.csv").write_text("x_m,y_m\n1,2\n3,4\n5;6\n7,8\n")
+    (tmp_path / "file").write_text("")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        (("--stalk-spacing", "0"), "stalk spacing: found 0.0, expected 0.01 to 100000 m"),
+        (("--stalk-spacing", "nan"), "stalk spacing: found nan"),
+        (("--row-spacing", "-1"), "row spacing: found -1.0"),
+        (("--emergence-min", "-0.1"), "emergence min: found -0.1, expected 0 to 1"),
+        (("--lodging", "2"), "lodging: found 2.0, expected 0 to 1"),
+        (("--doubles", "-1"), "doubles: found -1.0"),
+        (("--rows", "0"), "rows per plot: found 0"),
+        (("--gaps", "5000"), "gaps: found 5000"),
+        (("--centers", "{dir}/broken.csv"), "broken.csv: line 4: found"),
+        (
+            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/not.png"),
+            "not.png: not a readable image",
+        ),
+        (
+            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/black.png"),
+            "found a black image",
+        ),
+        (
+            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/none.png"),
+            "none.png: cannot be read",
+        ),
+        (("--weed-density", "1", "--weed-models", "weed_z"), "model 'weed_z': not found"),
+        (("--weed-density", "-1"), "weed density per m2: found -1.0|weed density: found -1.0"),
+        (("--output", "{dir}/file"), "file: cannot be written"),
+        (("--row-length", "5", "--stalks-per-row", "7"), "expected one of them"),
+        (("--row-shape", "expression", "--row-expression", "open('x')"), "row expression"),
+        (("--unknown", "1"), "unrecognized arguments: --unknown"),
+    ],
+)
+def test_bad_arguments_are_one_message_and_change_nothing(
+    generate_field, bad_files, arguments, message
+):
+    out = bad_files / "out"
+    assert generate_field(*BASE, "--output", out)[0] == 0
+    before = _bytes(out)
+    words = [str(a).format(dir=bad_files) for a in arguments]
+    code, error = generate_field(*BASE, "--output", out, *words)
+    assert code == 2 and error.count("\n") == 1
+    assert any(part in error for part in message.split("|"))
+    assert _bytes(out) == before
+
+
+def test_help_gives_units(capsys):
+    from ardee_world.cli import make_parser
+
+    text = make_parser().format_help()
+    for words in (
+        "--row-spacing M",
+        "[m]",
+        "--lodging-direction DEG",
+        "[deg]",
+        "[1/m^2]",
+        "[m^2]",
+        "--gps-origin LAT LON",
+    ):
+        assert words in text

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""The shell scripts of thesis 4.6.3: a field and a terrain put together, the dialogue, the clean shutdown."""
+import os
+import pathlib
+import subprocess
+
+import probes
+import pytest
+from ros_graph import RosGraph, wait_until
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
+LISTING_4_4 = ("ardee_world/urdf/corn_plot.urdf.xacro", "ardee_models/heightmap_ground")
+QUESTION = "Do you want to continue? Enter (y) or (n)"
+
+
+def _left(graph: RosGraph) -> bool:
+    return not graph.alive()
+
+
+@pytest.mark.parametrize("script", ["run_custom_world", "run_demo_world"])
+def test_ctrl_c_ends_world_and_robot_and_nothing_else(graph: RosGraph, script: str) -> None:
+    bystander = graph.spawn("rostopic", "echo", "/clock")
+    names = LISTING_4_4 if script == "run_custom_world" else ()
+    run = graph.spawn(str(SCRIPTS / script), "-y", *names, "use_rviz:=false")
+    graph.call(probes.wait_for_topics, ["/odom", "/ardee/hokuyo"], [])
+    assert graph.call(probes.clock_at_least, 0.5) >= 0.5
+    run.interrupt()
+    assert run.wait(60.0) == 0
+    assert "_____ CTRL-C Triggered [EXITING] _____" in run.output()
+    assert "***** Simulation Exited *****" in run.output() and "escalating" not in run.output()
+    assert bystander.exit_code() is None
+    bystander.stop()
+    wait_until(lambda: _left(graph), f"all ended; left: {graph.alive()}", 10.0)
+
+
+@pytest.mark.parametrize("answer", [b"n", b""])
+def test_no_ends_it_and_so_does_the_end_of_input(graph: RosGraph, answer: bytes) -> None:
+    result = subprocess.run(
+        [str(SCRIPTS / "run_custom_world"), *LISTING_4_4],
+        env=graph.env,
+        input=answer,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=90,
+    )
+    text = result.stdout.decode()
+    assert result.returncode == 0 and QUESTION in text and text.endswith("Simulation Exited\n")
+    assert "spawn_terrasentia" not in text
+    wait_until(lambda: _left(graph), f"all ended; left: {graph.alive()}", 10.0)
+
+
+def test_without_names_the_world_is_empty_and_its_files_can_be_kept(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    kept = tmp_path / "kept"
+    run = graph.spawn(str(SCRIPTS / "run_custom_world"), "-o", str(kept))
+    assert run.wait(90.0) == 0 and QUESTION in run.output()
+    assert "empty.urdf.xacro ardee_models/heightmap_flat ardee_geofence/" in run.output()
+    made = {str(p.relative_to(kept)) for p in kept.rglob("*") if p.is_file()}
+    for name in ("worlds/custom.world", "models/custom_field/plots.xacro"):
+        assert name in made
+    geofence = (kept / "ardee_geofence" / "custom_gps_behavior.geofence").read_bytes()
+    source = SCRIPTS.parent / "src" / "ardee_geofence" / "default_gps_behavior.geofence"
+    assert geofence == source.read_bytes()
+
+
+def test_a_running_simulator_is_left_alone(graph: RosGraph) -> None:
+    world = graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
+    graph.call(probes.clock_at_least, 0.1)
+    run = graph.spawn(str(SCRIPTS / "run_custom_world"), "-y")
+    assert run.wait(60.0) == 2 and "a simulator runs at" in run.output()
+    assert world.exit_code() is None
+
+
+@pytest.mark.parametrize("names", [("no.urdf.xacro",), (LISTING_4_4[0], "no_terrain")])
+def test_what_is_not_there_is_said_once(graph: RosGraph, names: tuple) -> None:
+    before = set(os.listdir(graph.folder))
+    run = graph.spawn(str(SCRIPTS / "run_custom_world"), "-y", *names)
+    assert run.wait(60.0) == 2
+    assert run.output().count("assemble_world: ") == 1 and "roslaunch" not in run.output()
+    assert set(os.listdir(graph.folder)) - before <= {run.log.name}
