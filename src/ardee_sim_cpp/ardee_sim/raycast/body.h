@@ -26,8 +26,8 @@ struct BodySurface {
   bool casts_shadows = true;
   const Visual* visual = nullptr;
   const Material* material = nullptr;
-  const SubMesh* part = nullptr;   // of a mesh
-  std::uint32_t first_vertex = 0;  // of the part, in the body
+  const SubMesh* part = nullptr;                                  // of a mesh
+  std::uint32_t first_vertex = 0;                                 // of the part, in the body
   Eigen::Matrix3d normals_to_body = Eigen::Matrix3d::Identity();  // from the part's
 };
 

@@ -129,10 +129,10 @@ void RayQuery::meet_patch(const TerrainPatch& patch) {
   const Terrain& terrain = entered_->body->terrains[patch.terrain];
   const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
                 terrain.R_BS.transpose() * ray_B_.direction};
-  terrain.heights.meet(patch.cells, ray, best_t_,
-                       [&](const TriangleHit& hit, std::uint32_t number) {
-                         offer({hit.t, terrain.surface, number, patch.terrain, terrain.R_BS * hit.normal});
-                       });
+  terrain.heights.meet(
+      patch.cells, ray, best_t_, [&](const TriangleHit& hit, std::uint32_t number) {
+        offer({hit.t, terrain.surface, number, patch.terrain, terrain.R_BS * hit.normal});
+      });
 }
 
 void RayQuery::meet_piece(const Piece& piece) {

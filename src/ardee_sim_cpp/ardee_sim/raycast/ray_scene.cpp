@@ -163,8 +163,9 @@ void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* point
 }
 
 void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const {
-  impl_->cast(rays, count, RayQuery::Purpose::kShadow,
-              [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
+  impl_->cast(
+      rays, count, RayQuery::Purpose::kShadow,
+      [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {

@@ -29,7 +29,7 @@ struct SurfacePoint {
   const Visual* visual = nullptr;      // null in a collision scene
   const Material* material = nullptr;  // the visual's, else the mesh file's; null: none
   bool two_sided = false;
-  Eigen::Vector3d normal_W{0, 0, 0};  // unit, towards the ray's origin
+  Eigen::Vector3d normal_W{0, 0, 0};         // unit, towards the ray's origin
   Eigen::Vector3d smooth_normal_W{0, 0, 0};  // of the vertices between, where there are any
   Eigen::Vector3d point_S{0, 0, 0};          // in the shape's axes; a mesh's: in the body's
   Eigen::Vector2d uv{0, 0};                  // v upwards from the texture's lower edge
