@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/render/renderer.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <atomic>
-#include <cmath>
+#include <memory>
 
 #include "ardee_sim/render/tile.h"
 
@@ -33,6 +34,12 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   const int count = columns * tiles_along(camera.height);
   std::atomic<int> done{0};
   std::atomic<bool> stopped{false};
+  // TBB has no more workers than cores unless it is told.
+  std::unique_ptr<tbb::global_control> workers;
+  if (options.threads > tbb::info::default_concurrency()) {
+    workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(options.threads));
+  }
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(0, count, [&](int tile) {

@@ -18,6 +18,17 @@ constexpr double kOffset_m = 1e-4;
 constexpr int kMaxLayers = 8;
 constexpr float kOpaque = 0.999f;
 
+/// Share of the light on the far side of a two-sided sheet that comes through, beside what it
+/// would reflect on the near side: leaves pass less visible light than they reflect.
+constexpr double kSheetTransmission = 0.4;
+
+/// Two-sided meshes are sheets, as leaves are. Where one encloses something, its own far wall keeps
+/// the light out.
+bool is_sheet(const SurfacePoint& point) {
+  return point.two_sided && point.visual != nullptr &&
+         std::holds_alternative<Mesh>(point.visual->geometry);
+}
+
 /// One look through a pixel: what it has gathered, and what of the light is still to come.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};
@@ -130,8 +141,15 @@ class Tile {
                const Eigen::Vector3f& diffuse, std::size_t i) {
     const auto found = illuminate(light, at_W);
     if (!found) return;
-    const double cosine = point.smooth_normal_W.dot(found->to_light_W);
-    if (cosine <= 0.0 || point.normal_W.dot(found->to_light_W) <= 0.0) return;
+    double cosine = point.smooth_normal_W.dot(found->to_light_W);
+    Eigen::Vector3d lit_side_W = point.normal_W;
+    const bool lit_from_behind = cosine <= 0.0;
+    if (lit_from_behind) {
+      if (!is_sheet(point)) return;
+      cosine *= -kSheetTransmission;
+      lit_side_W = -lit_side_W;
+    }
+    if (lit_side_W.dot(found->to_light_W) <= 0.0) return;
     const Eigen::Vector3f arriving =
         static_cast<float>(cosine) * diffuse.cwiseProduct(found->color);
     if (!s_.options.shadows || !s_.scene.shadows || !light.cast_shadows) {
@@ -139,8 +157,7 @@ class Tile {
       return;
     }
     const double reach_m = std::min(found->distance_m, s_.options.max_range_m);
-    shadow_rays_.push_back(
-        {at_W + kOffset_m * point.normal_W, found->to_light_W, reach_m - kOffset_m});
+    shadow_rays_.push_back({at_W + kOffset_m * lit_side_W, found->to_light_W, reach_m - kOffset_m});
     waiting_.push_back({owners_[i], arriving});
   }
 
