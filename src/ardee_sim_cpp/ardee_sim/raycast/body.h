@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/description/model.h"
 #include "ardee_sim/raycast/alpha_mask.h"
 #include "ardee_sim/raycast/embree_scene.h"
 #include "ardee_sim/raycast/height_patch.h"
@@ -21,6 +22,13 @@ struct BodySurface {
   float laser_retro = 0.0f;
   bool two_sided = true;
   std::shared_ptr<const AlphaMask> mask;  // null: no holes
+  // For pictures.
+  bool casts_shadows = true;
+  const Visual* visual = nullptr;
+  const Material* material = nullptr;
+  const SubMesh* part = nullptr;                                  // of a mesh
+  std::uint32_t first_vertex = 0;                                 // of the part, in the body
+  Eigen::Matrix3d normals_to_body = Eigen::Matrix3d::Identity();  // from the part's
 };
 
 struct BodyTriangle {

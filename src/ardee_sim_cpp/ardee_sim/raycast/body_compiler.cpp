@@ -13,6 +13,8 @@ namespace {
 
 /// With fewer pieces a loop over them beats a tree.
 constexpr std::size_t kTreeThreshold = 3;
+/// Visuals at least this transparent cast no shadow.
+constexpr double kThin = 0.5;
 
 /// Collects the shapes of links into a body.
 class BodyCompiler {
@@ -22,6 +24,7 @@ class BodyCompiler {
 
   void add_link(std::uint32_t link, const Pose& X_BL) {
     const Link& description = model_.links[link];
+    surface_ = BodySurface{};
     surface_.link = link;
     if (kind_ == SceneKind::kCollision) {
       for (std::size_t k = 0; k < description.collisions.size(); ++k) {
@@ -33,6 +36,8 @@ class BodyCompiler {
     for (std::size_t k = 0; k < description.visuals.size(); ++k) {
       const Visual& shape = description.visuals[k];
       const Material* material = shape.material ? &*shape.material : nullptr;
+      surface_.visual = &shape;
+      surface_.casts_shadows = shape.cast_shadows && shape.transparency < kThin;
       add_shape(shape.name, k, X_BL * shape.X_LV, shape.laser_retro, material, shape.geometry);
     }
   }
@@ -47,6 +52,7 @@ class BodyCompiler {
     surface_.laser_retro = static_cast<float>(laser_retro);
     surface_.two_sided = sides(material);
     material_ = material;
+    surface_.material = material;
     next_primitive_ = 0;
     if (!X_BS.is_finite()) throw error("its pose is not finite");
     X_BS_ = X_BS;
@@ -194,13 +200,18 @@ void BodyCompiler::add_part(const SubMesh& part, const Mesh& mesh, const Eigen::
   const Material* material = material_ != nullptr ? material_ : own;
   surface_.two_sided = sides(material);
   surface_.mask = holes(material, part);
+  surface_.material = material;
+  surface_.part = &part;
   const auto base = static_cast<std::uint32_t>(body_->vertices.size());
+  surface_.first_vertex = base;
+  surface_.normals_to_body = X_BS_.q.toRotationMatrix() * mesh.scale.cwiseInverse().asDiagonal();
   if (surface_.mask != nullptr) {
     body_->texcoords.resize(base);
     body_->texcoords.insert(body_->texcoords.end(), part.texcoords.begin(), part.texcoords.end());
   }
   const std::uint32_t surface = add_surface();
   surface_.mask.reset();
+  surface_.part = nullptr;
   for (const Eigen::Vector3f& vertex : part.vertices) {
     const Eigen::Vector3d scaled = mesh.scale.cwiseProduct(vertex.cast<double>() - center);
     const Eigen::Vector3f placed = (X_BS_ * scaled).cast<float>();

@@ -45,6 +45,26 @@ std::vector<HeightPatch> HeightSurface::patches() const {
   return result;
 }
 
+Eigen::Vector3d HeightSurface::smooth_normal(const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d place = (point - corner_m_.head<2>()).cwiseQuotient(cell_m_);
+  const auto slope_at = [this](int column, int row) -> Eigen::Vector2d {
+    const int left = std::max(column - 1, 0), right = std::min(column + 1, grid_->columns - 1);
+    const int below = std::max(row - 1, 0), above = std::min(row + 1, grid_->rows - 1);
+    const float dx = grid_->at(right, row) - grid_->at(left, row);
+    const float dy = grid_->at(column, above) - grid_->at(column, below);
+    return {static_cast<double>(dx) / ((right - left) * cell_m_.x()),
+            static_cast<double>(dy) / ((above - below) * cell_m_.y())};
+  };
+  const int column = std::clamp(static_cast<int>(std::floor(place.x())), 0, grid_->columns - 2);
+  const int row = std::clamp(static_cast<int>(std::floor(place.y())), 0, grid_->rows - 2);
+  const double u = std::clamp(place.x() - column, 0.0, 1.0);
+  const double v = std::clamp(place.y() - row, 0.0, 1.0);
+  const Eigen::Vector2d slope =
+      (1.0 - v) * ((1.0 - u) * slope_at(column, row) + u * slope_at(column + 1, row)) +
+      v * ((1.0 - u) * slope_at(column, row + 1) + u * slope_at(column + 1, row + 1));
+  return Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
+}
+
 Bounds HeightSurface::bounds(const HeightPatch& patch) const {
   Bounds result;
   for (int row = patch.row; row <= patch.row + patch.rows; ++row) {

@@ -28,6 +28,8 @@ class HeightSurface {
   HeightSurface(std::shared_ptr<const HeightGrid> grid, const Eigen::Vector3d& position_m);
 
   std::vector<HeightPatch> patches() const;
+  /// The unit normal at a point, as it would be if the heights were joined smoothly.
+  Eigen::Vector3d smooth_normal(const Eigen::Vector2d& point) const;
   Bounds bounds(const HeightPatch& patch) const;
   /// Calls `found` for each triangle met with t in [0, t_high]; the number of a triangle is 2 *
   /// cell or 2 * cell + 1.

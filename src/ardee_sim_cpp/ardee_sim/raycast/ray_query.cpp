@@ -10,6 +10,8 @@ namespace {
 
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
 constexpr double kBlockSlack = 2e-6;
+/// The reach of a ray that has found what it was sent for.
+constexpr double kNothingMatters = -1.0;
 
 }  // namespace
 
@@ -24,12 +26,19 @@ bool RayQuery::precedes(const Candidate& candidate) const {
 void RayQuery::offer(const Candidate& candidate) {
   const BodySurface& surface = entered_->body->surfaces[candidate.surface];
   if (!precedes(candidate)) return;
+  if (purpose_ == Purpose::kShadow) {
+    if (!surface.casts_shadows) return;
+    best_t_ = kNothingMatters;
+    placed_ = entered_;
+    return;
+  }
   if (!surface.two_sided && candidate.normal_B.dot(ray_B_.direction) > 0.0) return;
   if (passes(entered_->entity, surface.link)) return;
   best_t_ = candidate.t;
   placed_ = entered_;
   surface_ = candidate.surface;
   primitive_ = candidate.primitive;
+  item_ = candidate.item;
   normal_B_ = candidate.normal_B;
 }
 
@@ -55,7 +64,7 @@ void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[
       if (body.surfaces[triangle.surface].mask != nullptr && is_hole(triangle, hit.weights)) {
         continue;
       }
-      offer({hit.t, triangle.surface, triangle.primitive, hit.normal});
+      offer({hit.t, triangle.surface, triangle.primitive, block.first + lane, hit.normal});
     }
   }
 }
@@ -80,6 +89,7 @@ void RayQuery::meet_block(const TriangleBlock& block) {
 }
 
 void RayQuery::meet_solid(const Solid& solid) {
+  const auto item = static_cast<std::uint32_t>(&solid - entered_->body->solids.data());
   const Ray ray{solid.R_BS.transpose() * (ray_B_.origin - solid.p_BS),
                 solid.R_BS.transpose() * ray_B_.direction};
   const bool two_sided = entered_->body->surfaces[solid.surface].two_sided;
@@ -102,16 +112,16 @@ void RayQuery::meet_solid(const Solid& solid) {
       const Eigen::Vector2d point = ray.at(t).head<2>().cwiseAbs();
       const bool inside = point.x() <= solid.half_m.x() && point.y() <= solid.half_m.y();
       if (solid.kind == Solid::Kind::kGround || inside) {
-        offer({t, solid.surface, 0, solid.R_BS.col(2)});
+        offer({t, solid.surface, 0, item, solid.R_BS.col(2)});
       }
       return;
     }
   }
   if (!met) return;
   if (chord.t_in >= 0.0) {
-    offer({chord.t_in, solid.surface, 0, solid.R_BS * chord.normal_in});
+    offer({chord.t_in, solid.surface, 0, item, solid.R_BS * chord.normal_in});
   } else if (two_sided && chord.t_out >= 0.0) {
-    offer({chord.t_out, solid.surface, 0, solid.R_BS * chord.normal_out});
+    offer({chord.t_out, solid.surface, 0, item, solid.R_BS * chord.normal_out});
   }
 }
 
@@ -119,10 +129,10 @@ void RayQuery::meet_patch(const TerrainPatch& patch) {
   const Terrain& terrain = entered_->body->terrains[patch.terrain];
   const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
                 terrain.R_BS.transpose() * ray_B_.direction};
-  terrain.heights.meet(patch.cells, ray, best_t_,
-                       [&](const TriangleHit& hit, std::uint32_t number) {
-                         offer({hit.t, terrain.surface, number, terrain.R_BS * hit.normal});
-                       });
+  terrain.heights.meet(
+      patch.cells, ray, best_t_, [&](const TriangleHit& hit, std::uint32_t number) {
+        offer({hit.t, terrain.surface, number, patch.terrain, terrain.R_BS * hit.normal});
+      });
 }
 
 void RayQuery::meet_piece(const Piece& piece) {

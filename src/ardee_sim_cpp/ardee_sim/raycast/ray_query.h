@@ -16,8 +16,13 @@ namespace ardee {
 /// primitive). So the result is the same whatever way led to the candidates.
 class RayQuery {
  public:
+  /// Shadow: whatever casts one ends the ray, near or far, seen from either side.
+  enum class Purpose { kNearest, kShadow };
+
   /// Rays meet nothing of the link (own_entity, own_link).
-  void start(const Ray& ray_W, double reach_m, std::uint32_t own_entity, std::uint32_t own_link) {
+  void start(const Ray& ray_W, double reach_m, std::uint32_t own_entity, std::uint32_t own_link,
+             Purpose purpose = Purpose::kNearest) {
+    purpose_ = purpose;
     ray_W_ = ray_W;
     best_t_ = reach_m;
     own_entity_ = own_entity;
@@ -49,12 +54,14 @@ class RayQuery {
   void meet_solid(const Solid& solid);
 
   void fill(RayHit& hit) const;
+  void fill(SurfacePoint& point) const;
 
  private:
   struct Candidate {
     double t;
     std::uint32_t surface;
     std::uint32_t primitive;
+    std::uint32_t item;  // index of the triangle, solid or terrain in the body
     Eigen::Vector3d normal_B;
   };
 
@@ -62,16 +69,21 @@ class RayQuery {
   void meet_patch(const TerrainPatch& patch);
   void offer(const Candidate& candidate);
   bool precedes(const Candidate& candidate) const;
+  void fill_triangle(SurfacePoint& point) const;
+  void fill_solid(SurfacePoint& point) const;
+  void fill_terrain(SurfacePoint& point) const;
 
   Ray ray_W_;
   Ray ray_B_;
   double best_t_ = 0.0;
   std::uint32_t own_entity_ = kNoEntity;
   std::uint32_t own_link_ = 0;
+  Purpose purpose_ = Purpose::kNearest;
   const PlacedBody* entered_ = nullptr;
   const PlacedBody* placed_ = nullptr;  // what the nearest hit belongs to
   std::uint32_t surface_ = 0;
   std::uint32_t primitive_ = 0;
+  std::uint32_t item_ = 0;
   Eigen::Vector3d normal_B_;
 };
 

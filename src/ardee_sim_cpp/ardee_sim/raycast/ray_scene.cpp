@@ -60,6 +60,24 @@ struct RayScene::Impl {
     if (onwards) scenery.meet_places(queries, t_low);
   }
 
+  /// Rays of any origins, in packets.
+  template <typename Take>
+  void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, Take take) const {
+    if (!scenery.committed()) throw Error("ray scene: prepare() must follow a change of scenery");
+    for (std::size_t first = 0; first < count; first += kPacketRays) {
+      const int packet = static_cast<int>(std::min<std::size_t>(kPacketRays, count - first));
+      RayQuery queries[kPacketRays];
+      const NearRegion* region = regions.find(rays[first].origin_W);
+      for (int k = 0; k < packet; ++k) {
+        const SceneRay& ray = rays[first + static_cast<std::size_t>(k)];
+        queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, kNoEntity, 0, purpose);
+        if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
+      }
+      cast(queries, packet, region);
+      for (int k = 0; k < packet; ++k) take(queries[k], first + static_cast<std::size_t>(k));
+    }
+  }
+
   EmbreeDevice device;
   AlphaMasks masks;
   SceneryStore scenery;
@@ -137,6 +155,23 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
           }
         });
   });
+}
+
+void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest,
+              [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
+}
+
+void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const {
+  impl_->cast(
+      rays, count, RayQuery::Purpose::kShadow,
+      [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
+}
+
+std::vector<Bounds> RayScene::scenery_boxes() const {
+  std::vector<Bounds> boxes;
+  for (const PlacedBody* placed : impl_->scenery.places()) boxes.push_back(placed->bounds_W());
+  return boxes;
 }
 
 std::size_t RayScene::memory_bytes() const {

@@ -8,13 +8,13 @@
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
+#include "ardee_sim/raycast/bounds.h"
+#include "ardee_sim/raycast/surface_point.h"
 
 namespace ardee {
 
 /// Which bodies of the links rays meet (thesis 4.3.3).
 enum class SceneKind { kVisual, kCollision };
-
-constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
 
 /// What a ray met first.
 struct RayHit {
@@ -72,6 +72,15 @@ class RayScene {
   /// Inside it the work is parallel; call it from one thread at a time.
   void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
             std::uint32_t own_entity, std::uint32_t own_link, std::vector<RayHit>& hits) const;
+
+  /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
+  /// best asked side by side. The work is the caller's thread's; many threads may call at once.
+  void look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
+  /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.
+  void find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
+
+  /// About each place of the scenery, infinite planes left out; valid after prepare().
+  std::vector<Bounds> scenery_boxes() const;
 
   /// For benchmarks: bytes held by Embree and near regions, and triangles in the latter.
   std::size_t memory_bytes() const;

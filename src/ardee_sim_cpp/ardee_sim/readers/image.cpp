@@ -136,4 +136,33 @@ Image read_gray_image(const std::string& path, const Source& source) {
   return image;
 }
 
+void write_png(const std::string& path, const Image& image) {
+  const Source source{path, 0, ""};
+  if (image.channels != 4 || image.samples8.empty()) {
+    throw Error(source, "found a picture without colours, expected one to write");
+  }
+  initialize_library();
+  const std::string partial = path + ".part";
+  std::error_code error;
+  try {
+    Magick::Image picture(static_cast<std::size_t>(image.width),
+                          static_cast<std::size_t>(image.height), "RGBA", Magick::CharPixel,
+                          image.samples8.data());
+    picture.matte(false);
+    picture.depth(8);
+    picture.defineValue("png", "exclude-chunks", "date,time,text");
+    picture.defineValue("png", "color-type", "2");
+    picture.write("png:" + partial);
+  } catch (const Magick::Exception& problem) {
+    std::filesystem::remove(partial, error);
+    throw Error(source, "cannot write the picture (" + reason(problem) + ")");
+  }
+  std::filesystem::rename(partial, path, error);
+  if (error) {
+    const std::string why = error.message();
+    std::filesystem::remove(partial, error);
+    throw Error(source, "cannot write the picture (" + why + ")");
+  }
+}
+
 }  // namespace ardee

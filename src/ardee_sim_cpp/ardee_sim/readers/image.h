@@ -34,4 +34,8 @@ Image read_color_image(const std::string& path, const Source& source);
 /// image.
 Image read_gray_image(const std::string& path, const Source& source);
 
+/// Writes red, green and blue of a colour image; the same image gives the same bytes. Throws Error
+/// and leaves what was there if it cannot be written.
+void write_png(const std::string& path, const Image& image);
+
 }  // namespace ardee

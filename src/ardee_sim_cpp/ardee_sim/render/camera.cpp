@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/render/camera.h"
+
+#include <cmath>
+
+#include "ardee_sim/core/error.h"
+
+namespace ardee {
+
+double Camera::focal_length_px() const { return 0.5 * width / std::tan(0.5 * horizontal_fov_rad); }
+
+Eigen::Vector3d Camera::direction_W(double x_px, double y_px) const {
+  const double f = focal_length_px();
+  const Eigen::Vector3d direction_C(f, 0.5 * width - x_px, 0.5 * height - y_px);
+  return X_WC.q * direction_C.normalized();
+}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& point_W) const {
+  const Eigen::Vector3d point_C = X_WC.q.conjugate() * (point_W - X_WC.p);
+  if (!(point_C.x() > 0.0)) return std::nullopt;
+  const double scale = focal_length_px() / point_C.x();
+  return Eigen::Vector2d(0.5 * width - scale * point_C.y(), 0.5 * height - scale * point_C.z());
+}
+
+Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W) {
+  const Eigen::Vector3d way = target_W - eye_W;
+  if (!way.allFinite() || way.norm() < 1e-9) {
+    throw Error("found a camera at the point that it looks at, expected two different points");
+  }
+  const double yaw = way.head<2>().norm() > 1e-12 ? std::atan2(way.y(), way.x()) : 0.0;
+  const double pitch = -std::atan2(way.z(), way.head<2>().norm());
+  return Pose::from_xyz_rpy(eye_W, {0.0, pitch, yaw});
+}
+
+}  // namespace ardee

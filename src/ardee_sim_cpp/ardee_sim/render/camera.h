@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "ardee_sim/core/pose.h"
+
+namespace ardee {
+
+/// A pinhole camera with SDF's axes: x forward, y left, z up.
+struct Camera {
+  Pose X_WC;
+  int width = 1280;
+  int height = 720;
+  double horizontal_fov_rad = 1.0471975511965976;  // 60 degrees
+
+  /// Pixels between the middle of the picture and 45 degrees off axis.
+  double focal_length_px() const;
+  /// The unit direction in the world through (x, y) in pixels; (0, 0) is the upper left corner of
+  /// the upper left pixel.
+  Eigen::Vector3d direction_W(double x_px, double y_px) const;
+  /// Where in the picture a point lies; none behind the camera.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_W) const;
+};
+
+/// A camera's pose at `eye_W` that looks at `target_W`, z upwards in the picture. Throws Error if
+/// they are the same.
+Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W);
+
+}  // namespace ardee

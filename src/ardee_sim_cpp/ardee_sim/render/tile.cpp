@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/render/tile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "ardee_sim/render/lights.h"
+#include "ardee_sim/render/sky.h"
+#include "ardee_sim/render/tone.h"
+
+namespace ardee {
+namespace {
+
+/// A new ray starts this far off the surface that it leaves.
+constexpr double kOffset_m = 1e-4;
+/// So many transparent surfaces one behind the other are looked through.
+constexpr int kMaxLayers = 8;
+constexpr float kOpaque = 0.999f;
+
+/// Share of the light on the far side of a two-sided sheet that comes through, beside what it
+/// would reflect on the near side: leaves pass less visible light than they reflect.
+constexpr double kSheetTransmission = 0.4;
+
+/// Two-sided meshes are sheets, as leaves are. Where one encloses something, its own far wall keeps
+/// the light out.
+bool is_sheet(const SurfacePoint& point) {
+  return point.two_sided && point.visual != nullptr &&
+         std::holds_alternative<Mesh>(point.visual->geometry);
+}
+
+/// One look through a pixel: what it has gathered, and what of the light is still to come.
+struct Sample {
+  Eigen::Vector3f light{0, 0, 0};
+  float rest = 1.0f;
+  double travelled_m = 0.0;
+};
+
+/// A lit point that waits for the answer of its shadow ray.
+struct Waiting {
+  std::size_t sample;
+  Eigen::Vector3f light;
+};
+
+/// The bits of a number mirrored behind the binary point: with k / n an even pattern (Hammersley).
+double mirrored_bits(unsigned number) {
+  double result = 0.0;
+  for (double bit = 0.5; number != 0; number >>= 1, bit *= 0.5) {
+    if ((number & 1u) != 0) result += bit;
+  }
+  return result;
+}
+
+class Tile {
+ public:
+  Tile(const TileShading& shading, const TileArea& area) : s_(shading), area_(area) {
+    const double cone = 1.0 / s_.camera.focal_length_px();
+    pixel_rad_ = cone / std::sqrt(static_cast<double>(s_.options.samples));
+  }
+
+  void shade() {
+    start();
+    for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
+      points_.resize(rays_.size());
+      s_.rays.look(rays_.data(), rays_.size(), points_.data());
+      shade_layer(layer + 1 == kMaxLayers);
+      add_unshadowed();
+      rays_.swap(next_rays_);
+      owners_.swap(next_owners_);
+      next_rays_.clear();
+      next_owners_.clear();
+    }
+  }
+
+  void write(Image& image) const {
+    const auto count = static_cast<std::size_t>(s_.options.samples);
+    for (int k = 0; k < area_.width * area_.height; ++k) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (std::size_t i = 0; i < count; ++i) {
+        const Sample& sample = samples_[static_cast<std::size_t>(k) * count + i];
+        sum += sample.light.unaryExpr(&tone);
+      }
+      const std::size_t at =
+          image.index(area_.left + k % area_.width, area_.upper + k / area_.width);
+      for (int c = 0; c < 3; ++c) {
+        image.samples8[at + static_cast<std::size_t>(c)] =
+            to_byte(sum[c] / static_cast<float>(count));
+      }
+      image.samples8[at + 3] = 255;
+    }
+  }
+
+ private:
+  void start() {
+    const int count = s_.options.samples;
+    for (int k = 0; k < area_.width * area_.height; ++k) {
+      const double x = area_.left + k % area_.width;
+      const double y = area_.upper + k / area_.width;
+      for (int i = 0; i < count; ++i) {
+        const double dx = (i + 0.5) / count;
+        const double dy = mirrored_bits(static_cast<unsigned>(i)) + 0.5 / count;
+        rays_.push_back({s_.camera.X_WC.p, s_.camera.direction_W(x + dx, y + std::fmod(dy, 1.0)),
+                         s_.options.max_range_m});
+        owners_.push_back(samples_.size());
+        samples_.emplace_back();
+      }
+    }
+  }
+
+  void shade_layer(bool last) {
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      Sample& sample = samples_[owners_[i]];
+      const SurfacePoint& point = points_[i];
+      if (!point.met()) {
+        sample.light += sample.rest * sky_color(s_.scene, rays_[i].direction_W);
+        continue;
+      }
+      sample.travelled_m += point.range_m;
+      const double slant =
+          std::max(std::abs(point.smooth_normal_W.dot(rays_[i].direction_W)), 0.05);
+      const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
+      const Look look = s_.looks.at(point, footprint_m);
+      const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
+      const Eigen::Vector3d at_W = rays_[i].origin_W + point.range_m * rays_[i].direction_W;
+      const float share = sample.rest * opacity;
+      const Eigen::Vector3f ambient = ambient_light(s_.scene, point.smooth_normal_W);
+      sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
+      for (const Light& light : s_.lights) send_to(light, at_W, point, share * look.diffuse, i);
+      sample.rest *= 1.0f - opacity;
+      if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, i);
+    }
+  }
+
+  void look_on(const Eigen::Vector3d& from_W, std::size_t i) {
+    const SceneRay& ray = rays_[i];
+    next_rays_.push_back({from_W, ray.direction_W, ray.reach_m - points_[i].range_m});
+    next_owners_.push_back(owners_[i]);
+  }
+
+  void send_to(const Light& light, const Eigen::Vector3d& at_W, const SurfacePoint& point,
+               const Eigen::Vector3f& diffuse, std::size_t i) {
+    const auto found = illuminate(light, at_W);
+    if (!found) return;
+    double cosine = point.smooth_normal_W.dot(found->to_light_W);
+    Eigen::Vector3d lit_side_W = point.normal_W;
+    const bool lit_from_behind = cosine <= 0.0;
+    if (lit_from_behind) {
+      if (!is_sheet(point)) return;
+      cosine *= -kSheetTransmission;
+      lit_side_W = -lit_side_W;
+    }
+    if (lit_side_W.dot(found->to_light_W) <= 0.0) return;
+    const Eigen::Vector3f arriving =
+        static_cast<float>(cosine) * diffuse.cwiseProduct(found->color);
+    if (!s_.options.shadows || !s_.scene.shadows || !light.cast_shadows) {
+      samples_[owners_[i]].light += arriving;
+      return;
+    }
+    const double reach_m = std::min(found->distance_m, s_.options.max_range_m);
+    shadow_rays_.push_back({at_W + kOffset_m * lit_side_W, found->to_light_W, reach_m - kOffset_m});
+    waiting_.push_back({owners_[i], arriving});
+  }
+
+  void add_unshadowed() {
+    const auto in_shadow = std::make_unique<bool[]>(shadow_rays_.size());
+    s_.rays.find_shadows(shadow_rays_.data(), shadow_rays_.size(), in_shadow.get());
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      if (!in_shadow[i]) samples_[waiting_[i].sample].light += waiting_[i].light;
+    }
+    shadow_rays_.clear();
+    waiting_.clear();
+  }
+
+  const TileShading& s_;
+  const TileArea area_;
+  double pixel_rad_ = 0.0;
+  std::vector<Sample> samples_;
+  std::vector<SceneRay> rays_;
+  std::vector<std::size_t> owners_;  // the sample of each ray
+  std::vector<SurfacePoint> points_;
+  std::vector<SceneRay> next_rays_;
+  std::vector<std::size_t> next_owners_;
+  std::vector<SceneRay> shadow_rays_;
+  std::vector<Waiting> waiting_;
+};
+
+}  // namespace
+
+void shade_tile(const TileShading& shading, const TileArea& area, Image& image) {
+  Tile tile(shading, area);
+  tile.shade();
+  tile.write(image);
+}
+
+}  // namespace ardee

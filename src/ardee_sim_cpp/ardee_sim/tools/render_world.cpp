@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Draws a picture of a world without a display.
+#include <unistd.h>
+
+#include <csignal>
+#include <iostream>
+#include <mutex>
+
+#include "ardee_sim/readers/loader.h"
+#include "ardee_sim/render/renderer.h"
+#include "ardee_sim/tools/default_view.h"
+#include "ardee_sim/tools/render_arguments.h"
+
+namespace ardee {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kInterrupted = 130;
+
+volatile std::sig_atomic_t interrupted = 0;
+void on_interrupt(int /*signal*/) { interrupted = 1; }
+
+/// A line on the terminal that tells how far the work is, in whole percent.
+class ProgressLine {
+ public:
+  ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
+  ~ProgressLine() {
+    if (percent_ >= 0) std::cerr << "\r\033[K";
+  }
+  void show(double share) {
+    if (!shown_) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const int percent = static_cast<int>(100.0 * share);
+    if (percent <= percent_) return;
+    percent_ = percent;
+    std::cerr << "\rdrawing: " << percent << " %" << std::flush;
+  }
+
+ private:
+  const bool shown_;
+  std::mutex mutex_;
+  int percent_ = -1;
+};
+
+/// The world's scenery and models where their description puts them, and the robot.
+void fill(RayScene& rays, Looks& looks, const World& world,
+          const std::shared_ptr<const Model>& robot, const Pose& robot_W) {
+  std::vector<Placement> placements;
+  const auto put = [&](const Instance& instance) {
+    for (Placement& placement : flatten_scenery(instance)) {
+      looks.add(placement.model);
+      placements.push_back(std::move(placement));
+    }
+  };
+  for (const Instance& instance : world.models) put(instance);
+  if (robot != nullptr) {
+    Instance instance;
+    instance.model = robot;
+    instance.name = robot->name;
+    instance.pose = robot_W;
+    put(instance);
+  }
+  rays.add_scenery(0, placements);
+}
+
+Camera camera_of(const RenderArguments& arguments, const World& world, RayScene& rays) {
+  Camera camera;
+  camera.width = arguments.width;
+  camera.height = arguments.height;
+  camera.horizontal_fov_rad = arguments.horizontal_fov_rad;
+  if (arguments.camera_W) {
+    camera.X_WC = *arguments.camera_W;
+  } else if (world.gui_camera) {
+    camera.X_WC = *world.gui_camera;
+  } else {
+    rays.prepare({});
+    camera.X_WC = view_over(rays.scenery_boxes(), camera);
+  }
+  return camera;
+}
+
+int draw(const RenderArguments& arguments) {
+  Log log([](LogLevel level, const std::string& text) {
+    if (level >= LogLevel::kWarning) std::cerr << "render_world: " << text << '\n';
+  });
+  Loader loader(ResourceLocator::from_environment(), log);
+  const World world = loader.load_world(arguments.world);
+  const std::shared_ptr<const Model> robot =
+      arguments.robot.empty() ? nullptr : loader.load_model(arguments.robot);
+  RayOptions ray_options;
+  ray_options.threads = arguments.threads;
+  RayScene rays(SceneKind::kVisual, ray_options, log);
+  Looks looks(log);
+  fill(rays, looks, world, robot, arguments.robot_W);
+  const Camera camera = camera_of(arguments, world, rays);
+  rays.prepare({camera.X_WC.p});
+  const Renderer renderer(rays, looks, world.scene, world.lights);
+  RenderOptions options;
+  options.samples = arguments.samples;
+  options.shadows = arguments.shadows;
+  options.threads = arguments.threads;
+  std::signal(SIGINT, on_interrupt);
+  Image picture;
+  {
+    ProgressLine line;
+    picture = renderer.render(camera, options, [&line](double share) {
+      line.show(share);
+      return interrupted == 0;
+    });
+  }
+  if (interrupted != 0) {
+    std::cerr << "render_world: interrupted; nothing is written\n";
+    return kInterrupted;
+  }
+  write_png(arguments.output, picture);
+  return 0;
+}
+
+int run(int argc, char** argv) {
+  try {
+    const RenderArguments arguments = parse_render_arguments(argc, argv);
+    if (arguments.help) {
+      std::cout << render_usage();
+      return 0;
+    }
+    return draw(arguments);
+  } catch (const std::exception& error) {
+    std::cerr << "render_world: " << error.what() << '\n';
+  }
+  return kBadInput;
+}
+
+}  // namespace
+}  // namespace ardee
+
+int main(int argc, char** argv) { return ardee::run(argc, argv); }
