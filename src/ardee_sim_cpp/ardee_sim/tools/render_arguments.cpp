@@ -110,6 +110,11 @@ void check(const RenderArguments& found) {
   if (std::filesystem::path(found.output).extension() != ".png") {
     throw Error("--output: found '" + found.output + "', expected a name that ends in .png");
   }
+  const std::filesystem::path folder = std::filesystem::path(found.output).parent_path();
+  std::error_code error;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
+    throw Error("--output: found no folder '" + folder.string() + "', expected one to write to");
+  }
 }
 
 }  // namespace

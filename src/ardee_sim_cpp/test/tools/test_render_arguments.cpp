@@ -31,6 +31,7 @@ TEST(RenderArguments, WrongOnesAreNamed) {
       {{"--output", "a.png"}, "world file"},
       {{"a.world"}, "--output"},
       {{"a.world", "--output", "a.jpg"}, ".png"},
+      {{"a.world", "--output", "/no/such/a.png"}, "'/no/such'"},
       {{"a.world", "--output", "a.png", "--size", "12"}, "WIDTHxHEIGHT"},
       {{"a.world", "--output", "a.png", "--size", "0x5"}, "'0'"},
       {{"a.world", "--output", "a.png", "--pose", "1", "2", "x"}, "'x'"},
