@@ -92,12 +92,14 @@ RayHit Lidar::first_beyond_minimum(const RayHit& hit, const Pose& X_WS,
 }
 
 void Lidar::corrupt(LidarReading& reading, const CounterRng& noise) const {
-  if (params_.noise_std_m <= 0.0 && params_.noise_mean_m == 0.0) return;
+  const double step_m = params_.precision_m;
+  if (params_.noise_std_m <= 0.0 && params_.noise_mean_m == 0.0 && step_m <= 0.0) return;
   for (std::size_t beam = 0; beam < reading.ranges_m.size(); ++beam) {
     float& range = reading.ranges_m[beam];
     if (!std::isfinite(range)) continue;
-    const double noisy = static_cast<double>(range) + params_.noise_mean_m +
-                         params_.noise_std_m * noise.normal(beam);
+    double noisy = static_cast<double>(range) + params_.noise_mean_m +
+                   params_.noise_std_m * noise.normal(beam);
+    if (step_m > 0.0) noisy = step_m * std::round(noisy / step_m);
     range = static_cast<float>(std::clamp(noisy, params_.range_min_m, params_.range_max_m));
   }
 }

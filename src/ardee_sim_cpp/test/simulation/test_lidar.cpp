@@ -68,6 +68,22 @@ TEST(Lidar, NoiseHasTheStatedMeanAndDeviation) {
   EXPECT_NEAR(std::sqrt(squares / count), kStd, 4.0 * kStd / std::sqrt(2.0 * count));
 }
 
+TEST(Lidar, QuantisedNoiseGivesMultiplesOfItsPrecision) {
+  TestWorld world(room());
+  std::string post = lidar_post(kGpu, "gpu_ray", 1081);
+  const std::string type = "<type>gaussian</type>";
+  post.replace(post.find(type), type.size(),
+               "<type>gaussian_quantized</type><precision>0.25</precision>");
+  world.spawn(post, "post", kOneMetreUp);
+  world.run(0.025);
+  const LidarReading scan = world.recorder().on<LidarReading>("/scan").at(0);
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const double angle = scan.angle_min_rad + beam * scan.angle_increment_rad;
+    ASSERT_EQ(scan.ranges_m[beam], 0.25f * std::round(scan.ranges_m[beam] / 0.25f));
+    ASSERT_NEAR(scan.ranges_m[beam], room_range(angle), 0.125 + 1e-5);
+  }
+}
+
 TEST(Lidar, NoiseDoesNotDependOnWhoListens) {
   const auto last_scan = [](bool listen_always) {
     TestWorld world(room());
