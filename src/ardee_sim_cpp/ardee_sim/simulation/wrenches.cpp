@@ -11,7 +11,24 @@ void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
 }
 
+constexpr double kMostForce = 1e9;      // N, N m
+constexpr double kFarthestPoint = 1e6;  // m
+
+bool is_within(const Eigen::Vector3d& vector, double most) {
+  return vector.allFinite() && vector.cwiseAbs().maxCoeff() <= most;
+}
+
 }  // namespace
+
+void Wrenches::add(const Wrench& wrench) {
+  if (!is_within(wrench.force_W, kMostForce) || !is_within(wrench.torque_W, kMostForce)) {
+    throw Error("found a force or torque that is not finite or above 1e9 N or N m");
+  }
+  if (!is_within(wrench.point_L, kFarthestPoint)) {
+    throw Error("found a reference point that is not finite or farther than 1e6 m from the body");
+  }
+  wrenches_.push_back(wrench);
+}
 
 void Wrenches::clear(const Robot& robot, std::size_t link) {
   erase_if(wrenches_,

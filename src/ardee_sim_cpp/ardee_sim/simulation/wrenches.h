@@ -23,7 +23,9 @@ struct Wrench {
 /// The pushes in force; several on one body add up.
 class Wrenches {
  public:
-  void add(const Wrench& wrench) { wrenches_.push_back(wrench); }
+  /// Throws Error for one that is not finite or beyond what the physics takes: it would stop a
+  /// step.
+  void add(const Wrench& wrench);
   void clear(const Robot& robot, std::size_t link);
   void clear(const Robot& robot);
   void clear_all() { wrenches_.clear(); }
