@@ -65,7 +65,11 @@ LidarReading Lidar::measure(const Pose& X_WS, const RayScene& scene) const {
   for (std::size_t beam = 0; beam < hits_.size(); ++beam) {
     const Eigen::Vector3f& direction_S = pattern_.directions_S[beam];
     RayHit hit = hits_[beam];
-    if (params_.look_through_near) hit = first_beyond_minimum(hit, X_WS, direction_S, scene);
+    // Its own housing, often a link of its own, is nearer than the minimum and blocks no real
+    // lidar.
+    const bool own_body = hit.entity == mount().robot.entity();
+    if (params_.look_through_near || own_body)
+      hit = first_beyond_minimum(hit, X_WS, direction_S, scene);
     const bool near = static_cast<double>(hit.range_m) < params_.range_min_m;
     reading.ranges_m[beam] = near ? -kInfinity : hit.range_m;
     if (!std::isfinite(reading.ranges_m[beam])) continue;
