@@ -17,9 +17,9 @@ class NoSink : public ReadingSink {
 
 constexpr double kFarthest_m = 1e6;  // beyond this a body has left the world
 
-void require_in_world(const std::string& model, const Pose& X_WM) {
+void require_in_world(const std::string& name, const Pose& X_WM) {
   if (X_WM.is_finite() && X_WM.p.norm() <= kFarthest_m) return;
-  throw Error("model '" + model + "': found a pose that is not finite or farther than " +
+  throw Error("'" + name + "': found a pose that is not finite or farther than " +
               std::to_string(static_cast<int>(kFarthest_m)) + " m from the world's origin");
 }
 
@@ -94,6 +94,11 @@ Entity& Simulation::spawn(const SpawnRequest& request) {
   restore(*entity);
   try {
     if (!is_static) apply_joint_positions(*entity);
+    for (const Placement& each : entity->placements) require_in_world(request.name, each.X_WM);
+    for (std::size_t link = 0; link < request.model->links.size(); ++link) {
+      require_in_world(request.name + "::" + request.model->links[link].name,
+                       entity->robot->link_pose(link));
+    }
     build_devices(*entity);
     scenes_.add(*entity);
   } catch (...) {

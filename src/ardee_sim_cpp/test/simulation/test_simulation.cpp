@@ -164,6 +164,20 @@ TEST(Simulation, AStaticModelStaysWithinTheWorldToo) {
   EXPECT_EQ(world->state("stone", "").pose.p.z(), 100.0);
 }
 
+TEST(Simulation, AModelWithALinkBeyondTheWorldIsRefused) {
+  TestWorld world("");
+  world.spawn(ball(), "kept", kHigh);
+  for (const char* also : {"", "<static>1</static>"}) {
+    const std::string far = std::string("<sdf version='1.6'><model name='m'>") + also +
+                            "<link name='l'><pose>1e8 0 0 0 0 0</pose></link></model></sdf>";
+    EXPECT_NE(refusal([&] { world.spawn(far, "far"); }).find("'far::l': found a pose"),
+              std::string::npos);
+    EXPECT_EQ(world->find("far"), nullptr);
+  }
+  world.run(1.0);
+  EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9) << "the world goes on";
+}
+
 TEST(Simulation, NamesMayHoldColonsAndALinkIsFoundByItsNameAlone) {
   TestWorld world("<gravity>0 0 0</gravity>");
   world.spawn(ball(), "field::ball", kHigh);
