@@ -40,16 +40,16 @@ std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest
   wrench.point_L = X_WL.inverse() * point_W;
   wrench.start_ns = start_time(stage, request.start_time);
   wrench.duration_ns = request.duration.toNSec();
-  if (!wrench.force_W.allFinite() || !wrench.torque_W.allFinite() || !wrench.point_L.allFinite()) {
-    throw Error("found a wrench or reference_point that is not finite");
-  }
   stage.simulation.wrenches().add(wrench);
   return "ApplyBodyWrench: wrench added";
 }
 
 std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortRequest& request) {
   const JointRef ref = require_joint(stage, request.joint_name);
-  if (!std::isfinite(request.effort)) throw Error("found an effort that is not finite");
+  constexpr double kMostEffort = 1e9;  // N m or N; the physics takes no more
+  if (!(std::abs(request.effort) <= kMostEffort)) {
+    throw Error("found an effort that is not finite or above 1e9 N m or N");
+  }
   if (ref.entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
     throw Error("joint '" + request.joint_name + "' is fixed");
   }

@@ -29,12 +29,12 @@ void add_force_services(ServiceServers& servers, Stage& stage);
 /// The model of that name; throws Error if there is none.
 Entity& require_model(Stage& stage, const std::string& name);
 
-/// A link, found by "model::link".
+/// A link, found by "model::link" or by the name of a link that a model has.
 struct LinkRef {
   Entity& entity;
   std::size_t link;
 };
-LinkRef require_link(Stage& stage, const std::string& scoped_name);
+LinkRef require_link(Stage& stage, const std::string& name);
 
 /// A joint, found by "model::joint" or by a joint's name that a moving model has.
 struct JointRef {

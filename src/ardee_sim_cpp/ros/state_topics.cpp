@@ -21,13 +21,6 @@ void append(States& states, const std::string& name, const Pose& pose, const Twi
 
 }  // namespace
 
-Twist model_twist(const Robot& robot) {
-  if (!robot.is_dynamic()) return {};
-  Twist twist_W = robot.link_twist(0);
-  twist_W.linear += twist_W.angular.cross(robot.pose().p - robot.link_pose(0).p);
-  return twist_W;
-}
-
 StateTopics::StateTopics(ros::NodeHandle& private_node, const Simulation& simulation)
     : simulation_(simulation),
       models_(private_node.advertise<gazebo_msgs::ModelStates>("model_states", kQueue)),
@@ -38,7 +31,7 @@ void StateTopics::publish() {
     gazebo_msgs::ModelStates states;
     for (const auto& entity : simulation_.entities()) {
       const Robot& robot = *entity->robot;
-      append(states, robot.name(), robot.pose(), model_twist(robot));
+      append(states, robot.name(), robot.pose(), robot.twist());
     }
     models_.publish(states);
   }

@@ -22,7 +22,4 @@ class StateTopics {
   ros::Publisher links_;
 };
 
-/// Velocity of a model's frame in the world: it moves with the first link.
-Twist model_twist(const Robot& robot);
-
 }  // namespace ardee::node

@@ -65,7 +65,11 @@ LidarReading Lidar::measure(const Pose& X_WS, const RayScene& scene) const {
   for (std::size_t beam = 0; beam < hits_.size(); ++beam) {
     const Eigen::Vector3f& direction_S = pattern_.directions_S[beam];
     RayHit hit = hits_[beam];
-    if (params_.look_through_near) hit = first_beyond_minimum(hit, X_WS, direction_S, scene);
+    // Its own housing, often a link of its own, is nearer than the minimum and blocks no real
+    // lidar.
+    const bool own_body = hit.entity == mount().robot.entity();
+    if (params_.look_through_near || own_body)
+      hit = first_beyond_minimum(hit, X_WS, direction_S, scene);
     const bool near = static_cast<double>(hit.range_m) < params_.range_min_m;
     reading.ranges_m[beam] = near ? -kInfinity : hit.range_m;
     if (!std::isfinite(reading.ranges_m[beam])) continue;
@@ -92,12 +96,14 @@ RayHit Lidar::first_beyond_minimum(const RayHit& hit, const Pose& X_WS,
 }
 
 void Lidar::corrupt(LidarReading& reading, const CounterRng& noise) const {
-  if (params_.noise_std_m <= 0.0 && params_.noise_mean_m == 0.0) return;
+  const double step_m = params_.precision_m;
+  if (params_.noise_std_m <= 0.0 && params_.noise_mean_m == 0.0 && step_m <= 0.0) return;
   for (std::size_t beam = 0; beam < reading.ranges_m.size(); ++beam) {
     float& range = reading.ranges_m[beam];
     if (!std::isfinite(range)) continue;
-    const double noisy = static_cast<double>(range) + params_.noise_mean_m +
-                         params_.noise_std_m * noise.normal(beam);
+    double noisy = static_cast<double>(range) + params_.noise_mean_m +
+                   params_.noise_std_m * noise.normal(beam);
+    if (step_m > 0.0) noisy = step_m * std::round(noisy / step_m);
     range = static_cast<float>(std::clamp(noisy, params_.range_min_m, params_.range_max_m));
   }
 }

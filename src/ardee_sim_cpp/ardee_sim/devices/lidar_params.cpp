@@ -55,11 +55,15 @@ void read_noise(const Element& noise, LidarParams& params, Log& log) {
                                                           : parameters.text("type", "none");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
-  parameters.ignore({"type", "bias_mean", "bias_stddev", "precision"});
+  const double precision = parameters.number("precision", 0.0, 0.0);
+  parameters.ignore({"type", "bias_mean", "bias_stddev"});
   parameters.finish(log);
   if (type == "none") return;
-  if (type != "gaussian")
-    throw Error(noise.source, "found noise type '" + type + "', expected gaussian or none");
+  if (type != "gaussian" && type != "gaussian_quantized") {
+    throw Error(noise.source,
+                "found noise type '" + type + "', expected gaussian, gaussian_quantized or none");
+  }
+  if (type == "gaussian_quantized") params.precision_m = precision;
   params.noise_mean_m = mean;
   params.noise_std_m = std;
 }

@@ -16,6 +16,7 @@ struct LidarParams {
   double range_max_m = 10.0;
   double noise_mean_m = 0.0;
   double noise_std_m = 0.0;
+  double precision_m = 0.0;  // noisy ranges are multiples of it; 0: not quantised
   SceneKind scene = SceneKind::kVisual;
   bool look_through_near =
       false;  // Gazebo's way: what is nearer than range_min_m is not seen at all

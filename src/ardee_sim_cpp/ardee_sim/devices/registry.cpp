@@ -21,6 +21,20 @@ std::string stem(const std::string& filename) {
   return text.rfind("lib", 0) == 0 ? text.substr(3) : text;
 }
 
+/// A static model keeps those of its devices that do without motion; the others are left out.
+std::unique_ptr<Device> make_unless_static(const Registry::ModelPlugin& make,
+                                           const PluginDescription& plugin,
+                                           DeviceContext& context) {
+  if (context.robot.is_dynamic()) return make(plugin, context);
+  try {
+    return make(plugin, context);
+  } catch (const Error& error) {
+    context.log.warn(plugin.element.source.to_string() + ": plugin '" + plugin.filename +
+                     "' is left out: " + error.what());
+    return nullptr;
+  }
+}
+
 template <typename Map, typename Make>
 void add(Map& plugins, const std::string& filename, Make make) {
   if (!plugins.emplace(stem(filename), std::move(make)).second) {
@@ -56,8 +70,8 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
     const auto found = model_plugins_.find(stem(plugin.filename));
     if (found == model_plugins_.end()) {
       unknown(plugin);
-    } else {
-      devices.push_back(found->second(plugin, context));
+    } else if (auto device = make_unless_static(found->second, plugin, context)) {
+      devices.push_back(std::move(device));
     }
   }
   for (std::size_t link = 0; link < model.links.size(); ++link) {

@@ -33,6 +33,16 @@ Twist Robot::link_twist(std::size_t link) const {
   return dynamics_ ? dynamics_->link_twist(link) : Twist{};
 }
 
+Twist Robot::twist() const {
+  if (!dynamics_) return {};
+  const auto& links = model_->links;
+  std::size_t link = links.size() - 1;
+  while (link > 0 && links[link].name != model_->canonical_link) --link;
+  Twist twist_W = link_twist(link);
+  twist_W.linear += twist_W.angular.cross(pose().p - link_pose(link).p);
+  return twist_W;
+}
+
 std::size_t Robot::link_index(const std::string& link_name, const Source& source) const {
   return index_of(model_->links, link_name, "link", source);
 }

@@ -33,6 +33,8 @@ class Robot {
   Pose pose() const { return dynamics_ ? dynamics_->pose() : fixed_pose_; }
   Pose link_pose(std::size_t link) const;
   Twist link_twist(std::size_t link) const;
+  /// Velocity of the model's frame, which moves with the canonical link; axes of the world.
+  Twist twist() const;
   std::size_t link_index(const std::string& link_name, const Source& source) const;
   std::size_t joint_index(const std::string& joint_name, const Source& source) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/skid_steer_drive.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ardee_sim/description/parameters.h"
@@ -9,6 +10,7 @@
 namespace ardee {
 namespace {
 
+constexpr double kFastest = 1e6;           // rad/s: what a command can ask of a wheel
 constexpr double kUnknownVariance = 1e12;  // of z, roll and pitch, as the stock plugin says
 
 std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& parameters,
@@ -110,7 +112,8 @@ void SkidSteerDrive::before_step(TimeNs now_ns) {
   PhysicsModel& dynamics = robot_.dynamics();
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     const bool left = wheel == kLeftFront || wheel == kLeftRear;
-    dynamics.set_joint_motor(params_.joints[wheel], side_speed(params_, command_, left),
+    const double speed = side_speed(params_, command_, left);
+    dynamics.set_joint_motor(params_.joints[wheel], std::clamp(speed, -kFastest, kFastest),
                              params_.torque_n_m);
   }
 }
@@ -139,7 +142,7 @@ void SkidSteerDrive::integrate_encoders() {
 OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
   const PhysicsModel& dynamics = robot_.dynamics();
   const Pose X_WM = robot_.pose();
-  const Twist twist_W = robot_.link_twist(0);
+  const Twist twist_W = robot_.twist();
   OdometryReading reading;
   reading.header = {now_ns, params_.odometry_frame};
   reading.child_frame_id = params_.base_frame;

@@ -61,6 +61,12 @@ std::string choose_sdf(const Node& config) {
 ResourceLocator ResourceLocator::from_environment() {
   ResourceLocator locator;
   locator.model_paths_ = environment_list("GAZEBO_MODEL_PATH");
+  // Gazebo's own default place, where users keep the models that it downloaded.
+  if (const char* home = std::getenv("HOME")) {
+    std::error_code error;
+    const std::string kept = normal(fs::path(home) / ".gazebo" / "models");
+    if (fs::is_directory(kept, error)) locator.model_paths_.push_back(kept);
+  }
   locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
   auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
   locator.find_package_ = [index](const std::string& package) { return index->find(package); };

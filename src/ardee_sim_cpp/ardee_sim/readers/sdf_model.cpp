@@ -45,7 +45,16 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
   sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
   reading_.assign(1, root.file());
-  auto model = read_model(root.required("model"), scope);
+  // gazebo_ros's spawn scripts wrap what they take from the model database in a world.
+  const auto world = root.child("world");
+  const auto include = world ? world->child("include") : std::nullopt;
+  std::shared_ptr<const Model> model;
+  if (!root.child("model") && include) {
+    model = included_file(*include, std::nullopt).model;
+    if (!model) throw include->error("found a light, expected a model");
+  } else {
+    model = read_model((world && !root.child("model") ? *world : root).required("model"), scope);
+  }
   reading_.clear();
   return model;
 }

@@ -88,10 +88,11 @@ Light read_sdf_light(const Node& light) {
   made.diffuse = light.color("diffuse", made.diffuse);
   made.specular = light.color("specular", made.specular);
   made.direction = light.vector3("direction", made.direction);
-  if (!(made.direction.norm() > 1e-9)) {
+  const bool has_length = made.direction.norm() > 1e-9;
+  if (!has_length && made.type != Light::Type::kPoint) {
     throw light.error("found a direction of length zero, expected another");
   }
-  made.direction.normalize();
+  if (has_length) made.direction.normalize();
   made.cast_shadows = light.boolean("cast_shadows", made.cast_shadows);
   made.range_m = light.number("attenuation/range", made.range_m, 0.0);
   made.attenuation_constant = light.number("attenuation/constant", made.attenuation_constant, 0.0);

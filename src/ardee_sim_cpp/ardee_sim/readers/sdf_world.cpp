@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: MIT
+#include <unordered_map>
+
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/sdf_scene.h"
 
 namespace ardee {
+namespace {
+
+/// Where the models stood when Gazebo saved the world: its <state> counts, not their own <pose>.
+void apply_saved_poses(const Node& state, World& world, Log& log) {
+  std::unordered_map<std::string, Instance*> models;
+  for (Instance& model : world.models) models[model.name] = &model;
+  state.each("model", [&](const Node& saved) {
+    const auto found = models.find(saved.required_attribute("name"));
+    if (found == models.end()) {
+      log.warn(saved.source().to_string() + ": found the state of model '" +
+               saved.attribute("name") + "', which the world does not have, ignored");
+    } else if (saved.child("pose")) {
+      found->second->pose = saved.pose();
+    }
+  });
+}
+
+}  // namespace
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
@@ -22,6 +42,7 @@ World SdfReader::read_world(const Node& root) {
   reading_.assign(1, root.file());
   read_world_models(node, scope, made);
   reading_.clear();
+  if (const auto state = node.child("state")) apply_saved_poses(*state, made, assets_.log());
   return made;
 }
 
@@ -53,8 +74,7 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       add_light(read_sdf_light(child));
     } else if (kind == "plugin") {
       made.plugins.push_back(read_plugin(child));
-    } else if (kind == "actor" || kind == "road" || kind == "population" || kind == "state" ||
-               kind == "joint") {
+    } else if (kind == "actor" || kind == "road" || kind == "population" || kind == "joint") {
       assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
     }
   });

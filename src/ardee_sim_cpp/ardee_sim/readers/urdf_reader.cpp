@@ -3,6 +3,7 @@
 
 #include <urdf_model/model.h>
 
+#include <limits>
 #include <map>
 
 #include "ardee_sim/description/parameters.h"
@@ -104,6 +105,12 @@ Link read_link(const Node& node, const urdf::Link& link, Assets& assets) {
   return made;
 }
 
+/// Exporters write effort="0" velocity="0", which URDF requires, where nothing is known; Gazebo's
+/// drives turn such wheels all the same.
+double unlimited_unless_positive(double limit) {
+  return limit > 0.0 ? limit : std::numeric_limits<double>::infinity();
+}
+
 JointType type_of(const urdf::Joint& joint) {
   switch (joint.type) {
     case urdf::Joint::REVOLUTE:
@@ -131,8 +138,8 @@ Joint read_joint(const Node& node, const urdf::Joint& joint) {
       made.axis.lower = joint.limits->lower;
       made.axis.upper = joint.limits->upper;
     }
-    made.axis.effort = joint.limits->effort;
-    made.axis.velocity = joint.limits->velocity;
+    made.axis.effort = unlimited_unless_positive(joint.limits->effort);
+    made.axis.velocity = unlimited_unless_positive(joint.limits->velocity);
   }
   if (joint.dynamics) {
     made.axis.damping = joint.dynamics->damping;

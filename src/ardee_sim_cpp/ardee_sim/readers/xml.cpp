@@ -73,6 +73,8 @@ std::string Node::text() const {
   for (const auto* piece = element_->FirstChild(); piece; piece = piece->NextSibling()) {
     if (const auto* text = piece->ToText()) all += text->Value();
   }
+  // Older robots say <mu1 value="0.9"/> in their <gazebo> blocks, and libsdformat reads that.
+  if (!element_->FirstChild()) all = attribute("value");
   return trimmed(all);
 }
 
@@ -207,7 +209,7 @@ Eigen::Vector3d Node::vector3(std::string_view path, const Eigen::Vector3d& fall
 
 Pose Node::pose() const {
   const auto node = child("pose");
-  return node ? node->to_pose() : Pose{};
+  return node && !node->text().empty() ? node->to_pose() : Pose{};  // <pose/> is no pose
 }
 
 Color Node::color(std::string_view path, const Color& fallback) const {

@@ -51,7 +51,7 @@ class Node {
   /// Not empty, or an Error.
   std::string required_attribute(const char* name) const;
 
-  /// All text directly inside, trimmed.
+  /// All text directly inside, trimmed; of an empty element its attribute "value".
   std::string text() const;
   std::string required_text() const;
   double to_number(double low = -kAbsurd, double high = kAbsurd) const;
@@ -71,7 +71,7 @@ class Node {
   int integer(std::string_view path, int fallback, int low, int high) const;
   bool boolean(std::string_view path, bool fallback) const;
   Eigen::Vector3d vector3(std::string_view path, const Eigen::Vector3d& fallback) const;
-  Pose pose() const;
+  Pose pose() const;  // of <pose>; none or an empty one is the identity
   Color color(std::string_view path, const Color& fallback) const;
 
   /// The element and all below it as plain data.

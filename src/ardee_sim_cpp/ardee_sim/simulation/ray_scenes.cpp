@@ -37,8 +37,14 @@ void SceneSet::add_to(RayScene& scene, const Entity& entity) {
 
 void SceneSet::add(const Entity& entity) {
   for (View& each : views_) {
-    if (each.scene) add_to(*each.scene, entity);
     each.current = false;
+    if (!each.scene) continue;
+    try {
+      add_to(*each.scene, entity);
+    } catch (...) {
+      for (View& view : views_) view.scene.reset();  // made anew, without it, when next wanted
+      throw;
+    }
   }
 }
 
@@ -61,8 +67,9 @@ void SceneSet::invalidate() {
 const RayScene& SceneSet::now(SceneKind kind) {
   View& wanted = view(kind);
   if (!wanted.scene) {
-    wanted.scene = std::make_unique<RayScene>(kind, options_, log_);
-    for (const auto& entity : entities_) add_to(*wanted.scene, *entity);
+    auto made = std::make_unique<RayScene>(kind, options_, log_);
+    for (const auto& entity : entities_) add_to(*made, *entity);
+    wanted.scene = std::move(made);  // whole or not at all
   }
   if (!wanted.current) {
     for (const auto& entity : entities_) {

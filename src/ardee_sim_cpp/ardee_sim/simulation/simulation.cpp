@@ -17,6 +17,12 @@ class NoSink : public ReadingSink {
 
 constexpr double kFarthest_m = 1e6;  // beyond this a body has left the world
 
+void require_in_world(const std::string& name, const Pose& X_WM) {
+  if (X_WM.is_finite() && X_WM.p.norm() <= kFarthest_m) return;
+  throw Error("'" + name + "': found a pose that is not finite or farther than " +
+              std::to_string(static_cast<int>(kFarthest_m)) + " m from the world's origin");
+}
+
 bool is_sane(const Robot& robot) {
   for (std::size_t link = 0; link < robot.model().links.size(); ++link) {
     const Pose pose = robot.link_pose(link);
@@ -70,8 +76,7 @@ Simulation::~Simulation() = default;
 Entity& Simulation::spawn(const SpawnRequest& request) {
   if (request.name.empty()) throw Error("found an empty model name, expected one");
   if (find(request.name)) throw Error("entity already exists: '" + request.name + "'");
-  if (!request.X_WM.is_finite())
-    throw Error("model '" + request.name + "': found a pose that is not finite");
+  require_in_world(request.name, request.X_WM);
   auto entity = std::make_unique<Entity>();
   // A model without links of its own (a field of included plants) has nothing that could move.
   const bool is_static =
@@ -89,6 +94,11 @@ Entity& Simulation::spawn(const SpawnRequest& request) {
   restore(*entity);
   try {
     if (!is_static) apply_joint_positions(*entity);
+    for (const Placement& each : entity->placements) require_in_world(request.name, each.X_WM);
+    for (std::size_t link = 0; link < request.model->links.size(); ++link) {
+      require_in_world(request.name + "::" + request.model->links[link].name,
+                       entity->robot->link_pose(link));
+    }
     build_devices(*entity);
     scenes_.add(*entity);
   } catch (...) {
@@ -222,6 +232,7 @@ void Simulation::reset_entities() {
 }
 
 void Simulation::place_static(Entity& entity, const Pose& X_WM) {
+  require_in_world(entity.name(), X_WM);
   const Pose now = entity.robot->pose();
   if (now.p == X_WM.p && now.q.coeffs() == X_WM.q.coeffs()) return;
   Instance moved = entity.instance;

@@ -39,6 +39,12 @@ struct RelativeState {
   Twist twist;
 };
 
+/// A link of a model in the world.
+struct LinkOf {
+  Entity* entity = nullptr;
+  std::size_t link = 0;
+};
+
 /// A world with its robots: load, spawn, remove, reset, step. Not thread-safe: one thread owns it,
 /// and services act between steps.
 class Simulation {
@@ -56,6 +62,9 @@ class Simulation {
   void remove(const std::string& name);
   /// The entity of that name, or nullptr.
   Entity* find(const std::string& name);
+  /// The link "model::link" (either name may hold colons itself), else the first link of any model
+  /// that has the whole name, as Gazebo finds it.
+  std::optional<LinkOf> find_link(const std::string& name) const;
   /// In the order in which they came.
   const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 

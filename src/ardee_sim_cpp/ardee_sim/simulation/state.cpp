@@ -12,26 +12,29 @@ bool names_world(const std::string& name) {
 
 }  // namespace
 
+std::optional<LinkOf> Simulation::find_link(const std::string& name) const {
+  std::optional<LinkOf> unscoped;
+  for (const auto& entity : entities_) {
+    const std::string prefix = entity->name() + "::";
+    const bool has_prefix = name.compare(0, prefix.size(), prefix) == 0;
+    const std::string rest = has_prefix ? name.substr(prefix.size()) : "";
+    const auto& links = entity->robot->model().links;
+    for (std::size_t link = 0; link < links.size(); ++link) {
+      if (has_prefix && links[link].name == rest) return LinkOf{entity.get(), link};
+      if (!unscoped && links[link].name == name) unscoped = LinkOf{entity.get(), link};
+    }
+  }
+  return unscoped;
+}
+
 RelativeState Simulation::state_in_world(const std::string& name) const {
   if (names_world(name)) return {};
-  const std::size_t colons = name.find("::");
-  const std::string model_name = name.substr(0, colons);
   for (const auto& entity : entities_) {
-    if (entity->name() != model_name) continue;
-    const Robot& robot = *entity->robot;
-    if (colons == std::string::npos) {
-      const Pose X_WM = robot.pose();
-      Twist twist_W;
-      if (robot.is_dynamic()) {
-        // The model's frame moves with its first link.
-        const Pose X_WL = robot.link_pose(0);
-        twist_W = robot.link_twist(0);
-        twist_W.linear += twist_W.angular.cross(X_WM.p - X_WL.p);
-      }
-      return {X_WM, twist_W};
-    }
-    const std::size_t link = robot.link_index(name.substr(colons + 2), robot.model().source);
-    return {robot.link_pose(link), robot.link_twist(link)};
+    if (entity->name() == name) return {entity->robot->pose(), entity->robot->twist()};
+  }
+  if (const auto found = find_link(name)) {
+    const Robot& robot = *found->entity->robot;
+    return {robot.link_pose(found->link), robot.link_twist(found->link)};
   }
   throw Error("'" + name + "' does not exist, expected a model, model::link or world");
 }

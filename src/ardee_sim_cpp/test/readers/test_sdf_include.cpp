@@ -184,5 +184,16 @@ TEST_F(SdfInclude, FindsRelativeUrisBesideTheFile) {
   EXPECT_EQ(loader_.load_world(path).models.at(0).name, "near");
 }
 
+TEST_F(SdfInclude, AModelMayComeWrappedInAWorld) {
+  folder_.write_model("box", "<link name='l'/>");
+  const auto wrapped = [this](const std::string& body) {
+    return loader_.load_model_text(
+        "<sdf version='1.4'><world name='default'>" + body + "</world></sdf>", "test.sdf");
+  };
+  EXPECT_EQ(wrapped("<include><uri>model://box</uri></include>")->name, "box");
+  EXPECT_EQ(wrapped("<model name='own'><link name='l'/></model>")->name, "own");
+  EXPECT_HAS(error_of([&] { wrapped(""); }), "<world>: found no <model>, expected one");
+}
+
 }  // namespace
 }  // namespace ardee

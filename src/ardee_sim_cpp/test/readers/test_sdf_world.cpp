@@ -122,9 +122,39 @@ TEST_F(SdfWorld, ReadsPointAndSpotLights) {
   EXPECT_EQ(w.lights.at(1).outer_angle_rad, 0.5);
 }
 
+TEST_F(SdfWorld, APointLightNeedsNoDirection) {
+  const World w = world("<light name='p' type='point'><direction>0 0 0</direction></light>");
+  EXPECT_EQ(w.lights.at(0).type, Light::Type::kPoint);
+  EXPECT_HAS(error_of([&] {
+               world("<light name='d' type='directional'><direction>0 0 0</direction></light>");
+             }),
+             "direction of length zero");
+}
+
+TEST_F(SdfWorld, ModelsStandWhereASavedWorldsStateSays) {
+  const std::string link = "<link name='l'/></model>";
+  const World w = world("<model name='a'><pose>1 2 3 0 0 0</pose>" + link +
+                        "<model name='b'><pose>4 5 6 0 0 0</pose>" + link +
+                        "<state world_name='w'><sim_time>3 5</sim_time><model name='a'>"
+                        "<pose frame=''>7 8 9 0 -0 1.5707963267948966</pose><scale>1 1 1</scale>"
+                        "<link name='l'><pose frame=''>7 8 9 0 0 0</pose></link></model>"
+                        "<model name='gone'><pose>0 0 0 0 0 0</pose></model></state>");
+  expect_near(w.models.at(0).pose.p, {7, 8, 9});
+  expect_near(w.models.at(0).pose * Eigen::Vector3d(1, 0, 0), {7, 9, 9});
+  expect_near(w.models.at(1).pose.p, {4, 5, 6});
+  EXPECT_EQ(warnings_->size(), 1u);
+  EXPECT_TRUE(warned("model 'gone'"));
+}
+
+TEST_F(SdfWorld, AnEmptyPoseIsNone) {
+  const World w = world("<model name='a'><pose/><link name='l'><pose> </pose></link></model>");
+  expect_near(w.models.at(0).pose.p, {0, 0, 0});
+  expect_near(w.models.at(0).model->links.at(0).X_ML.p, {0, 0, 0});
+}
+
 TEST_F(SdfWorld, SaysWhatItLeavesOut) {
   world("<actor name='a'/><road name='r'/><state world_name='w'/>");
-  EXPECT_EQ(warnings_->size(), 3u);
+  EXPECT_EQ(warnings_->size(), 2u);
   EXPECT_TRUE(warned("<actor>: not supported in a world"));
 }
 

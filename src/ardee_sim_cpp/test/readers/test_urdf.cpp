@@ -90,6 +90,27 @@ TEST_F(Urdf, ReadsJointsAndTheSpringsOfListingA25) {
       JointType::kPrismatic);
 }
 
+TEST_F(Urdf, AGazeboBlockMayGiveItsValuesAsAttributes) {
+  const auto m = robot(R"(<link name='a'>
+      <collision><geometry><sphere radius='1'/></geometry></collision></link>
+      <gazebo reference='a'><mu1 value="0.9"/><mu2 value=" 0.8 "></mu2><kp value='1e7'/>
+        <fdir1 value='0 1 0'/><maxContacts value='3'/><turnGravityOff value='true'/></gazebo>)");
+  const Surface& surface = m->links.at(0).collisions.at(0).surface;
+  EXPECT_EQ(surface.mu, 0.9);
+  EXPECT_EQ(surface.mu2, 0.8);
+  EXPECT_EQ(surface.kp_n_per_m, 1e7);
+  expect_near(surface.fdir1, {0, 1, 0});
+  EXPECT_EQ(surface.max_contacts, 3);
+  EXPECT_FALSE(m->links.at(0).gravity);
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(Urdf, LimitsOfZeroThatExportersWriteDoNotHoldAWheel) {
+  const auto m = robot(kTwoLinks + joint("continuous", "<limit effort='0' velocity='0'/>"));
+  EXPECT_TRUE(std::isinf(m->joints.at(0).axis.effort));
+  EXPECT_TRUE(std::isinf(m->joints.at(0).axis.velocity));
+}
+
 TEST_F(Urdf, ReadsColours) {
   const auto m = robot(R"(<material name='paint'><color rgba='0.1 0.2 0.3 0.5'/></material>
     <link name='a'>

@@ -68,6 +68,22 @@ TEST(Lidar, NoiseHasTheStatedMeanAndDeviation) {
   EXPECT_NEAR(std::sqrt(squares / count), kStd, 4.0 * kStd / std::sqrt(2.0 * count));
 }
 
+TEST(Lidar, QuantisedNoiseGivesMultiplesOfItsPrecision) {
+  TestWorld world(room());
+  std::string post = lidar_post(kGpu, "gpu_ray", 1081);
+  const std::string type = "<type>gaussian</type>";
+  post.replace(post.find(type), type.size(),
+               "<type>gaussian_quantized</type><precision>0.25</precision>");
+  world.spawn(post, "post", kOneMetreUp);
+  world.run(0.025);
+  const LidarReading scan = world.recorder().on<LidarReading>("/scan").at(0);
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const double angle = scan.angle_min_rad + beam * scan.angle_increment_rad;
+    ASSERT_EQ(scan.ranges_m[beam], 0.25f * std::round(scan.ranges_m[beam] / 0.25f));
+    ASSERT_NEAR(scan.ranges_m[beam], room_range(angle), 0.125 + 1e-5);
+  }
+}
+
 TEST(Lidar, NoiseDoesNotDependOnWhoListens) {
   const auto last_scan = [](bool listen_always) {
     TestWorld world(room());
@@ -96,6 +112,32 @@ TEST(Lidar, NearerThanTheMinimumIsMinusInfinityUnlessToldToLookThrough) {
       lidar_post(kRay, "ray", 1081, 0.0, "<lookThroughNear>true</lookThroughNear>", range), "post");
   through.run(0.025);
   EXPECT_NEAR(through.recorder().on<LidarReading>("/scan").front().ranges_m[540], 5.0, 1e-5);
+}
+
+TEST(Lidar, LooksThroughItsOwnRobotNearerThanTheMinimum) {
+  std::string post = lidar_post(kRay, "ray", 1081);
+  const std::string ball = "<geometry><sphere><radius>%R</radius></sphere></geometry>";
+  const std::string end = "</model>";
+  const auto with_housing = [&](const std::string& radius) {
+    std::string shape = ball;
+    shape.replace(shape.find("%R"), 2, radius);
+    std::string xml = post;
+    return xml.insert(xml.find(end),
+                      "<link name='housing'><collision name='c'>" + shape + "</collision></link>");
+  };
+  TestWorld inside(room());
+  inside.spawn(with_housing("0.05"), "post", kOneMetreUp);
+  inside.run(0.025);
+  const LidarReading scan = inside.recorder().on<LidarReading>("/scan").front();
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const double angle = scan.angle_min_rad + beam * scan.angle_increment_rad;
+    ASSERT_NEAR(scan.ranges_m[beam], room_range(angle), 2e-6) << "beam " << beam;
+  }
+  TestWorld behind(room());
+  behind.spawn(with_housing("0.2"), "post", kOneMetreUp);
+  behind.run(0.025);
+  EXPECT_NEAR(behind.recorder().on<LidarReading>("/scan").front().ranges_m[540], 0.2, 2e-6)
+      << "what is farther than the minimum is in the way, the robot's own too";
 }
 
 TEST(Lidar, BeyondTheMaximumIsPlusInfinity) {

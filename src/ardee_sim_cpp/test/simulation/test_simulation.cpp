@@ -127,6 +127,71 @@ TEST(Simulation, StatesAreRelativeToModelsAndLinks) {
   EXPECT_NE(refusal([&] { world->state("b", "c"); }), "");
 }
 
+TEST(Simulation, AModelMovesWithItsRootLinkWhateverLinkComesFirst) {
+  const std::string inertial =
+      "<inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' "
+      "iyz='0'/></inertial>";
+  TestWorld world("<gravity>0 0 0</gravity>");
+  const Entity& robot = world.spawn(
+      "<robot name='r'><link name='wheel'>" + inertial + "</link><link name='base'>" + inertial +
+          "</link><joint name='j' type='continuous'><parent link='base'/><child link='wheel'/>"
+          "<origin xyz='0.3 0 0.2'/><axis xyz='0 1 0'/></joint></robot>",
+      "r", kHigh);
+  robot.robot->dynamics().apply_joint_effort(0, 0.5);
+  world->step();
+  // Wheel and base turn about one axis the opposite way; the wheel's own rate is not the model's.
+  const Twist base = world->state("r::base", "").twist;
+  const Twist model = world->state("r", "").twist;
+  EXPECT_LT(base.angular.y(), -1e-4);
+  EXPECT_GT(world->state("r::wheel", "").twist.angular.y(), 1e-4);
+  EXPECT_LT((model.angular - base.angular).norm(), 1e-12);
+  EXPECT_LT((model.linear - base.linear).norm(), 1e-12);
+}
+
+TEST(Simulation, AStaticModelStaysWithinTheWorldToo) {
+  TestWorld world("");
+  std::string xml = ball();
+  xml.replace(xml.find("<link"), 5, "<static>1</static><link");
+  const Pose far = Pose::from_xyz_rpy({0, 1e300, 0}, {0, 0, 0});
+  EXPECT_NE(refusal([&] { world.spawn(xml, "stone", far); }).find("farther than 1000000 m"),
+            std::string::npos);
+  EXPECT_EQ(world->find("stone"), nullptr);
+  world.spawn(xml, "stone", kHigh);
+  EXPECT_NE(refusal([&] {
+              world->set_state("stone", {far, {}}, "");
+            }).find("farther than"),
+            std::string::npos);
+  EXPECT_EQ(world->state("stone", "").pose.p.z(), 100.0);
+}
+
+TEST(Simulation, AModelWithALinkBeyondTheWorldIsRefused) {
+  TestWorld world("");
+  world.spawn(ball(), "kept", kHigh);
+  for (const char* also : {"", "<static>1</static>"}) {
+    const std::string far = std::string("<sdf version='1.6'><model name='m'>") + also +
+                            "<link name='l'><pose>1e8 0 0 0 0 0</pose></link></model></sdf>";
+    EXPECT_NE(refusal([&] { world.spawn(far, "far"); }).find("'far::l': found a pose"),
+              std::string::npos);
+    EXPECT_EQ(world->find("far"), nullptr);
+  }
+  world.run(1.0);
+  EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9) << "the world goes on";
+}
+
+TEST(Simulation, NamesMayHoldColonsAndALinkIsFoundByItsNameAlone) {
+  TestWorld world("<gravity>0 0 0</gravity>");
+  world.spawn(ball(), "field::ball", kHigh);
+  EXPECT_EQ(world->state("field::ball", "").pose.p.z(), 100.0);
+  EXPECT_EQ(world->state("field::ball::link", "").pose.p.z(), 100.0);
+  EXPECT_EQ(world->state("link", "").pose.p.z(), 100.0);
+  world.spawn(ball(), "other");
+  EXPECT_EQ(world->find_link("other::link")->entity->name(), "other");
+  EXPECT_EQ(world->find_link("link")->entity->name(), "field::ball") << "the first that came";
+  EXPECT_FALSE(world->find_link("other::wheel"));
+  EXPECT_NE(refusal([&] { world->state("field", ""); }).find("'field' does not exist"),
+            std::string::npos);
+}
+
 TEST(Simulation, SetStateMovesRelativeToAnotherModel) {
   TestWorld world("");
   world.spawn(ball(), "a", Pose::from_xyz_rpy({1, 2, 3}, {0, 0, M_PI / 2}));
@@ -194,10 +259,12 @@ TEST(Simulation, AModelThatDivergesIsPutBackAndTheRestGoesOn) {
   world.spawn(ball(), "kept", Pose::from_xyz_rpy({5, 0, 100}, {0, 0, 0}));
   Wrench push;
   push.robot = lost.robot.get();
-  push.force_W = {1e9, 0, 0};
   push.duration_ns = 2000000;
+  push.force_W = {1e300, 0, 0};
+  EXPECT_NE(refusal([&] { world->wrenches().add(push); }).find("above 1e9 N"), std::string::npos);
+  push.force_W = {1e9, 0, 0};  // 2e6 m/s after 2 ms, out of the world after half a second
   world->wrenches().add(push);
-  world.run(1.0);  // at 2,000 km/s it leaves the world
+  world.run(1.0);
   EXPECT_TRUE(world->state("lost", "").pose.is_finite());
   EXPECT_TRUE(any_contains(world.messages(), "model 'lost' is put back"));
   EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ardee_sim/devices/skid_steer_drive.h"
@@ -99,6 +100,26 @@ TEST(SkidSteer, TheLastCommandStaysUnlessATimeoutIsSet) {
     world.run(3.0);
     EXPECT_NEAR(world->state("rover", "").twist.linear.x(), timeout ? 0.0 : 0.5, 0.02);
   }
+}
+
+TEST(SkidSteer, AStaticRobotStandsThereWithoutItsDrive) {
+  TestWorld world("");
+  const Entity& robot = world.spawn(rover("", "<gazebo><static>true</static></gazebo>"), "statue");
+  EXPECT_TRUE(robot.is_static());
+  EXPECT_TRUE(robot.devices.empty());
+  EXPECT_TRUE(
+      std::any_of(world.messages().begin(), world.messages().end(), [](const std::string& text) {
+        return text.find("libgazebo_ros_skid_steer_drive.so' is left out") != std::string::npos;
+      }));
+  world.run(0.1);
+}
+
+TEST(SkidSteer, AnAbsurdCommandDoesNotStopTheWorld) {
+  TestWorld world("");
+  Entity& robot = world.spawn(rover(), "rover", kOnWheels);
+  world.command(robot, 1e300, -1e300);
+  EXPECT_NO_THROW(world.run(0.1));
+  EXPECT_EQ(world->step_count(), 100u);
 }
 
 TEST(SkidSteer, AResetForgetsTheCommand) {
