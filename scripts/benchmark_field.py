@@ -21,6 +21,7 @@ GROUND_SAMPLES = [2**n + 1 for n in range(8, 13)]  # what the terrain generator 
 RIDE_HEIGHT_M = 0.175  # of the robot's base_footprint above the ground
 HALF_LENGTH_M = 0.25  # of the robot: the ground under it counts
 INSIDE_M = 1.0  # from the row's end to where the robot turns back
+LONGEST_LANE_M = 30.0  # a robot that starts off by a thousandth of a rad is still in the lane there
 
 
 @dataclass(frozen=True)
@@ -102,4 +103,4 @@ def generate(plants: int, folder: pathlib.Path, farm_world: pathlib.Path, seed: 
         half_lane_m + around[:, None], around[None, :]
     )
     start = [half_lane_m, 0.0, float(ground.max()) + RIDE_HEIGHT_M, math.pi]
-    return Field(rows * stalks, rows, world, env, start, 2 * half_lane_m)
+    return Field(rows * stalks, rows, world, env, start, min(2 * half_lane_m, LONGEST_LANE_M))

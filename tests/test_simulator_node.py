@@ -7,11 +7,11 @@ import probes
 import pytest
 from geometry_msgs.msg import Twist, Vector3
 from ros_graph import RosGraph, wait_until
-from test_services import as_before, world  # noqa: F401  (fixtures)
-from test_services import (
+from test_services import (  # noqa: F401  (fixtures)
     BALL,
     POST,
     STEP_S,
+    as_before,
     call,
     empty,
     pose,
@@ -20,6 +20,7 @@ from test_services import (
     spawn,
     state,
     step,
+    world,
 )
 
 DATA = pathlib.Path(__file__).parent / "data"

@@ -71,7 +71,7 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
                                             static_cast<float>(std::sin(angle)), 0.0f);
   }
   const std::string lidar_link = "robot::" + first.found.header.frame_id;
-  LaneKeeper keeper(robot.robot->pose(), arguments.number("--lane-m"),
+  LaneKeeper keeper(arguments.pose("--pose"), arguments.number("--lane-m"),
                     arguments.number("--speed-m-s"));
   RateTimer due(kScanRate_hz);
   due.start_at(simulation.now_ns());

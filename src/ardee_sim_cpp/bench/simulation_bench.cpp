@@ -129,7 +129,7 @@ class Bench {
     demand(false, false);
     const TimeNs settled = simulation.now_ns() + nanoseconds(arguments_.number("--settle-s"));
     while (simulation.now_ns() < settled) simulation.step();
-    LaneKeeper keeper(robot_->robot->pose(), arguments_.number("--lane-m"),
+    LaneKeeper keeper(arguments_.pose("--pose"), arguments_.number("--lane-m"),
                       arguments_.number("--speed-m-s"));
     const auto phase = [&](const char* name, bool lidars, bool rest) {
       demand(lidars, rest);

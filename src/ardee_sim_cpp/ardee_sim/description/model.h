@@ -152,7 +152,7 @@ struct Model {
   Source source;
   bool is_static = false;
   bool self_collide = false;
-  Pose own_pose;  // <pose> of its own file: where it stands if who includes or spawns it says nothing else
+  Pose own_pose;  // <pose> of its own file, which includes replace and spawns add to
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;

@@ -3,6 +3,7 @@
 
 #include <Magick++.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -17,8 +18,10 @@ constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 29;
 void initialize_library() {
   static std::once_flag once;
   std::call_once(once, [] {
+    // One thread: the cores are the simulation's. The library starts its threads while it
+    // initialises, before a limit set by a call could hold it back.
+    setenv("MAGICK_THREAD_LIMIT", "1", 0);
     Magick::InitializeMagick(nullptr);
-    Magick::ResourceLimits::thread(1);  // leave the cores to the simulation
     Magick::ResourceLimits::width(kMaxSide);
     Magick::ResourceLimits::height(kMaxSide);
   });

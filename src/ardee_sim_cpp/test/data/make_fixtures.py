@@ -87,8 +87,12 @@ def meshes(folder: pathlib.Path) -> None:
     (folder / "cube_mm.stl").write_bytes(stl(1000.0))
     (folder / "solid_header.stl").write_bytes(b"solid " + stl(1.0)[6:])
     obj = "o Cube\n" + "".join(f"v {x} {y} {z}\n" for x, y, z in CORNERS)
-    (folder / "cube.obj").write_text(obj + "".join("f %d %d %d\n" % tuple(v + 1 for v in t) for t in CUBE))
-    parts = node("Stem", "") + node("Leaf", "<translate>10 0 0</translate><rotate>0 0 1 90</rotate>")
+    (folder / "cube.obj").write_text(
+        obj + "".join("f %d %d %d\n" % tuple(v + 1 for v in t) for t in CUBE)
+    )
+    parts = node("Stem", "") + node(
+        "Leaf", "<translate>10 0 0</translate><rotate>0 0 1 90</rotate>"
+    )
     (folder / "parts_z_up.dae").write_text(dae(1.0, "Z_UP", parts))
     (folder / "parts_y_up.dae").write_text(dae(1.0, "Y_UP", parts))
     (folder / "parts_inch.dae").write_text(dae(0.0254, "Z_UP", parts))
@@ -110,15 +114,21 @@ def broken(folder: pathlib.Path) -> None:
     import zlib
 
     header = b"IHDR" + struct.pack(">IIBBBBB", 1 << 30, 1 << 30, 8, 0, 0, 0, 0)
-    (folder / "huge.png").write_bytes(png[:12] + header + struct.pack(">I", zlib.crc32(header)) + png[33:])
+    (folder / "huge.png").write_bytes(
+        png[:12] + header + struct.pack(">I", zlib.crc32(header)) + png[33:]
+    )
     (folder / "empty.png").write_bytes(b"")
     (folder / "text.png").write_text("this is no picture at all\n")
     Image.fromarray(np.zeros((1, 1), np.uint8)).save(folder / "one_pixel.png")
     (folder / "truncated.stl").write_bytes(stl(1.0)[:300])
-    (folder / "truncated_ascii.stl").write_text("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n")
+    (folder / "truncated_ascii.stl").write_text(
+        "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"
+    )
     (folder / "nan.stl").write_bytes(stl(1.0, nan=True))
     (folder / "no_triangles.stl").write_bytes(b"cube".ljust(80, b"\0") + struct.pack("<I", 0))
-    (folder / "lying_count.stl").write_bytes(stl(1.0)[:80] + struct.pack("<I", 4_000_000_000) + stl(1.0)[84:])
+    (folder / "lying_count.stl").write_bytes(
+        stl(1.0)[:80] + struct.pack("<I", 4_000_000_000) + stl(1.0)[84:]
+    )
     whole_dae = dae(1.0, "Z_UP", node("Leaf", ""))
     (folder / "truncated.dae").write_text(whole_dae[: len(whole_dae) * 2 // 3])
     (folder / "wrong_index.dae").write_text(dae(1.0, "Z_UP", node("Leaf", ""), index_shift=1000))
