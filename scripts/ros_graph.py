@@ -37,6 +37,11 @@ def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0)
         time.sleep(0.05)
 
 
+def heed_ctrl_c() -> None:
+    """In the child: Ctrl-C works, though whoever started all this may ignore it, as a shell's background jobs do."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class Process:
     """A process of the graph, with its output in a file."""
 
@@ -50,6 +55,7 @@ class Process:
                 stdout=output,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
+                preexec_fn=heed_ctrl_c,
             )
         self.pid = self._popen.pid
 

@@ -247,6 +247,22 @@ def test_a_state_that_is_not_a_number_is_refused(world: RosGraph) -> None:
     assert math.isfinite(answers[2].pose.position.x)
 
 
+def test_a_quaternion_of_any_length_is_a_rotation(world: RosGraph) -> None:
+    wanted = pose(z=5.0)
+    wanted.orientation = Quaternion(0, 0, 1e200, 1e200)
+    fields = {"model_state": ModelState("ball", wanted, Twist(), "")}
+    answers = call(
+        world,
+        empty("pause_physics"),
+        spawn("ball", BALL, pose(z=5.0)),
+        ("/gazebo/set_model_state", "gazebo_msgs/SetModelState", fields),
+        state("ball"),
+    )
+    assert answers[2].success, answers[2].status_message
+    turned = answers[3].pose.orientation
+    assert (turned.z, turned.w) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)), abs=1e-9)
+
+
 def test_gravity_is_set_and_read(world: RosGraph) -> None:
     get = ("/gazebo/get_physics_properties", "gazebo_msgs/GetPhysicsProperties", {})
     old = call(world, empty("pause_physics"), get)[1]

@@ -57,14 +57,14 @@ void JointDrive::read(const JointAxis& axis) {
   lower_ = axis.lower;
   upper_ = axis.upper;
   max_effort_ = axis.effort;
-  max_velocity_ = axis.velocity;
   friction_ = axis.friction;
   spring_ = {axis.spring_stiffness, axis.damping, axis.spring_reference};
 }
 
 void JointDrive::set_motor(double velocity, double max_effort) {
-  motor_velocity_ = std::clamp(velocity, -max_velocity_, max_velocity_);
-  motor_effort_ = std::min(max_effort, max_effort_);
+  // As in Gazebo, the description's limits of effort and velocity do not bound a drive's motor.
+  motor_velocity_ = velocity;
+  motor_effort_ = max_effort;
 }
 
 void JointDrive::set_limits(double lower, double upper) {

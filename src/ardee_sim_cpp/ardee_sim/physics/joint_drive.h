@@ -54,7 +54,6 @@ class JointDrive {
   double lower_ = 0.0;
   double upper_ = 0.0;
   double max_effort_ = 0.0;
-  double max_velocity_ = 0.0;
   double friction_ = 0.0;
   double stop_erp_ = -1.0;
   double stop_cfm_ = -1.0;

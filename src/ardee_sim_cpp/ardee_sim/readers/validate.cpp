@@ -23,13 +23,20 @@ std::string comma_list(const Eigen::Vector3d& v) {
   return text.str();
 }
 
-void check_inertial(const Link& link, Log& log) {
+/// Says that a link has no mass or inertia of its own, which one fixed to another can do without:
+/// a frame, a point mass.
+void lacks_inertia(const Link& link, bool is_fixed, const std::string& what, Log& log) {
+  if (!is_fixed) throw Error(link.source, what);
+  log.warn(link.source.to_string() + ": " + what + "; it moves with the link that it is fixed to");
+}
+
+void check_inertial(const Link& link, bool is_fixed, Log& log) {
   const Inertial& inertial = *link.inertial;
   const std::string of = " of link '" + link.name + "'";
   if (!(inertial.mass_kg > 0.0)) {
     std::ostringstream what;
     what << "found mass " << inertial.mass_kg << " kg" << of << ", expected a positive one";
-    throw Error(link.source, what.str());
+    lacks_inertia(link, is_fixed && inertial.mass_kg == 0.0, what.str(), log);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.inertia_kg_m2,
                                                               Eigen::EigenvaluesOnly);
@@ -38,7 +45,8 @@ void check_inertial(const Link& link, Log& log) {
     std::ostringstream what;
     what << "found an inertia" << of << " with principal moments " << comma_list(moments)
          << " kg m^2, expected three positive ones";
-    throw Error(link.source, what.str());
+    lacks_inertia(link, is_fixed && moments[0] == 0.0, what.str(), log);
+    return;
   }
   constexpr double kSlack = 1.001;  // rounding of hand-written files
   if (kSlack * (moments[0] + moments[1]) < moments[2]) {
@@ -85,10 +93,15 @@ std::string unknown_link(const std::string& name, const Model& model) {
 void validate_model(const Model& model, Log& log) {
   check_names(model.links, "link");
   check_names(model.joints, "joint");
+  std::set<std::string> fixed;
+  for (const Joint& joint : model.joints) {
+    if (joint.type == JointType::kFixed) fixed.insert({joint.parent, joint.child});
+  }
   std::set<std::string> links;
   for (const Link& link : model.links) {
     links.insert(link.name);
-    if (link.inertial && !model.is_static) check_inertial(link, log);
+    if (!link.inertial || model.is_static) continue;
+    check_inertial(link, fixed.count(link.name) != 0, log);
   }
   for (const Joint& joint : model.joints) check_joint(joint, links, model);
 }

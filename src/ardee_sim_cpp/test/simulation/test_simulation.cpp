@@ -178,6 +178,33 @@ TEST(Simulation, AModelWithALinkBeyondTheWorldIsRefused) {
   EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9) << "the world goes on";
 }
 
+TEST(Simulation, AFixedLinkMayLackMassOrInertia) {
+  const std::string zero = "<inertia ixx='0' ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial>";
+  const auto robot = [&zero](const std::string& mass, const std::string& joint) {
+    return "<robot name='r'><link name='base'><inertial><mass value='2'/>"
+           "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+           "<link name='tip'><inertial><mass value='" +
+           mass + "'/>" + zero + "</link><joint name='j' type='" + joint +
+           "'><parent link='base'/><child link='tip'/><origin xyz='1.5 0 0'/>"
+           "<axis xyz='0 0 1'/></joint></robot>";
+  };
+  TestWorld world("<gravity>0 0 0</gravity>", 0.001);
+  for (const char* mass : {"0", "1"}) {
+    world.spawn(robot(mass, "fixed"), mass, kHigh);
+    EXPECT_TRUE(any_contains(world.messages(), "it moves with the link that it is fixed to"));
+    EXPECT_NE(refusal([&] { world.spawn(robot(mass, "continuous"), "loose"); }).find("expected"),
+              std::string::npos);
+  }
+  // Two masses of 2 and 1 kg at 1.5 m: the moment about their centre is 1 + 2 / 3 * 1.5^2.
+  Wrench turn;
+  turn.robot = world->find("1")->robot.get();
+  turn.torque_W = {0, 0, 1};
+  turn.duration_ns = 1000000;
+  world->wrenches().add(turn);
+  world->step();
+  EXPECT_NEAR(world->state("1", "").twist.angular.z(), 0.001 / 2.5, 1e-9);
+}
+
 TEST(Simulation, NamesMayHoldColonsAndALinkIsFoundByItsNameAlone) {
   TestWorld world("<gravity>0 0 0</gravity>");
   world.spawn(ball(), "field::ball", kHigh);
@@ -249,6 +276,9 @@ TEST(Simulation, AWrenchBeyondAnyUseIsRefused) {
     push.force_W = {newtons, 0, 0};
     EXPECT_NE(refusal([&] { world->wrenches().add(push); }), "");
   }
+  push.force_W = {1, 0, 0};
+  push.point_L = {0, 0, 1e9};
+  EXPECT_NE(refusal([&] { world->wrenches().add(push); }), "");
   world.run(0.1);
   EXPECT_NEAR(world->state("ball", "").twist.linear.x(), 0.0, 1e-12);
 }
@@ -259,10 +289,11 @@ TEST(Simulation, AModelThatDivergesIsPutBackAndTheRestGoesOn) {
   world.spawn(ball(), "kept", Pose::from_xyz_rpy({5, 0, 100}, {0, 0, 0}));
   Wrench push;
   push.robot = lost.robot.get();
+<<<<<<< HEAD
+=======
+  push.force_W = {1e9, 0, 0};
+>>>>>>> review
   push.duration_ns = 2000000;
-  push.force_W = {1e300, 0, 0};
-  EXPECT_NE(refusal([&] { world->wrenches().add(push); }).find("above 1e9 N"), std::string::npos);
-  push.force_W = {1e9, 0, 0};  // 2e6 m/s after 2 ms, out of the world after half a second
   world->wrenches().add(push);
   world.run(1.0);
   EXPECT_TRUE(world->state("lost", "").pose.is_finite());
