@@ -11,36 +11,21 @@ void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
 }
 
-<<<<<<< HEAD
-constexpr double kMostForce = 1e9;      // N, N m
-constexpr double kFarthestPoint = 1e6;  // m
-
-bool is_within(const Eigen::Vector3d& vector, double most) {
-=======
 constexpr double kMost = 1e9;      // N, N m: far beyond anything on a field
 constexpr double kFarthest = 1e6;  // m from the link; with the link's place still within 1e9
 
 bool is_sane(const Eigen::Vector3d& vector, double most) {
->>>>>>> review
   return vector.allFinite() && vector.cwiseAbs().maxCoeff() <= most;
 }
 
 }  // namespace
 
 void Wrenches::add(const Wrench& wrench) {
-<<<<<<< HEAD
-  if (!is_within(wrench.force_W, kMostForce) || !is_within(wrench.torque_W, kMostForce)) {
-    throw Error("found a force or torque that is not finite or above 1e9 N or N m");
-  }
-  if (!is_within(wrench.point_L, kFarthestPoint)) {
-    throw Error("found a reference point that is not finite or farther than 1e6 m from the body");
-=======
   if (!is_sane(wrench.force_W, kMost) || !is_sane(wrench.torque_W, kMost) ||
       !is_sane(wrench.point_L, kFarthest)) {
     throw Error(
         "found a wrench with a number that is not finite or beyond 1e9 N, 1e9 N m or 1e6 m from "
         "the body, expected less");
->>>>>>> review
   }
   wrenches_.push_back(wrench);
 }

@@ -23,12 +23,7 @@ struct Wrench {
 /// The pushes in force; several on one body add up.
 class Wrenches {
  public:
-<<<<<<< HEAD
-  /// Throws Error for one that is not finite or beyond what the physics takes: it would stop a
-  /// step.
-=======
   /// Throws Error for a wrench beyond what the physics takes, and then keeps what there was.
->>>>>>> review
   void add(const Wrench& wrench);
   void clear(const Robot& robot, std::size_t link);
   void clear(const Robot& robot);

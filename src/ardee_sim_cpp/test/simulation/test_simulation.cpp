@@ -289,13 +289,10 @@ TEST(Simulation, AModelThatDivergesIsPutBackAndTheRestGoesOn) {
   world.spawn(ball(), "kept", Pose::from_xyz_rpy({5, 0, 100}, {0, 0, 0}));
   Wrench push;
   push.robot = lost.robot.get();
-<<<<<<< HEAD
-=======
   push.force_W = {1e9, 0, 0};
->>>>>>> review
   push.duration_ns = 2000000;
   world->wrenches().add(push);
-  world.run(1.0);
+  world.run(1.0);  // at 2,000 km/s it leaves the world
   EXPECT_TRUE(world->state("lost", "").pose.is_finite());
   EXPECT_TRUE(any_contains(world.messages(), "model 'lost' is put back"));
   EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9);
