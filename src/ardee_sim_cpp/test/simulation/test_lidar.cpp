@@ -43,7 +43,8 @@ TEST_P(LidarPlugin, KeepsItsRate) {
 
 INSTANTIATE_TEST_SUITE_P(Both, LidarPlugin,
                          testing::Values(std::make_pair(kRay, "ray"),
-                                         std::make_pair(kGpu, "gpu_ray")));
+                                         std::make_pair(kGpu, "gpu_ray")),
+                         [](const auto& both) { return std::string(both.param.second); });
 
 TEST(Lidar, NoiseHasTheStatedMeanAndDeviation) {
   constexpr double kStd = 0.02;
