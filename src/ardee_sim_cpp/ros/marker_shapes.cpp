@@ -83,6 +83,12 @@ class ShapeMaker {
     }
     if (!bounds.isEmpty()) reach(mesh.scale, bounds);
     shape_.marker.mesh_resource = file_uri(mesh.file->path);
+    // The crop models' second level of detail stands beside the first.
+    const std::filesystem::path path(mesh.file->path);
+    const std::filesystem::path coarse =
+        path.parent_path() / (path.stem().string() + "_lod1" + path.extension().string());
+    std::error_code absent;
+    if (std::filesystem::exists(coarse, absent)) shape_.coarse_resource = file_uri(coarse);
     shape_.marker.mesh_use_embedded_materials = !mesh.file->materials.empty();
     // rviz tints embedded materials with any colour but all zeros.
     if (shape_.marker.mesh_use_embedded_materials) shape_.marker.color = std_msgs::ColorRGBA();

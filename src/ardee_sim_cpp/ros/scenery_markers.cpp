@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "ros/conversions.h"
 #include "ros/ground_marker.h"
@@ -14,6 +15,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kMove_m = 1.5;  // how far a model goes before the markers are renewed
+constexpr double kFine_m = 2.0;  // plants farther than this from all models are drawn coarsely
 constexpr char kFrame[] = "world";
 
 }  // namespace
@@ -115,13 +117,16 @@ void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArra
 void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& placement,
                                   const MarkerId& id,
                                   visualization_msgs::MarkerArray& message) const {
-  const double within_m = radius_m_ + placement.scale * shape.reach_m;
-  const bool near = std::any_of(eyes_.begin(), eyes_.end(), [&](const Eigen::Vector3d& eye) {
-    return (eye - placement.X_WM.p).head<2>().norm() <= within_m;
-  });
-  if (!near) return;
+  double distance_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& eye : eyes_) {
+    distance_m = std::min(distance_m, (eye - placement.X_WM.p).head<2>().norm());
+  }
+  if (!(distance_m <= radius_m_ + placement.scale * shape.reach_m)) return;
   const Pose X_WS = placement.X_WM * Pose{placement.scale * shape.X_MS.p, shape.X_MS.q};
   Marker marker = shape.marker;
+  if (distance_m > kFine_m && !shape.coarse_resource.empty()) {
+    marker.mesh_resource = shape.coarse_resource;
+  }
   if (shape.heightmap) {
     append_ground(*shape.heightmap, X_WS, placement.scale, eyes_, radius_m_, marker);
     if (marker.points.empty()) return;
