@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/devices/battery.h"
+#include "ardee_sim/devices/diff_drive.h"
+#include "ardee_sim/devices/encoder.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
@@ -102,9 +105,13 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
 
 Registry builtin_registry() {
   Registry registry;
+  registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
+  registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
+  registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
   return registry;
