@@ -57,8 +57,7 @@ Battery::Params read(const PluginDescription& plugin, DeviceContext& context) {
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   const std::string topic = parameters.text("batteryTopic", "ardee/battery");
   params.topic = resolve_topic(topic, space);
-  params.state_topic =
-      resolve_topic(parameters.text("batteryStateTopic", topic + "_state"), space);
+  params.state_topic = resolve_topic(parameters.text("batteryStateTopic", topic + "_state"), space);
   params.frame = resolve_frame(parameters.text("batteryLink", "battery"), space, context);
   params.name = parameters.text("batteryName", plugin.name);
   parameters.ignore({"robotBaseFrame", "alwaysOn"});
@@ -98,11 +97,11 @@ void Battery::discharge(double elapsed_s, const Twist& command) {
 }
 
 double Battery::voltage_V() const {
-  const double free_V =
-      params_.current_driven
-          ? params_.constant_V + params_.linear_V * (1.0 - charge_Ah_ / params_.capacity_Ah) -
-                params_.resistance_ohm * current_A_
-          : quick_voltage_V_;
+  const double free_V = params_.current_driven
+                            ? params_.constant_V +
+                                  params_.linear_V * (1.0 - charge_Ah_ / params_.capacity_Ah) -
+                                  params_.resistance_ohm * current_A_
+                            : quick_voltage_V_;
   return std::clamp(free_V, params_.voltage_min_V, params_.voltage_max_V);
 }
 
@@ -134,8 +133,8 @@ void Battery::after_step(TimeNs now_ns, ReadingSink& sink) {
   last_ns_ = now_ns;
   const Header header{now_ns, params_.frame};
   if (output_.demanded) {
-    sink.on_reading(output_, BatteryReading{header, voltage_V(), params_.voltage_max_V,
-                                            params_.voltage_min_V});
+    sink.on_reading(
+        output_, BatteryReading{header, voltage_V(), params_.voltage_max_V, params_.voltage_min_V});
   }
   if (state_output_.demanded) {
     BatteryStateReading reading = state();

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "ardee_sim/devices/drive_command.h"
 #include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/drive_command.h"
 
 namespace ardee {
 

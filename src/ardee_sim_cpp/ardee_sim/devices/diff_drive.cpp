@@ -40,9 +40,10 @@ void read_wheels(Parameters& parameters, const std::string& space, const DeviceC
 
 bool read_legacy_mode(Parameters& parameters, Log& log) {
   if (!parameters.has("legacyMode")) {
-    log.warn(parameters.source().to_string() +
-             ": found no <legacyMode>, expected one: it defaults to true, with left and right "
-             "wheel swapped, as in Gazebo; false is right for a robot whose joints are named right");
+    log.warn(
+        parameters.source().to_string() +
+        ": found no <legacyMode>, expected one: it defaults to true, with left and right "
+        "wheel swapped, as in Gazebo; false is right for a robot whose joints are named right");
   }
   return parameters.boolean("legacyMode", true);
 }
@@ -172,9 +173,9 @@ void DiffDrive::publish_wheels(TimeNs now_ns, ReadingSink& sink) const {
     const Source& source = model.joints[joint].source;
     const Pose X_WP = robot_.link_pose(robot_.link_index(model.joints[joint].parent, source));
     const Pose X_WC = robot_.link_pose(robot_.link_index(model.joints[joint].child, source));
-    sink.on_reading(*tf_output_,
-                    TransformReading{{now_ns, params_.wheel_parent_frames[wheel]},
-                                     params_.wheel_frames[wheel], X_WP.inverse() * X_WC});
+    sink.on_reading(*tf_output_, TransformReading{{now_ns, params_.wheel_parent_frames[wheel]},
+                                                  params_.wheel_frames[wheel],
+                                                  X_WP.inverse() * X_WC});
   }
   if (joints_output_ && joints_output_->demanded) sink.on_reading(*joints_output_, states);
 }

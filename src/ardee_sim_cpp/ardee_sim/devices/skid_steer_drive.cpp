@@ -88,8 +88,7 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
 
 std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
                                              DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, false, context),
-                                          context.robot);
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, false, context), context.robot);
 }
 
 std::unique_ptr<Device> SkidSteerDrive::make_with_encoders(const PluginDescription& plugin,

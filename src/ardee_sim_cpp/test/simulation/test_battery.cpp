@@ -9,8 +9,13 @@
 namespace ardee {
 namespace {
 
+const std::string kBody =
+    "<robot name='r'><link name='base'><inertial><mass value='1'/>"
+    "<inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial></link>";
+
 std::string with_battery(const std::string& keys) {
-  return "<robot name='r'><link name='base'/><gazebo>"
+  return kBody +
+         "<gazebo>"
          "<plugin name='simulated_battery' filename='libardee_ros_battery.so'>"
          "<updateRate>100.0</updateRate><robotBaseFrame>base</robotBaseFrame>"
          "<batteryTopic>ardee/battery</batteryTopic><batteryLink>main_battery</batteryLink>"
@@ -20,7 +25,6 @@ std::string with_battery(const std::string& keys) {
          keys + "</plugin></gazebo></robot>";
 }
 
-/// Without smoothing and internal drop, so that the charge alone decides.
 std::string current_driven(const std::string& keys = "") {
   return with_battery(
       "<constantCoef>12.694</constantCoef><linearCoef>-100.1424</linearCoef>"
@@ -109,7 +113,8 @@ TEST_P(BadBattery, IsLeftOutAndTheRobotIsThere) {
 }
 
 std::string battery_of(const std::string& keys) {
-  return "<robot name='r'><link name='base'/><gazebo>"
+  return kBody +
+         "<gazebo>"
          "<plugin name='b' filename='libardee_ros_battery.so'>" +
          keys + "</plugin></gazebo></robot>";
 }

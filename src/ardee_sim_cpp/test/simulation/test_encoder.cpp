@@ -109,8 +109,7 @@ TEST_P(BadEncoder, IsLeftOutWithOneMessageAndTheModelIsThere) {
 INSTANTIATE_TEST_SUITE_P(Values, BadEncoder,
                          testing::Values("", "<updateRate>0</updateRate>",
                                          "<updateRate>-5</updateRate>",
-                                         "<speedWindow>nan</speedWindow>",
-                                         "<id>1.5</id>"));
+                                         "<speedWindow>nan</speedWindow>", "<id>1.5</id>"));
 
 TEST(SkidSteerEncoders, CountOnFourTopicsOfTheirOwn) {
   TestWorld world(ground_plane());
