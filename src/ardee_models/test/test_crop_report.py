@@ -59,7 +59,7 @@ def test_a_value_outside_its_range_fails(share, tmp_path):
     arguments = _changed(share, tmp_path, height_m=3.4)
     assert crop_report.main(arguments) == 1
     assert (
-        "| height_m | 3.4 | 2 to 2.8 | NO | practice |"
+        "| height_m | 3.4 | 2 to 2.8 | NO | nominal | notes |"
         in (tmp_path / "r" / "crop_report.md").read_text()
     )
 
@@ -85,14 +85,18 @@ def test_a_missing_model_is_an_error(tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize(
     "row, message",
     [
-        ("{stages: [V4], min: 2, max: 1, source: a}", "found 2 to 1 from 'a'"),
-        ("{stages: [V4], min: 0, max: 1, source: b}", "a source among a"),
-        ("{stages: [V4], min: 0, source: a}", "missing key 'max'"),
-        ("{stages: V4, min: 0, max: 1, source: a}", "expected a list"),
+        ("stages: [V4], min: 2, max: 1, source: a, mark: read", "found 2 to 1 from 'a'"),
+        ("stages: [V4], min: 0, max: 1, source: b, mark: read", "a source among a"),
+        ("stages: [V4], min: 0, source: a, mark: read", "missing key 'max'"),
+        ("stages: V4, min: 0, max: 1, source: a, mark: read", "expected a list"),
+        (
+            "stages: [V4], min: 0, max: 1, source: a, mark: told",
+            "found mark 'told', expected one of read",
+        ),
     ],
 )
 def test_bad_range_files(tmp_path, row, message):
     path = tmp_path / "ranges.yaml"
-    path.write_text(f"sources: {{a: text}}\ncorn:\n  height_m:\n    - {row}\n")
+    path.write_text(f"sources: {{a: text}}\ncorn:\n  height_m:\n    - {{{row}, how: sum}}\n")
     with pytest.raises(GeneratorError, match=message):
         load_ranges(path)

@@ -27,6 +27,7 @@ _COLUMNS = (
     "min",
     "max",
     "within",
+    "mark",
     "source",
 )
 
@@ -66,6 +67,7 @@ def _rows(models: Sequence[Path]) -> List[dict]:
                     "min": f"{check.low:g}",
                     "max": f"{check.high:g}",
                     "within": "yes" if check.holds() else "NO",
+                    "mark": check.mark,
                     "source": check.source,
                 }
             )
@@ -99,9 +101,13 @@ def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
             f"## {name}: {own[0]['species']} {own[0]['stage']}, {own[0]['season']} season",
             "",
         ]
-        lines += ["| metric | value | literature | within | source |", "|---|---|---|---|---|"]
         lines += [
-            f"| {r['metric']} | {r['value']} | {r['min']} to {r['max']} | {r['within']} | {r['source']} |"
+            "| metric | value | range | within | mark | source |",
+            "|---|---|---|---|---|---|",
+        ]
+        lines += [
+            f"| {r['metric']} | {r['value']} | {r['min']} to {r['max']}"
+            f" | {r['within']} | {r['mark']} | {r['source']} |"
             for r in own
         ]
         lines.append("")
