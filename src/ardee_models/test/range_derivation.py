@@ -186,7 +186,8 @@ def plant_height(grass: Grass, collars: int) -> Bounds:
 
 
 # Tobacco. CORESTA 2003: a leaf appears every 5-6 days to leaf 8, every 2-3 to leaf 18, every 1-2 after, and grows for
-# 37 days. A leaf of 1241 cm2 is the largest mean of a trial (PVH-1600), 800 cm2 a small one (nominal); 18000-22000 plants/ha.
+# 37 days. A leaf of 1241 cm2 is the largest mean of a trial (PVH-1600), 800 cm2 a small one (nominal);
+# 18000-22000 plants/ha (Xingren).
 LEAF_AREA = between(0.080, 0.1241)
 DENSITY = between(1.8, 2.2)
 GROWTH_DAYS = Trait(30, 37, 45)

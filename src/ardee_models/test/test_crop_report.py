@@ -45,6 +45,8 @@ def test_report_of_all_models(share, tmp_path, capsys):
         row, column = divmod(i, 8)
         cell = drawn[row * 462 + 45 : row * 462 + 425, column * 304 + 3 : column * 304 + 301]
         assert cell.sum() > 300 and not cell[:, :2].any() and not cell[:, -2:].any()
+        foot = drawn[row * 462 + 456 : row * 462 + 460, column * 304 + 3 : column * 304 + 301]
+        assert not foot.any()  # nothing is cut off below the scale bar
 
 
 def _changed(share, tmp_path, **changes):
