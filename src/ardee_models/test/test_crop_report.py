@@ -11,7 +11,7 @@ from PIL import Image
 
 from ardee_models import crop_report
 from ardee_models.errors import GeneratorError
-from ardee_models.ranges import check_metrics, load_ranges
+from ardee_models.ranges import MARKS, check_metrics, load_ranges
 from ardee_models.variants import load_variants
 
 ALWAYS = {"height_m", "leaf_number", "stalk_diameter_m", "leaf_area_index", "leaf_length_to_width"}
@@ -38,6 +38,8 @@ def test_report_of_all_models(share, tmp_path, capsys):
     assert {row["within"] for row in rows} == {"yes"}
     text = (tmp_path / "r" / "crop_report.md").read_text()
     assert all(f"## {name}:" in text for name in load_variants())
+    marks = [row["mark"] for row in rows]
+    assert ", ".join(f"{marks.count(mark)} {mark}" for mark in MARKS) in text
     with Image.open(tmp_path / "r" / "contact_sheet.png") as image:
         pixels = np.asarray(image.convert("RGB")).astype(int)
     drawn = np.abs(pixels - pixels[200, 10]).max(axis=2) > 40

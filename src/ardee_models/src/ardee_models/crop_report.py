@@ -13,7 +13,7 @@ from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.output import write_file
-from ardee_models.ranges import Check, check_metrics, load_ranges
+from ardee_models.ranges import MARKS, Check, check_metrics, load_ranges
 from ardee_models.stages import SEASONS
 from ardee_models.variants import load_variants
 
@@ -82,6 +82,11 @@ def _csv(rows: List[dict]) -> str:
     return buffer.getvalue()
 
 
+def _marks(rows: List[dict]) -> str:
+    counts = ((sum(row["mark"] == mark for row in rows), mark) for mark in MARKS)
+    return ", ".join(f"{count} {mark}" for count, mark in counts)
+
+
 def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
     _, sources = load_ranges()
     outside = sum(row["within"] == "NO" for row in rows)
@@ -89,6 +94,8 @@ def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
         "# Crop models",
         "",
         f"{len(models)} models, {len(rows)} metrics, {outside} outside the literature's range.",
+        "",
+        f"The ranges are {_marks(rows)}; `config/ranges.yaml` says what that means, and how each follows.",
         "",
         "![all models](contact_sheet.png)",
         "",

@@ -8,7 +8,6 @@ from typing import Dict, List, Mapping, Optional, Tuple
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
 from ardee_models.errors import GeneratorError
 
-
 # What a range may rest on; the head of config/ranges.yaml says what each means
 MARKS = ("read", "computed", "derived", "nominal")
 
