@@ -11,7 +11,7 @@ from PIL import Image
 
 from ardee_models import crop_report
 from ardee_models.errors import GeneratorError
-from ardee_models.ranges import check_metrics, load_ranges
+from ardee_models.ranges import MARKS, check_metrics, load_ranges
 from ardee_models.variants import load_variants
 
 ALWAYS = {"height_m", "leaf_number", "stalk_diameter_m", "leaf_area_index", "leaf_length_to_width"}
@@ -38,6 +38,8 @@ def test_report_of_all_models(share, tmp_path, capsys):
     assert {row["within"] for row in rows} == {"yes"}
     text = (tmp_path / "r" / "crop_report.md").read_text()
     assert all(f"## {name}:" in text for name in load_variants())
+    marks = [row["mark"] for row in rows]
+    assert ", ".join(f"{marks.count(mark)} {mark}" for mark in MARKS) in text
     with Image.open(tmp_path / "r" / "contact_sheet.png") as image:
         pixels = np.asarray(image.convert("RGB")).astype(int)
     drawn = np.abs(pixels - pixels[200, 10]).max(axis=2) > 40
@@ -45,6 +47,8 @@ def test_report_of_all_models(share, tmp_path, capsys):
         row, column = divmod(i, 8)
         cell = drawn[row * 462 + 45 : row * 462 + 425, column * 304 + 3 : column * 304 + 301]
         assert cell.sum() > 300 and not cell[:, :2].any() and not cell[:, -2:].any()
+        foot = drawn[row * 462 + 456 : row * 462 + 460, column * 304 + 3 : column * 304 + 301]
+        assert not foot.any()  # nothing is cut off below the scale bar
 
 
 def _changed(share, tmp_path, **changes):
@@ -59,7 +63,7 @@ def test_a_value_outside_its_range_fails(share, tmp_path):
     arguments = _changed(share, tmp_path, height_m=3.4)
     assert crop_report.main(arguments) == 1
     assert (
-        "| height_m | 3.4 | 2 to 2.8 | NO | practice |"
+        "| height_m | 3.4 | 2 to 2.8 | NO | nominal | notes |"
         in (tmp_path / "r" / "crop_report.md").read_text()
     )
 
@@ -85,14 +89,18 @@ def test_a_missing_model_is_an_error(tmp_path, capsys, monkeypatch):
 @pytest.mark.parametrize(
     "row, message",
     [
-        ("{stages: [V4], min: 2, max: 1, source: a}", "found 2 to 1 from 'a'"),
-        ("{stages: [V4], min: 0, max: 1, source: b}", "a source among a"),
-        ("{stages: [V4], min: 0, source: a}", "missing key 'max'"),
-        ("{stages: V4, min: 0, max: 1, source: a}", "expected a list"),
+        ("stages: [V4], min: 2, max: 1, source: a, mark: read", "found 2 to 1 from 'a'"),
+        ("stages: [V4], min: 0, max: 1, source: b, mark: read", "a source among a"),
+        ("stages: [V4], min: 0, source: a, mark: read", "missing key 'max'"),
+        ("stages: V4, min: 0, max: 1, source: a, mark: read", "expected a list"),
+        (
+            "stages: [V4], min: 0, max: 1, source: a, mark: told",
+            "found mark 'told', expected one of read",
+        ),
     ],
 )
 def test_bad_range_files(tmp_path, row, message):
     path = tmp_path / "ranges.yaml"
-    path.write_text(f"sources: {{a: text}}\ncorn:\n  height_m:\n    - {row}\n")
+    path.write_text(f"sources: {{a: text}}\ncorn:\n  height_m:\n    - {{{row}, how: sum}}\n")
     with pytest.raises(GeneratorError, match=message):
         load_ranges(path)

@@ -13,7 +13,7 @@ from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.output import write_file
-from ardee_models.ranges import Check, check_metrics, load_ranges
+from ardee_models.ranges import MARKS, Check, check_metrics, load_ranges
 from ardee_models.stages import SEASONS
 from ardee_models.variants import load_variants
 
@@ -27,6 +27,7 @@ _COLUMNS = (
     "min",
     "max",
     "within",
+    "mark",
     "source",
 )
 
@@ -66,6 +67,7 @@ def _rows(models: Sequence[Path]) -> List[dict]:
                     "min": f"{check.low:g}",
                     "max": f"{check.high:g}",
                     "within": "yes" if check.holds() else "NO",
+                    "mark": check.mark,
                     "source": check.source,
                 }
             )
@@ -80,6 +82,11 @@ def _csv(rows: List[dict]) -> str:
     return buffer.getvalue()
 
 
+def _marks(rows: List[dict]) -> str:
+    counts = ((sum(row["mark"] == mark for row in rows), mark) for mark in MARKS)
+    return ", ".join(f"{count} {mark}" for count, mark in counts)
+
+
 def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
     _, sources = load_ranges()
     outside = sum(row["within"] == "NO" for row in rows)
@@ -87,6 +94,8 @@ def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
         "# Crop models",
         "",
         f"{len(models)} models, {len(rows)} metrics, {outside} outside the literature's range.",
+        "",
+        f"The ranges are {_marks(rows)}; `config/ranges.yaml` says what that means, and how each follows.",
         "",
         "![all models](contact_sheet.png)",
         "",
@@ -99,9 +108,13 @@ def _markdown(rows: List[dict], models: Sequence[Path]) -> str:
             f"## {name}: {own[0]['species']} {own[0]['stage']}, {own[0]['season']} season",
             "",
         ]
-        lines += ["| metric | value | literature | within | source |", "|---|---|---|---|---|"]
         lines += [
-            f"| {r['metric']} | {r['value']} | {r['min']} to {r['max']} | {r['within']} | {r['source']} |"
+            "| metric | value | range | within | mark | source |",
+            "|---|---|---|---|---|---|",
+        ]
+        lines += [
+            f"| {r['metric']} | {r['value']} | {r['min']} to {r['max']}"
+            f" | {r['within']} | {r['mark']} | {r['source']} |"
             for r in own
         ]
         lines.append("")

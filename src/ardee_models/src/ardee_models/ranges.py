@@ -8,13 +8,18 @@ from typing import Dict, List, Mapping, Optional, Tuple
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
 from ardee_models.errors import GeneratorError
 
+# What a range may rest on; the head of config/ranges.yaml says what each means
+MARKS = ("read", "computed", "derived", "nominal")
+
 
 @dataclass(frozen=True)
 class Range:
-    """Least and greatest value of a metric at some stages."""
+    """Least and greatest value of a metric at some stages, and how they follow from the source."""
 
     stages: Tuple[str, ...]
     source: str
+    mark: str
+    how: str
     min: float = bounded(0, 1000)
     max: float = bounded(0, 1000)
 
@@ -27,6 +32,7 @@ class Check:
     value: float
     low: float
     high: float
+    mark: str
     source: str
 
     def holds(self) -> bool:
@@ -47,6 +53,10 @@ def load_ranges(path: Optional[Path] = None) -> tuple:
             where = f"{path}: {species}.{metric}"
             parsed = [from_mapping(Range, row, f"{where}[{i}]") for i, row in enumerate(rows or [])]
             for row in parsed:
+                if row.mark not in MARKS:
+                    raise GeneratorError(
+                        f"{where}: found mark {row.mark!r}, expected one of {', '.join(MARKS)}"
+                    )
                 if row.min > row.max or row.source not in sources:
                     raise GeneratorError(
                         f"{where}: found {row.min:g} to {row.max:g} from {row.source!r},"
@@ -65,5 +75,5 @@ def check_metrics(
         for row in rows:
             if metrics["stage"] in row.stages:
                 value = float(metrics[metric])  # type: ignore[arg-type]
-                checks.append(Check(metric, value, row.min, row.max, row.source))
+                checks.append(Check(metric, value, row.min, row.max, row.mark, row.source))
     return checks

@@ -83,7 +83,10 @@ def draw(
     elevation_rad: float,
     background: Tuple[int, int, int],
 ) -> np.ndarray:
-    """Parallel projection; the plant's foot is in the middle, near the lower edge. RGB uint8 (height, width, 3)."""
+    """Parallel projection; RGB uint8 (height, width, 3).
+
+    The plant's foot is in the middle, near the lower edge or so far above it that low tips show.
+    """
     width, height = size_px
     area = sum(
         0.5
@@ -103,7 +106,9 @@ def draw(
     # a leaf is lit from either side; what faces up is a little brighter
     shade = _AMBIENT + (1.0 - _AMBIENT) * np.abs(normals @ light) / np.linalg.norm(light)
     x = (points @ right * pixels_per_m + width / 2).astype(int)
-    y = (height * 0.965 - points @ up * pixels_per_m).astype(int)
+    above = points @ up * pixels_per_m
+    foot = min(0.965 * height, 0.985 * height + above.min())
+    y = (foot - above).astype(int)
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
     order = np.argsort(points[inside] @ eye, kind="stable")  # far to near: the last one stays
     picture = np.empty((height, width, 3), dtype=np.uint8)
