@@ -1,38 +1,48 @@
 # SPDX-License-Identifier: MIT
-"""What a lidar sees between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2)."""
+"""What a lidar sees between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
+
+Each claim is a statistic over fields that differ in nothing but their seed: a field is one sample, and two kinds of field are compared in
+pairs of the same seed by Student's t-test, one-sided, at CONFIDENCE.
+"""
 import json
 import os
 import pathlib
-import re
-from typing import List
+from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 import probes
 import pytest
 from ros_graph import RosGraph, wait_until
+from scipy import stats
 
-from ardee_models.terrain_files import ground_model
+from ardee_world.cli import make_configured
+from ardee_world.request import yaml_values
 
-WORLDS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "worlds"
+PLANS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "fields"
 MODEL_PATH = [pathlib.Path(p) for p in os.environ["GAZEBO_MODEL_PATH"].split(":") if p]
+SEEDS = range(1, 13)
+CONFIDENCE = 0.99
 RANGE_M, NEAR_M, HEIGHT_M, BEAMS = 10.0, 1.5, 0.3, 1081
 LANE_HALF_WIDTH_M, END_RAD = 0.25, 2.35619
-# In all these worlds the middle lane lies on y = 0 and the rows, of 5 m or more, begin at x = -1 m.
-POSTS_X_M = (-1.5, -2.5, -3.5, -4.5, -5.5)
-INNER_POSTS_X_M = (-4.0, -5.5, -7.0, -8.5, -10.0)  # of rows of 13 m
+FIELD_STEP_M = 60.0  # between the fields of a world: farther than the lidars see
+POSTS_M = (1.0, 1.75, 2.5, 3.25, 4.0)  # along rows of 5 m, from the entrance
+SEASON_ROW_M, SEASON_POSTS_M = 13.0, (4.5, 5.5, 6.5, 7.5, 8.5)
 POST = """
-<model name="post{number}"><static>true</static><pose>{x} 0 {z} 0 0 3.14159</pose><link name="lidar">
+<model name="{name}"><static>true</static><pose>{x} {y} {z} 0 0 0</pose><link name="lidar">
   <sensor type="gpu_ray" name="lidar"><update_rate>20</update_rate>
     <ray>
       <scan><horizontal><samples>{beams}</samples><resolution>1</resolution>
         <min_angle>-{end}</min_angle><max_angle>{end}</max_angle></horizontal></scan>
       <range><min>0.02</min><max>{range}</max></range>
     </ray>
-    <plugin name="lidar{number}" filename="libgazebo_ros_gpu_laser.so">
-      <robotNamespace>post{number}</robotNamespace>
+    <plugin name="lidar" filename="libgazebo_ros_gpu_laser.so">
+      <robotNamespace>{name}</robotNamespace>
       <topicName>scan</topicName><frameName>lidar</frameName>
     </plugin>
   </sensor></link></model>
+"""
+GROUND = """
+<model name="ground"><static>true</static><link name="link"><collision name="c"><geometry><plane/></geometry></collision></link></model>
 """
 
 
@@ -49,40 +59,6 @@ def scans(topics: List[str], timeout_s: float = 60.0) -> List[List[float]]:
     return [list(found[topic].ranges) for topic in topics]
 
 
-def measure(graph: RosGraph, world: str, posts_x_m: tuple = POSTS_X_M, **env: str) -> np.ndarray:
-    """Ranges [m] of lidars HEIGHT_M above the lane, a row each; nothing in reach counts as RANGE_M."""
-    ground = ground_model(re.search(r"model://(heightmap_\w+)", world).group(1), MODEL_PATH)
-    at_z = ground.height_at(np.array(posts_x_m), np.zeros(len(posts_x_m))) + HEIGHT_M
-    posts = "".join(
-        POST.format(number=number, x=x, z=z, beams=BEAMS, range=RANGE_M, end=END_RAD)
-        for number, (x, z) in enumerate(zip(posts_x_m, at_z.tolist()))
-    )
-    file = graph.folder / "posts.world"
-    file.write_text(world.replace("</world>", posts + "</world>"))
-    simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file), **env)
-    topics = [f"/post{number}/scan" for number in range(len(posts_x_m))]
-    ranges = np.array(graph.call(scans, topics))
-    simulator.stop()
-    assert ranges.shape == (len(posts_x_m), BEAMS) and not np.isnan(ranges).any()
-    return np.clip(ranges, 0.0, RANGE_M)
-
-
-def near_share(ranges: np.ndarray) -> float:
-    """Share of the beams that end within NEAR_M."""
-    return float(np.mean(ranges < NEAR_M))
-
-
-def lane_share(ranges: np.ndarray) -> float:
-    """Share of the beams that end on something in the lane, LANE_HALF_WIDTH_M or less from its middle."""
-    across_m = np.abs(ranges * np.sin(np.linspace(-END_RAD, END_RAD, BEAMS)))
-    return float(np.mean((ranges < RANGE_M) & (across_m < LANE_HALF_WIDTH_M)))
-
-
-def shipped(name: str) -> str:
-    """Text of a world of ardee_world."""
-    return (WORLDS / f"{name}.world").read_text()
-
-
 def season_models(season: str) -> List[str]:
     """The corn models of a season, of those that the build makes."""
     paths = (p for folder in MODEL_PATH for p in folder.glob("corn_variant_*/metrics.json"))
@@ -90,46 +66,103 @@ def season_models(season: str) -> List[str]:
     return sorted(name for name, found in seasons.items() if found == season)
 
 
-def season_field(graph: RosGraph, season: str, folder: pathlib.Path) -> None:
-    """A field of all corn models of a season, wide enough that few beams leave it."""
+def thesis_plot(name: str) -> dict:
+    """Options of a plot of thesis 5.2."""
+    return {**yaml_values(PLANS / f"{name}.yaml"), "terrain": None}
+
+
+def season_plot(season: str) -> dict:
+    """Options of a field of all corn models of a season, wide enough that few beams leave it."""
     models = season_models(season)
     assert len(models) >= 5
-    graph.run(
-        *("rosrun", "ardee_world", "generate_field", "--models", *models, "--name", season),
-        *("--rows", "10", "--row-length", "13", "--terrain", "heightmap_ground"),
-        *("--seed", "2", "--output", str(folder)),
-    )
+    return {"models": tuple(models), "rows": 10, "row_length_m": SEASON_ROW_M}
 
 
-@pytest.mark.parametrize(
-    "corn_world, sorghum_world", [("scenario_2_corn", "scenario_3_sorghum"), ("corn", "sorghum")]
-)
-def test_sorghum_is_denser_and_more_cluttered_than_corn(
-    graph: RosGraph, corn_world: str, sorghum_world: str
-) -> None:
-    corn, sorghum = (measure(graph, shipped(name)) for name in (corn_world, sorghum_world))
-    medians_m = [float(np.median(ranges)) for ranges in (corn, sorghum)]
-    shares = [near_share(ranges) for ranges in (corn, sorghum)]
-    print(f"corn, sorghum: medians {medians_m} m, shares within {NEAR_M} m {shares}")
-    assert medians_m[1] < 0.9 * medians_m[0]
-    assert shares[1] > shares[0] + 0.02
-    assert 0.2 < min(shares) and max(shares) < 0.9  # both are fields, and neither is a wall
+KINDS: Dict[str, Tuple[Callable[[], dict], Tuple[float, ...]]] = {
+    "corn": (lambda: thesis_plot("scenario-2-corn-plot"), POSTS_M),
+    "sorghum": (lambda: thesis_plot("scenario-3-sorghum-plot"), POSTS_M),
+    "early": (lambda: season_plot("early"), SEASON_POSTS_M),
+    "late": (lambda: season_plot("late"), SEASON_POSTS_M),
+}
 
 
-def test_early_corn_lets_the_beam_farther_than_late(
-    graph: RosGraph, tmp_path: pathlib.Path
-) -> None:
-    fields = tmp_path / "fields"
+@pytest.fixture(scope="module")
+def scanned(
+    shared_graph: RosGraph, tmp_path_factory: pytest.TempPathFactory
+) -> Dict[str, np.ndarray]:
+    """Kind of field to ranges [m] (seeds, posts, beams) HEIGHT_M above the lane; nothing in reach counts as RANGE_M.
+
+    All fields stand in one world, FIELD_STEP_M apart along y; rows run from the entrance at x = -1 m to smaller x.
+    """
+    fields = tmp_path_factory.mktemp("fields")
+    world, topics = [GROUND], []  # type: Tuple[List[str], List[str]]
+    for kind, (options, posts_m) in KINDS.items():
+        for seed in SEEDS:
+            name, y_m = f"{kind}_{seed}", FIELD_STEP_M * len(topics) / len(posts_m)
+            make_configured(
+                {**options(), "name": name, "output": str(fields), "seed": seed, "format": "sdf"}
+            )
+            include = f"<include><uri>model://{name}</uri><pose>0 {y_m} 0 0 0 -1.5707963</pose></include>"
+            world.append(include)
+            for number, along_m in enumerate(posts_m):
+                post = f"{name}_{number}"
+                where = dict(x=-1.0 - along_m, y=y_m, z=HEIGHT_M, end=END_RAD)
+                world.append(POST.format(name=post, beams=BEAMS, range=RANGE_M, **where))
+                topics.append(f"/{post}/scan")
+    file = shared_graph.folder / "fields.world"
+    file.write_text(f"<sdf version='1.6'><world name='fields'>{''.join(world)}</world></sdf>")
     model_path = os.pathsep.join([str(fields), os.environ["GAZEBO_MODEL_PATH"]])
-    found = {}
-    for season in ("early", "late"):
-        season_field(graph, season, fields)
-        world = shipped("scenario_2_corn").replace("scenario-2-corn-plot", season)
-        assert f"<uri>model://{season}</uri>" in world
-        found[season] = measure(graph, world, INNER_POSTS_X_M, GAZEBO_MODEL_PATH=model_path)
-    medians_m = {season: float(np.median(ranges)) for season, ranges in found.items()}
-    in_lane = {season: lane_share(ranges) for season, ranges in found.items()}
-    print(f"medians {medians_m} m, shares that end in the lane {in_lane}")
-    assert medians_m["early"] > 1.05 * medians_m["late"]
+    simulator = shared_graph.spawn(
+        "rosrun", "ardee_sim_cpp", "simulator", str(file), GAZEBO_MODEL_PATH=model_path
+    )
+    ranges = np.array(shared_graph.call(scans, topics))
+    simulator.stop()
+    assert ranges.shape == (len(topics), BEAMS) and not np.isnan(ranges).any()
+    per_kind = ranges.reshape(len(KINDS), len(SEEDS), -1, BEAMS)
+    return dict(zip(KINDS, np.clip(per_kind, 0.0, RANGE_M)))
+
+
+def medians_m(ranges: np.ndarray) -> np.ndarray:
+    """Median range of each field [m]."""
+    return np.median(ranges.reshape(len(ranges), -1), axis=1)
+
+
+def near_shares(ranges: np.ndarray) -> np.ndarray:
+    """Share of each field's beams that end within NEAR_M."""
+    return np.mean(ranges < NEAR_M, axis=(1, 2))
+
+
+def lane_shares(ranges: np.ndarray) -> np.ndarray:
+    """Share of each field's beams that end in the lane, LANE_HALF_WIDTH_M or less from its middle."""
+    across_m = np.abs(ranges * np.sin(np.linspace(-END_RAD, END_RAD, BEAMS)))
+    return np.mean((ranges < RANGE_M) & (across_m < LANE_HALF_WIDTH_M), axis=(1, 2))
+
+
+def assert_greater(what: str, more: np.ndarray, less: np.ndarray) -> None:
+    """Paired t-test over the seeds: the mean of `more` is above that of `less`, at CONFIDENCE."""
+    p_value = float(stats.ttest_rel(more, less, alternative="greater").pvalue)
+    print(
+        f"{what}: {more.mean():.3f} +- {more.std(ddof=1):.3f} against {less.mean():.3f} +- "
+        f"{less.std(ddof=1):.3f} over {len(more)} fields, p = {p_value:.2g}"
+    )
+    assert p_value < 1.0 - CONFIDENCE
+
+
+def test_sorghum_is_denser_than_corn(scanned: Dict[str, np.ndarray]) -> None:
+    corn, sorghum = scanned["corn"], scanned["sorghum"]
+    assert_greater("median range [m], corn and sorghum", medians_m(corn), medians_m(sorghum))
+
+
+def test_sorghum_is_more_cluttered_than_corn(scanned: Dict[str, np.ndarray]) -> None:
+    corn, sorghum = scanned["corn"], scanned["sorghum"]
+    shares = near_shares(sorghum), near_shares(corn)
+    assert_greater(f"beams that end within {NEAR_M} m, sorghum and corn", *shares)
+    assert 0.2 < min(map(np.mean, shares)) and max(map(np.mean, shares)) < 0.9  # fields, no walls
+
+
+def test_early_corn_lets_the_beam_farther_than_late(scanned: Dict[str, np.ndarray]) -> None:
+    early, late = scanned["early"], scanned["late"]
+    assert_greater("median range [m], early and late corn", medians_m(early), medians_m(late))
     # The leaves of late corn reach into the lane; those of early corn hardly do.
-    assert in_lane["late"] > 2.0 * in_lane["early"]
+    lane = lane_shares(late), lane_shares(early)
+    assert_greater("beams that end in the lane, late and early corn", *lane)

@@ -88,7 +88,7 @@ class ShapeMaker {
     const std::filesystem::path coarse =
         path.parent_path() / (path.stem().string() + "_lod1" + path.extension().string());
     std::error_code absent;
-    if (std::filesystem::exists(coarse, absent)) shape_.coarse_resource = file_uri(coarse);
+    if (std::filesystem::exists(coarse, absent)) shape_.coarse_path = coarse.string();
     shape_.marker.mesh_use_embedded_materials = !mesh.file->materials.empty();
     // rviz tints embedded materials with any colour but all zeros.
     if (shape_.marker.mesh_use_embedded_materials) shape_.marker.color = std_msgs::ColorRGBA();

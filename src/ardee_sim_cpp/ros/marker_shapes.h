@@ -15,7 +15,7 @@ struct MarkerShape {
   visualization_msgs::Marker marker;     // type, scale, colour, mesh, points; in the shape's frame
   Pose X_MS;                             // shape in the model
   double reach_m = 0.0;                  // about the model's origin; infinite: seen from everywhere
-  std::string coarse_resource;           // the mesh with fewer triangles, for afar; empty: none
+  std::string coarse_path;               // mesh file with fewer triangles, for afar; empty: none
   const Heightmap* heightmap = nullptr;  // then the marker is made of the ground near by
 };
 

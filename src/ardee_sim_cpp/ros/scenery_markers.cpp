@@ -15,8 +15,9 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kMove_m = 1.5;  // how far a model goes before the markers are renewed
-constexpr double kFine_m = 2.0;  // plants farther than this from all models are drawn coarsely
+constexpr double kFine_m = 1.5;  // plants farther than this from all models are drawn coarsely
 constexpr char kFrame[] = "world";
+constexpr char kFar[] = " (far)";  // behind an entity's name: the marker of its far plants
 
 }  // namespace
 
@@ -104,6 +105,13 @@ void SceneryMarkers::publish() {
 }
 
 void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArray& message) {
+  far_ = Marker();
+  far_.header.frame_id = kFrame;
+  far_.ns = entity.name() + kFar;
+  far_.type = Marker::TRIANGLE_LIST;
+  far_.pose.orientation.w = 1.0;
+  far_.scale = to_vector(Eigen::Vector3d::Ones());
+  far_.color.a = 1.0f;
   int first_id = 0;  // the same placement has the same ids as long as it stands
   for (const Placement& placement : entity.placements) {
     const std::vector<MarkerShape>& shapes = shapes_of(placement.model);
@@ -112,21 +120,24 @@ void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArra
     }
     first_id += static_cast<int>(shapes.size());
   }
+  if (!far_.points.empty()) message.markers.push_back(std::move(far_));
 }
 
 void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& placement,
                                   const MarkerId& id,
-                                  visualization_msgs::MarkerArray& message) const {
+                                  visualization_msgs::MarkerArray& message) {
   double distance_m = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& eye : eyes_) {
     distance_m = std::min(distance_m, (eye - placement.X_WM.p).head<2>().norm());
   }
   if (!(distance_m <= radius_m_ + placement.scale * shape.reach_m)) return;
   const Pose X_WS = placement.X_WM * Pose{placement.scale * shape.X_MS.p, shape.X_MS.q};
-  Marker marker = shape.marker;
-  if (distance_m > kFine_m && !shape.coarse_resource.empty()) {
-    marker.mesh_resource = shape.coarse_resource;
+  if (distance_m > kFine_m && !shape.coarse_path.empty()) {
+    const Eigen::Vector3d scale = placement.scale * from_ros(shape.marker.scale);
+    far_plants_.append(shape.coarse_path, X_WS, scale, far_);
+    return;
   }
+  Marker marker = shape.marker;
   if (shape.heightmap) {
     append_ground(*shape.heightmap, X_WS, placement.scale, eyes_, radius_m_, marker);
     if (marker.points.empty()) return;

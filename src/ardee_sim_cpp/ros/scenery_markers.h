@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ardee_sim/simulation/simulation.h"
+#include "ros/far_plants.h"
 #include "ros/marker_shapes.h"
 
 namespace ardee::node {
@@ -39,7 +40,7 @@ class SceneryMarkers {
   void publish();
   void append(const Entity& entity, visualization_msgs::MarkerArray& message);
   void append_shape(const MarkerShape& shape, const Placement& placement, const MarkerId& id,
-                    visualization_msgs::MarkerArray& message) const;
+                    visualization_msgs::MarkerArray& message);
   const std::vector<MarkerShape>& shapes_of(const std::shared_ptr<const Model>& model);
 
   const Simulation& simulation_;
@@ -49,6 +50,8 @@ class SceneryMarkers {
   std::vector<Standing> standing_;
   std::set<MarkerId> shown_;
   std::map<std::shared_ptr<const Model>, std::vector<MarkerShape>> shapes_;
+  FarPlants far_plants_;
+  visualization_msgs::Marker far_;  // of the entity that is being appended
 };
 
 }  // namespace ardee::node

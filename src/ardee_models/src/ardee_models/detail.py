@@ -32,16 +32,16 @@ FULL = Detail(
     segments_min=6,
     segments_max=22,
 )
-LOD1 = Detail(
+LOD1 = Detail(  # for hundreds of plants at once seen from some metres
     suffix="_lod1",
-    triangles=330,
-    stalk_sides=4,
-    stalk_rings=4,
+    triangles=110,
+    stalk_sides=3,
+    stalk_rings=3,
     tiller_sides=3,
-    body_sides=4,
-    body_rings=4,
-    minor_every=6,
-    segments_min=3,
-    segments_max=12,
+    body_sides=3,
+    body_rings=3,
+    minor_every=8,
+    segments_min=2,
+    segments_max=4,
 )
 LEVELS = (FULL, LOD1)
