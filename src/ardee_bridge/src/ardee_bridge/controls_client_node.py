@@ -48,7 +48,7 @@ def _make() -> Callable[[float], None]:
     settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
     counters = Counters(rospy.logwarn)
     opened = open_socket(settings.bind_address, settings.port)
-    publisher = rospy.Publisher(settings.cmd_vel_topic, Twist, queue_size=1, tcp_nodelay=True)
+    publisher = rospy.Publisher(settings.cmd_vel_topic, Twist, queue_size=10, tcp_nodelay=True)
 
     def move(motion: Motion) -> None:
         twist = Twist()

@@ -293,6 +293,9 @@ def receive_commands(pipe: Any, topic: str) -> None:
     while not robot.get_num_connections():
         time.sleep(0.05)
     pipe.send("listening")
+    while not arrivals:
+        time.sleep(0.05)
+    pipe.send("moving")
     pipe.recv()
     pipe.send(arrivals)
 
@@ -307,12 +310,25 @@ def measure_controls(seconds: float) -> Spread:
             if not from_robot.poll(START_LIMIT_S):
                 raise TimeoutError("the controls client does not publish")
             from_robot.recv()
+            _wake(port, from_robot)
             sent = _send_commands(port, round(seconds * COMMAND_RATE_HZ))
             time.sleep(SETTLE_S)
             from_robot.send("end")
             arrivals = _answer(robot, from_robot, START_LIMIT_S)
     found = [arrivals[serial] - at_ns for serial, at_ns in sent.items() if serial in arrivals]
     return spread(found, len(sent))
+
+
+def _wake(port: int, from_robot: Any) -> None:
+    """Send commands until the first arrives: only then both ends of the topic know of each other."""
+    with open_socket("127.0.0.1", 0) as opened:
+        deadline = time.monotonic() + START_LIMIT_S
+        while not from_robot.poll(0.1):
+            if time.monotonic() > deadline:
+                raise TimeoutError("no command arrives")
+            for datagram in codec.encode_motion(0.0, 0.0):
+                opened.sendto(datagram, ("127.0.0.1", port))
+    from_robot.recv()
 
 
 def _send_commands(port: int, count: int) -> Dict[int, int]:

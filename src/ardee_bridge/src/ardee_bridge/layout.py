@@ -2,7 +2,7 @@
 """Structs as C compilers lay them out on x86-64 and ARM: little-endian, each member at its natural alignment."""
 import math
 import struct
-from typing import Any, Dict, Iterator, List, NamedTuple, Sequence, Tuple, Type, TypeVar, Union
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Sequence, Tuple, Type, TypeVar, Union
 
 from ardee_bridge.scales import Scale, scale_of
 
@@ -58,6 +58,7 @@ class Leaf(NamedTuple):
     offset: int
     kind: Union[Scalar, Array]
     scale: Scale
+    limits: Tuple[int, int]
 
 
 S = TypeVar("S", bound="CStruct")
@@ -82,12 +83,14 @@ class CStruct:
         for name, kind in cls.FIELDS:
             offset = _padded(offset, kind.alignment)
             if isinstance(kind, (Scalar, Array)):
-                leaves.append(Leaf(name, offset, kind, scale_of(cls.C_NAME, name)))
+                limits = kind.limits if isinstance(kind, Scalar) else kind.item.limits
+                leaves.append(Leaf(name, offset, kind, scale_of(cls.C_NAME, name), limits))
             else:
                 for inner in kind.leaves:
                     path = f"{name}.{inner.path}"
                     scale = scale_of(cls.C_NAME, path)
-                    leaves.append(Leaf(path, offset + inner.offset, inner.kind, scale))
+                    place = offset + inner.offset
+                    leaves.append(inner._replace(path=path, offset=place, scale=scale))
             offset += kind.size
         cls.leaves, cls.size = tuple(leaves), _padded(offset, cls.alignment)
         cls._struct = struct.Struct(cls._format())
@@ -133,8 +136,15 @@ class CStruct:
 
     def pack(self) -> bytes:
         """The bytes of the struct; arrays that are too short are filled up with zeros."""
+        return self._pack(self._values())
+
+    def pack_si(self) -> bytes:
+        """The same as to_raw().pack()."""
+        return self._pack(self._counts())
+
+    def _pack(self, values: Iterable[Any]) -> bytes:
         flat = []  # type: List[int]
-        for leaf, value in zip(self.leaves, self._values()):
+        for leaf, value in zip(self.leaves, values):
             if not isinstance(leaf.kind, Array):
                 flat.append(value)
                 continue
@@ -179,14 +189,16 @@ class CStruct:
 
     def to_raw(self: S) -> S:
         """The same with integers for the wire, from physical values: rounded, saturated, NaN as NO_VALUE."""
-        values = []  # type: List[Any]
+        return self._from_values(self._counts())
+
+    def _counts(self) -> Iterator[Any]:
+        """Values for the wire from physical ones."""
         for leaf, value in zip(self.leaves, self._values()):
+            per_unit = leaf.scale.counts_per_unit or 1
             if isinstance(leaf.kind, Array):
-                values.append(scaled(value, leaf.scale.counts_per_unit or 1))
+                yield scaled(value, per_unit)
             else:
-                per_unit = leaf.scale.counts_per_unit or 1
-                values.append(_to_count(value, per_unit, leaf.kind.limits))
-        return self._from_values(iter(values))
+                yield _to_count(value, per_unit, leaf.limits)
 
     def as_dict(self) -> Dict[str, Any]:
         """Dotted path -> value."""
