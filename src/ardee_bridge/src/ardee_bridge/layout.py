@@ -2,7 +2,19 @@
 """Structs as C compilers lay them out on x86-64 and ARM: little-endian, each member at its natural alignment."""
 import math
 import struct
-from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Sequence, Tuple, Type, TypeVar, Union
+from typing import (
+    Any,
+    Dict,
+    Iterable,
+    Iterator,
+    List,
+    NamedTuple,
+    Sequence,
+    Tuple,
+    Type,
+    TypeVar,
+    Union,
+)
 
 from ardee_bridge.scales import Scale, scale_of
 

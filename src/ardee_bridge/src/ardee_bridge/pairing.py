@@ -37,12 +37,11 @@ class Pairer:
 
     def _keep(self, sender: Hashable, header: codec.Header, now_s: float) -> None:
         size = codec.data_size(header)
-        if size is None:
-            self.dropped["unknown or invalid header"] += 1
-            self._waiting.pop(sender, None)  # its data must not go to the header before
-            return
         if self._waiting.pop(sender, None) is not None:
             self.dropped["header without data"] += 1
+        if size is None:
+            self.dropped["unknown or invalid header"] += 1
+            return
         self._waiting[sender] = (header, size, now_s)
         if len(self._waiting) > MAX_SENDERS:
             self._waiting.popitem(last=False)

@@ -46,7 +46,8 @@ class RateLimit:
         self._last_s = stamp_s
         if stamp_s < self._due_s - 1e-6:
             return False
-        self._due_s = max(self._due_s, stamp_s - self._period_s) + self._period_s
+        is_late = stamp_s > self._due_s + self._period_s
+        self._due_s = (stamp_s if is_late else self._due_s) + self._period_s
         return True
 
 
