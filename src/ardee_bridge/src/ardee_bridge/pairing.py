@@ -10,7 +10,7 @@ from typing import Hashable, NamedTuple, Optional, Tuple
 
 from ardee_bridge import codec
 
-WINDOW_S = 0.1
+WINDOW_S = 1.0
 MAX_SENDERS = 64
 
 
