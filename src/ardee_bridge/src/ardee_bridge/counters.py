@@ -36,7 +36,7 @@ class Counters:
             self._logged[kind] = now
             fresh = self._dropped[kind] - self._said[kind]
             self._said[kind] = self._dropped[kind]
-        self._warn(f"dropped: {kind}{': ' + detail if detail else ''} ({fresh} so far unreported)")
+        self._warn(f"dropped {fresh}: {kind}{', ' + detail if detail else ''}")
 
     def raise_to(self, kind: str, total: int) -> None:
         """So many were dropped in all, by somebody else's count."""
