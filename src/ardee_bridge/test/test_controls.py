@@ -97,10 +97,19 @@ def test_commands_keep_the_watchdog_quiet(bench):
     assert STANDSTILL not in bench.motions
 
 
-def test_of_several_commands_at_once_the_newest_holds(bench):
+def test_commands_that_arrive_together_are_passed_on_in_order(bench):
     bench.send(*codec.encode_motion(0.1, 0.0), *codec.encode_motion(1.0, 0.0))
-    assert bench.motions == [Motion(1.2, 0.0)]
-    assert bench.counters.done()["motion commands obeyed"] == 2
+    assert bench.motions == [pytest.approx((0.12, 0.0)), Motion(1.2, 0.0)]
+
+
+def test_of_very_many_at_once_the_newest_are_passed_on(bench):
+    for number in range(100):
+        for datagram in codec.encode_motion(number / 100, 0.0):
+            bench.peer.sendto(datagram, bench.server.getsockname())
+    bench.client.receive(0.05)
+    speeds = [motion.speed_m_s for motion in bench.motions]
+    assert speeds == pytest.approx([1.2 * number / 100 for number in range(36, 100)])
+    assert bench.counters.dropped() == {"motion commands overtaken by newer ones": 36}
 
 
 def test_stop_holds_until_start(bench):

@@ -3,7 +3,8 @@
 import select
 import socket
 import time
-from typing import Callable, NamedTuple, Optional
+from collections import deque
+from typing import Callable, Deque, NamedTuple, Optional
 
 from ardee_bridge import codec
 from ardee_bridge.counters import Counters
@@ -20,6 +21,8 @@ class Motion(NamedTuple):
 
 
 STANDSTILL = Motion(0.0, 0.0)
+# So many commands that arrive together are passed on; of more, the newest.
+MOST_AT_ONCE = 64
 
 
 def to_motion(commands: codec.MotionCommands, settings: ControlSettings) -> Motion:
@@ -52,7 +55,7 @@ class ControlsClient:
         self._inbox = Inbox(opened)
         self._stop_at_s: Optional[float] = None
         self._is_stopped = False
-        self._pending: Optional[Motion] = None
+        self._pending: "Deque[Motion]" = deque()
 
     def receive(self, timeout_s: float) -> None:
         """Wait so long at most, obey what has come, stop the robot when its commands have ceased."""
@@ -63,9 +66,8 @@ class ControlsClient:
             for datagram, sender in self._inbox.drain():
                 self._take(datagram, sender)
             self._count_drops()
-        if self._pending is not None:  # of several commands at once the newest holds
-            motion, self._pending = self._pending, None
-            self._move(motion)
+        while self._pending:
+            self._move(self._pending.popleft())
         if self._stop_at_s is not None and self._clock() >= self._stop_at_s:
             self._stop_at_s = None
             self._counters.did("watchdog stops")
@@ -101,7 +103,10 @@ class ControlsClient:
             self._counters.drop("motion command between STOP and START")
             return
         self._counters.did("motion commands obeyed")
-        self._pending = to_motion(commands, self._settings)
+        if len(self._pending) == MOST_AT_ONCE:
+            self._pending.popleft()
+            self._counters.drop("motion commands overtaken by newer ones")
+        self._pending.append(to_motion(commands, self._settings))
         self._stop_at_s = self._clock() + self._settings.watchdog_s
 
     def _obey_control(self, message: Message, sender: Sender) -> None:
@@ -111,7 +116,8 @@ class ControlsClient:
             self._counters.drop("unknown control code", str(error))
             return
         if code == codec.ControlCode.STOP:
-            self._is_stopped, self._pending, self._stop_at_s = True, STANDSTILL, None
+            self._is_stopped, self._stop_at_s = True, None
+            self._pending = deque([STANDSTILL])
         elif code == codec.ControlCode.START:
             self._is_stopped = False
         if code != codec.ControlCode.STOP:

@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from ardee_bridge import ros_node
-from ardee_bridge.controls import ControlsClient, Motion
+from ardee_bridge.controls import MOST_AT_ONCE, ControlsClient, Motion
 from ardee_bridge.counters import Counters
 from ardee_bridge.settings import ControlSettings, read_controls
 from ardee_bridge.udp import open_socket
@@ -48,7 +48,9 @@ def _make() -> Callable[[float], None]:
     settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
     counters = Counters(rospy.logwarn)
     opened = open_socket(settings.bind_address, settings.port)
-    publisher = rospy.Publisher(settings.cmd_vel_topic, Twist, queue_size=10, tcp_nodelay=True)
+    publisher = rospy.Publisher(
+        settings.cmd_vel_topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True
+    )
 
     def move(motion: Motion) -> None:
         twist = Twist()
