@@ -7,10 +7,11 @@ import signal
 import socket
 import subprocess
 import time
-from typing import Any, Dict, List, Tuple
+from multiprocessing import get_context
+from typing import Any, Callable, Dict, List, NamedTuple, Tuple
 
 import probes
-from ros_graph import Process, RosGraph
+from ros_graph import Process, RosGraph, wait_until
 
 TESTS = pathlib.Path(__file__).resolve().parent
 PACKAGE = TESTS.parent / "src" / "ardee_bridge"
@@ -45,11 +46,68 @@ def resident_mb(pid: int) -> float:
     return int(re.search(r"VmRSS:\s+(\d+) kB", status).group(1)) / 1e3
 
 
+class State(NamedTuple):
+    """Where the robot is and how fast, by its odometry."""
+
+    x_m: float
+    y_m: float
+    turn: float  # z of the quaternion
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+
+def start_in(graph: RosGraph, body: Callable[[Any], None]) -> Tuple[Any, Any]:
+    """body(pipe) in a process of its own that speaks to this graph: the process, and our end of the pipe."""
+    context = get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_enter, args=(graph.env, body, theirs), daemon=True)
+    process.start()
+    return process, ours
+
+
+def _enter(env: Dict[str, str], body: Callable[[Any], None], pipe: Any) -> None:
+    os.environ.update(env)
+    body(pipe)
+
+
+def watch_until_killed(pipe: Any) -> None:
+    """Body of a process that answers a question with what came after it: "odom", or the name of a node."""
+    import rospy
+    from diagnostic_msgs.msg import DiagnosticArray
+    from nav_msgs.msg import Odometry
+
+    latest = {}  # type: Dict[str, Tuple[int, Any]]
+
+    def keep(name: str, value: Any) -> None:
+        latest[name] = (latest.get(name, (0, None))[0] + 1, value)
+
+    def keep_odometry(message: Odometry) -> None:
+        place, twist = message.pose.pose, message.twist.twist
+        turn = place.orientation.z
+        found = State(place.position.x, place.position.y, turn, twist.linear.x, twist.angular.z)
+        keep("odom", found)
+
+    def keep_diagnostics(message: DiagnosticArray) -> None:
+        for status in message.status:
+            keep(status.name, {pair.key: int(pair.value) for pair in status.values})
+
+    rospy.init_node("watcher", anonymous=True, disable_signals=True, disable_rostime=True)
+    rospy.Subscriber("/odom", Odometry, keep_odometry, queue_size=1)
+    rospy.Subscriber("/diagnostics", DiagnosticArray, keep_diagnostics)
+    while True:
+        name = pipe.recv()
+        # what is on its way now may be older than the question: the one after that is not
+        enough = latest.get(name, (0, None))[0] + 2
+        wait_until(lambda: latest.get(name, (0, None))[0] >= enough, name)
+        pipe.send(latest[name][1])
+
+
 class Bench:
     """The bridge's nodes in a graph; simulator and clients come and go."""
 
     def __init__(self, graph: RosGraph) -> None:
         self.graph = graph
+        self._watcher, self._questions = start_in(graph, watch_until_killed)
         self.server_port, self.controls_port = free_port(), free_port()
         self.server = self._node(
             "sensor_server_node", self.server_port, "_peers:=[]", f"_sources:={SOURCES}"
@@ -120,20 +178,27 @@ class Bench:
         """Send a control code; it has to be answered."""
         assert "ack" in finish(self.python_client("--control", code, "--seconds", "0.5"))
 
-    def odometry(self) -> Any:
-        """Where the robot is now, and how fast."""
-        return self.graph.call(probes.collect, "/odom", "nav_msgs/Odometry", 1)[0]
+    def _ask(self, name: str) -> Any:
+        self._questions.send(name)
+        assert self._questions.poll(40.0), f"nothing of {name}"
+        return self._questions.recv()
+
+    def state(self) -> State:
+        """The robot's, now."""
+        return self._ask("odom")
 
     def standing_within(self, wall_time_s: float) -> None:
         """Fails unless the robot comes to a stand in so long."""
-        deadline = time.monotonic() + wall_time_s
-        while abs(self.odometry().twist.twist.linear.x) > 0.02:
-            assert time.monotonic() < deadline, f"still drives after {wall_time_s} s"
+        wait_until(lambda: abs(self.state().speed_m_s) < 0.02, "the robot stands", wall_time_s)
 
     def counters(self, node: str) -> Dict[str, int]:
         """The latest counters of a node, from its diagnostics."""
-        values = self.graph.call(probes.diagnostics_of, f"/{node}")
-        return {name: int(value) for name, value in values.items()}
+        return self._ask(f"/{node}")
+
+    def close(self) -> None:
+        """End the process that watches."""
+        self._watcher.terminate()
+        self._watcher.join()
 
     def alive(self) -> bool:
         """Do both nodes still run?"""

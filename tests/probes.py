@@ -126,18 +126,3 @@ def clock_stands_still(wall_time_s: float = 0.5) -> bool:
     rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock), queue_size=1000)
     time.sleep(wall_time_s)
     return len(set(times[1:])) <= 1
-
-
-def diagnostics_of(name: str, timeout_s: float = 30.0) -> Dict[str, str]:
-    """Key and value of a node's diagnostics, of a message that was sent after this call."""
-    _start()
-    from diagnostic_msgs.msg import DiagnosticArray
-
-    found = []  # type: List[Any]
-
-    def keep(array: Any) -> None:
-        found.extend(status for status in array.status if status.name == name)
-
-    rospy.Subscriber("/diagnostics", DiagnosticArray, keep)
-    wait_until(lambda: len(found) > 1, f"diagnostics of {name}", timeout_s)
-    return {value.key: value.value for value in found[-1].values}

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The UDP bridge between the simulator and clients without ROS: sensors, driving, control codes, and coming back."""
-import multiprocessing
-import os
 import subprocess
 from typing import Iterator
 
 import probes
 import pytest
-from bridge_bench import SENSORS, Bench, feed_until_killed, finish
+from bridge_bench import SENSORS, Bench, feed_until_killed, finish, start_in
 from ros_graph import RosGraph, wait_until
 
 from ardee_bridge import codec
@@ -16,20 +14,15 @@ from ardee_bridge import codec
 @pytest.fixture(scope="module")
 def bench(shared_graph: RosGraph) -> Iterator[Bench]:
     """Simulator, robot, both nodes."""
-    yield Bench(shared_graph)
+    made = Bench(shared_graph)
+    yield made
+    made.close()
 
 
 @pytest.fixture(scope="module")
 def fed(bench: Bench) -> Iterator[Bench]:
     """And the sensors that the robot does not carry."""
-    context = multiprocessing.get_context("spawn")
-    ours, theirs = context.Pipe()
-    before = dict(os.environ)
-    os.environ.update(bench.graph.env)
-    feeder = context.Process(target=feed_until_killed, args=(theirs,), daemon=True)
-    feeder.start()
-    os.environ.clear()
-    os.environ.update(before)
+    feeder, ours = start_in(bench.graph, feed_until_killed)
     assert ours.recv() == "feeding"
     yield bench
     ours.send("end")
@@ -61,32 +54,32 @@ def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
 
 
 def test_the_c_client_drives_the_robot(bench: Bench) -> None:
-    before = bench.odometry().pose.pose.position.x
+    before = bench.state().x_m
     finish(bench.c_client("-v", "0.5", "-t", "4"))
     bench.standing_within(2.0)
-    assert 0.3 < bench.odometry().pose.pose.position.x - before < 0.6 * 4.5
+    assert 0.3 < bench.state().x_m - before < 0.6 * 4.5
 
 
 def test_the_python_client_turns_the_robot(bench: Bench) -> None:
-    before = bench.odometry().pose.pose.orientation.z
+    before = bench.state().turn
     turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "10")
     # skidding wheels turn it less than asked for
     least = 0.3 * 0.3 * codec.MAX_YAW_RATE_RAD_S
-    wait_until(lambda: bench.odometry().twist.twist.angular.z > least, "it turns")
+    wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns")
     finish(turning)
     bench.standing_within(2.0)
-    assert abs(bench.odometry().pose.pose.orientation.z - before) > 0.1
+    assert abs(bench.state().turn - before) > 0.1
 
 
 def test_a_client_that_dies_leaves_a_robot_that_stands(bench: Bench) -> None:
     client = bench.c_client("-v", "-0.5", "-t", "60")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.4, "it drives")
+    wait_until(lambda: bench.state().speed_m_s < -0.4, "it drives")
     client.kill()
     client.communicate()
     bench.standing_within(10.0)
     assert bench.counters("controls_client_node")["watchdog stops"] >= 1
     again = bench.c_client("-v", "-0.5", "-t", "60")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.4, "another client drives it")
+    wait_until(lambda: bench.state().speed_m_s < -0.4, "another client drives it")
     again.kill()
     again.communicate()
     bench.standing_within(10.0)
@@ -101,12 +94,12 @@ def test_pause_and_resume(bench: Bench) -> None:
 
 def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
     client = bench.c_client("-v", "-0.4", "-t", "120")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.3, "it drives")
+    wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives")
     bench.control("STOP")
     bench.standing_within(10.0)
     assert client.poll() is None
     bench.control("START")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.3, "it drives again")
+    wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives again")
     client.kill()
     client.communicate()
     bench.standing_within(10.0)
@@ -114,13 +107,13 @@ def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
 
 def drives(bench: Bench, client: subprocess.Popen) -> None:
     """The robot obeys this client, and the client gets scans."""
-    wait_until(lambda: abs(bench.odometry().twist.twist.linear.x) > 0.2, "it drives", 60.0)
+    wait_until(lambda: abs(bench.state().speed_m_s) > 0.2, "it drives", 60.0)
     assert finish(client)["lidar 0"][0] > 0
 
 
 def test_the_simulator_dies_and_comes_back_while_the_client_goes_on(bench: Bench) -> None:
     client = bench.c_client("-v", "-0.3", "-t", "25")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.2, "it drives")
+    wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
     bench.kill_simulator()
     assert bench.alive()
     bench.start_simulator()
@@ -131,7 +124,7 @@ def test_the_simulator_dies_and_comes_back_while_the_client_goes_on(bench: Bench
 
 def test_both_die_and_the_client_comes_back_first(bench: Bench) -> None:
     first = bench.c_client("-v", "-0.3", "-t", "60")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.2, "it drives")
+    wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
     first.kill()
     first.communicate()
     bench.kill_simulator()

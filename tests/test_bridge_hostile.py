@@ -18,7 +18,9 @@ FLOOD_S = 4.0
 @pytest.fixture(scope="module")
 def bench(shared_graph: RosGraph) -> Iterator[Bench]:
     """Simulator, robot, both nodes."""
-    yield Bench(shared_graph)
+    made = Bench(shared_graph)
+    yield made
+    made.close()
 
 
 def garbage(rng: random.Random) -> bytes:
@@ -70,7 +72,7 @@ def settled(bench: Bench, node: str) -> int:
 def drives_by_command(bench: Bench) -> None:
     """The bridge still does its work."""
     client = bench.c_client("-v", "-0.3", "-t", "4")
-    wait_until(lambda: bench.odometry().twist.twist.linear.x < -0.2, "it drives")
+    wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
     assert finish(client)["lidar 0"][0] > 0
     bench.standing_within(5.0)
 
@@ -82,7 +84,7 @@ def test_fuzzed_truncated_oversized_unknown(bench: Bench) -> None:
     flood(garbage, ports)  # caches and buffers get the size that they will keep
     before = {name: settled(bench, name) for name in nodes}
     memory_mb = {name: resident_mb(node.pid) for name, node in nodes.items()}
-    place = bench.odometry().pose.pose.position
+    place = bench.state()
     obeyed = bench.counters("controls_client_node").get("motion commands obeyed", 0)
     sent, rate_hz = flood(garbage, ports)
     assert bench.alive()
@@ -92,13 +94,13 @@ def test_fuzzed_truncated_oversized_unknown(bench: Bench) -> None:
         assert 0 <= sent - fresh <= 1, f"{name}: {fresh} of {sent} counted"
         assert resident_mb(node.pid) < memory_mb[name] + 5.0
     assert bench.counters("controls_client_node").get("motion commands obeyed", 0) == obeyed
-    now = bench.odometry().pose.pose.position
-    assert abs(now.x - place.x) < 0.02 and abs(now.y - place.y) < 0.02
+    now = bench.state()
+    assert abs(now.x_m - place.x_m) < 0.02 and abs(now.y_m - place.y_m) < 0.02
     drives_by_command(bench)
 
 
 def test_wrong_peers_do_not_move_it_nor_hinder_the_right_one(bench: Bench) -> None:
-    place = bench.odometry().pose.pose.position
+    place = bench.state()
     commands = codec.encode_motion(1.0, 0.0)
     turn = iter(range(10**9))
     before = bench.counters("controls_client_node").get("dropped: sender is no peer", 0)
@@ -108,8 +110,8 @@ def test_wrong_peers_do_not_move_it_nor_hinder_the_right_one(bench: Bench) -> No
     counters = bench.counters("controls_client_node")
     overflowed = counters.get("dropped: receive buffer full", 0)
     assert sent - overflowed <= counters["dropped: sender is no peer"] - before <= sent
-    now = bench.odometry().pose.pose.position
-    assert abs(now.x - place.x) < 0.02 and abs(now.y - place.y) < 0.02
+    now = bench.state()
+    assert abs(now.x_m - place.x_m) < 0.02 and abs(now.y_m - place.y_m) < 0.02
     drives_by_command(bench)
 
 
