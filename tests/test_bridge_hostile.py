@@ -23,15 +23,20 @@ def bench(shared_graph: RosGraph) -> Iterator[Bench]:
     made.close()
 
 
+def random_bytes(rng: random.Random, count: int) -> bytes:
+    """So many bytes."""
+    return bytes(rng.choices(range(256), k=count))
+
+
 def garbage(rng: random.Random) -> bytes:
     """A datagram that is no part of a well-formed command."""
     motion_header, motion = codec.encode_motion(1.0, 1.0)
     choices = (
-        lambda: rng.randbytes(rng.randrange(0, 200)),
-        lambda: rng.randbytes(rng.randrange(1000, 60_000)) if rng.random() < 0.01 else b"",
+        lambda: random_bytes(rng, rng.randrange(0, 200)),
+        lambda: random_bytes(rng, rng.randrange(1000, 60_000)) if rng.random() < 0.01 else b"",
         lambda: motion[: rng.randrange(0, len(motion))],
         lambda: motion_header[: rng.randrange(0, 20)],
-        lambda: motion + rng.randbytes(rng.randrange(1, 100)),
+        lambda: motion + random_bytes(rng, rng.randrange(1, 100)),
         lambda: codec.Header(msg_type=rng.choice((20, 99, -1, 2**31 - 1))).pack(),
         lambda: codec.Header(msg_type=5, data_type=rng.randrange(1, 99)).pack(),
         lambda: codec.encode_set_port([codec.DataType.ALL])[1],

@@ -6,6 +6,11 @@ from ardee_bridge import chunks, codec
 from ardee_bridge.pairing import MAX_SENDERS, WINDOW_S, Pairer
 
 
+def random_bytes(rng, count):
+    """So many bytes."""
+    return bytes(rng.choices(range(256), k=count))
+
+
 def motion(speed):
     return codec.encode_motion(speed, 0.0)
 
@@ -95,7 +100,7 @@ def test_random_bytes_never_raise_and_are_all_counted():
         data = (
             codec.Header(**dict(zip(names, fields))).pack()
             if is_header_like
-            else rng.randbytes(size)
+            else random_bytes(rng, size)
         )
         message = pairer.feed(rng.randrange(3), data, number * 1e-3)
         if message:
@@ -113,7 +118,7 @@ def frame(payload, chunk_bytes, sequence=0):
 
 def test_chunks_in_any_order_and_doubled():
     rng = random.Random(2)
-    payload = rng.randbytes(10_001)
+    payload = random_bytes(rng, 10_001)
     for chunk_bytes in (256, 10_000, 10_001, 60_000):
         messages = frame(payload, chunk_bytes) * 2
         rng.shuffle(messages)
