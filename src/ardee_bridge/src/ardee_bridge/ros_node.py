@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
-import signal
 import sys
 import threading
 from pathlib import Path
@@ -65,7 +64,6 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """
     sys.setswitchinterval(SWITCH_INTERVAL_S)
     rospy.init_node(name, disable_rostime=True)
-    signal.signal(signal.SIGTERM, lambda *_: rospy.signal_shutdown("SIGTERM"))
     try:
         step = body()
     except (SettingError, OSError) as error:
