@@ -9,13 +9,14 @@ import sys
 import tempfile
 from typing import Any, Dict, List
 
+import benchmark_bridge
 import benchmark_field
 import benchmark_measure
 import benchmark_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
-KINDS = ("start", "physics", "lidar", "rtf")
+KINDS = ("start", "physics", "lidar", "rtf", "bridge")
 SIZES = [200, 2_000, 20_000, 200_000]
 
 
@@ -97,11 +98,19 @@ def main() -> int:
     work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_benchmark_"))
     try:
         about = benchmark_table.machine()
-        results = measure_all(found, work)
+        results = measure_all(found, work) if found.only != ["bridge"] else {}
+        bridge = benchmark_bridge.measure(found.window_s) if "bridge" in found.only else {}
         print(benchmark_table.header(about, found.repeat))
-        print(benchmark_table.table(results))
+        if results:
+            print(benchmark_table.table(results))
+        print("\n".join(benchmark_bridge.lines(bridge)))
         if found.json:
-            figures = {"machine": about, "repeat": found.repeat, "plants": results}
+            figures = {
+                "machine": about,
+                "repeat": found.repeat,
+                "plants": results,
+                "bridge": bridge,
+            }
             found.json.write_text(json.dumps(figures, indent=2) + "\n")
         return 0
     except (RuntimeError, TimeoutError, OSError) as error:

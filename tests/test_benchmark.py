@@ -32,6 +32,9 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     # Rays that race each other have to meet the same things.
     assert figures["lidar"]["flat_agreement"] > 0.99
     assert figures["engine"]["placements"] == 201
+    for name, spread in json.loads(path.read_text())["bridge"].items():
+        assert 0.0 < spread["p50_ms"] <= spread["p99_ms"] <= spread["max_ms"], name
+        assert name in done.stdout
 
 
 def test_bad_arguments_are_named() -> None:

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+"""Latency and losses of the UDP bridge on loopback, as lines below the table."""
+import json
+import subprocess
+from typing import Any, Dict, List
+
+P99_BUDGET_MS = 2.0
+
+
+def measure(seconds: float) -> Dict[str, Any]:
+    """What ardee_bridge's own benchmark measures in so many seconds."""
+    command = ["rosrun", "ardee_bridge", "latency_benchmark", "--json", "--seconds", str(seconds)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as process:
+        try:
+            output, complaints = process.communicate()
+        finally:
+            process.terminate()  # when this program is ended: it then ends its nodes, and we wait for that
+    if not output.startswith("{"):
+        raise RuntimeError(
+            f"latency_benchmark: exit code {process.returncode}: {complaints.strip()}"
+        )
+    return json.loads(output)
+
+
+def lines(figures: Dict[str, Any]) -> List[str]:
+    """One line a kind of message, with a mark where the budget is missed or a message lost."""
+    found = []
+    for name, f in figures.items():
+        mark = " !" if f["p99_ms"] > P99_BUDGET_MS or f["lost"] else ""
+        found.append(
+            f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f} ms "
+            f"(<= {P99_BUDGET_MS:.2f}), most {f['max_ms']:.2f} ms, {f['lost']} of {f['sent']} lost{mark}"
+        )
+    return found

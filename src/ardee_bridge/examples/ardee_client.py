@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A target computer's side of the bridge, without ROS: receives every sensor, prints what came, drives the robot.
+
+Needs Python's standard library and the folder ardee_bridge of this package's src.
+"""
+import argparse
+import math
+import select
+import socket
+import sys
+import time
+from pathlib import Path
+from typing import Any, Dict, Tuple
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "src"))
+
+from ardee_bridge import codec  # noqa: E402
+from ardee_bridge.chunks import Assembler, points_si  # noqa: E402
+from ardee_bridge.pairing import Message, Pairer  # noqa: E402
+
+COMMAND_PERIOD_S = 0.05
+ASK_AGAIN_S = 5.0
+BUFFER_BYTES = 4 << 20
+
+
+def options() -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--simulator", default="127.0.0.1", help="address of its computer")
+    parser.add_argument("--port", type=int, default=30000, help="to listen at; 0: any, with --ask")
+    parser.add_argument(
+        "--ask",
+        type=int,
+        metavar="PORT",
+        help="ask the sensor server at this port, usually 30001, for every sensor and for time stamps",
+    )
+    parser.add_argument("--controls", type=int, default=35555, help="port of the controls client")
+    parser.add_argument("--speed", type=float, help="-1...1 of the robot's limit")
+    parser.add_argument("--yaw-rate", type=float, help="-1...1 of the robot's limit")
+    parser.add_argument("--control", choices=[code.name for code in codec.ControlCode])
+    parser.add_argument("--seconds", type=float, default=5.0)
+    return parser.parse_args()
+
+
+class Client:
+    """Counts messages by sensor, and keeps what the last one said."""
+
+    def __init__(self, opened: socket.socket) -> None:
+        self._socket = opened
+        self._pairer, self._assembler = Pairer(), Assembler()
+        self._seen: Dict[Tuple[str, int], Tuple[int, str]] = {}
+
+    def send(self, pair: codec.Datagrams, address: Tuple[str, int]) -> None:
+        """Header, then data."""
+        for datagram in pair:
+            self._socket.sendto(datagram, address)
+
+    def receive(self, timeout_s: float) -> None:
+        """Take what arrives within this time."""
+        if not select.select([self._socket], [], [], timeout_s)[0]:
+            return
+        try:
+            datagram, sender = self._socket.recvfrom(65535)
+        except ConnectionError:  # nobody listens where a command went to: no simulator yet
+            return
+        message = self._pairer.feed(sender, datagram, time.monotonic())
+        if message:
+            self._take(message)
+
+    def _take(self, message: Message) -> None:
+        kind = codec.data_struct(message.header)
+        if kind in (codec.ImageChunk, codec.PointCloudChunk):
+            whole = self._assembler.feed(message.header, message.data)
+            if whole:
+                self._count(message.header, describe_frame(whole))
+        elif kind is codec.LidarData:
+            scan = codec.LidarData.unpack(message.data)
+            ranges_m = codec.ranges_m(message.header, scan)
+            nearest_m = min((r for r in ranges_m if r > -math.inf), default=math.inf)
+            self._count(message.header, f"beams {len(ranges_m)} nearest {nearest_m:.3f} m")
+        else:
+            self._count(message.header, str(kind.unpack(message.data).to_si()))
+
+    def _count(self, header: codec.Header, text: str) -> None:
+        is_sensor = header.data_type != codec.DataType.NONE
+        name = codec.DataType(header.data_type).name.lower() if is_sensor else "ack"
+        count, _ = self._seen.get((name, header.component_id), (0, ""))
+        self._seen[name, header.component_id] = (count + 1, text)
+
+    def report(self) -> None:
+        """Print a line for each sensor."""
+        for (name, component_id), (count, text) in sorted(self._seen.items()):
+            print(f"{name} {component_id} count {count} {text}")
+
+
+def describe_frame(whole: Any) -> str:
+    """What is in an image or a cloud."""
+    if isinstance(whole.head, codec.ImageChunk):
+        name = codec.ImageEncoding(whole.head.encoding).name
+        return (
+            f"{name} width {whole.head.width} height {whole.head.height} bytes {len(whole.payload)}"
+        )
+    return f"points {len(points_si(whole.payload))}"
+
+
+def main() -> int:
+    """Run for the time asked for."""
+    found = options()
+    controls, server = (found.simulator, found.controls), (found.simulator, found.ask)
+    drives = found.speed is not None or found.yaw_rate is not None
+    here = "127.0.0.1" if found.simulator.startswith("127.") else "0.0.0.0"
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
+        opened.bind((here, found.port))
+        client = Client(opened)
+        if found.control:
+            client.send(codec.encode_control(codec.ControlCode[found.control]), controls)
+        end_s = time.monotonic() + found.seconds
+        command_s = ask_s = 0.0
+        while time.monotonic() < end_s:
+            now = time.monotonic()
+            if drives and now >= command_s:
+                command = codec.encode_motion(found.speed or 0.0, found.yaw_rate or 0.0)
+                client.send(command, controls)
+                command_s = now + COMMAND_PERIOD_S
+            if found.ask and now >= ask_s:
+                wanted = [codec.DataType.ALL, codec.DataType.TIME]
+                client.send(codec.encode_set_port(wanted), server)
+                ask_s = now + ASK_AGAIN_S
+            client.receive(0.01)
+        if drives:
+            client.send(codec.encode_motion(0.0, 0.0), controls)
+    client.report()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""Obeys motion and control messages of its peers, and stops the robot when they cease; without rospy."""
+import select
+import socket
+import time
+from collections import deque
+from typing import Callable, Deque, NamedTuple, Optional
+
+from ardee_bridge import codec
+from ardee_bridge.counters import Counters
+from ardee_bridge.pairing import Message, Pairer
+from ardee_bridge.settings import ControlSettings
+from ardee_bridge.udp import Inbox, Sender
+
+
+class Motion(NamedTuple):
+    """What the robot is told: m/s, and rad/s counter-clockwise."""
+
+    speed_m_s: float
+    yaw_rate_rad_s: float
+
+
+STANDSTILL = Motion(0.0, 0.0)
+# So many commands that arrive together are passed on; of more, the newest.
+MOST_AT_ONCE = 64
+
+
+def to_motion(commands: codec.MotionCommands, settings: ControlSettings) -> Motion:
+    """Listing A.19's limits: normalized / multiplier of the greatest speed and yaw rate, clamped to -1...1."""
+
+    def fraction(normalized: int) -> float:
+        return max(-1.0, min(1.0, normalized / commands.multiplier))
+
+    return Motion(
+        fraction(commands.normalized_speed) * settings.max_speed_m_s,
+        fraction(commands.normalized_yaw_rate) * settings.max_yaw_rate_rad_s,
+    )
+
+
+class ControlsClient:
+    """Reads the socket; calls `move` with motions and `pause_simulation` with True or False."""
+
+    def __init__(
+        self,
+        settings: ControlSettings,
+        opened: socket.socket,
+        counters: Counters,
+        move: Callable[[Motion], None],
+        pause_simulation: Callable[[bool], None],
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._settings, self._socket, self._counters = settings, opened, counters
+        self._move, self._pause_simulation, self._clock = move, pause_simulation, clock
+        self._pairer = Pairer()
+        self._inbox = Inbox(opened)
+        self._stop_at_s: Optional[float] = None
+        self._is_stopped = False
+        self._pending: "Deque[Motion]" = deque()
+
+    def receive(self, timeout_s: float) -> None:
+        """Wait so long at most, obey what has come, stop the robot when its commands have ceased."""
+        if self._stop_at_s is not None:
+            timeout_s = max(0.0, min(timeout_s, self._stop_at_s - self._clock()))
+        readable, _, _ = select.select([self._socket], [], [], timeout_s)
+        if readable:
+            for datagram, sender in self._inbox.drain():
+                self._take(datagram, sender)
+            self._count_drops()
+        while self._pending:
+            self._move(self._pending.popleft())
+        if self._stop_at_s is not None and self._clock() >= self._stop_at_s:
+            self._stop_at_s = None
+            self._counters.did("watchdog stops")
+            self._move(STANDSTILL)
+
+    def _count_drops(self) -> None:
+        for reason, count in self._pairer.dropped.items():
+            self._counters.drop(reason, count=count)
+        self._pairer.dropped.clear()
+        if self._inbox.overflowed:
+            self._counters.raise_to("receive buffer full", self._inbox.overflowed)
+
+    def _take(self, datagram: bytes, sender: Sender) -> None:
+        if not self._settings.peers.include(sender):
+            self._counters.drop("sender is no peer", f"{sender[0]}:{sender[1]}")
+            return
+        message = self._pairer.feed(sender, datagram, self._clock())
+        if message is None:
+            return
+        if message.header.msg_type == codec.MessageType.DATA_RCCOMMANDS:
+            self._obey_motion(message)
+        elif message.header.msg_type == codec.MessageType.CONTROL:
+            self._obey_control(message, sender)
+        else:
+            self._counters.drop("neither motion nor control", f"type {message.header.msg_type}")
+
+    def _obey_motion(self, message: Message) -> None:
+        commands = codec.MotionCommands.unpack(message.data)
+        if commands.multiplier < 1:
+            self._counters.drop("malformed motion command", f"multiplier {commands.multiplier}")
+            return
+        if self._is_stopped:
+            self._counters.drop("motion command between STOP and START")
+            return
+        self._counters.did("motion commands obeyed")
+        if len(self._pending) == MOST_AT_ONCE:
+            self._pending.popleft()
+            self._counters.drop("motion commands overtaken by newer ones")
+        self._pending.append(to_motion(commands, self._settings))
+        self._stop_at_s = self._clock() + self._settings.watchdog_s
+
+    def _obey_control(self, message: Message, sender: Sender) -> None:
+        try:
+            code = codec.ControlCode(codec.Control.unpack(message.data).code)
+        except ValueError as error:
+            self._counters.drop("unknown control code", str(error))
+            return
+        if code == codec.ControlCode.STOP:
+            self._is_stopped, self._stop_at_s = True, None
+            self._pending = deque([STANDSTILL])
+        elif code == codec.ControlCode.START:
+            self._is_stopped = False
+        if code != codec.ControlCode.STOP:
+            self._pause_simulation(code == codec.ControlCode.PAUSE)
+        self._counters.did(f"{code.name} obeyed")
+        self._answer(message.header, sender)
+
+    def _answer(self, request: codec.Header, sender: Sender) -> None:
+        try:
+            for datagram in codec.encode_ack(request):
+                self._socket.sendto(datagram, socket.MSG_DONTWAIT, sender)
+        except OSError as error:
+            self._counters.drop("answers that could not be sent", str(error))

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""The controls client as a ROS node."""
+import threading
+from typing import Callable, Optional
+
+import rospy
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty
+
+from ardee_bridge import ros_node
+from ardee_bridge.controls import MOST_AT_ONCE, ControlsClient, Motion
+from ardee_bridge.counters import Counters
+from ardee_bridge.settings import ControlSettings, read_controls
+from ardee_bridge.udp import open_socket
+
+
+class SimulationPauser:
+    """Pauses and unpauses the simulation from a thread of its own: a simulation that hangs must not hold up motion."""
+
+    def __init__(self, settings: ControlSettings, counters: Counters) -> None:
+        self._services = {
+            True: rospy.ServiceProxy(settings.pause_service, Empty),
+            False: rospy.ServiceProxy(settings.unpause_service, Empty),
+        }
+        self._counters = counters
+        self._changed = threading.Condition()
+        self._wanted: Optional[bool] = None
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def want(self, paused: bool) -> None:
+        """The newest wish holds."""
+        with self._changed:
+            self._wanted = paused
+            self._changed.notify()
+
+    def _serve(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._wanted is not None)
+                paused, self._wanted = bool(self._wanted), None
+            try:
+                self._services[paused]()
+            except (rospy.ServiceException, rospy.ROSException, OSError) as error:
+                self._counters.drop("control codes that the simulation did not take", str(error))
+
+
+def _make() -> Callable[[float], None]:
+    settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
+    counters = Counters(rospy.logwarn)
+    opened = open_socket(settings.bind_address, settings.port)
+    publisher = rospy.Publisher(
+        settings.cmd_vel_topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True
+    )
+
+    def move(motion: Motion) -> None:
+        twist = Twist()
+        twist.linear.x, twist.angular.z = motion.speed_m_s, motion.yaw_rate_rad_s
+        publisher.publish(twist)
+
+    pauser = SimulationPauser(settings, counters)
+    client = ControlsClient(settings, opened, counters, move, pauser.want)
+    ros_node.start_diagnostics(rospy.get_name(), counters)
+    rospy.loginfo("controls arrive at %s:%d", *opened.getsockname())
+    return client.receive
+
+
+def main(name: str = "controls_client_node") -> int:
+    """Exit code of the node."""
+    return ros_node.run(name, _make)

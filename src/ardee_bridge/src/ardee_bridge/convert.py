@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: MIT
+"""ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
+import io
+from typing import Any, Callable, Dict, List, NamedTuple, Optional
+
+import numpy as np
+from PIL import Image
+
+from ardee_bridge import codec
+from ardee_bridge.layout import INT32, NO_VALUE
+
+Vector = codec.Xyz
+_LIDAR_SCALES = {leaf.path: leaf.scale.counts_per_unit for leaf in codec.LidarData.leaves}
+
+
+class ConvertError(ValueError):
+    """A message that the wire cannot carry: what was found, what was expected."""
+
+
+class Reading(NamedTuple):
+    """Data datagram of a measurement, and how many values it has (None: one)."""
+
+    data: bytes
+    count: Optional[int] = None
+
+
+class Frame(NamedTuple):
+    """An image or cloud, to be cut into chunks."""
+
+    head: Any
+    payload: bytes
+
+
+def _vector(v: Any) -> Vector:
+    return Vector(x=v.x, y=v.y, z=v.z)
+
+
+def _diagonal(matrix: Any) -> Vector:
+    return Vector(x=matrix[0], y=matrix[4], z=matrix[8])
+
+
+def _motion(v: Any, covariance: Any) -> codec.MotionData:
+    return codec.MotionData(x=v.x, y=v.y, z=v.z, covariance=_diagonal(covariance))
+
+
+def _orientation(message: Any) -> codec.OrientationData:
+    q, c = message.orientation, message.orientation_covariance
+    covariance = codec.Euler(roll=c[0], pitch=c[4], yaw=c[8])
+    return codec.OrientationData(x=q.x, y=q.y, z=q.z, w=q.w, covariance=covariance)
+
+
+def imu(message: Any) -> Reading:
+    """sensor_msgs/Imu, whole."""
+    data = codec.IMUData(
+        accel=_motion(message.linear_acceleration, message.linear_acceleration_covariance),
+        gyro=_motion(message.angular_velocity, message.angular_velocity_covariance),
+        orientation=_orientation(message),
+    )
+    return Reading(data.pack_si())
+
+
+def gyro(message: Any) -> Reading:
+    """Angular velocity of a sensor_msgs/Imu."""
+    v = message.angular_velocity
+    return Reading(codec.GyroData(x=v.x, y=v.y, z=v.z).pack_si())
+
+
+def acceleration(message: Any) -> Reading:
+    """Specific force of a sensor_msgs/Imu."""
+    v = message.linear_acceleration
+    return Reading(codec.AccelerationData(x=v.x, y=v.y, z=v.z).pack_si())
+
+
+def orientation(message: Any) -> Reading:
+    """Orientation of a sensor_msgs/Imu."""
+    return Reading(_orientation(message).pack_si())
+
+
+def gps(message: Any, velocity: Any = None) -> Reading:
+    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one."""
+    stamp_ms = message.header.stamp.secs * 1000 + message.header.stamp.nsecs // 1_000_000
+    data = codec.GPSData(
+        latitude=message.latitude,
+        longitude=message.longitude,
+        altitude=message.altitude,
+        velocity=Vector() if velocity is None else _vector(velocity),
+        covariance=_diagonal(message.position_covariance),
+        covariance_type=message.position_covariance_type,
+        service=message.status.service,
+        status=message.status.status,
+    ).to_raw()
+    data.time = stamp_ms & 0x7FFFFFFF
+    return Reading(data.pack())
+
+
+def lidar(message: Any) -> Reading:
+    """sensor_msgs/LaserScan of at most 1081 beams."""
+    count = len(message.ranges)
+    if count > codec.LIDAR_SLOTS:
+        raise ConvertError(f"a scan of {count} beams, expected at most {codec.LIDAR_SLOTS}")
+    data = codec.LidarData(
+        angle_min=message.angle_min,
+        angle_max=message.angle_max,
+        dAngle=message.angle_increment,
+        scan_time=message.scan_time,
+        dTime=message.time_increment,
+        range_min=message.range_min,
+        range_max=message.range_max,
+    ).to_raw()
+    data.ranges = _range_counts(message)
+    intensities = np.asarray(message.intensities[:count], dtype=np.float64)
+    data.intensities = _counts(intensities * _LIDAR_SCALES["intensities"]).tolist()
+    return Reading(data.pack(), count)
+
+
+def _range_counts(message: Any) -> List[int]:
+    """codec.range_counts, twenty times as fast."""
+    ranges = np.asarray(message.ranges, dtype=np.float64)
+    per_m = _LIDAR_SCALES["ranges"]
+    is_far = ~(ranges <= min(message.range_max, INT32.limits[1] // per_m))
+    is_near = ranges < message.range_min
+    counts = _counts(np.where(is_far | is_near, 0.0, ranges) * per_m)
+    counts[is_far] = codec.RANGE_TOO_FAR
+    counts[is_near] = codec.RANGE_TOO_NEAR
+    return counts.tolist()
+
+
+def _counts(values: np.ndarray) -> np.ndarray:
+    """Rounded and saturated as the codec does it; NaN is NO_VALUE."""
+    limit = INT32.limits[1]
+    is_nan = np.isnan(values)
+    counts = np.rint(np.clip(np.where(is_nan, 0.0, values), -limit, limit)).astype("<i4")
+    counts[is_nan] = NO_VALUE
+    return counts
+
+
+def encoder(message: Any) -> Reading:
+    """ardee_msgs/Encoder."""
+    data = codec.EncoderData(
+        id=message.id, position=message.position, speed=message.speed, qpps=message.qpps
+    )
+    return Reading(data.pack_si())
+
+
+def battery(message: Any) -> Reading:
+    """ardee_msgs/Battery."""
+    data = codec.BatteryData(voltage=message.voltage, vmax=message.vmax, vmin=message.vmin)
+    return Reading(data.pack_si())
+
+
+SINGLES: Dict[str, Callable[[Any], Reading]] = {
+    "imu": imu,
+    "gyro": gyro,
+    "acceleration": acceleration,
+    "orientation": orientation,
+    "lidar": lidar,
+    "encoder": encoder,
+    "battery": battery,
+}
+
+# ROS encoding -> encoding on the wire, bytes a pixel, PIL's names of the mode and of the order of its bytes
+_ENCODINGS = {
+    "rgb8": (codec.ImageEncoding.RGB8, 3, "RGB", "RGB"),
+    "bgr8": (codec.ImageEncoding.BGR8, 3, "RGB", "BGR"),
+    "mono8": (codec.ImageEncoding.MONO8, 1, "L", "L"),
+    "8UC1": (codec.ImageEncoding.MONO8, 1, "L", "L"),
+    "16UC1": (codec.ImageEncoding.DEPTH_16U_MM, 2, "", ""),
+    "32FC1": (codec.ImageEncoding.DEPTH_32F_M, 4, "", ""),
+}
+
+
+def image(message: Any, image_format: str, quality: int) -> Frame:
+    """sensor_msgs/Image; depth is never compressed."""
+    if message.encoding not in _ENCODINGS:
+        known = ", ".join(_ENCODINGS)
+        raise ConvertError(f"an image of encoding {message.encoding!r}, expected one of {known}")
+    encoding, pixel_bytes, mode, order = _ENCODINGS[message.encoding]
+    width, height, step = message.width, message.height, message.step
+    if step < width * pixel_bytes or len(message.data) != step * height or not len(message.data):
+        found = f"{len(message.data)} bytes, {width}x{height}, {step} bytes a row"
+        raise ConvertError(f"an image of {found}, expected rows of {pixel_bytes} bytes a pixel")
+    if message.is_bigendian and not mode:
+        raise ConvertError("a big-endian depth image, expected little-endian")
+    payload = message.data
+    if image_format == "jpeg" and mode:
+        file = io.BytesIO()
+        picture = Image.frombuffer(mode, (width, height), payload, "raw", order, step, 1)
+        picture.save(file, "JPEG", quality=quality)
+        encoding, step, payload = codec.ImageEncoding.JPEG, 0, file.getvalue()
+    head = codec.ImageChunk(
+        chunk=_stamped(message), encoding=encoding, width=width, height=height, step=step
+    )
+    return Frame(head, payload)
+
+
+def _stamped(message: Any) -> codec.Chunk:
+    return codec.Chunk(sec=message.header.stamp.secs, nsec=message.header.stamp.nsecs)
+
+
+# sensor_msgs/PointField.datatype -> numpy
+_POINT_TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+
+
+def _point_fields(message: Any) -> np.ndarray:
+    """(height, width) structured array over the message's bytes, with x, y, z and maybe intensity."""
+    order = ">" if message.is_bigendian else "<"
+    wanted = {f.name: f for f in message.fields if f.name in ("x", "y", "z", "intensity")}
+    missing = {"x", "y", "z"} - set(wanted)
+    if missing:
+        raise ConvertError(f"a point cloud without field {sorted(missing)[0]}, expected x, y, z")
+    if any(f.datatype not in _POINT_TYPES for f in wanted.values()):
+        raise ConvertError("a point cloud with a field of unknown type, expected types 1 to 8")
+    try:
+        kind = np.dtype(
+            {
+                "names": list(wanted),
+                "formats": [order + _POINT_TYPES[f.datatype] for f in wanted.values()],
+                "offsets": [f.offset for f in wanted.values()],
+                "itemsize": message.point_step,
+            }
+        )
+        shape, strides = (message.height, message.width), (message.row_step, message.point_step)
+        if message.row_step < message.width * message.point_step:
+            raise ValueError("rows overlap")
+        return np.ndarray(shape, kind, message.data, strides=strides)
+    except (TypeError, ValueError) as error:
+        found = f"{len(message.data)} bytes, {message.width}x{message.height} points"
+        raise ConvertError(f"a point cloud of {found} that does not fit: {error}") from None
+
+
+def point_cloud(message: Any) -> Frame:
+    """sensor_msgs/PointCloud2; points without finite coordinates are left out."""
+    head = codec.PointCloudChunk(chunk=_stamped(message))
+    if message.width == 0 or message.height == 0:
+        return Frame(head, b"")
+    fields = _point_fields(message).reshape(-1)
+    scales = {leaf.path: leaf.scale.counts_per_unit for leaf in codec.Point.leaves}
+    columns = [fields[name].astype(np.float64) * scales[name] for name in ("x", "y", "z")]
+    has_intensity = "intensity" in (fields.dtype.names or ())
+    columns.append(
+        fields["intensity"].astype(np.float64) * scales["intensity"]
+        if has_intensity
+        else np.zeros(len(fields))
+    )
+    finite = np.isfinite(columns[0]) & np.isfinite(columns[1]) & np.isfinite(columns[2])
+    return Frame(head, _counts(np.column_stack(columns)[finite]).tobytes())
+
+
+def stamp_s(message: Any) -> float:
+    """Time of a message [s]."""
+    stamp = message.header.stamp
+    return stamp.secs + stamp.nsecs * 1e-9

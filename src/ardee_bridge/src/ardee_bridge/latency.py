@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: MIT
+"""Measures the bridge on loopback: how long messages take, and whether any is lost.
+
+Sensor messages carry a running number in a field that survives the wire; a datagram's time is the kernel's, of its
+arrival at the receiver's socket. Nodes, publishers and receivers are processes of their own, around a ROS master of
+their own.
+"""
+import contextlib
+import math
+import os
+import select
+import signal
+import socket
+import struct
+import subprocess
+import time
+from multiprocessing import get_context
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple
+
+from ardee_bridge import codec
+from ardee_bridge.pairing import Pairer
+from ardee_bridge.udp import open_socket
+
+SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
+MASTER = (
+    "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
+    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
+)
+START_LIMIT_S = 30.0
+# Time for the last messages to arrive.
+SETTLE_S = 0.5
+COMMAND_RATE_HZ = 100.0
+
+Key = Tuple[int, int]  # data type, component id
+Times = Dict[Key, List[int]]  # ns of the messages in their order
+
+
+class Stream(NamedTuple):
+    """A sensor: kind, topic, component id, rate."""
+
+    kind: str
+    topic: str
+    component_id: int
+    rate_hz: float
+
+    @property
+    def key(self) -> Key:
+        from ardee_bridge.settings import KINDS
+
+        return (int(KINDS[self.kind]), self.component_id)
+
+
+# The full rates of the TerraSentia's sensors.
+SENSORS = (
+    Stream("imu", "/bench/imu", 0, 100.0),
+    Stream("gps", "/bench/gps", 0, 20.0),
+    Stream("lidar", "/bench/lidar", 0, 40.0),
+    Stream("battery", "/bench/battery", 0, 10.0),
+    Stream("encoder", "/bench/encoder/fr", 0, 100.0),
+    Stream("encoder", "/bench/encoder/fl", 1, 100.0),
+    Stream("encoder", "/bench/encoder/rr", 2, 100.0),
+    Stream("encoder", "/bench/encoder/rl", 3, 100.0),
+)
+CAMERAS = (
+    Stream("image", "/bench/image", 0, 30.0),
+    Stream("image", "/bench/depth", 1, 10.0),
+    Stream("point_cloud", "/bench/points", 0, 10.0),
+)
+
+
+class Spread(NamedTuple):
+    """Latencies [ms], and how many messages were sent and lost."""
+
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+    sent: int
+    lost: int
+
+
+def spread(latencies_ns: Sequence[int], sent: int) -> Spread:
+    """Percentiles by the nearest rank."""
+    ordered = sorted(latencies_ns)
+    if not ordered:
+        return Spread(math.nan, math.nan, math.nan, sent, sent)
+
+    def at(share: float) -> float:
+        return ordered[max(0, math.ceil(share * len(ordered)) - 1)] / 1e6
+
+    return Spread(at(0.5), at(0.99), ordered[-1] / 1e6, sent, sent - len(ordered))
+
+
+@contextlib.contextmanager
+def own_master() -> Iterator[Dict[str, str]]:
+    """Environment of a ROS master of one's own."""
+    env = dict(os.environ, ROS_IP="127.0.0.1")
+    env.pop("ROS_HOSTNAME", None)
+    with subprocess.Popen(
+        ["/usr/bin/python3", "-c", MASTER],
+        env=env,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    ) as master:
+        try:
+            yield dict(env, ROS_MASTER_URI=master.stdout.readline().strip())
+        finally:
+            master.stdin.close()
+
+
+@contextlib.contextmanager
+def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subprocess.Popen]:
+    """A node of this package while the block runs."""
+    command = ["rosrun", "ardee_bridge", name, *parameters]
+    process = subprocess.Popen(
+        command,
+        env=env,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+        _, complaints = process.communicate(timeout=START_LIMIT_S)
+        if process.returncode != 0:
+            print(complaints)
+
+
+def _in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tuple[Any, Any]:
+    """Start body(pipe, *args) in a process of its own: the process and our end of the pipe."""
+    context = get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_enter, args=(env, body, theirs, args), daemon=True)
+    process.start()
+    theirs.close()
+    return process, ours
+
+
+def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple[Any, ...]) -> None:
+    os.environ.update(env)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    body(pipe, *args)
+
+
+def _answer(process: Any, pipe: Any, limit_s: float) -> Any:
+    if not pipe.poll(limit_s):
+        raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
+    answer = pipe.recv()
+    process.join(START_LIMIT_S)
+    return answer
+
+
+def serial_of(header: codec.Header, data: bytes) -> int:
+    """The running number that a message carries; -1 for a chunk that is not its frame's last."""
+    kind = codec.data_struct(header)
+    raw = kind.unpack(data[: kind.size])
+    if kind in (codec.ImageChunk, codec.PointCloudChunk):
+        return raw.chunk.sequence if raw.chunk.index == raw.chunk.count - 1 else -1
+    paths = {
+        codec.IMUData: "accel.x",
+        codec.GPSData: "altitude",
+        codec.LidarData: "scan_time",
+        codec.BatteryData: "vmin",
+        codec.EncoderData: "id",
+    }
+    return raw.as_dict()[paths[kind]]
+
+
+def receive_sensors(pipe: Any) -> None:
+    """Body of the receiver: says its port, receives until told to end, then says when each message came."""
+    opened = open_socket("127.0.0.1", 0)
+    opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
+    pipe.send(opened.getsockname()[1])
+    kept = []
+    while not pipe.poll():
+        if not select.select([opened], [], [], 0.05)[0]:
+            continue
+        while True:
+            try:
+                data, extras, _, _ = opened.recvmsg(65535, 256, socket.MSG_DONTWAIT)
+            except BlockingIOError:
+                break
+            stamps = [value for _, kind, value in extras if kind == SO_TIMESTAMPNS]
+            seconds, nanoseconds = struct.unpack("=qq", stamps[0])
+            kept.append((data, seconds * 10**9 + nanoseconds))
+    pipe.send(_arrivals(kept))
+
+
+def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[Key, Dict[int, int]]:
+    """(data type, component) -> running number -> ns."""
+    pairer, arrivals = Pairer(), {}  # type: Pairer, Dict[Key, Dict[int, int]]
+    for data, at_ns in kept:
+        message = pairer.feed("server", data, at_ns * 1e-9)
+        if message is None:
+            continue
+        serial = serial_of(message.header, message.data)
+        key = (message.header.data_type, message.header.component_id)
+        if serial >= 0:
+            arrivals.setdefault(key, {})[serial] = at_ns
+    return arrivals
+
+
+def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
+    """Body of a publisher: publishes at the streams' rates, then says when each message was published."""
+    import rospy
+
+    from ardee_bridge import latency_messages
+    from ardee_bridge.sensor_server_node import TYPES
+
+    rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
+    publishers = [
+        rospy.Publisher(stream.topic, TYPES[stream.kind], queue_size=1000, tcp_nodelay=True)
+        for stream in streams
+    ]
+    deadline = time.monotonic() + START_LIMIT_S
+    while not all(publisher.get_num_connections() for publisher in publishers):
+        if time.monotonic() > deadline:
+            raise TimeoutError("the sensor server does not subscribe")
+        time.sleep(0.05)
+    messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
+    times = {stream.key: [] for stream in streams}  # type: Times
+    start = time.monotonic() + SETTLE_S
+    due = [start + 0.37 * index / stream.rate_hz for index, stream in enumerate(streams)]
+    while min(due) < start + seconds:
+        index = due.index(min(due))
+        stream = streams[index]
+        time.sleep(max(0.0, due[index] - time.monotonic()))
+        latency_messages.number(stream.kind, messages[index], len(times[stream.key]))
+        times[stream.key].append(time.time_ns())
+        publishers[index].publish(messages[index])
+        due[index] += 1.0 / stream.rate_hz
+    time.sleep(SETTLE_S)
+    pipe.send(times)
+
+
+def _sources(streams: Sequence[Stream]) -> str:
+    items = [
+        f"{{name: {stream.topic}, kind: {stream.kind}, topic: {stream.topic}, "
+        f"component_id: {stream.component_id}}}"
+        for stream in streams
+    ]
+    return f"_sources:=[{', '.join(items)}]"
+
+
+def measure_sensors(seconds: float, cameras: bool) -> Dict[str, Spread]:
+    """Sensor message published -> data datagram arrived, by kind of sensor."""
+    groups = [SENSORS] + ([CAMERAS] if cameras else [])
+    streams = [stream for group in groups for stream in group]
+    with own_master() as env:
+        receiver, from_receiver = _in_process(env, receive_sensors)
+        peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: [all]}}"
+        with node(env, "sensor_server_node", "_port:=0", f"_peers:=[{peer}]", _sources(streams)):
+            running = [_in_process(env, publish_sensors, group, seconds) for group in groups]
+            times = {}  # type: Times
+            for process, pipe in running:
+                times.update(_answer(process, pipe, seconds + 2 * START_LIMIT_S))
+        from_receiver.send("end")
+        arrivals = _answer(receiver, from_receiver, START_LIMIT_S + seconds)
+    return _by_kind(streams, times, arrivals)
+
+
+def _by_kind(
+    streams: Sequence[Stream], times: Times, arrivals: Dict[Key, Dict[int, int]]
+) -> Dict[str, Spread]:
+    latencies, sent = {}, {}  # type: Dict[str, List[int]], Dict[str, int]
+    for stream in streams:
+        published, arrived = times[stream.key], arrivals.get(stream.key, {})
+        sent[stream.kind] = sent.get(stream.kind, 0) + len(published)
+        latencies.setdefault(stream.kind, []).extend(
+            arrived[serial] - at_ns for serial, at_ns in enumerate(published) if serial in arrived
+        )
+    return {kind: spread(latencies[kind], sent[kind]) for kind in sent}
+
+
+def receive_commands(pipe: Any, topic: str) -> None:
+    """Body of the robot: says when it listens and, told to end, when each command came."""
+    import rospy
+    from geometry_msgs.msg import Twist
+
+    arrivals = {}  # type: Dict[int, int]
+
+    def keep(twist: Any) -> None:
+        arrivals[round(twist.linear.x * 1e6)] = time.time_ns()
+
+    rospy.init_node("latency_robot", anonymous=True, disable_signals=True, disable_rostime=True)
+    robot = rospy.Subscriber(topic, Twist, keep, tcp_nodelay=True)
+    while not robot.get_num_connections():
+        time.sleep(0.05)
+    pipe.send("listening")
+    while not arrivals:
+        time.sleep(0.05)
+    pipe.send("moving")
+    pipe.recv()
+    pipe.send(arrivals)
+
+
+def measure_controls(seconds: float) -> Spread:
+    """Data datagram of a motion command sent -> its Twist in a subscriber's callback."""
+    with own_master() as env, open_socket("127.0.0.1", 0) as probe:
+        port = probe.getsockname()[1]
+        probe.close()
+        robot, from_robot = _in_process(env, receive_commands, "/cmd_vel")
+        with node(env, "controls_client_node", f"_port:={port}", "_max_speed_m_s:=1.0"):
+            if not from_robot.poll(START_LIMIT_S):
+                raise TimeoutError("the controls client does not publish")
+            from_robot.recv()
+            _wake(port, from_robot)
+            sent = _send_commands(port, round(seconds * COMMAND_RATE_HZ))
+            time.sleep(SETTLE_S)
+            from_robot.send("end")
+            arrivals = _answer(robot, from_robot, START_LIMIT_S)
+    found = [arrivals[serial] - at_ns for serial, at_ns in sent.items() if serial in arrivals]
+    return spread(found, len(sent))
+
+
+def _wake(port: int, from_robot: Any) -> None:
+    """Send commands until the first arrives: only then both ends of the topic know of each other."""
+    with open_socket("127.0.0.1", 0) as opened:
+        deadline = time.monotonic() + START_LIMIT_S
+        while not from_robot.poll(0.1):
+            if time.monotonic() > deadline:
+                raise TimeoutError("no command arrives")
+            for datagram in codec.encode_motion(0.0, 0.0):
+                opened.sendto(datagram, ("127.0.0.1", port))
+    from_robot.recv()
+
+
+def _send_commands(port: int, count: int) -> Dict[int, int]:
+    sent = {}
+    with open_socket("127.0.0.1", 0) as opened:
+        for serial in range(1, count + 1):
+            header, data = codec.encode_motion(serial / codec.DEFAULT_MULTIPLIER, 0.0)
+            opened.sendto(header, ("127.0.0.1", port))
+            sent[serial] = time.time_ns()
+            opened.sendto(data, ("127.0.0.1", port))
+            time.sleep(1.0 / COMMAND_RATE_HZ)
+    return sent

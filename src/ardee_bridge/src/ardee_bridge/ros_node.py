@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
+import sys
+import threading
+from pathlib import Path
+from typing import Any, Callable, Dict
+
+import rospkg
+import rospy
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from ardee_bridge.counters import Counters
+from ardee_bridge.settings import SettingError
+
+DIAGNOSTICS_PERIOD_S = 1.0
+POLL_S = 0.2
+# A thread that computes lets another one run after this time, not after Python's 5 ms.
+SWITCH_INTERVAL_S = 0.0005
+
+
+def read_parameters(file_name: str) -> Dict[str, Any]:
+    """The package's settings file, with the node's private parameters over it."""
+    file = Path(rospkg.RosPack().get_path("ardee_bridge"), "config", file_name)
+    values = yaml.safe_load(file.read_text(encoding="utf-8"))
+    values.update(rospy.get_param("~", {}))
+    return values
+
+
+def start_diagnostics(name: str, counters: Counters) -> None:
+    """Publish all counters once a second of wall time; WARN while something was dropped in the last one."""
+    publisher = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
+
+    def repeat() -> None:
+        before = 0
+        while not rospy.core.is_shutdown():
+            dropped = counters.dropped()
+            total = sum(dropped.values())
+            publisher.publish(_diagnostics(name, counters.done(), dropped, total - before))
+            before = total
+            rospy.rostime.wallsleep(DIAGNOSTICS_PERIOD_S)
+
+    threading.Thread(target=repeat, daemon=True).start()
+
+
+def _diagnostics(
+    name: str, done: Dict[str, int], dropped: Dict[str, int], fresh: int
+) -> DiagnosticArray:
+    status = DiagnosticStatus(name=name, hardware_id="UDP bridge")
+    status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
+    status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
+    pairs = [(kind, count) for kind, count in sorted(done.items())]
+    pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
+    status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
+    array = DiagnosticArray(status=[status])
+    array.header.stamp = rospy.Time.now()
+    return array
+
+
+def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
+    """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
+
+    Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
+    """
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    rospy.init_node(name, disable_rostime=True)
+    try:
+        step = body()
+    except (SettingError, OSError) as error:
+        print(f"{rospy.get_name()}: {error}", file=sys.stderr)
+        return 2
+    while not rospy.is_shutdown():
+        step(POLL_S)
+    return 0

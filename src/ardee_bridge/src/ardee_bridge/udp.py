@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""Sockets of the bridge."""
+import socket
+import struct
+from typing import Iterator, List, Tuple
+
+Sender = Tuple[str, int]
+
+# Linux's numbers, which Python's socket module does not name.
+SO_RXQ_OVFL = 40
+BUFFER_BYTES = 4 << 20
+MAX_DATAGRAM = 65535
+
+
+def open_socket(address: str, port: int, multicast_ttl: int = 1) -> socket.socket:
+    """A bound UDP socket that may broadcast, with buffers as large as the system lets them be."""
+    opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    try:
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
+        for option in (socket.SO_RCVBUF, socket.SO_SNDBUF):
+            opened.setsockopt(socket.SOL_SOCKET, option, BUFFER_BYTES)
+        opened.setsockopt(socket.SOL_SOCKET, SO_RXQ_OVFL, 1)
+        opened.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, multicast_ttl)
+        interface = socket.inet_aton(address)
+        opened.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_IF, interface)
+        opened.bind((address, port))
+    except OSError as error:
+        opened.close()
+        raise OSError(error.errno, f"UDP {address}:{port}: {error.strerror}") from None
+    return opened
+
+
+class Inbox:
+    """Reads what has arrived at a socket; counts what the system dropped because its buffer was full."""
+
+    def __init__(self, source: socket.socket) -> None:
+        self._socket = source
+        self.overflowed = 0
+
+    def drain(self, most: int = 256) -> Iterator[Tuple[bytes, Sender]]:
+        """Up to so many datagrams that are there already, with their senders."""
+        for _ in range(most):
+            try:
+                data, extras, _, sender = self._socket.recvmsg(
+                    MAX_DATAGRAM, socket.CMSG_SPACE(4), socket.MSG_DONTWAIT
+                )
+            except (BlockingIOError, InterruptedError):
+                return
+            except ConnectionError:  # a port that an answer went to is closed
+                continue
+            self._look_for_overflow(extras)
+            yield data, sender
+
+    def _look_for_overflow(self, extras: List[Tuple[int, int, bytes]]) -> None:
+        for level, kind, data in extras:
+            if level == socket.SOL_SOCKET and kind == SO_RXQ_OVFL:
+                self.overflowed = struct.unpack("=I", data[:4])[0]

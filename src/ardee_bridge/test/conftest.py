@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""Makes the package importable from the source tree."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PACKAGE / "src"))
+
+
+@pytest.fixture(scope="session")
+def package() -> Path:
+    """Source folder of ardee_bridge."""
+    return PACKAGE

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""The controls client on real sockets: limits, control codes, peers, watchdog, what it drops and why."""
+import socket
+
+import pytest
+
+from ardee_bridge import codec
+from ardee_bridge.controls import STANDSTILL, ControlsClient, Motion, to_motion
+from ardee_bridge.counters import Counters
+from ardee_bridge.settings import read_controls
+from ardee_bridge.udp import open_socket
+
+VALUES = dict(
+    bind_address="127.0.0.1",
+    port=0,
+    peers=["127.0.0.1"],
+    cmd_vel_topic="cmd_vel",
+    max_speed_m_s=1.2,
+    min_turn_radius_m=0.381,
+    watchdog_s=0.5,
+    pause_service="/p",
+    unpause_service="/u",
+)
+
+
+class Bench:
+    """A controls client whose clock the test sets, and a peer."""
+
+    def __init__(self, **values):
+        self.now_s, self.motions, self.pauses, self.warnings = 0.0, [], [], []
+        settings = read_controls(dict(VALUES, **values))
+        self.server = open_socket(settings.bind_address, settings.port)
+        self.peer = open_socket("127.0.0.1", 0)
+        self.peer.settimeout(5.0)
+        self.counters = Counters(self.warnings.append)
+        self.client = ControlsClient(
+            settings,
+            self.server,
+            self.counters,
+            self.motions.append,
+            self.pauses.append,
+            lambda: self.now_s,
+        )
+
+    def send(self, *datagrams, by=None):
+        for datagram in datagrams:
+            (by or self.peer).sendto(datagram, self.server.getsockname())
+        self.client.receive(0.05)
+
+    def close(self):
+        self.server.close()
+        self.peer.close()
+
+
+@pytest.fixture
+def bench():
+    made = Bench()
+    yield made
+    made.close()
+
+
+@pytest.mark.parametrize(
+    "speed, yaw_rate, multiplier, expected",
+    [
+        (50, -100, 100, (0.6, -1.2 / 0.381)),
+        (1, 0, 1, (1.2, 0.0)),
+        (-250, 300, 100, (-1.2, 1.2 / 0.381)),
+        (2**31 - 1, -(2**31), 2**31 - 1, (1.2, -1.2 / 0.381)),
+    ],
+)
+def test_limits(speed, yaw_rate, multiplier, expected):
+    commands = codec.MotionCommands(
+        normalized_speed=speed, normalized_yaw_rate=yaw_rate, multiplier=multiplier
+    )
+    assert to_motion(commands, read_controls(VALUES)) == pytest.approx(expected)
+
+
+def test_a_command_moves_and_its_end_stops(bench):
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    assert bench.motions == [Motion(0.6, 0.0)]
+    bench.now_s = 0.499
+    bench.client.receive(0.0)
+    assert len(bench.motions) == 1
+    bench.now_s = 0.5
+    bench.client.receive(0.0)
+    assert bench.motions[1:] == [STANDSTILL]
+    bench.now_s = 5.0
+    bench.client.receive(0.0)
+    assert len(bench.motions) == 2
+    assert bench.counters.done()["watchdog stops"] == 1
+
+
+def test_commands_keep_the_watchdog_quiet(bench):
+    for number in range(20):
+        bench.now_s = 0.4 * number
+        bench.send(*codec.encode_motion(0.5, 0.0))
+    assert STANDSTILL not in bench.motions
+
+
+def test_commands_that_arrive_together_are_passed_on_in_order(bench):
+    bench.send(*codec.encode_motion(0.1, 0.0), *codec.encode_motion(1.0, 0.0))
+    assert bench.motions == [pytest.approx((0.12, 0.0)), Motion(1.2, 0.0)]
+
+
+def test_of_very_many_at_once_the_newest_are_passed_on(bench):
+    for number in range(100):
+        for datagram in codec.encode_motion(number / 100, 0.0):
+            bench.peer.sendto(datagram, bench.server.getsockname())
+    bench.client.receive(0.05)
+    speeds = [motion.speed_m_s for motion in bench.motions]
+    assert speeds == pytest.approx([1.2 * number / 100 for number in range(36, 100)])
+    assert bench.counters.dropped() == {"motion commands overtaken by newer ones": 36}
+
+
+def test_stop_holds_until_start(bench):
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    bench.send(*codec.encode_control(codec.ControlCode.STOP))
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    assert bench.motions == [Motion(0.6, 0.0), STANDSTILL]
+    assert bench.pauses == []
+    bench.send(*codec.encode_control(codec.ControlCode.START))
+    bench.send(*codec.encode_motion(0.25, 0.0))
+    assert bench.motions[2:] == [Motion(0.3, 0.0)]
+    assert bench.pauses == [False]
+    assert bench.counters.dropped() == {"motion command between STOP and START": 1}
+
+
+def test_stop_after_a_command_of_the_same_batch_wins(bench):
+    bench.send(
+        *codec.encode_motion(0.5, 0.0),
+        *codec.encode_control(codec.ControlCode.STOP),
+        *codec.encode_motion(0.5, 0.0),
+    )
+    assert bench.motions == [STANDSTILL]
+
+
+def test_pause_and_resume(bench):
+    for code in (codec.ControlCode.PAUSE, codec.ControlCode.RESUME):
+        bench.send(*codec.encode_control(code))
+    assert bench.pauses == [True, False]
+    assert bench.motions == []
+
+
+def test_control_codes_are_answered(bench):
+    bench.send(*codec.encode_control(codec.ControlCode.PAUSE, request_id=77))
+    header = codec.Header.unpack(bench.peer.recv(100))
+    assert header.msg_type == codec.MessageType.ACK
+    assert codec.Ack.unpack(bench.peer.recv(100)).sequence == 77
+
+
+@pytest.mark.parametrize(
+    "datagrams, reason",
+    [
+        (codec.encode_motion(0.5, 0.0, multiplier=0), "malformed motion command"),
+        (codec.encode_motion(0.5, 0.0, multiplier=-5), "malformed motion command"),
+        (codec.encode_control(9), "unknown control code"),
+        (codec.encode_set_port([]), "neither motion nor control"),
+        (codec.encode(codec.DataType.BATTERY, 0, bytes(12)), "neither motion nor control"),
+        ((codec.Header(msg_type=55).pack(),), "unknown or invalid header"),
+        ((b"\1" * 12,), "data without header"),
+        ((codec.encode_motion(1, 0)[0], b"\1" * 11), "data of the wrong size"),
+        ((codec.encode_motion(1, 0)[0], b"\1" * 60000), "data of the wrong size"),
+        ((b"",), "data without header"),
+    ],
+)
+def test_what_is_not_well_formed_is_dropped_counted_and_said_once(bench, datagrams, reason):
+    for _ in range(3):
+        bench.send(*datagrams)
+    assert bench.motions == [] and bench.pauses == []
+    dropped = bench.counters.dropped()
+    assert dropped[reason] == 3
+    assert sum(reason in warning for warning in bench.warnings) == 1
+
+
+@pytest.mark.parametrize("peers", [["127.0.0.2"], ["10.0.0.0/8"], ["127.0.0.1:1"], []])
+def test_others_are_not_obeyed(peers):
+    bench = Bench(peers=peers)
+    bench.send(*codec.encode_motion(0.5, 0.0), *codec.encode_control(codec.ControlCode.STOP))
+    assert bench.motions == [] and bench.counters.dropped() == {"sender is no peer": 4}
+    bench.close()
+
+
+def test_a_network_is_a_peer():
+    bench = Bench(peers=["10.1.2.3", "127.0.0.0/8"])
+    bench.send(*codec.encode_motion(0.5, 0.0), by=None)
+    assert bench.motions == [Motion(0.6, 0.0)]
+    bench.close()
+
+
+def test_a_wrong_peer_cannot_come_between_header_and_data(bench):
+    header, data = codec.encode_motion(0.5, 0.0)
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
+        other.bind(("127.0.0.3", 0))
+        bench.send(header)
+        bench.send(header, b"\0" * 12, by=other)
+        bench.send(data)
+    assert bench.motions == [Motion(0.6, 0.0)]

@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: MIT
+"""The sensor server on real sockets: what each ROS message becomes, and who gets it."""
+import io
+import math
+import socket
+
+import numpy as np
+import pytest
+from geometry_msgs.msg import Vector3
+from PIL import Image as Picture
+from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2, PointField
+
+from ardee_bridge import chunks, codec, convert
+from ardee_bridge.counters import Counters
+from ardee_bridge.layout import NO_VALUE
+from ardee_bridge.pairing import Pairer
+from ardee_bridge.sensor_server import RateLimit, SensorServer
+from ardee_bridge.settings import read_server
+from ardee_bridge.udp import open_socket
+from ardee_msgs.msg import Battery, Encoder
+
+D = codec.DataType
+VALUES = dict(
+    bind_address="127.0.0.1",
+    port=0,
+    allowed_clients=["127.0.0.1"],
+    max_clients=2,
+    client_lease_s=30.0,
+    multicast_ttl=1,
+)
+SOURCES = [
+    dict(name="imu", kind="imu", topic="imu"),
+    dict(name="gps", kind="gps", topic="gps"),
+    dict(name="fast", kind="battery", topic="battery"),
+    dict(name="slow", kind="battery", topic="battery", component_id=1, max_rate_hz=10),
+    dict(name="camera", kind="image", topic="image", format="raw", chunk_bytes=256),
+]
+
+
+class Bench:
+    """A server with a clock that the test sets, and sockets that listen."""
+
+    def __init__(self, peers=(), **values):
+        self.now_s, self.sockets, self.changes = 0.0, [], 0
+        self.settings = read_server(dict(VALUES, sources=SOURCES, peers=list(peers), **values))
+        self.server_socket = open_socket("127.0.0.1", 0)
+        self.counters = Counters(lambda text: None)
+        self.server = SensorServer(
+            self.settings, self.server_socket, self.counters, self._changed, lambda: self.now_s
+        )
+
+    def _changed(self):
+        self.changes += 1
+
+    def listen(self, address="127.0.0.1"):
+        made = open_socket(address, 0)
+        made.settimeout(5.0)
+        self.sockets.append(made)
+        return made
+
+    def ask(self, client, types, **more):
+        for datagram in codec.encode_set_port(types, **more):
+            client.sendto(datagram, self.server_socket.getsockname())
+        self.server.receive(0.05)
+
+    def publish(self, name, message):
+        source = next(source for source in self.settings.sources if source.name == name)
+        self.server.publish(source, message)
+
+    def close(self):
+        for opened in self.sockets + [self.server_socket]:
+            opened.close()
+
+
+@pytest.fixture
+def bench():
+    made = Bench()
+    yield made
+    made.close()
+
+
+def receive(client, count=1):
+    """The next messages: (header, data)."""
+    pairer, found = Pairer(), []
+    while len(found) < count:
+        message = pairer.feed("s", client.recv(65535), 0.0)
+        if message:
+            found.append(message)
+    return found
+
+
+def nothing_came(client):
+    client.setblocking(False)
+    try:
+        client.recv(65535)
+    except BlockingIOError:
+        return True
+    finally:
+        client.settimeout(5.0)
+    return False
+
+
+def acked(client):
+    return receive(client)[0].header.msg_type == codec.MessageType.ACK
+
+
+def test_clients_get_what_they_ask_for(bench):
+    a, b = bench.listen(), bench.listen()
+    bench.ask(a, [D.IMU])
+    bench.ask(b, [D.BATTERY, D.TIME], component_id=1)
+    assert acked(a) and acked(b) and bench.changes == 2
+    assert bench.server.wanted() == {"imu", "slow"}
+    stamped = Battery(voltage=12.5)
+    stamped.header.stamp.secs, stamped.header.stamp.nsecs = 7, 25
+    bench.publish("imu", Imu())
+    bench.publish("fast", stamped)
+    bench.publish("slow", stamped)
+    assert receive(a)[0].header.data_type == D.IMU and nothing_came(a)
+    time, battery = receive(b, 2)
+    stamp = codec.TimeStamp.unpack(time.data)
+    assert stamp.as_dict() == dict(sec=7, nsec=25, data_type=D.BATTERY, component_id=1)
+    assert battery.header.component_id == 1
+    assert codec.BatteryData.unpack(battery.data).to_si().voltage == 12.5
+    assert nothing_came(b)
+
+
+def test_a_port_other_than_the_sender_s(bench):
+    asker, listener = bench.listen(), bench.listen()
+    bench.ask(asker, [D.ALL], port=listener.getsockname()[1], request_id=5)
+    assert codec.Ack.unpack(receive(asker)[0].data).sequence == 5
+    bench.publish("imu", Imu())
+    assert receive(listener)[0].header.data_type == D.IMU
+
+
+def test_a_client_that_falls_silent_is_forgotten(bench):
+    client = bench.listen()
+    bench.ask(client, [D.ALL])
+    bench.now_s = 29.0
+    bench.ask(client, [D.ALL])
+    bench.now_s = 58.0
+    bench.server.receive(0.0)
+    assert len(bench.server.clients()) == 1
+    bench.now_s = 59.1
+    bench.server.receive(0.0)
+    assert bench.server.clients() == () and bench.server.wanted() == set()
+
+
+def test_a_client_may_leave_and_places_are_bounded(bench):
+    a, b, c = bench.listen(), bench.listen(), bench.listen()
+    for client in (a, b, c):
+        bench.ask(client, [D.ALL])
+    assert len(bench.server.clients()) == 2
+    assert bench.counters.dropped() == {"requests: too many clients": 1}
+    bench.ask(a, [])
+    bench.ask(c, [D.ALL])
+    assert {t.address for t in bench.server.clients()} == {b.getsockname(), c.getsockname()}
+
+
+def test_a_configured_peer_stays_and_may_choose_anew():
+    probe = open_socket("127.0.0.1", 0)
+    probe.settimeout(5.0)
+    address = probe.getsockname()
+    bench = Bench(peers=[dict(address=address[0], port=address[1], data_types=["imu"])])
+    bench.publish("imu", Imu())
+    assert receive(probe)[0].header.data_type == D.IMU
+    bench.ask(probe, [])
+    assert acked(probe)
+    bench.publish("imu", Imu())
+    bench.now_s = 1e6
+    bench.server.receive(0.0)
+    assert nothing_came(probe) and len(bench.server.clients()) == 1
+    bench.close()
+    probe.close()
+
+
+@pytest.mark.parametrize(
+    "datagrams, reason",
+    [
+        (codec.encode_motion(1, 0), "requests: not SET_PORT"),
+        (codec.encode_set_port([D.ALL], port=70000), "requests: malformed SET_PORT"),
+        (codec.encode_set_port([D.ALL], component_id=-2), "requests: malformed SET_PORT"),
+        ((b"x" * 12,), "requests: data without header"),
+        ((codec.Header(msg_type=-9).pack(),), "requests: unknown or invalid header"),
+    ],
+)
+def test_bad_requests_are_counted(bench, datagrams, reason):
+    client = bench.listen()
+    for datagram in datagrams:
+        client.sendto(datagram, bench.server_socket.getsockname())
+    bench.server.receive(0.05)
+    assert bench.server.clients() == () and bench.counters.dropped()[reason] == 1
+
+
+def test_strangers_get_nothing(bench):
+    stranger = bench.listen("127.0.0.9")
+    bench.ask(stranger, [D.ALL])
+    assert bench.server.clients() == ()
+    assert bench.counters.dropped() == {"requests: sender not allowed": 2}
+
+
+def test_multicast_and_broadcast():
+    listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    listener.bind(("0.0.0.0", 0))
+    listener.settimeout(5.0)
+    member = socket.inet_aton("239.7.7.7") + socket.inet_aton("127.0.0.1")
+    listener.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
+    port = listener.getsockname()[1]
+    for address in ("239.7.7.7", "127.255.255.255"):
+        bench = Bench(peers=[dict(address=address, port=port, data_types=["imu"])])
+        bench.publish("imu", Imu())
+        assert receive(listener)[0].header.data_type == D.IMU, bench.counters.dropped()
+        bench.close()
+    listener.close()
+
+
+def test_an_unreachable_peer_is_counted_and_the_others_get_theirs(bench):
+    client = bench.listen()
+    bench.ask(client, [D.BATTERY])
+    assert acked(client)
+    far = ("203.0.113.1", 9)  # the socket is bound to loopback: the system refuses
+    bench.server._targets = {
+        far: bench.server.clients()[0]._replace(address=far),
+        **bench.server._targets,
+    }
+    bench.publish("fast", Battery())
+    assert receive(client)[0].header.data_type == D.BATTERY
+    assert bench.counters.dropped() == {"messages that could not be sent": 1}
+
+
+def test_rate_limit_is_exact_in_the_mean_and_survives_a_reset():
+    limit = RateLimit(30.0)
+    admitted = sum(limit.admits(0.01 * step) for step in range(10_000))
+    assert admitted == 3000
+    assert limit.admits(0.0)
+    assert all(RateLimit(0.0).admits(0.0) for _ in range(3))
+
+
+# -- ROS messages to data
+
+
+def test_imu():
+    message = Imu()
+    message.linear_acceleration.z, message.angular_velocity.y = 9.81, -0.5
+    message.orientation.w, message.orientation_covariance = 1.0, [-1.0] + [0.0] * 8
+    message.angular_velocity_covariance = [1e-6, 0, 0, 0, 2e-6, 0, 0, 0, 3e-6]
+    si = codec.IMUData.unpack(convert.imu(message).data).to_si()
+    assert (si.accel.z, si.gyro.y, si.orientation.w) == (9.81, -0.5, 1.0)
+    assert (si.gyro.covariance.x, si.gyro.covariance.z) == (1e-6, 3e-6)
+    assert si.orientation.covariance.roll == -1.0
+
+
+def test_gps():
+    message = NavSatFix(latitude=40.1234567, longitude=-88.7654321, altitude=222.333)
+    message.header.stamp.secs, message.header.stamp.nsecs = 12, 345_678_901
+    message.status.status, message.status.service = -1, 0xFFFF
+    message.position_covariance, message.position_covariance_type = [0.01] * 9, 2
+    raw = codec.GPSData.unpack(convert.gps(message, Vector3(0.5, -0.25, 0.0)).data)
+    si = raw.to_si()
+    assert (si.latitude, si.longitude, si.altitude) == (40.1234567, -88.7654321, 222.333)
+    assert (si.time, si.velocity.y, si.covariance.x) == (12.345, -0.25, 0.01)
+    assert (raw.status, raw.service, raw.covariance_type) == (-1, 0xFFFF, 2)
+
+
+def test_gps_time_wraps():
+    message = NavSatFix()
+    message.header.stamp.secs = 2**31 // 1000 + 1
+    raw = codec.GPSData.unpack(convert.gps(message).data)
+    assert raw.time == (2**31 // 1000 + 1) * 1000 - 2**31
+
+
+def test_lidar_as_the_codec_has_it():
+    inf, nan = math.inf, math.nan
+    ranges = [0.06, 0.0599, 10.0, 10.001, inf, -inf, nan, -1.0, 0.1235, 5.0005, 0.0]
+    scan = LaserScan(range_min=0.06, range_max=10.0, angle_min=-2.356, angle_increment=0.0043633)
+    scan.ranges, scan.intensities = ranges, [1.5, nan, 1e9, -inf] + [0.0] * 7
+    reading = convert.lidar(scan)
+    raw = codec.LidarData.unpack(reading.data)
+    assert reading.count == 11
+    assert list(raw.ranges[:11]) == codec.range_counts(ranges, 0.06, 10.0)
+    assert raw.ranges[11:] == (0,) * (codec.LIDAR_SLOTS - 11)
+    assert raw.intensities[:4] == (1500, NO_VALUE, 2**31 - 1, -(2**31 - 1))
+    assert raw.to_si().dAngle == 0.0043633
+
+
+def test_random_scans_as_the_codec_has_them():
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        scan = LaserScan(range_min=0.1, range_max=float(rng.choice([5.0, 1e9, math.inf])))
+        scan.ranges = rng.exponential(3.0, 1081).tolist()
+        raw = codec.LidarData.unpack(convert.lidar(scan).data)
+        assert list(raw.ranges) == codec.range_counts(scan.ranges, 0.1, scan.range_max)
+
+
+def test_a_scan_of_too_many_beams_is_refused():
+    with pytest.raises(convert.ConvertError, match="1082 beams, expected at most 1081"):
+        convert.lidar(LaserScan(ranges=[1.0] * 1082))
+
+
+def test_encoder_and_battery():
+    raw = codec.EncoderData.unpack(
+        convert.encoder(Encoder(id=3, position=1234.5, qpps=-6725.25)).data
+    )
+    assert raw.id == 3 and raw.to_si().position == 1234.5 and raw.to_si().qpps == -6725.25
+    assert codec.BatteryData.unpack(convert.battery(Battery(vmax=12.6)).data).vmax == 12600
+
+
+def picture(encoding="rgb8", width=40, height=30, pixel_bytes=3, pad=2):
+    message = Image(encoding=encoding, width=width, height=height, step=width * pixel_bytes + pad)
+    message.data = bytes((x + y) % 251 for y in range(height) for x in range(message.step))
+    return message
+
+
+def test_raw_image_through_the_wire(bench):
+    client = bench.listen()
+    bench.ask(client, [D.IMAGE])
+    assert acked(client)
+    message = picture()
+    bench.publish("camera", message)
+    assembler, whole = chunks.Assembler(), None
+    while whole is None:
+        whole = assembler.feed(*receive(client)[0])
+    assert whole.payload == message.data
+    assert (whole.head.width, whole.head.height, whole.head.step) == (40, 30, 122)
+    assert whole.head.encoding == codec.ImageEncoding.RGB8 and whole.head.chunk.count == 15
+
+
+@pytest.mark.parametrize("encoding, first", [("rgb8", 0), ("bgr8", 2)])
+def test_jpeg_has_the_right_colours(encoding, first):
+    message = Image(encoding=encoding, width=32, height=32, step=96)
+    pixel = [0, 0, 0]
+    pixel[first] = 255  # red
+    message.data = bytes(pixel) * 1024
+    frame = convert.image(message, "jpeg", 90)
+    assert frame.head.encoding == codec.ImageEncoding.JPEG
+    red, green, blue = Picture.open(io.BytesIO(frame.payload)).convert("RGB").getpixel((16, 16))
+    assert red > 240 and green < 15 and blue < 15
+
+
+def test_depth_is_never_compressed():
+    frame = convert.image(picture("32FC1", pixel_bytes=4, pad=0), "jpeg", 80)
+    assert frame.head.encoding == codec.ImageEncoding.DEPTH_32F_M
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (dict(encoding="bayer_rggb8"), "encoding 'bayer_rggb8', expected one of rgb8"),
+        (dict(height=31), "expected rows of 3 bytes a pixel"),
+        (dict(step=10, data=b"0" * 300), "expected rows of 3 bytes a pixel"),
+        (dict(data=b"", height=0), "expected rows"),
+    ],
+)
+def test_malformed_images_are_refused(change, message):
+    bad = picture()
+    for name, value in change.items():
+        setattr(bad, name, value)
+    with pytest.raises(convert.ConvertError, match=message):
+        convert.image(bad, "raw", 80)
+
+
+def cloud(points, height=1, pad=0):
+    kind = np.dtype(
+        [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("ring", "<u2"), ("intensity", "<f4")]
+    )
+    array = np.zeros(len(points), kind)
+    for name, column in zip(("x", "y", "z", "intensity"), np.array(points).T):
+        array[name] = column
+    width = len(points) // height
+    message = PointCloud2(width=width, height=height, point_step=18, row_step=18 * width + pad)
+    rows = array.reshape(height, width)
+    message.data = b"".join(row.tobytes() + b"\xee" * pad for row in rows)
+    fields = (("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("ring", 12, 4), ("intensity", 14, 7))
+    message.fields = [PointField(name, offset, kind, 1) for name, offset, kind in fields]
+    return message
+
+
+@pytest.mark.parametrize("height, pad", [(1, 0), (2, 6)])
+def test_point_cloud(height, pad):
+    points = [(1.0, -2.5, 0.125, 7.0), (math.nan, 0, 0, 0), (0, 0, math.inf, 1), (3.5, 4, 5, 0.5)]
+    frame = convert.point_cloud(cloud(points, height, pad))
+    assert chunks.points_si(frame.payload) == [points[0], points[3]]
+
+
+def test_malformed_clouds_are_refused():
+    good = cloud([(1, 2, 3, 4)] * 4)
+    good.data = good.data[:-1]
+    with pytest.raises(convert.ConvertError, match="does not fit"):
+        convert.point_cloud(good)
+    good.fields = good.fields[1:]
+    with pytest.raises(convert.ConvertError, match="without field x"):
+        convert.point_cloud(good)
+
+
+def test_a_message_that_does_not_fit_is_counted_and_nothing_is_sent(bench):
+    client = bench.listen()
+    bench.ask(client, [D.ALL])
+    assert acked(client)
+    bench.publish("camera", picture("bayer_rggb8"))
+    assert nothing_came(client)
+    assert bench.counters.dropped() == {"sensor messages that the wire cannot carry": 1}

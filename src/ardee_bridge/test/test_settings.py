@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""Settings: the shipped files are sound, and each mistake is one message with key, what was found and expected."""
+import pytest
+import yaml
+
+from ardee_bridge import codec
+from ardee_bridge.settings import SettingError, read_controls, read_server
+
+
+def shipped(package, name):
+    return yaml.safe_load((package / "config" / name).read_text())
+
+
+def test_shipped_defaults_are_those_of_the_thesis(package):
+    server = read_server(shipped(package, "sensor_server.yaml"))
+    assert [(peer.address, peer.port) for peer in server.destinations] == [("127.0.0.1", 30000)]
+    topics = {source.topic for source in server.sources}
+    assert {"ardee/imu/custom", "ardee/gps", "ardee/hokuyo", "ardee/battery"} <= topics
+    assert {f"ardee/encoder/{place}" for place in ("fr", "fl", "rr", "rl")} <= topics
+    controls = read_controls(shipped(package, "controls_client.yaml"))
+    assert (controls.bind_address, controls.port) == ("127.0.0.1", 35555)
+    assert controls.max_yaw_rate_rad_s == pytest.approx(codec.MAX_YAW_RATE_RAD_S)
+    assert controls.max_speed_m_s == codec.MAX_SPEED_M_S
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (dict(port=70000), "port: found 70000, expected a whole number from 0 to 65535"),
+        (dict(port=True), "port: found True, expected a whole number"),
+        (dict(prot=1), "prot: unknown; known here are"),
+        (
+            dict(bind_address="localhost"),
+            "bind_address: found 'localhost', expected an IPv4 address",
+        ),
+        (dict(client_lease_s=float("nan")), "client_lease_s: found nan, expected a number"),
+        (dict(allowed_clients=["::1"]), "allowed_clients: found"),
+        (dict(allowed_clients=["10.0.0.1:99999"]), "allowed_clients: found"),
+        (
+            dict(peers=[dict(address="10.0.0.1", port=1)]),
+            "cannot be reached from bind_address 127.0.0.1",
+        ),
+        (
+            dict(peers=[dict(address="127.0.0.1")]),
+            r"peers\[0\].port: found nothing, expected a whole",
+        ),
+        (
+            dict(peers=[dict(address="127.0.0.1", port=1, data_types=["sonar"])]),
+            r"peers\[0\].data_types: found \['sonar'\], expected a list of imu",
+        ),
+        (
+            dict(sources=[dict(name="a", topic="t", kind="sonar")]),
+            r"sources\[0\].kind: found 'sonar'",
+        ),
+        (dict(sources=[dict(name="a", kind="imu")]), r"sources\[0\].topic: found nothing"),
+        (
+            dict(sources=[dict(name="a", topic="t", kind="imu", jpeg_quality=5)]),
+            r"sources\[0\].jpeg_quality: unknown",
+        ),
+        (
+            dict(sources=[dict(name=n, topic="t", kind="imu") for n in "ab"]),
+            r"sources\[1\].component_id: found 0, which is a's",
+        ),
+        (
+            dict(sources=[dict(name="a", topic="t", kind="point_cloud", chunk_bytes=1000)]),
+            "chunk_bytes: found 1000, expected a multiple of 16",
+        ),
+        (dict(sources=3), "sources: found 3, expected a list"),
+        (dict(sources=[3]), r"sources\[0\].: found 3, expected keys and values"),
+    ],
+)
+def test_a_bad_server_setting_is_named(package, change, message):
+    with pytest.raises(SettingError, match=message):
+        read_server(dict(shipped(package, "sensor_server.yaml"), **change))
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        (dict(watchdog_s=0), "watchdog_s: found 0, expected a number from 0.01 to 60"),
+        (dict(max_speed_m_s="fast"), "max_speed_m_s: found 'fast', expected a number"),
+        (dict(cmd_vel_topic=""), "cmd_vel_topic: found '', expected a text"),
+        (dict(peers="127.0.0.1"), "peers: found '127.0.0.1', expected a list"),
+    ],
+)
+def test_a_bad_control_setting_is_named(package, change, message):
+    with pytest.raises(SettingError, match=message):
+        read_controls(dict(shipped(package, "controls_client.yaml"), **change))

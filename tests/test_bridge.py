@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT
+"""The UDP bridge between the simulator and clients without ROS: sensors, driving, control codes, and coming back."""
+import subprocess
+from typing import Iterator
+
+import probes
+import pytest
+from bridge_bench import SENSORS, Bench, feed_until_killed, finish, start_in
+from ros_graph import RosGraph, wait_until
+
+from ardee_bridge import codec
+
+
+@pytest.fixture(scope="module")
+def bench(shared_graph: RosGraph) -> Iterator[Bench]:
+    """Simulator, robot, both nodes."""
+    made = Bench(shared_graph)
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def fed(bench: Bench) -> Iterator[Bench]:
+    """And the sensors that the robot does not carry."""
+    feeder, ours = start_in(bench.graph, feed_until_killed)
+    assert ours.recv() == "feeding"
+    yield bench
+    ours.send("end")
+    feeder.join(20)
+    assert feeder.exitcode == 0
+
+
+def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
+    found = finish(fed.c_client("-t", "8"))
+    assert SENSORS <= set(found)
+    assert found["lidar 0"][1].startswith("beams 1081 nearest")
+    assert found["imu 0"][1] == "accel_z 9.810 m/s2 gyro_z 0.0000 rad/s"
+    assert found["battery 0"][1] == "voltage 12.340 V"
+    assert found["encoder 1"][1].startswith("position -2.5000 rad")
+    assert found["gps 0"][1].startswith("latitude 40.1234567 deg")
+    assert "width 640 height 480 bytes 1228800" in found["image 3"][1]
+    assert found["point_cloud 0"][1] == "points 28800"
+    assert found["imu 0"][0] > 2 * found["battery 0"][0] > 0
+
+
+def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
+    found = finish(fed.python_client("--seconds", "8"))
+    assert SENSORS <= set(found)
+    assert "accel.z=9.81" in found["imu 0"][1]
+    assert "position=-2.5" in found["encoder 1"][1]
+    assert found["image 3"][1] == "DEPTH_32F_M width 640 height 480 bytes 1228800"
+    assert found["image 2"][1].startswith("JPEG width 640 height 480 bytes")
+    assert found["point_cloud 0"][1] == "points 28800"
+
+
+def test_the_c_client_drives_the_robot(bench: Bench) -> None:
+    before = bench.state().x_m
+    finish(bench.c_client("-v", "0.5", "-t", "4"))
+    bench.standing_within(2.0)
+    assert 0.3 < bench.state().x_m - before < 0.6 * 4.5
+
+
+def test_the_python_client_turns_the_robot(bench: Bench) -> None:
+    before = bench.state().turn
+    turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "10")
+    # skidding wheels turn it less than asked for
+    least = 0.3 * 0.3 * codec.MAX_YAW_RATE_RAD_S
+    wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns")
+    finish(turning)
+    bench.standing_within(2.0)
+    assert abs(bench.state().turn - before) > 0.1
+
+
+def test_a_client_that_dies_leaves_a_robot_that_stands(bench: Bench) -> None:
+    client = bench.c_client("-v", "-0.5", "-t", "60")
+    wait_until(lambda: bench.state().speed_m_s < -0.4, "it drives")
+    client.kill()
+    client.communicate()
+    bench.standing_within(10.0)
+    assert bench.counters("controls_client_node")["watchdog stops"] >= 1
+    again = bench.c_client("-v", "-0.5", "-t", "60")
+    wait_until(lambda: bench.state().speed_m_s < -0.4, "another client drives it")
+    again.kill()
+    again.communicate()
+    bench.standing_within(10.0)
+
+
+def test_pause_and_resume(bench: Bench) -> None:
+    bench.control("PAUSE")
+    wait_until(lambda: bench.graph.call(probes.clock_stands_still), "the simulation pauses")
+    bench.control("RESUME")
+    wait_until(lambda: not bench.graph.call(probes.clock_stands_still), "it goes on")
+
+
+def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
+    client = bench.c_client("-v", "-0.4", "-t", "120")
+    wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives")
+    bench.control("STOP")
+    bench.standing_within(10.0)
+    assert client.poll() is None
+    bench.control("START")
+    wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives again")
+    client.kill()
+    client.communicate()
+    bench.standing_within(10.0)
+
+
+def drives(bench: Bench, client: subprocess.Popen) -> None:
+    """The robot obeys this client, and the client gets scans."""
+    wait_until(lambda: abs(bench.state().speed_m_s) > 0.2, "it drives", 60.0)
+    assert finish(client)["lidar 0"][0] > 0
+
+
+def test_the_simulator_dies_and_comes_back_while_the_client_goes_on(bench: Bench) -> None:
+    client = bench.c_client("-v", "-0.3", "-t", "25")
+    wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
+    bench.kill_simulator()
+    assert bench.alive()
+    bench.start_simulator()
+    bench.spawn_robot()
+    drives(bench, client)
+    assert bench.alive()
+
+
+def test_both_die_and_the_client_comes_back_first(bench: Bench) -> None:
+    first = bench.c_client("-v", "-0.3", "-t", "60")
+    wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
+    first.kill()
+    first.communicate()
+    bench.kill_simulator()
+    client = bench.python_client("--speed", "-0.3", "--seconds", "30")
+    bench.start_simulator()
+    bench.spawn_robot()
+    drives(bench, client)
+    assert bench.alive()

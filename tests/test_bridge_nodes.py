@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""The bridge's nodes by all their names, alone and from the launch file, and what they say to bad settings."""
+import json
+import re
+
+import pytest
+from bridge_bench import free_port
+from ros_graph import RosGraph, wait_until
+
+NODES = [
+    ("ardee_bridge", "sensor_server_node"),
+    ("ardee_bridge", "controls_client_node"),
+    ("ardee_bridge", "ardee_rc_controller_node"),
+    ("ardee_sensors", "ardee_sensor_relay_node"),
+]
+
+
+@pytest.mark.parametrize("package, name", NODES)
+def test_each_name_starts_alone_on_loopback_and_ends_by_ctrl_c(
+    shared_graph: RosGraph, package: str, name: str
+) -> None:
+    node = shared_graph.spawn("rosrun", package, name, "_port:=0")
+    wait_until(lambda: "127.0.0.1:" in node.output(), "it says where its socket is")
+    assert f"/{name}" in shared_graph.run("rosnode", "list").split()
+    node.interrupt()
+    assert node.wait(20.0) == 0, node.output()
+
+
+@pytest.mark.parametrize(
+    "name, parameter, message",
+    [
+        (
+            "sensor_server_node",
+            "_peers:=[{address: 10.1.2.3, port: 1}]",
+            "cannot be reached from bind_address",
+        ),
+        (
+            "sensor_server_node",
+            "_sources:=[{name: a, topic: t, kind: sonar}]",
+            "found 'sonar', expected one of imu",
+        ),
+        (
+            "controls_client_node",
+            "_watchdog_s:=never",
+            "watchdog_s: found 'never', expected a number from 0.01 to 60",
+        ),
+        ("controls_client_node", "_bind_address:=203.0.113.7", "UDP 203.0.113.7:35555"),
+        (
+            "controls_client_node",
+            "_wachdog_s:=1",
+            "wachdog_s: unknown; known here are bind_address",
+        ),
+    ],
+)
+def test_a_bad_setting_is_one_line_and_exit_2(
+    shared_graph: RosGraph, name: str, parameter: str, message: str
+) -> None:
+    node = shared_graph.spawn("rosrun", "ardee_bridge", name, parameter)
+    assert node.wait(30.0) == 2
+    assert node.output().startswith(f"/{name}: ") and message in node.output()
+    assert len(node.output().strip().split("\n")) == 1
+    shared_graph.run("rosparam", "delete", f"/{name}")
+
+
+def test_the_launch_file_starts_both_with_its_arguments(graph: RosGraph) -> None:
+    sensors, controls = free_port(), free_port()
+    arguments = (f"sensors_port:={sensors}", f"controls_port:={controls}", "watchdog_s:=0.25")
+    launched = graph.launch("ardee_bridge", "bridge.launch", *arguments)
+    for port in (sensors, controls):
+        wait_until(lambda: f"127.0.0.1:{port}" in launched.output(), f"a socket at {port}")
+    found = graph.run("rosparam", "get", "/udp_control_node")
+    assert "watchdog_s: 0.25" in found and re.search(r"peers:\n- 127\.0\.0\.1", found)
+
+
+def test_the_benchmark_measures_everything(graph: RosGraph) -> None:
+    command = (
+        "rosrun",
+        "ardee_bridge",
+        "latency_benchmark",
+        "--json",
+        "--seconds",
+        "1",
+        "--cameras",
+    )
+    kinds = json.loads(graph.run(*command, timeout_s=120.0))
+    names = {"imu", "gps", "lidar", "battery", "encoder", "image", "point_cloud"}
+    assert set(kinds) == {f"{name} message to datagram" for name in names} | {"datagram to cmd_vel"}
+    for figures in kinds.values():
+        assert figures["sent"] > 0 and 0 < figures["p50_ms"] <= figures["max_ms"]
