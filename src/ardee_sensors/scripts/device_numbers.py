@@ -10,7 +10,7 @@ PACKAGE = pathlib.Path(__file__).resolve().parents[1]
 CONFIG = PACKAGE / "config"
 TEXTS = ("device", "kind", "macro", "also", "topics")
 SHARED = ("colors", "sources")
-LINE = re.compile(r"^(?P<key>\w+): (?P<value>[^#]*?)\s*(?:#\s*(?P<comment>.*))?$")
+LINE = re.compile(r"^(?P<key>\w+):(?P<value>[^#]*?)\s*(?:#\s*(?P<comment>.*))?$")
 MARKS = re.compile(r"\[([^\]]+)\]")
 
 
@@ -55,7 +55,7 @@ def read_numbers(path: pathlib.Path) -> List[Number]:
             continue
         comment = match["comment"] or ""
         marks = [mark.strip() for group in MARKS.findall(comment) for mark in group.split(",")]
-        found.append(Number(match["key"], match["value"], comment, marks))
+        found.append(Number(match["key"], match["value"].strip(), comment, marks))
     return found
 
 
