@@ -6,7 +6,18 @@ from typing import Any, Dict, List, NamedTuple
 
 import yaml
 
-PACKAGE = pathlib.Path(__file__).resolve().parents[1]
+
+def _package_folder() -> pathlib.Path:
+    """Where config/ is: beside this folder in the source tree, where rospack says once installed."""
+    beside = pathlib.Path(__file__).resolve().parents[1]
+    if (beside / "config").is_dir():
+        return beside
+    import rospkg
+
+    return pathlib.Path(rospkg.RosPack().get_path("ardee_sensors"))
+
+
+PACKAGE = _package_folder()
 CONFIG = PACKAGE / "config"
 TEXTS = ("device", "kind", "macro", "also", "topics")
 SHARED = ("colors", "sources")
