@@ -4,7 +4,7 @@ import html
 import math
 import pathlib
 import subprocess
-from typing import List
+from typing import List, Tuple
 
 from device_numbers import CONFIG, PACKAGE, Number, devices, load, read_numbers, sources
 
@@ -39,15 +39,15 @@ def _run(command: List[str]) -> str:
     return done.stdout
 
 
-def extent_m(device: str) -> float:
-    """Longest side of what is seen of the device, m."""
+def size_m(device: str) -> Tuple[float, float]:
+    """Width and height of what is seen of the device, m."""
     numbers = dict(load(device))
     for other in numbers.get("also", "").split():
         numbers = {**load(other), **numbers}
-    if "base_size_x_m" in numbers:
-        return 1.3 * numbers["base_size_x_m"]
-    lengths = [numbers[f"size_{axis}_m"] for axis in "xyz"] + [numbers.get("mast_height_m", 0)]
-    return max(lengths)
+    if "tilt_axis_z_m" in numbers:
+        return numbers["base_size_x_m"], numbers["tilt_axis_z_m"] + numbers["head_size_z_m"] / 2
+    width = max(numbers["size_x_m"], numbers["size_y_m"])
+    return width, numbers["size_z_m"] + numbers.get("mast_height_m", 0)
 
 
 def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None:
@@ -57,10 +57,12 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
     sensor = [f"sensor:={device}", f"height:={POST_HEIGHT_M}"]
     urdf.write_text(_run(["rosrun", "xacro", "xacro", post, *sensor]))
     world.write_text(WORLD)
-    size = extent_m(device)
-    middle_z = POST_HEIGHT_M + 0.5 * (size if load(device)["kind"] == "gps" else 0.5 * size)
-    away = 2.2 * size
-    eye = [0.75 * away, 0.5 * away, middle_z + 0.45 * away]
+    width, height = size_m(device)
+    away = 2.3 * math.hypot(width, height)
+    # the pendulum of an encoder hangs before it
+    side = -1 if device == "encoder" else 1
+    middle_z = POST_HEIGHT_M + height / 2
+    eye = [side * 0.75 * away, 0.5 * away, middle_z + 0.4 * away]
     view = ["--look-from", *map(str, eye), "--look-at", "0", "0", str(middle_z), "--fov-deg", "35"]
     robot = ["--robot", str(urdf), "--size", "640x480", "--output", str(picture)]
     _run(["rosrun", "ardee_sim_cpp", "render_world", str(world), *robot, *view])

@@ -12,7 +12,14 @@ ROBOT = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
   <link name="base_footprint" />
   {calls}
 </robot>"""
-TOPIC_KEYS = ("topicName", "velocityTopicName", "encoderTopic", "batteryTopic")
+TOPIC_KEYS = (
+    "topicName",
+    "velocityTopicName",
+    "encoderTopic",
+    "batteryTopic",
+    "dataTopicName",
+    "regionsTopicName",
+)
 CAMERA_KEYS = (
     "imageTopicName",
     "cameraInfoTopicName",

@@ -4,7 +4,7 @@ import pathlib
 import xml.etree.ElementTree as ElementTree
 
 import pytest
-from macro_calls import robot, topics
+from macro_calls import call, robot, topics
 
 LISTING_A_9 = """<xacro:sensor_imu name="imu" parent="base_footprint" color="red"
   update_rate="50.0"
@@ -82,6 +82,8 @@ def test_the_sensors_of_listing_a_12(tmp_path: pathlib.Path):
         "ardee/imu/custom",
         "ardee/gps",
         "ardee/gps/fix_velocity",
+        "ardee/gps/data",
+        "ardee/gps/regions",
     }
     imu, gps = root.find(".//plugin[@name='imu_controller']"), root.find(
         ".//plugin[@name='gps_controller']"
@@ -121,8 +123,7 @@ def test_the_imu_of_listing_a_9_drifts(tmp_path: pathlib.Path):
 def test_noise_of_an_imu_stands_in_for_what_is_not_given(
     tmp_path: pathlib.Path, arguments: str, rate: str, accel: str
 ):
-    calls = f'<xacro:sensor_imu_hector name="a" parent="base_footprint" {arguments}><origin xyz="0 0 0"/></xacro:sensor_imu_hector>'
-    plugin = robot(tmp_path, calls).find(".//plugin")
+    plugin = robot(tmp_path, call("imu_hector", "a", arguments)).find(".//plugin")
     assert (plugin.findtext("rateGaussianNoise"), plugin.findtext("accelGaussianNoise")) == (
         rate,
         accel,
@@ -130,7 +131,10 @@ def test_noise_of_an_imu_stands_in_for_what_is_not_given(
 
 
 def test_the_encoder_of_listing_a_5(tmp_path: pathlib.Path):
-    calls = '<xacro:sensor_encoder ns="/" parent="wheel" joint="axle" d="0.2" topic="/encoder" update_rate="50.0" ppr="300"/>'
+    calls = (
+        '<xacro:sensor_encoder ns="/" parent="wheel" joint="axle" d="0.2" '
+        'topic="/encoder" update_rate="50.0" ppr="300"/>'
+    )
     root = robot(tmp_path, '<link name="wheel"/>' + calls)
     plugin = root.find(".//plugin[@name='wheel_encoder_plugin']")
     assert plugin.get("filename") == "libardee_ros_encoder.so"
