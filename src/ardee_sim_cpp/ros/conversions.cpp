@@ -9,6 +9,13 @@ ros::Time to_ros(TimeNs time_ns) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(time_ns));
 }
 
+std_msgs::Header to_ros(const Header& header) {
+  std_msgs::Header message;
+  message.stamp = to_ros(header.stamp_ns);
+  message.frame_id = header.frame_id;
+  return message;
+}
+
 geometry_msgs::Point to_point(const Eigen::Vector3d& point) {
   geometry_msgs::Point message;
   message.x = point.x();

@@ -7,13 +7,16 @@
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
+#include <std_msgs/Header.h>
 
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/reading_header.h"
 
 namespace ardee::node {
 
 ros::Time to_ros(TimeNs time_ns);
+std_msgs::Header to_ros(const Header& header);
 geometry_msgs::Point to_point(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector);
 geometry_msgs::Quaternion to_quaternion(const Eigen::Quaterniond& q);

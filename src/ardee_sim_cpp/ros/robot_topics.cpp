@@ -14,6 +14,7 @@ namespace ardee::node {
 namespace {
 
 constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
+constexpr std::uint32_t kImageQueue = 5;     // a picture is large
 constexpr std::uint32_t kCommandQueue = 10;
 constexpr double kWarningPeriod_s = 5.0;
 
@@ -26,7 +27,7 @@ ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
   ros::Publisher publisher;
   const auto try_kind = [&](auto kind) {
     if (output.kind == kind) {
-      publisher = node.advertise<MessageOf<kind>>(output.topic, kOutputQueue);
+      publisher = node.advertise<MessageOf<kind>>(output.topic, kOutputQueue, output.latched);
     }
   };
   (try_kind(std::integral_constant<std::size_t, kKinds>()), ...);
@@ -48,14 +49,23 @@ void require_valid(const std::string& topic) {
 
 }  // namespace
 
-ros::Publisher RobotTopics::advertise(const Output& output) {
+bool RobotTopics::Route::has_listeners() const {
+  return publisher ? publisher.getNumSubscribers() > 0 : images.getNumSubscribers() > 0;
+}
+
+RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
   require_valid(output.topic);
-  ros::Publisher publisher =
-      advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
-  if (!publisher) {
+  Route route{&output, &robot, {}, {}};
+  if (output.kind == reading_kind<ImageReading>()) {
+    route.images = images_.advertise(output.topic, kImageQueue);
+  } else {
+    route.publisher =
+        advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
+  }
+  if (!route.publisher && !route.images) {
     throw Error("topic " + output.topic + " is already published with another type");
   }
-  return publisher;
+  return route;
 }
 
 ros::Subscriber RobotTopics::subscribe(const Input& input) {
@@ -81,11 +91,13 @@ ros::Subscriber RobotTopics::subscribe(const Input& input) {
 
 void RobotTopics::add(Entity& entity) {
   Topics topics;
+  topics.services = std::make_unique<DeviceServices>(node_);
   for (const auto& device : entity.devices) {
     for (Output& output : device->outputs()) {
-      topics.routes.push_back({&output, entity.robot.get(), advertise(output)});
+      topics.routes.push_back(advertise(output, *entity.robot));
     }
     for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
+    topics.services->add(*device);
   }
   const Topics& kept = topics_[entity.name()] = std::move(topics);
   for (const Route& route : kept.routes) routes_[route.output] = &route;
@@ -103,7 +115,7 @@ void RobotTopics::update_demand() {
   for (const auto& [name, topics] : topics_) {
     for (const Route& route : topics.routes) {
       route.output->demanded =
-          always_demanded(*route.output) || route.publisher.getNumSubscribers() > 0;
+          always_demanded(*route.output) || route.output->latched || route.has_listeners();
     }
   }
 }
@@ -115,7 +127,12 @@ void RobotTopics::on_reading(const Output& output, const Reading& reading) {
   std::visit(
       [&](const auto& measured) {
         frames_.on_reading(*route.robot, measured);
-        if (route.publisher.getNumSubscribers() > 0) route.publisher.publish(to_message(measured));
+        if (!output.latched && !route.has_listeners()) return;
+        if (route.publisher) {
+          route.publisher.publish(to_message(measured));
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(measured)>, ImageReading>) {
+          route.images.publish(boost::make_shared<sensor_msgs::Image>(to_message(measured)));
+        }
       },
       reading);
 }

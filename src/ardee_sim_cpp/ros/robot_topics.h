@@ -2,20 +2,23 @@
 #pragma once
 
 #include <geometry_msgs/Twist.h>
+#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "ardee_sim/simulation/entity.h"
+#include "ros/device_services.h"
 #include "ros/odometry_frames.h"
 
 namespace ardee::node {
 
-/// The topics of the robots' devices: publishers of what they measure, subscribers to their
-/// commands. They come when a robot is spawned and go when it is removed.
+/// The topics and services of the robots' devices: publishers of what they measure, subscribers to
+/// their commands. They come when a robot is spawned and go when it is removed.
 class RobotTopics : public ReadingSink {
  public:
   explicit RobotTopics(OdometryFrames& frames) : frames_(frames) {}
@@ -32,16 +35,21 @@ class RobotTopics : public ReadingSink {
     Output* output = nullptr;
     const Robot* robot = nullptr;
     ros::Publisher publisher;
+    image_transport::Publisher images;  // in its place, for pictures
+
+    bool has_listeners() const;
   };
   struct Topics {
     std::vector<Route> routes;
     std::vector<ros::Subscriber> subscribers;
+    std::unique_ptr<DeviceServices> services;
   };
-  ros::Publisher advertise(const Output& output);
+  Route advertise(Output& output, const Robot& robot);
   ros::Subscriber subscribe(const Input& input);
 
   OdometryFrames& frames_;
   ros::NodeHandle node_;
+  image_transport::ImageTransport images_{node_};
   std::map<std::string, Topics> topics_;
   std::unordered_map<const Output*, const Route*> routes_;
 };

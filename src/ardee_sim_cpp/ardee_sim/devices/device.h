@@ -5,6 +5,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
@@ -20,12 +22,55 @@ struct Output {
   std::string topic;
   std::size_t kind = 0;
   bool demanded = true;  // false: nobody listens, the device need not measure
+  bool latched = false;  // whoever comes later still gets the last reading
 };
 
 /// Something a device takes: velocity commands on a topic.
 struct Input {
   std::string topic;
   std::function<void(const Twist&)> on_command;
+};
+
+/// A request to act now, without content, on a topic.
+struct Trigger {
+  std::string topic;
+  std::function<void()> on_trigger;
+};
+
+/// Where a satellite receiver's local frame lies: WGS-84, orientation in east-north-up.
+struct GeoPose {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double altitude_m = 0.0;
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose. What
+/// it throws is the caller's answer.
+struct Service {
+  using Act = std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
+                           std::function<void(const GeoPose&)>>;
+  std::string name;
+  Act act;
+};
+
+/// A number of a device that may be changed while it runs.
+struct Tunable {
+  enum class Type { kDouble, kInt };
+  std::string name;
+  std::string description;
+  Type type = Type::kDouble;
+  double low = 0.0;
+  double high = 0.0;
+  double initial = 0.0;
+  std::function<double()> get;
+  std::function<void(double)> set;  // called with a number within the bounds
+};
+
+/// A group of tunables under one name, as dynamic_reconfigure has them.
+struct Tuning {
+  std::string name;
+  std::vector<Tunable> parameters;
 };
 
 /// The ray scenes, made when first asked for and brought up to the present state of the world when
@@ -72,6 +117,9 @@ class Device {
   const std::string& name() const { return name_; }
   std::deque<Output>& outputs() { return outputs_; }
   std::deque<Input>& inputs() { return inputs_; }
+  const std::vector<Trigger>& triggers() const { return triggers_; }
+  const std::vector<Service>& services() const { return services_; }
+  const std::vector<Tuning>& tunings() const { return tunings_; }
 
   /// Before physics: controllers act.
   virtual void before_step(TimeNs /*now_ns*/) {}
@@ -84,11 +132,17 @@ class Device {
   /// Addresses of outputs stay valid as more are added.
   Output& add_output(const std::string& topic, std::size_t kind);
   void add_input(const std::string& topic, std::function<void(const Twist&)> on_command);
+  void add_trigger(const std::string& topic, std::function<void()> on_trigger);
+  void add_service(const std::string& name, Service::Act act);
+  void add_tuning(Tuning tuning);
 
  private:
   std::string name_;
   std::deque<Output> outputs_;
   std::deque<Input> inputs_;
+  std::vector<Trigger> triggers_;
+  std::vector<Service> services_;
+  std::vector<Tuning> tunings_;
 };
 
 /// Position of type T in the Reading variant.

@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/devices/battery.h"
+#include "ardee_sim/devices/diff_drive.h"
+#include "ardee_sim/devices/encoder.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
@@ -21,16 +24,15 @@ std::string stem(const std::string& filename) {
   return text.rfind("lib", 0) == 0 ? text.substr(3) : text;
 }
 
-/// A static model keeps those of its devices that do without motion; the others are left out.
-std::unique_ptr<Device> make_unless_static(const Registry::ModelPlugin& make,
-                                           const PluginDescription& plugin,
-                                           DeviceContext& context) {
-  if (context.robot.is_dynamic()) return make(plugin, context);
+/// What `make` makes; if it throws, nothing, and the log says why.
+template <typename Make>
+std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescription& plugin,
+                                         Log& log) {
   try {
-    return make(plugin, context);
+    return make();
   } catch (const Error& error) {
-    context.log.warn(plugin.element.source.to_string() + ": plugin '" + plugin.filename +
-                     "' is left out: " + error.what());
+    log.error(plugin.element.source.to_string() + ": plugin '" + plugin.filename +
+              "' is left out: " + error.what());
     return nullptr;
   }
 }
@@ -45,7 +47,11 @@ void add(Map& plugins, const std::string& filename, Make make) {
 }  // namespace
 
 void Registry::add_model_plugin(const std::string& filename, ModelPlugin make) {
-  add(model_plugins_, filename, std::move(make));
+  add(model_plugins_, filename, ModelMaker{std::move(make), false});
+}
+
+void Registry::add_model_sensor(const std::string& filename, ModelPlugin make) {
+  add(model_plugins_, filename, ModelMaker{std::move(make), true});
 }
 
 void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make) {
@@ -66,13 +72,20 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
                      "', expected one of:" + known_names() + "; it is left out");
   };
   const Model& model = context.robot.model();
+  const auto keep = [&](std::unique_ptr<Device> device) {
+    if (device) devices.push_back(std::move(device));
+  };
   for (const PluginDescription& plugin : model.plugins) {
     const auto found = model_plugins_.find(stem(plugin.filename));
     if (found == model_plugins_.end()) {
       unknown(plugin);
-    } else if (auto device = make_unless_static(found->second, plugin, context)) {
-      devices.push_back(std::move(device));
+      continue;
     }
+    const ModelMaker& maker = found->second;
+    const auto make = [&] { return maker.make(plugin, context); };
+    // A static model keeps those of its devices that do without motion.
+    const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
+    keep(may_fail ? made_or_left_out(make, plugin, context.log) : make());
   }
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     for (const SensorDescription& sensor : model.links[link].sensors) {
@@ -81,7 +94,8 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
         if (found == sensor_plugins_.end()) {
           unknown(plugin);
         } else {
-          devices.push_back(found->second(sensor, plugin, link, context));
+          const auto make = [&] { return found->second(sensor, plugin, link, context); };
+          keep(made_or_left_out(make, plugin, context.log));
         }
       }
     }
@@ -91,9 +105,13 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
 
 Registry builtin_registry() {
   Registry registry;
+  registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
+  registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
+  registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
   return registry;

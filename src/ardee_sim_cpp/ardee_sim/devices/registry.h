@@ -19,18 +19,25 @@ class Registry {
   using SensorPlugin = std::function<std::unique_ptr<Device>(
       const SensorDescription&, const PluginDescription&, std::size_t link, DeviceContext&)>;
 
+  /// A controller: the robot cannot do without it.
   void add_model_plugin(const std::string& filename, ModelPlugin make);
+  /// A sensor that Gazebo attaches to the model (GPS, IMU, encoder, battery, ...).
+  void add_model_sensor(const std::string& filename, ModelPlugin make);
   void add_sensor_plugin(const std::string& filename, SensorPlugin make);
 
   /// A device for each plugin of the robot and of its links' sensors, in the order of the
-  /// description. A plugin of unknown file name is a warning that lists the known ones; a bad value
-  /// inside a known one is an Error.
+  /// description. A plugin of unknown file name is a warning that lists the known ones. A bad value
+  /// inside a controller is an Error; a sensor with one is left out, and the log says why.
   std::vector<std::unique_ptr<Device>> make_devices(DeviceContext& context) const;
 
  private:
   std::string known_names() const;
 
-  std::map<std::string, ModelPlugin> model_plugins_;
+  struct ModelMaker {
+    ModelPlugin make;
+    bool is_sensor = false;
+  };
+  std::map<std::string, ModelMaker> model_plugins_;
   std::map<std::string, SensorPlugin> sensor_plugins_;
 };
 

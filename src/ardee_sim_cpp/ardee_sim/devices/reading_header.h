@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "ardee_sim/core/time.h"
+
+namespace ardee {
+
+/// When and in which frame something was measured.
+struct Header {
+  TimeNs stamp_ns = 0;
+  std::string frame_id;
+};
+
+}  // namespace ardee

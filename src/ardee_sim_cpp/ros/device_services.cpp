@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "ros/device_services.h"
+
+#include <hector_gazebo_plugins/SetBias.h>
+#include <hector_gazebo_plugins/SetReferenceGeoPose.h>
+#include <std_msgs/Empty.h>
+#include <std_srvs/Empty.h>
+
+#include "ros/conversions.h"
+
+namespace ardee::node {
+namespace {
+
+GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
+  geometry_msgs::Pose pose;
+  pose.orientation = message.orientation;
+  return {message.position.latitude, message.position.longitude, message.position.altitude,
+          from_ros(pose).q};
+}
+
+}  // namespace
+
+void DeviceServices::add(const Device& device) {
+  for (const Service& service : device.services()) add(service);
+  for (const Trigger& trigger : device.triggers()) {
+    servers_.listen<std_msgs::Empty>(
+        trigger.topic, trigger.topic,
+        [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
+  }
+  for (const Tuning& tuning : device.tunings()) {
+    tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
+  }
+}
+
+void DeviceServices::add(const Service& service) {
+  using std_srvs::Empty;
+  using hector_gazebo_plugins::SetBias;
+  using hector_gazebo_plugins::SetReferenceGeoPose;
+  if (const auto* act = std::get_if<std::function<void()>>(&service.act)) {
+    servers_.add<Empty>(service.name, service.name,
+                        [act = *act](const Empty::Request&, Empty::Response&) {
+                          act();
+                          return std::string();
+                        });
+  } else if (const auto* set = std::get_if<std::function<void(const Eigen::Vector3d&)>>(
+                 &service.act)) {
+    servers_.add<SetBias>(service.name, service.name,
+                          [set = *set](const SetBias::Request& request, SetBias::Response&) {
+                            set(from_ros(request.bias));
+                            return std::string();
+                          });
+  } else {
+    servers_.add<SetReferenceGeoPose>(
+        service.name, service.name,
+        [place = std::get<std::function<void(const GeoPose&)>>(service.act)](
+            const SetReferenceGeoPose::Request& request, SetReferenceGeoPose::Response&) {
+          place(from_ros_geo(request.geo_pose));
+          return std::string();
+        });
+  }
+}
+
+}  // namespace ardee::node

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "ros/tuning_server.h"
+
+#include <dynamic_reconfigure/ConfigDescription.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace ardee::node {
+namespace {
+
+using dynamic_reconfigure::Config;
+
+/// The numbers that `value` gives for the parameters, as one message.
+Config config_of(const Tuning& tuning, const std::function<double(const Tunable&)>& value) {
+  Config config;
+  for (const Tunable& parameter : tuning.parameters) {
+    if (parameter.type == Tunable::Type::kInt) {
+      auto& kept = config.ints.emplace_back();
+      kept.name = parameter.name;
+      kept.value = static_cast<int>(std::lround(value(parameter)));
+    } else {
+      auto& kept = config.doubles.emplace_back();
+      kept.name = parameter.name;
+      kept.value = value(parameter);
+    }
+  }
+  auto& group = config.groups.emplace_back();
+  group.name = "Default";
+  group.state = true;
+  return config;
+}
+
+dynamic_reconfigure::ConfigDescription describe(const Tuning& tuning) {
+  dynamic_reconfigure::ConfigDescription description;
+  auto& group = description.groups.emplace_back();
+  group.name = "Default";
+  for (const Tunable& parameter : tuning.parameters) {
+    auto& kept = group.parameters.emplace_back();
+    kept.name = parameter.name;
+    kept.type = parameter.type == Tunable::Type::kInt ? "int" : "double";
+    kept.description = parameter.description;
+  }
+  description.min = config_of(tuning, [](const Tunable& each) { return each.low; });
+  description.max = config_of(tuning, [](const Tunable& each) { return each.high; });
+  description.dflt = config_of(tuning, [](const Tunable& each) { return each.initial; });
+  return description;
+}
+
+/// Sets what the request names; what is not known or not a number is ignored and said.
+void apply(const Tuning& tuning, const std::string& name, double value) {
+  const auto found = std::find_if(tuning.parameters.begin(), tuning.parameters.end(),
+                                  [&name](const Tunable& each) { return each.name == name; });
+  if (found == tuning.parameters.end() || !std::isfinite(value)) {
+    ROS_ERROR_STREAM(tuning.name << ": found '" << name << "' = " << value
+                                 << ", expected a finite value of a known parameter; ignored");
+    return;
+  }
+  found->set(std::clamp(value, found->low, found->high));
+}
+
+}  // namespace
+
+TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning)
+    : tuning_(tuning),
+      descriptions_(node.advertise<dynamic_reconfigure::ConfigDescription>(
+          tuning.name + "/parameter_descriptions", 1, true)),
+      updates_(node.advertise<Config>(tuning.name + "/parameter_updates", 1, true)),
+      service_(node.advertiseService(tuning.name + "/set_parameters", &TuningServer::set, this)) {
+  descriptions_.publish(describe(tuning_));
+  updates_.publish(current());
+}
+
+Config TuningServer::current() const {
+  return config_of(tuning_, [](const Tunable& each) { return each.get(); });
+}
+
+bool TuningServer::set(dynamic_reconfigure::Reconfigure::Request& request,
+                       dynamic_reconfigure::Reconfigure::Response& response) {
+  for (const auto& each : request.config.doubles) apply(tuning_, each.name, each.value);
+  for (const auto& each : request.config.ints) apply(tuning_, each.name, each.value);
+  response.config = current();
+  updates_.publish(response.config);
+  return true;
+}
+
+}  // namespace ardee::node
