@@ -61,7 +61,7 @@ def place(index: int) -> str:
 
 def call(device: str, index: int) -> str:
     if device == "encoder":
-        return '<xacro:sensor_encoder parent="base_footprint" name="encoder" joint="axle" topic="encoder" />'
+        return '<xacro:sensor_encoder parent="base_footprint" name="encoder" joint="axle" topic="ardee/encoder" />'
     macro = f"xacro:sensor_{device}"
     return f'<{macro} name="{device}" parent="base_footprint">{place(index)}</{macro}>'
 
@@ -303,7 +303,7 @@ def check_range(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> N
 
 def check_other(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
     if device == "encoder":
-        assert (last["encoder"]["position"], last["encoder"]["speed"]) == pytest.approx(
+        assert (last["ardee/encoder"]["position"], last["ardee/encoder"]["speed"]) == pytest.approx(
             (0, 0), abs=1e-6
         )
         return

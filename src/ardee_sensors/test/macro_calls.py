@@ -17,6 +17,7 @@ TOPIC_KEYS = (
     "velocityTopicName",
     "encoderTopic",
     "batteryTopic",
+    "batteryStateTopic",
     "dataTopicName",
     "regionsTopicName",
 )
@@ -32,7 +33,7 @@ CAMERA_KEYS = (
 def call(device: str, name: str, arguments: str = "") -> str:
     """The shortest call of a device's macro; an encoder has no origin and is given its topic."""
     if device == "encoder":
-        return f'<xacro:sensor_encoder parent="base_footprint" name="{name}" topic="{name}" {arguments} />'
+        return f'<xacro:sensor_encoder parent="base_footprint" name="{name}" topic="ardee/{name}" {arguments} />'
     macro = f"xacro:sensor_{device}"
     return f'<{macro} name="{name}" parent="base_footprint" {arguments}>{ORIGIN}</{macro}>'
 
