@@ -7,6 +7,7 @@ import subprocess
 from typing import List, Tuple
 
 from device_numbers import CONFIG, PACKAGE, Number, devices, load, read_numbers, sources
+from PIL import Image, ImageDraw
 
 POST_HEIGHT_M = 0.6
 WORLD = """<?xml version="1.0"?>
@@ -113,22 +114,39 @@ def page(shown: List[str]) -> str:
     links = " · ".join(f"<a href='#{d}'>{d}</a>" for d in shown)
     body = "\n".join(section(device) for device in shown)
     return (
-        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'><title>Sensors</title>"
+        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'/><title>Sensors</title>"
         f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n{body}\n"
         f"<h2>Sources</h2><ul>{marks}</ul></body></html>\n"
     )
 
 
 def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
-    """Pictures and index.html in the folder; returns the page's path."""
+    """Pictures, a sheet of them all and index.html in the folder; returns the page's path."""
     for device in shown:
         take_picture(device, work, work / f"{device}.png")
     text = page(shown)
     folder.mkdir(parents=True, exist_ok=True)
     for device in shown:
         (folder / f"{device}.png").write_bytes((work / f"{device}.png").read_bytes())
+    contact_sheet([folder / f"{device}.png" for device in shown]).save(folder / "sensors_sheet.png")
     (folder / "index.html").write_text(text, encoding="utf-8")
     return folder / "index.html"
+
+
+def contact_sheet(
+    pictures: List[pathlib.Path], columns: int = 6, width_px: int = 240
+) -> Image.Image:
+    """All pictures on one, each with its file's name."""
+    height_px = width_px * 3 // 4
+    rows = math.ceil(len(pictures) / columns)
+    sheet = Image.new("RGB", (columns * width_px, rows * height_px), "white")
+    pen = ImageDraw.Draw(sheet)
+    for index, path in enumerate(pictures):
+        corner = (index % columns * width_px, index // columns * height_px)
+        with Image.open(path) as picture:
+            sheet.paste(picture.convert("RGB").resize((width_px, height_px)), corner)
+        pen.text((corner[0] + 5, corner[1] + 3), path.stem, fill="black")
+    return sheet
 
 
 def chosen(names: List[str]) -> List[str]:
