@@ -50,6 +50,13 @@ def test_names_of_two_of_a_kind_do_not_collide(everything: ElementTree.Element):
     assert topics(everything)  # asserts that none comes twice
 
 
+def test_the_robot_s_namespace_reaches_every_plugin(tmp_path: pathlib.Path):
+    calls = "\n".join(call(device, device) for device in devices())
+    named = '<xacro:property name="robot_namespace" value="/robot2" />'
+    root = robot(tmp_path, named + calls)
+    assert {plugin.findtext("robotNamespace") for plugin in root.iter("plugin")} == {"/robot2"}
+
+
 @pytest.mark.parametrize("device", devices())
 def test_topics_are_those_of_its_file(everything: ElementTree.Element, device: str):
     name = f"{device}.1"
