@@ -6,6 +6,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 import yaml
+from macro_calls import call
+from macro_calls import robot as macro_robot
 from xacro_runner import SOURCES, expand, mesh_path, read_stl, run_xacro
 
 PACKAGE = SOURCES / "ardee_sensors"
@@ -65,25 +67,31 @@ def test_gpu_chooses_what_the_rays_meet(tmp_path: pathlib.Path, gpu: str, kind: 
     assert (sensor.get("type"), sensor.find("plugin").get("filename")) == (kind, library)
 
 
-@pytest.mark.parametrize(
-    "argument, value, path",
-    [
-        ("rate_hz", "20", "update_rate"),
-        ("samples", "541", "ray/scan/horizontal/samples"),
-        ("min_angle_rad", "-1.5", "ray/scan/horizontal/min_angle"),
-        ("max_angle_rad", "1.5", "ray/scan/horizontal/max_angle"),
-        ("range_min_m", "0.1", "ray/range/min"),
-        ("range_max_m", "20", "ray/range/max"),
-        ("range_resolution_m", "0.01", "ray/range/resolution"),
-        ("noise_std_m", "0.03", "ray/noise/stddev"),
-        ("topic", "front/scan", "plugin/topicName"),
-        ("robot_namespace", "/robot2", "plugin/robotNamespace"),
-    ],
-)
-def test_every_number_is_an_argument(tmp_path: pathlib.Path, argument: str, value: str, path: str):
-    default = robot(tmp_path).find("gazebo/sensor")
-    changed = robot(tmp_path, f'{CALL} {argument}="{value}"').find("gazebo/sensor")
-    assert changed.findtext(path) == value != default.findtext(path)
+CHANGED = {  # argument: (another value, where it shows)
+    "rate_hz": ("20", "update_rate"),
+    "samples": ("541", "ray/scan/horizontal/samples"),
+    "min_angle_rad": ("-1.5", "ray/scan/horizontal/min_angle"),
+    "max_angle_rad": ("1.5", "ray/scan/horizontal/max_angle"),
+    "range_min_m": ("0.1", "ray/range/min"),
+    "range_max_m": ("20", "ray/range/max"),
+    "range_resolution_m": ("0.01", "ray/range/resolution"),
+    "noise_std_m": ("0.03", "ray/noise/stddev"),
+    "noise_growth_m_per_m": ("0.004", "plugin/noiseGrowth"),
+    "reflectivity_range_m": ("5", "plugin/reflectivityRange"),
+    "beam_divergence_rad": ("0.009", "plugin/beamDivergence"),
+    "sub_rays": ("7", "plugin/subRays"),
+    "topic": ("front/scan", "plugin/topicName"),
+    "robot_namespace": ("/robot2", "plugin/robotNamespace"),
+}
+
+
+def test_every_number_is_an_argument(tmp_path: pathlib.Path):
+    calls = [call("hokuyo_ust10lx", k, f'{k}="{value}"') for k, (value, _) in CHANGED.items()]
+    root = macro_robot(tmp_path, "\n".join([call("hokuyo_ust10lx", "default"), *calls]))
+    sensors = {sensor.get("name"): sensor for sensor in root.iter("sensor")}
+    for argument, (value, path) in CHANGED.items():
+        default = sensors["default_sensor"].findtext(path)
+        assert sensors[f"{argument}_sensor"].findtext(path) == value != default, argument
 
 
 def test_the_namespace_of_the_robot_is_the_default(tmp_path: pathlib.Path):

@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
+from device_numbers import devices, load
 from xacro_runner import SOURCES, expand, read_stl
 
 PACKAGE = SOURCES / "ardee_sensors"
@@ -43,10 +44,19 @@ def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: p
         assert len((tmp_path / name).read_bytes()) < 200_000
 
 
-def test_the_ust10lx_mesh_has_the_device_s_size():
-    corners = read_stl(PACKAGE / "meshes/hokuyo_ust10lx.stl").reshape(-1, 3)
-    assert corners.min(axis=0) == pytest.approx([-0.025, -0.025, 0], abs=1e-6)
-    assert corners.max(axis=0) == pytest.approx([0.025, 0.025, 0.07], abs=1e-6)
+@pytest.mark.parametrize("mesh", sorted(p.stem for p in (PACKAGE / "meshes").glob("*.stl")))
+def test_meshes_have_the_sizes_of_the_devices(mesh: str):
+    """The middle of the mounting face is the origin; of a device in parts each part has a size of its own."""
+    if mesh == "checkerboard_black":  # of the scene
+        return
+    device, part = mesh, ""
+    if device not in devices():
+        device, part = mesh.rsplit("_", 1)
+        part += "_"
+    x, y, z = (load(device)[f"{part}size_{axis}_m"] for axis in "xyz")
+    corners = read_stl(PACKAGE / f"meshes/{mesh}.stl").reshape(-1, 3)
+    assert corners.min(axis=0) == pytest.approx([-x / 2, -y / 2, 0], abs=1e-6)
+    assert corners.max(axis=0) == pytest.approx([x / 2, y / 2, z], abs=1e-6)
 
 
 @pytest.mark.parametrize(

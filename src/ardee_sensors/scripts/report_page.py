@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""The page of `sensor_report`: pictures by render_world, text from config/."""
+import html
+import math
+import pathlib
+import subprocess
+from typing import List, Tuple
+
+from device_numbers import CONFIG, PACKAGE, Number, devices, load, read_numbers, sources
+from PIL import Image, ImageDraw
+
+POST_HEIGHT_M = 0.6
+WORLD = """<?xml version="1.0"?>
+<sdf version="1.5"><world name="table">
+  <light name="sun" type="directional">
+    <cast_shadows>1</cast_shadows><pose>0 0 10 0 0 0</pose>
+    <diffuse>1 1 1 1</diffuse><direction>-0.6 0.3 -0.8</direction>
+  </light>
+  <model name="ground"><static>true</static><link name="link"><visual name="floor">
+    <geometry><plane><normal>0 0 1</normal><size>20 20</size></plane></geometry>
+    <material><ambient>0.8 0.8 0.8 1</ambient><diffuse>0.8 0.8 0.8 1</diffuse></material>
+  </visual></link></model>
+</world></sdf>
+"""
+STYLE = """body{font:15px/1.4 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}
+section{display:grid;grid-template-columns:330px 1fr;gap:1em 2em;border-top:1px solid #ccc;padding:1em 0}
+h2,p{grid-column:1/3;margin:0} img{width:320px} table{border-collapse:collapse}
+td,th{text-align:left;padding:1px 12px 1px 0;vertical-align:top} td:nth-child(2){white-space:nowrap}
+code{background:#eee;padding:0 3px}"""
+
+
+class ReportError(Exception):
+    """The report cannot be made; the message says why."""
+
+
+def _run(command: List[str]) -> str:
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise ReportError(f"{' '.join(command[:3])} failed: {done.stderr.strip()}")
+    return done.stdout
+
+
+def size_m(device: str) -> Tuple[float, float]:
+    """Width and height of what is seen of the device, m."""
+    numbers = dict(load(device))
+    for other in numbers.get("also", "").split():
+        numbers = {**load(other), **numbers}
+    if "tilt_axis_z_m" in numbers:
+        return numbers["base_size_x_m"], numbers["tilt_axis_z_m"] + numbers["head_size_z_m"] / 2
+    width = max(numbers["size_x_m"], numbers["size_y_m"])
+    return width, numbers["size_z_m"] + numbers.get("mast_height_m", 0)
+
+
+def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None:
+    """Render the device on its post from the front, its left and above, as near as its size wants."""
+    urdf, world = work / f"{device}.urdf", work / "table.world"
+    post = str(PACKAGE / "robots/show_sensor.urdf.xacro")
+    sensor = [f"sensor:={device}", f"height:={POST_HEIGHT_M}"]
+    urdf.write_text(_run(["rosrun", "xacro", "xacro", post, *sensor]))
+    world.write_text(WORLD)
+    width, height = size_m(device)
+    away = 2.3 * math.hypot(width, height)
+    # the pendulum of an encoder hangs before it
+    side = -1 if device == "encoder" else 1
+    middle_z = POST_HEIGHT_M + height / 2
+    eye = [side * 0.75 * away, 0.5 * away, middle_z + 0.4 * away]
+    view = ["--look-from", *map(str, eye), "--look-at", "0", "0", str(middle_z), "--fov-deg", "35"]
+    robot = ["--robot", str(urdf), "--size", "640x480", "--output", str(picture)]
+    _run(["rosrun", "ardee_sim_cpp", "render_world", str(world), *robot, *view])
+
+
+def _source_text(number: Number, known: dict) -> str:
+    texts = []
+    for mark in number.marks:
+        first, _, rest = mark.partition(" ")
+        if first not in known:
+            raise ReportError(
+                f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}"
+            )
+        texts.append(
+            f'<abbr title="{html.escape(known[first])}">{html.escape(first)}</abbr> {rest}'
+        )
+    return ", ".join(texts)
+
+
+def _with_unit(number: Number) -> str:
+    value = number.value
+    if number.key.endswith("_rad") and "_s" not in number.key:
+        return f"{value} ({math.degrees(float(value)):.5g} deg)"
+    return value
+
+
+def section(device: str) -> str:
+    """One device's part of the page."""
+    known, numbers = sources(), load(device)
+    rows = "".join(
+        f"<tr><td>{n.key}</td><td>{html.escape(_with_unit(n))}</td>"
+        f"<td>{html.escape(n.comment.split('[')[0].strip())}</td><td>{_source_text(n, known)}</td></tr>"
+        for n in read_numbers(CONFIG / f"{device}.yaml")
+    )
+    topics = ", ".join(f"<code>{t}</code> {kind}" for t, (kind, _) in numbers["topics"].items())
+    more = f" Also: {numbers['also']}." if "also" in numbers else ""
+    return (
+        f"<section id='{device}'><h2>{html.escape(numbers['device'])}</h2>"
+        f"<p><code>{numbers['macro']}</code> {topics}.{more}</p>"
+        f"<img src='{device}.png' alt='{html.escape(numbers['device'])}'/>"
+        f"<table><tr><th>number</th><th>value</th><th></th><th>source</th></tr>{rows}</table></section>"
+    )
+
+
+def page(shown: List[str]) -> str:
+    """The whole page of the devices."""
+    marks = "".join(f"<li><b>{m}</b> {html.escape(text)}</li>" for m, text in sources().items())
+    links = " · ".join(f"<a href='#{d}'>{d}</a>" for d in shown)
+    body = "\n".join(section(device) for device in shown)
+    return (
+        "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'/><title>Sensors</title>"
+        f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n{body}\n"
+        f"<h2>Sources</h2><ul>{marks}</ul></body></html>\n"
+    )
+
+
+def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
+    """Pictures, a sheet of them all and index.html in the folder; returns the page's path."""
+    for device in shown:
+        take_picture(device, work, work / f"{device}.png")
+    text = page(shown)
+    folder.mkdir(parents=True, exist_ok=True)
+    for device in shown:
+        (folder / f"{device}.png").write_bytes((work / f"{device}.png").read_bytes())
+    contact_sheet([folder / f"{device}.png" for device in shown]).save(folder / "sensors_sheet.png")
+    (folder / "index.html").write_text(text, encoding="utf-8")
+    return folder / "index.html"
+
+
+def contact_sheet(
+    pictures: List[pathlib.Path], columns: int = 6, width_px: int = 240
+) -> Image.Image:
+    """All pictures on one, each with its file's name."""
+    height_px = width_px * 3 // 4
+    rows = math.ceil(len(pictures) / columns)
+    sheet = Image.new("RGB", (columns * width_px, rows * height_px), "white")
+    pen = ImageDraw.Draw(sheet)
+    for index, path in enumerate(pictures):
+        corner = (index % columns * width_px, index // columns * height_px)
+        with Image.open(path) as picture:
+            sheet.paste(picture.convert("RGB").resize((width_px, height_px)), corner)
+        pen.text((corner[0] + 5, corner[1] + 3), path.stem, fill="black")
+    return sheet
+
+
+def chosen(names: List[str]) -> List[str]:
+    """The devices asked for, all of them without any."""
+    for name in names:
+        load(name)  # an unknown one is refused
+    return names or devices()

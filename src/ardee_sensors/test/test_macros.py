@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: MIT
+"""Every macro on a bare link: called with name, parent and origin alone, and all at once, each twice."""
+import math
+import pathlib
+import re
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from device_numbers import CONFIG, devices, expected_topics, load, read_numbers
+from macro_calls import call, complaint, of, robot, topics
+from xacro_runner import SOURCES, mesh_path
+
+URDF = SOURCES / "ardee_sensors/urdf"
+LIDARS = [device for device in devices() if load(device)["kind"].startswith("lidar")]
+CAMERAS = [device for device in devices() if load(device)["kind"] in ("camera", "rgbd", "stereo")]
+TABLE_3_1 = """gps gps_with_dropout gps_with_mast imu_hector imu_terra hokuyo_urg04lx hokuyo_ust10lx hokuyo_utm30lx
+    sick_s300 sick_s3000 sick_tim571 rplidar hokuyo3d axis_m5013 axis ueye_cp_gige asus_xtion_pro kinect kinectv2
+    fotonic orbbec_astra sonar approx_battery encoder""".split()
+BEYOND = "imu imu_ardee vlp16 hdl32e realsense_d435 zed2".split()
+# numbers that shape the body, the mesh and the frames: the device would not be that device with others
+OF_THE_BODY = re.compile(
+    r"(\w+_)?size_[xyz]_m|scan_height_m|window_height_m|turret_\w+|lens_\w+|frame_z_m|tilt_axis_z_m|"
+    r"(foot|head)_height_m|(head|yoke)_mass_kg"
+)
+
+
+@pytest.fixture(scope="module")
+def everything(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
+    """A robot with every sensor twice, `<device>.1` and `<device>.2`."""
+    calls = [call(device, f"{device}.{i}") for device in devices() for i in (1, 2)]
+    return robot(tmp_path_factory.mktemp("everything"), "\n".join(calls))
+
+
+def test_the_devices_are_those_of_the_table_and_six_more():
+    assert sorted(TABLE_3_1 + BEYOND) == devices()
+
+
+def test_all_of_table_3_1_fits_on_one_robot(tmp_path: pathlib.Path):
+    root = robot(tmp_path, "\n".join(call(device, device) for device in TABLE_3_1))
+    names = [e.get("name") for tag in ("link", "joint") for e in root.findall(tag)]
+    assert len(names) == len(set(names))
+    assert len(list(root.iter("plugin"))) >= len(TABLE_3_1)
+
+
+def test_names_of_two_of_a_kind_do_not_collide(everything: ElementTree.Element):
+    for tag in ("link", "joint", "sensor", "plugin"):
+        names = [e.get("name") for e in everything.iter(tag) if e.get("name")]
+        assert len(names) == len(set(names)) and names
+    assert topics(everything)  # asserts that none comes twice
+
+
+def test_the_robot_s_namespace_reaches_every_plugin(tmp_path: pathlib.Path):
+    calls = "\n".join(call(device, device) for device in devices())
+    named = '<xacro:property name="robot_namespace" value="/robot2" />'
+    root = robot(tmp_path, named + calls)
+    assert {plugin.findtext("robotNamespace") for plugin in root.iter("plugin")} == {"/robot2"}
+
+
+@pytest.mark.parametrize("device", devices())
+def test_topics_are_those_of_its_file(everything: ElementTree.Element, device: str):
+    name = f"{device}.1"
+    published = {t for t, plugin in topics(everything).items() if plugin.startswith(name)}
+    expected = set(expected_topics(device, name))
+    if load(device)["kind"] in ("rgbd", "stereo"):
+        assert expected <= published  # infrared and the like come besides
+    else:
+        assert expected == published
+
+
+@pytest.mark.parametrize("device", devices())
+def test_frames_exist(everything: ElementTree.Element, device: str):
+    name = f"{device}.1"
+    links = {link.get("name") for link in everything.iter("link")}
+    assert f"{name}_link" in links
+    for _, frame in expected_topics(device, name).values():
+        assert frame in ("", "world") or frame in links
+    plugins = [p for p in everything.iter("plugin") if p.get("name").startswith(name)]
+    assert plugins
+    for plugin in plugins:
+        for key in ("frameName", "frameId", "bodyName", "batteryLink"):
+            assert plugin.find(key) is None or plugin.findtext(key) in links
+    for block in everything.findall("gazebo"):
+        assert block.get("reference") is None or block.get("reference") in links
+
+
+@pytest.mark.parametrize("device", devices())
+def test_bodies_are_possible(everything: ElementTree.Element, device: str):
+    """Masses above zero that add up to the device's, and principal moments that obey the triangle inequality."""
+    total = 0.0
+    for link in of(everything, "link", f"{device}.1"):
+        inertial = link.find("inertial")
+        if inertial is None:
+            assert link.find("visual") is None and link.find("collision") is None
+            continue
+        total += float(inertial.find("mass").get("value"))
+        values = inertial.find("inertia")
+        xx, yy, zz, xy, xz, yz = (
+            float(values.get(k)) for k in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+        )
+        moments = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert moments[0] > 0
+        assert moments[0] + moments[1] >= moments[2] * (1 - 1e-9)
+    numbers = dict(load(device))
+    for other in numbers.get("also", "").split():
+        numbers = {**load(other), **numbers}
+    assert total == pytest.approx(numbers["mass_kg"] + numbers.get("mast_mass_kg", 0))
+
+
+@pytest.mark.parametrize("device", devices())
+def test_its_mesh_is_there_and_its_visuals_have_colours(
+    everything: ElementTree.Element, device: str
+):
+    links = of(everything, "link", f"{device}.1")
+    visuals = [visual for link in links for visual in link.findall("visual")]
+    assert visuals
+    for visual in visuals:
+        assert visual.find("material/color") is not None
+        mesh = visual.find("geometry/mesh")
+        assert mesh is None or mesh_path(mesh.get("filename")).is_file()
+
+
+@pytest.mark.parametrize("device", CAMERAS)
+def test_optical_frames_look_along_the_link(everything: ElementTree.Element, device: str):
+    """REP 103: z of the optical frame is x of the link, x right, y down."""
+    joints = [j for j in of(everything, "joint", f"{device}.1") if "optical_frame" in j.get("name")]
+    assert joints
+    for joint in joints:
+        roll, pitch, yaw = map(float, joint.find("origin").get("rpy").split())
+        assert (roll, pitch, yaw) == pytest.approx((-math.pi / 2, 0, -math.pi / 2))
+        assert joint.find("parent").get("link") == f"{device}.1_link"
+
+
+@pytest.fixture(scope="module")
+def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
+    """A robot with every lidar, as it is, plain, and with more rays a beam."""
+    calls = [
+        call(device, f"{device}.{name}", arguments)
+        for device in LIDARS
+        for name, arguments in (("a", ""), ("b", 'plain="true"'), ("c", 'sub_rays="5"'))
+    ]
+    return robot(tmp_path_factory.mktemp("lidars"), "\n".join(calls))
+
+
+@pytest.mark.parametrize("device", LIDARS)
+def test_plain_switches_the_realism_off(lidars: ElementTree.Element, device: str):
+    keys = ("intensityModel", "reflectivityRange", "noiseGrowth", "beamDivergence", "subRays")
+    numbers = load(device)
+    plugins = [p for p in lidars.iter("plugin") if p.get("name").startswith(f"{device}.")]
+    real, plain, many = ([p.findtext(k) for k in keys] for p in plugins)
+    of_the_device = [
+        numbers[k] for k in ("reflectivity_range_m", "noise_growth_m_per_m", "beam_divergence_rad")
+    ]
+    assert real[0] == many[0] == "lambert"
+    assert [float(v) for v in real[1:4]] == of_the_device
+    assert plain == ["plain", "0", "0", "0", "1"]
+    assert many[4] == "5"
+
+
+@pytest.mark.parametrize("device", devices())
+def test_every_number_is_an_argument(device: str):
+    text = (URDF / f"{device}.urdf.xacro").read_text()
+    arguments = re.search(rf'<xacro:macro name="sensor_{device}"\s+params="([^"]*)"', text).group(1)
+    for number in read_numbers(CONFIG / f"{device}.yaml"):
+        if not OF_THE_BODY.fullmatch(number.key) and not number.key.startswith(
+            ("rate_noise", "accel_noise")
+        ):
+            assert re.search(rf":=\$\{{\w+_numbers\.{number.key}\}}", arguments), number.key
+
+
+def test_a_block_laser_is_one_argument_away(tmp_path: pathlib.Path):
+    root = robot(tmp_path, call("hokuyo3d", "a", 'pointcloud2="false"'))
+    assert root.find(".//sensor").get("type") == "ray"
+    assert root.find(".//plugin").get("filename") == "libgazebo_ros_block_laser.so"
+
+
+def test_a_lens_bends_image_and_camera_info_alike(tmp_path: pathlib.Path):
+    calls = call("ueye_cp_gige", "a", 'k1="-0.404" k2="0.1"') + call("ueye_cp_gige", "b")
+    bent, straight = robot(tmp_path, calls).iter("sensor")
+    assert bent.findtext("camera/distortion/k1") == bent.findtext("plugin/distortionK1") == "-0.404"
+    assert straight.find("camera/distortion") is None
+    assert float(straight.findtext("plugin/distortionK1")) == 0
+
+
+def test_the_stereo_baseline_is_in_poses_and_camera_info(tmp_path: pathlib.Path):
+    root = robot(tmp_path, call("zed2", "a", 'baseline_m="0.2"'))
+    sensor = root.find(".//sensor[@type='multicamera']")
+    poses = {c.get("name"): float(c.findtext("pose").split()[1]) for c in sensor.findall("camera")}
+    assert poses == {"left": 0.1, "right": -0.1}
+    assert sensor.findtext("plugin/hackBaseline") == "0.2"
+
+
+def test_the_battery_s_two_modes(tmp_path: pathlib.Path):
+    calls = call("approx_battery", "a") + call("approx_battery", "b", 'mode="current"')
+    quick, current = robot(tmp_path, calls).iter("plugin")
+    assert quick.find("deltaVoltage") is not None and quick.find("constantCoef") is None
+    assert current.find("deltaVoltage") is None and current.findtext("commandTopic") == "cmd_vel"
+
+
+@pytest.mark.parametrize(
+    "device, arguments, message",
+    [
+        ("approx_battery", 'mode="slow"', 'unknown mode "slow"'),
+        ("kinect", 'color="mauve"', 'unknown color "mauve"'),
+        ("vlp16", 'ranges="3"', "ranges"),
+    ],
+)
+def test_a_wrong_call_is_refused(tmp_path: pathlib.Path, device: str, arguments: str, message: str):
+    assert message in complaint(tmp_path, call(device, "a", arguments))
