@@ -82,7 +82,7 @@ def test_levels_of_detail(share, name):
     model = share / "models" / name
     full, coarse = _primitives(model), _primitives(model, "_lod1")
     assert 700 <= sum(map(len, full.values())) <= 2000
-    assert 60 <= sum(map(len, coarse.values())) <= 200
+    assert 60 <= sum(map(len, coarse.values())) <= 320
     assert full.keys() == coarse.keys()
     leaves = [
         sum(_area(p) for n, p in level.items() if n.startswith("Leaves"))
