@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""The numbers of the devices: config/<device>.yaml, with the mark of each number's source."""
+import pathlib
+import re
+from typing import Any, Dict, List, NamedTuple
+
+import yaml
+
+PACKAGE = pathlib.Path(__file__).resolve().parents[1]
+CONFIG = PACKAGE / "config"
+TEXTS = ("device", "kind", "macro", "also", "topics")
+SHARED = ("colors", "sources")
+LINE = re.compile(r"^(?P<key>\w+): (?P<value>[^#]*?)\s*(?:#\s*(?P<comment>.*))?$")
+MARKS = re.compile(r"\[([^\]]+)\]")
+
+
+class Number(NamedTuple):
+    """One number of a device: the text that stands in the file, what is said of it, and the marks of its sources."""
+
+    key: str
+    value: str
+    comment: str
+    marks: List[str]
+
+
+def devices() -> List[str]:
+    """Names of all devices: the stems of their files, and of their macros without `sensor_`."""
+    return sorted(path.stem for path in CONFIG.glob("*.yaml") if path.stem not in SHARED)
+
+
+def device_file(device: str, folder: pathlib.Path = CONFIG) -> pathlib.Path:
+    """The device's file; a ValueError names the known devices."""
+    if device not in devices():
+        raise ValueError(f"unknown sensor '{device}'; expected one of: {', '.join(devices())}")
+    return folder / f"{device}.yaml"
+
+
+def load(device: str) -> Dict[str, Any]:
+    """The device's file as a dictionary."""
+    return yaml.safe_load(device_file(device).read_text())
+
+
+def read_numbers(path: pathlib.Path) -> List[Number]:
+    """The file's numbers in its order; every line but the texts is one."""
+    found = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if not line or line.startswith(("#", " ")):
+            continue
+        match = LINE.match(line)
+        if not match:
+            raise ValueError(
+                f"{path}:{number}: found {line!r}, expected `key: value  # comment [mark]`"
+            )
+        if match["key"] in TEXTS:
+            continue
+        comment = match["comment"] or ""
+        marks = [mark.strip() for group in MARKS.findall(comment) for mark in group.split(",")]
+        found.append(Number(match["key"], match["value"], comment, marks))
+    return found
+
+
+def sources() -> Dict[str, str]:
+    """What each mark means; of a mark of several words (`thesis A.12`) the first is looked up."""
+    return yaml.safe_load((CONFIG / "sources.yaml").read_text())
+
+
+def expected_topics(device: str, name: str) -> Dict[str, List[str]]:
+    """Topics of the device called `name`, relative to the robot's namespace: [message type, frame]."""
+    return {
+        topic.format(name=name): [kind, frame.format(name=name)]
+        for topic, (kind, frame) in load(device)["topics"].items()
+    }
