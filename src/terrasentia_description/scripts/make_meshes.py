@@ -116,6 +116,7 @@ def meshes() -> dict:
         "v2": {"base_link.STL": bodies.chassis_v2(), "lid.STL": bodies.lid_v2()},
         "v3": {"base_link.STL": bodies.chassis_v3(), "lid.STL": bodies.lid_v3()},
     }
+    made["v3"]["gimbal_bracket.STL"] = bodies.gimbal_bracket()
     for generation, parts in made.items():
         first = leg(LEGS[generation])
         parts["leg_type_1.STL"] = first

@@ -154,3 +154,13 @@ def lid_v3() -> np.ndarray:
     foot = shapes.lathe([(0.04, top - 0.008), (0.04, top - 0.003), (0.03, top)], 28)
     parts.append(foot + (-0.15, 0, 0))
     return np.concatenate(parts)
+
+
+def gimbal_bracket() -> np.ndarray:
+    """Fork about a tilting axis, y: a foot 0.04 m behind it, two arms, and the motor on the left one."""
+    parts = [shapes.box((0.006, 0.072, 0.03), (-0.037, 0, 0), edge=0.002)]
+    for side in (1, -1):
+        parts.append(shapes.box((0.04, 0.004, 0.014), (-0.016, side * 0.024, 0), edge=0.001))
+    motor = shapes.lathe([(0.013, -0.026), (0.015, -0.028), (0.015, -0.036), (0.012, -0.038)][::-1], 24)
+    parts.append(shapes.turn(motor, 0, np.pi / 2))
+    return np.concatenate(parts)
