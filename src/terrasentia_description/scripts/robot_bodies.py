@@ -72,7 +72,7 @@ def lid_v1() -> np.ndarray:
 def mudguard(inner_y: float, outer_y: float) -> np.ndarray:
     """Arch of flat plates over a wheel whose axle is the y axis, between two distances along it."""
     radius, thickness, pieces = 0.138, 0.006, 7
-    step = np.radians(82.0) / pieces
+    step = np.radians(76.0) / pieces
     plates = []
     for number in range(pieces):
         angle = (number - (pieces - 1) / 2) * step
