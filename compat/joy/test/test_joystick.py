@@ -7,6 +7,7 @@ import struct
 import tty
 
 import pytest
+
 from joy.device import (
     AXIS,
     BUTTON,

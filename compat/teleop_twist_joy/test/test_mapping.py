@@ -5,6 +5,7 @@ from typing import Any, Dict
 
 import pytest
 import yaml
+
 from teleop_twist_joy.mapping import Mapping, read_mapping
 
 CONFIG = pathlib.Path(__file__).resolve().parents[1] / "config"

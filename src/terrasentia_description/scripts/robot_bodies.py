@@ -161,6 +161,8 @@ def gimbal_bracket() -> np.ndarray:
     parts = [shapes.box((0.006, 0.072, 0.03), (-0.037, 0, 0), edge=0.002)]
     for side in (1, -1):
         parts.append(shapes.box((0.04, 0.004, 0.014), (-0.016, side * 0.024, 0), edge=0.001))
-    motor = shapes.lathe([(0.013, -0.026), (0.015, -0.028), (0.015, -0.036), (0.012, -0.038)][::-1], 24)
+    motor = shapes.lathe(
+        [(0.013, -0.026), (0.015, -0.028), (0.015, -0.036), (0.012, -0.038)][::-1], 24
+    )
     parts.append(shapes.turn(motor, 0, np.pi / 2))
     return np.concatenate(parts)

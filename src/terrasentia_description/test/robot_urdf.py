@@ -45,7 +45,9 @@ class Robot:
         self.root = ElementTree.fromstring(text)
         self.links = {link.get("name"): link for link in self.root.findall("link")}
         self.joints = {joint.get("name"): joint for joint in self.root.findall("joint")}
-        self.bodies = [name for name, link in self.links.items() if link.find("inertial") is not None]
+        self.bodies = [
+            name for name, link in self.links.items() if link.find("inertial") is not None
+        ]
         self.joint_of = {joint.find("child").get("link"): joint for joint in self.joints.values()}
 
     def plugins(self, filename: str) -> list:

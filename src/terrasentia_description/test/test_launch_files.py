@@ -128,7 +128,9 @@ def test_the_command_line_chooses_robot_and_sensors(robot: str, tmp_path: pathli
     text = yaml.safe_load(roslaunch(FILES[0], "--dump-params", model))["/robot_description"]
     assert f'<robot name="{robot.replace("tsv", "TSv")}"' in text
     own = tmp_path / "own_sensors.urdf.xacro"
-    own.write_text('<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="own_link" /></robot>')
+    own.write_text(
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="own_link" /></robot>'
+    )
     for sensors, expected in (
         ("tsv3_sensors_config.urdf.xacro", "camera_left_gimbal_joint"),
         (str(own), "own_link"),

@@ -126,9 +126,7 @@ def test_weight_turns_each_leg_from_its_reference_into_its_range(robot: Robot):
         assert wheel_centers(robot, far)[index][2] > wheel_centers(robot, {})[index][2] + 0.03
 
 
-def test_legs_stay_outside_the_chassis_and_inside_the_wheels(
-    robot: Robot, generation: Generation
-):
+def test_legs_stay_outside_the_chassis_and_inside_the_wheels(robot: Robot, generation: Generation):
     for share in (0.0, 0.5, 1.0):
         legs = leg_positions(robot, *(2 * [share * generation.leg_travel]))
         for place in PLACES:

@@ -43,7 +43,11 @@ def _held(buttons: Sequence[int], number: int) -> bool:
 
 def read_mapping(get: Get) -> Mapping:
     """The mapping by parameters; ValueError for one that makes no sense."""
-    axes, scale, scale_turbo = {}, {}, {}  # type: Dict[str, int], Dict[str, float], Dict[str, float]
+    axes, scale, scale_turbo = (
+        {},
+        {},
+        {},
+    )  # type: Dict[str, int], Dict[str, float], Dict[str, float]
     for part, names in (("linear", LINEAR), ("angular", ANGULAR)):
         only, axis, normal, turbo = DEFAULTS[part]
         axes_of = get(f"axis_{part}", axis)
