@@ -45,6 +45,9 @@ class Robot:
         self.root = ElementTree.fromstring(text)
         self.links = {link.get("name"): link for link in self.root.findall("link")}
         self.joints = {joint.get("name"): joint for joint in self.root.findall("joint")}
+        self.bodies = [
+            name for name, link in self.links.items() if link.find("inertial") is not None
+        ]
         self.joint_of = {joint.find("child").get("link"): joint for joint in self.joints.values()}
 
     def plugins(self, filename: str) -> list:
@@ -63,8 +66,9 @@ class Robot:
         return self.frame(joint.find("parent").get("link"), positions) @ pose(joint) @ moved
 
     def mass(self, link: str) -> float:
-        """Mass of a link, kg."""
-        return float(self.links[link].find("inertial/mass").get("value"))
+        """Mass of a link, kg; 0 for a mere frame."""
+        mass = self.links[link].find("inertial/mass")
+        return 0.0 if mass is None else float(mass.get("value"))
 
     def inertia(self, link: str) -> np.ndarray:
         """Inertia matrix of a link about its centre of mass, kg m^2."""

@@ -2,15 +2,17 @@
 """The meshes are what their script makes, and are closed surfaces that face outwards."""
 import importlib.util
 import pathlib
+import sys
 from collections import Counter
 
 import numpy as np
 import pytest
+from generations import Generation
 from xacro_runner import read_stl
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1]
-FOLDER = PACKAGE / "meshes/v1"
-FILES = sorted(path.name for path in FOLDER.iterdir())
+FOLDER = PACKAGE / "meshes"
+FILES = sorted(str(path.relative_to(FOLDER)) for path in FOLDER.glob("*/*"))
 
 
 def load_script():
@@ -18,6 +20,7 @@ def load_script():
     spec = importlib.util.spec_from_file_location(
         "robot_meshes", PACKAGE / "scripts/make_meshes.py"
     )
+    sys.path.insert(0, str(PACKAGE / "scripts"))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -25,8 +28,9 @@ def load_script():
 
 def test_the_script_makes_the_same_bytes(tmp_path: pathlib.Path):
     script = load_script()
-    script.shapes.write_all(script.meshes(), tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == FILES
+    for generation, parts in script.meshes().items():
+        script.shapes.write_all(parts, tmp_path / generation)
+    assert sorted(str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/*")) == FILES
     for name in FILES:
         assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes(), name
         assert (tmp_path / name).stat().st_size < 200_000, name
@@ -66,7 +70,8 @@ def connected_parts(triangles: np.ndarray) -> list:
     return [triangles[group[labels[:, 0]] == number] for number in np.unique(group[labels[:, 0]])]
 
 
-def test_the_leg_types_mirror_each_other():
-    first, second = read_stl(FOLDER / "leg_type_1.STL"), read_stl(FOLDER / "leg_type_2.STL")
+def test_the_leg_types_mirror_each_other(generation: Generation):
+    folder = FOLDER / generation.name
+    first, second = read_stl(folder / "leg_type_1.STL"), read_stl(folder / "leg_type_2.STL")
     mirrored = (first * (-1, 1, 1))[:, ::-1]
     assert second == pytest.approx(mirrored, abs=1e-9)

@@ -22,6 +22,7 @@ struct Surface {
   double mu = 1.0;
   double mu2 = 1.0;
   Eigen::Vector3d fdir1{0, 0, 0};  // in the collision's frame; zero: none
+  bool friction_cone = false;      // with fdir1: sliding friction points against the sliding
   double slip1 = 0.0;
   double slip2 = 0.0;
   double kp_n_per_m = 1e12;

@@ -2,6 +2,7 @@
 #include "ardee_sim/physics/contact_joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace ardee::physics {
@@ -9,6 +10,7 @@ namespace {
 
 constexpr double kMaxStiffness = 1e15;    // N/m, N s/m: as good as rigid
 constexpr double kLeastStiffness = 1e-6;  // N s/m: as good as nothing
+constexpr double kSlidingSpeed = 0.02;    // m/s: slower than that a contact sticks in part
 
 /// The first friction direction in the world: the first surface's that has one, along the contact
 /// plane.
@@ -29,6 +31,28 @@ void copy(const Eigen::Vector3d& from, dReal* to) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
+Eigen::Vector3d velocity_at(dBodyID body, const Eigen::Vector3d& p) {
+  if (!body) return Eigen::Vector3d::Zero();
+  dVector3 velocity;
+  dBodyGetPointVel(body, p.x(), p.y(), p.z(), velocity);
+  return to_vector(velocity);
+}
+
+/// Coulomb's cone within ODE's pyramid: while a contact slides, each axis carries the share of the
+/// friction that it has of the sliding, so that the whole points against it; while it sticks, both
+/// carry all they can. The pyramid alone lets a skid-steering robot turn about its heavier axle.
+void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& normal,
+                    dContact& contact) {
+  const Eigen::Vector3d first = to_vector(contact.fdir1);
+  const double v1 = std::abs(sliding.dot(first));
+  const double v2 = std::abs(sliding.dot(normal.cross(first)));
+  const double speed = std::hypot(v1, v2);
+  if (speed <= 0.0) return;
+  const double slides = std::min(1.0, speed / kSlidingSpeed);
+  contact.surface.mu *= 1.0 - slides * (1.0 - v1 / speed);
+  contact.surface.mu2 *= 1.0 - slides * (1.0 - v2 / speed);
+}
+
 }  // namespace
 
 ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
@@ -36,6 +60,7 @@ ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsPar
   ContactLaw law;
   law.mu = std::min(a.mu, b.mu);
   law.mu2 = std::min(a.mu2, b.mu2);
+  law.friction_cone = a.friction_cone || b.friction_cone;
   law.slip1 = a.slip1 + b.slip1;
   law.slip2 = a.slip2 + b.slip2;
   const double kp = std::min(1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m), kMaxStiffness);
@@ -88,6 +113,10 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   if (const auto direction = friction_direction(a, b, point.normal)) {
     contact.surface.mode |= dContactFDir1;
     copy(*direction, contact.fdir1);
+    if (law.friction_cone) {
+      const Eigen::Vector3d& p = point.position;
+      narrow_to_cone(velocity_at(a.body, p) - velocity_at(b.body, p), point.normal, contact);
+    }
   }
   dJointAttach(dJointCreateContact(world_, group_.get(), &contact), a.body, b.body);
   ++count_;

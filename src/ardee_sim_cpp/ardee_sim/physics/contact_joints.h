@@ -22,6 +22,7 @@ struct ContactSide {
 struct ContactLaw {
   double mu = 0.0;
   double mu2 = 0.0;
+  bool friction_cone = false;
   double slip1 = 0.0;
   double slip2 = 0.0;
   double erp = 0.0;

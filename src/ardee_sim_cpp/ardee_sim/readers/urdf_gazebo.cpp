@@ -26,6 +26,7 @@ const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
     made["mu1"] = [](const Node& n, Surface& s) { s.mu = n.to_number(0.0, kMaxStiffness); };
     made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = n.to_number(0.0, kMaxStiffness); };
     made["fdir1"] = [](const Node& n, Surface& s) { s.fdir1 = n.to_vector3(); };
+    made["frictionCone"] = [](const Node& n, Surface& s) { s.friction_cone = n.to_boolean(); };
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = n.to_number(0.0); };
     made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = n.to_number(0.0); };
     made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kMaxStiffness); };

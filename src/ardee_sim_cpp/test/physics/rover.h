@@ -16,6 +16,8 @@ struct RoverShape {
   bool legs = true;
   double mu = 0.8;
   double mass_kg = 8.0;
+  double mass_forward_m = 0.0;  // of the base
+  bool friction_cone = false;
 };
 
 inline Link rover_wheel(const std::string& name, const RoverShape& shape) {
@@ -26,6 +28,7 @@ inline Link rover_wheel(const std::string& name, const RoverShape& shape) {
   Surface rubber;
   rubber.mu = rubber.mu2 = shape.mu;
   rubber.fdir1 = {0, 0, 1};
+  rubber.friction_cone = shape.friction_cone;
   rubber.kp_n_per_m = 1e6;
   rubber.kd_n_s_per_m = 100.0;
   rubber.max_correcting_velocity_m_per_s = 0.1;
@@ -77,7 +80,7 @@ inline void add_rover_corner(Model& rover, const std::string& name, double forwa
 /// The model's origin is between the hubs, at their height.
 inline std::shared_ptr<Model> rover_model(const RoverShape& shape = {}) {
   Link base = link("base", box_inertial(shape.mass_kg, {0.5, 0.3, 0.13}));
-  base.inertial->X_LI.p = {0, 0, 0.1};
+  base.inertial->X_LI.p = {shape.mass_forward_m, 0, 0.1};
   base.collisions.push_back(collision(Box{{0.5, 0.3, 0.13}}));
   base.collisions[0].X_LC.p = {0, 0, 0.12};
   auto rover = model(base);

@@ -61,21 +61,24 @@ TEST_P(Rover, EachLegCarriesAQuarterOfTheBody) {
 }
 
 TEST_P(Rover, DrivesStraightAtTheSpeedOfItsWheels) {
-  PhysicsWorld world(params(h()), silent());
-  add_ground(world);
-  const RoverShape shape;
-  PhysicsModel& rover = world.add_model(rover_model(shape), at(0, 0, 0.1));
-  run(world, 1.0);
-  drive(rover, shape, 5.0, 5.0);
-  run(world, 1.0);
-  const Pose start = rover.pose();
-  double wheel_start = rover.joint_position(wheel_joint(shape, 0));
-  run(world, 4.0);
-  const double turned = rover.joint_position(wheel_joint(shape, 0)) - wheel_start;
-  EXPECT_NEAR(turned, 20.0, 0.02);
-  EXPECT_NEAR(rover.pose().p.x() - start.p.x(), 0.097 * turned, 0.005 * 0.097 * turned);
-  EXPECT_NEAR(rover.pose().p.y(), start.p.y(), 0.01);
-  EXPECT_NEAR(rpy_from_quaternion(rover.pose().q).z(), 0.0, 0.005);
+  for (const bool cone : {false, true}) {
+    PhysicsWorld world(params(h()), silent());
+    add_ground(world);
+    RoverShape shape;
+    shape.friction_cone = cone;
+    PhysicsModel& rover = world.add_model(rover_model(shape), at(0, 0, 0.1));
+    run(world, 1.0);
+    drive(rover, shape, 5.0, 5.0);
+    run(world, 1.0);
+    const Pose start = rover.pose();
+    double wheel_start = rover.joint_position(wheel_joint(shape, 0));
+    run(world, 4.0);
+    const double turned = rover.joint_position(wheel_joint(shape, 0)) - wheel_start;
+    EXPECT_NEAR(turned, 20.0, 0.02);
+    EXPECT_NEAR(rover.pose().p.x() - start.p.x(), 0.097 * turned, 0.005 * 0.097 * turned);
+    EXPECT_NEAR(rover.pose().p.y(), start.p.y(), 0.01);
+    EXPECT_NEAR(rpy_from_quaternion(rover.pose().q).z(), 0.0, 0.005);
+  }
 }
 
 TEST_P(Rover, SkidSteersInPlaceWithinTheKinematicBound) {
@@ -100,6 +103,61 @@ TEST_P(Rover, SkidSteersInPlaceWithinTheKinematicBound) {
   }
 }
 
+/// What turns a skid-steering robot in place, and what shifts it sideways, as shares of the
+/// friction available: both vanish in a steady turn by Coulomb's cone. `load_front`: share of the
+/// weight; tread: speed of the wheels' rims (m/s); center_x: of the turn, in the body (m).
+Eigen::Vector2d turn_balance(const RoverShape& shape, double load_front, double tread, double rate,
+                             double center_x) {
+  Eigen::Vector2d sum(0, 0);
+  for (const double end : {1.0, -1.0}) {
+    const double load = end > 0 ? load_front : 1.0 - load_front;
+    const double lever = end * shape.half_base_m - center_x;
+    const Eigen::Vector2d slip(tread - rate * shape.half_track_m, rate * lever);
+    const Eigen::Vector2d force = load * slip.normalized();
+    sum += Eigen::Vector2d(force.x() * shape.half_track_m - force.y() * lever, force.y());
+  }
+  return sum;
+}
+
+TEST_P(Rover, TurnsAboutItsMiddleWithAFrictionCone) {
+  for (const double forward : {0.0, 0.02}) {
+    PhysicsWorld world(params(h()), silent());
+    add_ground(world);
+    RoverShape shape;
+    shape.legs = false;
+    shape.friction_cone = true;
+    shape.mass_forward_m = forward;
+    PhysicsModel& rover = world.add_model(rover_model(shape), at(0, 0, 0.1));
+    run(world, 1.0);
+    drive(rover, shape, -4.0, 4.0);
+    run(world, 2.0);
+    // the mean over a while: the wheels' treads make it tremble
+    double rate = 0.0;
+    double side = 0.0;
+    const int count = steps(world, 2.0);
+    for (int i = 0; i < count; ++i) {
+      world.step();
+      const Twist twist = rover.link_twist(0);
+      rate += twist.angular.z() / count;
+      side += (rover.pose().q.conjugate() * twist.linear).y() / count;
+    }
+    const double b = shape.half_base_m;
+    const double c = shape.half_track_m;
+    const double tread = 4.0 * shape.wheel_radius_m;
+    const double wheels_kg = 2.0;
+    const double load_front = 0.5 + 0.5 * forward * shape.mass_kg / (shape.mass_kg + wheels_kg) / b;
+    if (forward == 0.0) {
+      EXPECT_NEAR(rate, tread * c / (b * b + c * c), 0.03 * rate);
+      EXPECT_NEAR(side, 0.0, 0.005 * rate);
+    }
+    const double center_x = -side / rate;
+    const Eigen::Vector2d balance = turn_balance(shape, load_front, tread, rate, center_x);
+    EXPECT_NEAR(balance.x(), 0.0, 0.01) << "rate " << rate << " centre " << center_x;
+    EXPECT_NEAR(balance.y(), 0.0, 0.03) << "rate " << rate << " centre " << center_x;
+    EXPECT_LT(std::abs(center_x), 0.4 * b);  // the pyramid has it at b
+  }
+}
+
 TEST_P(Rover, LegsStayWithinTheirLimitsWhenDropped) {
   PhysicsWorld world(params(h()), silent());
   add_ground(world);
@@ -116,18 +174,21 @@ TEST_P(Rover, LegsStayWithinTheirLimitsWhenDropped) {
 }
 
 TEST_P(Rover, HoldsOnASlope) {
-  const double slope = 0.3;  // below mu = 0.8
-  const auto plane = height_grid(65, 20.0, [&](double x, double) { return slope * x; });
-  PhysicsWorld world(params(h()), silent());
-  world.add_scenery({placement(static_model(heightmap(plane)))});
-  const RoverShape shape;
-  const Pose tilt = Pose::from_xyz_rpy({0, 0, 0}, {0, -std::atan(slope), 0});
-  PhysicsModel& rover = world.add_model(rover_model(shape), tilt * at(0, 0, 0.1));
-  drive(rover, shape, 0.0, 0.0);
-  run(world, 3.0);
-  const Eigen::Vector3d before = rover.pose().p;
-  run(world, 5.0);
-  EXPECT_LT((rover.pose().p - before).norm(), 5.0 * 1e-4);
+  for (const bool cone : {false, true}) {
+    const double slope = 0.3;  // below mu = 0.8
+    const auto plane = height_grid(65, 20.0, [&](double x, double) { return slope * x; });
+    PhysicsWorld world(params(h()), silent());
+    world.add_scenery({placement(static_model(heightmap(plane)))});
+    RoverShape shape;
+    shape.friction_cone = cone;
+    const Pose tilt = Pose::from_xyz_rpy({0, 0, 0}, {0, -std::atan(slope), 0});
+    PhysicsModel& rover = world.add_model(rover_model(shape), tilt * at(0, 0, 0.1));
+    drive(rover, shape, 0.0, 0.0);
+    run(world, 3.0);
+    const Eigen::Vector3d before = rover.pose().p;
+    run(world, 5.0);
+    EXPECT_LT((rover.pose().p - before).norm(), 5.0 * 1e-4);
+  }
 }
 
 TEST_P(Rover, PushesAgainstAStalkAndIsStopped) {

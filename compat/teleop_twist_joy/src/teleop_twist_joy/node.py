@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""teleop_node: sensor_msgs/Joy to geometry_msgs/Twist while the enable button is held."""
+import threading
+import time
+from typing import Dict
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
+from sensor_msgs.msg import Joy
+
+from teleop_twist_joy.mapping import ANGULAR, LINEAR, read_mapping
+
+WATCH_S = 0.1  # between looks whether there still is a joystick's node
+FLUSH_S = 0.1  # for the last message to leave before the node ends
+
+
+def to_twist(velocity: Dict[str, float]) -> Twist:
+    """Velocities by direction as a message."""
+    return Twist(
+        linear=Vector3(*(velocity.get(name, 0.0) for name in LINEAR)),
+        angular=Vector3(*(velocity.get(name, 0.0) for name in ANGULAR)),
+    )
+
+
+class TeleopNode:
+    """Drives while a button is held; stops once when none is any more, or when nobody publishes the joystick."""
+
+    def __init__(self) -> None:
+        self._mapping = read_mapping(lambda name, default: rospy.get_param(f"~{name}", default))
+        self._driving = False
+        self._lock = threading.Lock()  # callbacks and the watch have threads of their own
+        self._publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+        self._subscriber = rospy.Subscriber("joy", Joy, self._heard, queue_size=1)
+
+    def _heard(self, message: Joy) -> None:
+        velocity = self._mapping.velocity(message.axes, message.buttons)
+        with self._lock:
+            if velocity is not None:
+                self._driving = True
+                self._publisher.publish(to_twist(velocity))
+        if velocity is None:
+            self.stop()
+
+    def stop(self) -> None:
+        """Tell the robot to stop, if it has been told to go."""
+        with self._lock:
+            if self._driving:
+                self._driving = False
+                self._publisher.publish(Twist())
+
+    def run(self) -> None:
+        """Until the node is shut down; watches for a joystick's node that dies without a word."""
+        while not rospy.is_shutdown():
+            if self._subscriber.get_num_connections() == 0:
+                self.stop()
+            time.sleep(WATCH_S)
+
+
+def main() -> int:
+    """Run the node; 1 when a parameter is wrong."""
+    rospy.init_node("teleop_twist_joy_node")
+    try:
+        node = TeleopNode()
+    except ValueError as error:
+        rospy.logfatal("%s", error)
+        return 1
+
+    def end() -> None:
+        node.stop()
+        time.sleep(FLUSH_S)
+
+    rospy.on_shutdown(end)
+    node.run()
+    return 0
