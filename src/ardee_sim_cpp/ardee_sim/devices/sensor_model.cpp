@@ -59,6 +59,12 @@ SensorErrors read_sensor_errors(Parameters& parameters, const std::string& prefi
   return errors;
 }
 
+const Vector3d& checked_bias(const Vector3d& bias) {
+  constexpr double kMost = 1e6;
+  if (bias.allFinite() && bias.cwiseAbs().maxCoeff() <= kMost) return bias;
+  throw Error("found a bias that is not finite or out of range, expected three numbers up to 1e6");
+}
+
 SensorModel::SensorModel(const SensorErrors& errors, int axes, std::uint64_t key)
     : errors_(errors), axes_(axes), key_(key), random_(key) {
   if (axes != 1 && axes != 3) throw std::logic_error("a sensor model has one axis or three");

@@ -35,6 +35,9 @@ struct SensorErrors {
 /// or noise is an Error.
 SensorErrors read_sensor_errors(Parameters& parameters, const std::string& prefix, NoiseMode mode);
 
+/// A bias that was asked for; throws Error if it is not finite or beyond what any sensor measures.
+const Eigen::Vector3d& checked_bias(const Eigen::Vector3d& bias);
+
 /// Corrupts a value of one or three axes: value * scale_error + offset + drift + noise. The errors
 /// are a pure function of the key, the time of the reset and the samples since; one axis is the
 /// first.

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/devices/sensor_model.h"
+
+namespace ardee {
+
+/// The errors of SDF's <imu> block, in rad/s and m/s^2.
+struct SdfImuNoise {
+  SensorErrors rate;
+  SensorErrors accel;
+};
+
+/// Reads <angular_velocity> and <linear_acceleration> with a <noise> an axis, or SDF 1.4's <noise>
+/// with <rate> and <accel>. Means add to the value; a bias is drawn once, N(bias_mean, bias_stddev)
+/// of either sign, as Gazebo does it; <dynamic_bias_stddev> (of the driving noise, per root Hz) and
+/// <dynamic_bias_correlation_time> make a drift.
+SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key, Log& log);
+
+}  // namespace ardee
