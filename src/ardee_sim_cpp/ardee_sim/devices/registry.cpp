@@ -4,9 +4,13 @@
 #include <stdexcept>
 
 #include "ardee_sim/devices/gazebo_imu.h"
+#include "ardee_sim/devices/gps.h"
+#include "ardee_sim/devices/gps_with_dropout.h"
+#include "ardee_sim/devices/ground_truth.h"
 #include "ardee_sim/devices/hector_imu.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/magnetometer.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
 
@@ -107,8 +111,12 @@ Registry builtin_registry() {
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", GpsWithDropout::make);
   registry.add_model_sensor("libgazebo_ros_imu.so", GazeboImu::make_on_model);
+  registry.add_model_sensor("libgazebo_ros_p3d.so", GroundTruth::make);
+  registry.add_model_sensor("libhector_gazebo_ros_gps.so", Gps::make);
   registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
+  registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
   registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
