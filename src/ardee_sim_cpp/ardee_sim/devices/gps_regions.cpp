@@ -65,7 +65,7 @@ struct GpsRegions::Parts {
     const auto place = [&](const char* key) {
       return required(parameters, key, -kFarthest_m, kFarthest_m);
     };
-    const Eigen::Vector3d middle(place("x"), place("y"), place("z"));
+    const Eigen::Vector3d middle{place("x"), place("y"), place("z")};
     const double turn_rad = place("rotation");
     parameters.required_text("row_count");
     const int rows = parameters.integer("row_count", 1, 1, 1000000);
