@@ -12,8 +12,7 @@ namespace ardee {
 class TempFolder {
  public:
   TempFolder() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "ardee_test_XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "ardee_test_XXXXXX").string();
     path_ = mkdtemp(pattern.data());
   }
   ~TempFolder() { std::filesystem::remove_all(path_); }

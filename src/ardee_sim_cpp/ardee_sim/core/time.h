@@ -20,7 +20,8 @@ TimeNs nanoseconds(double time_s);
 /// does is exactly periodic.
 class RateTimer {
  public:
-  /// rate_hz <= 0: due at each step. All firings come `offset_ns` later than those of a timer without.
+  /// rate_hz <= 0: due at each step. All firings come `offset_ns` later than those of a timer
+  /// without.
   explicit RateTimer(double rate_hz = 0.0, TimeNs offset_ns = 0)
       : rate_hz_(rate_hz), offset_ns_(offset_ns) {}
 

@@ -5,7 +5,6 @@
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
-#include "ardee_sim/devices/sdf_imu_noise.h"
 
 namespace ardee {
 namespace {
@@ -46,8 +45,8 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
 }
 
 std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& sensor,
-                                                  const PluginDescription& plugin,
-                                                  std::size_t link, DeviceContext& context) {
+                                                  const PluginDescription& plugin, std::size_t link,
+                                                  DeviceContext& context) {
   Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
@@ -61,9 +60,7 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
   params.frame = resolve_frame(parameters.required_text("frameName"), space, context);
   if (const Element* imu = sensor.element.child("imu")) {
     const std::uint64_t key = stream_key(context.seed, sensor.name + "/bias");
-    const SdfImuNoise noise = read_sdf_imu_noise(*imu, key, context.log);
-    params.accel = noise.accel;
-    params.rate = noise.rate;
+    params.noise = read_sdf_imu_noise(*imu, key, context.log);
   }
   parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
   parameters.finish(context.log);
@@ -74,8 +71,8 @@ GazeboImu::GazeboImu(const std::string& name, const Params& params,
                      std::function<Vector3d()> gravity_m_per_s2)
     : InertialSensor(name, params.mount, std::move(gravity_m_per_s2)),
       params_(params),
-      accel_(params.accel, 3, stream_key(params.mount.seed, name + "/accel")),
-      rate_(params.rate, 3, stream_key(params.mount.seed, name + "/rate")),
+      accel_(params.noise.accel.errors, 3, stream_key(params.mount.seed, name + "/accel")),
+      rate_(params.noise.rate.errors, 3, stream_key(params.mount.seed, name + "/rate")),
       output_(add_output(params.topic, reading_kind<ImuReading>())) {
   if (!params.service.empty()) add_service(params.service, std::function<void()>([] {}));
 }
@@ -96,16 +93,17 @@ void GazeboImu::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink
   };
   ImuReading reading;
   reading.header = {now_ns, params_.frame};
-  reading.angular_velocity = rate_.corrupt(motion.angular_velocity, elapsed_s()) + white(0);
-  reading.linear_acceleration =
-      accel_.corrupt(params_.feels_gravity ? motion.specific_force() : motion.acceleration,
-                     elapsed_s()) +
-      white(3);
+  const Vector3d force = params_.feels_gravity ? motion.specific_force() : motion.acceleration;
+  const Vector3d rate = rate_.corrupt(motion.angular_velocity, elapsed_s());
+  const Vector3d accel = accel_.corrupt(force, elapsed_s());
+  reading.angular_velocity = params_.noise.rate.quantised(rate) + white(0);
+  reading.linear_acceleration = params_.noise.accel.quantised(accel) + white(3);
   reading.orientation = q_RW_ * pose().q;
   if (params_.noisy_orientation) {
     // A component of a small rotation's quaternion is half its angle.
     const Vector3d half = white(6);
-    reading.orientation = reading.orientation * Eigen::Quaterniond(1.0, half.x(), half.y(), half.z());
+    reading.orientation =
+        reading.orientation * Eigen::Quaterniond(1.0, half.x(), half.y(), half.z());
   }
   reading.orientation.normalize();
   const double variance = std * std;

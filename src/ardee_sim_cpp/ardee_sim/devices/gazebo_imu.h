@@ -5,23 +5,22 @@
 #include <string>
 
 #include "ardee_sim/devices/inertial_sensor.h"
-#include "ardee_sim/devices/sensor_model.h"
+#include "ardee_sim/devices/sdf_imu_noise.h"
 
 namespace ardee {
 
 /// libgazebo_ros_imu.so, a model plugin, and libgazebo_ros_imu_sensor.so, in a <sensor type="imu">.
-/// The first has no gravity in its acceleration (0 at rest) unless <gravity> is true; the second has,
-/// and the errors of its <imu> block. Both add white noise of <gaussianNoise>. <xyzOffset> and
+/// The first has no gravity in its acceleration (0 at rest) unless <gravity> is true; the second
+/// has, and the errors of its <imu> block. Both add white noise of <gaussianNoise>. <xyzOffset> and
 /// <rpyOffset> are the mounting in the body. Unlike the stock ones they rotate the right way, find
 /// bodies in their own robot only, and keep orientations of unit length.
 class GazeboImu : public InertialSensor {
  public:
   struct Params {
     Mount mount;
-    SensorErrors accel{};
-    SensorErrors rate{};
-    double gaussian_noise = 0.0;          // rad/s and m/s^2, as the stock plugins have it
-    bool noisy_orientation = false;       // gaussian_noise on the quaternion's components too
+    SdfImuNoise noise{};
+    double gaussian_noise = 0.0;     // rad/s and m/s^2, as the stock plugins have it
+    bool noisy_orientation = false;  // gaussian_noise on the quaternion's components too
     bool feels_gravity = true;
     bool initial_orientation_is_reference = false;
     std::string topic{};

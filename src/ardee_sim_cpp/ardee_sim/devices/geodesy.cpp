@@ -55,8 +55,8 @@ GeoPoint geodetic_from_ecef(const Vector3d& ecef_m) {
   }
   const double sine = std::sin(latitude), cosine = std::cos(latitude);
   // Along the normal: right at the poles and at the equator.
-  const double altitude = out * cosine + ecef_m.z() * sine -
-                          kEquator_m * std::sqrt(1.0 - kEccentricity2 * sine * sine);
+  const double altitude =
+      out * cosine + ecef_m.z() * sine - kEquator_m * std::sqrt(1.0 - kEccentricity2 * sine * sine);
   return {latitude / kDegree, std::atan2(ecef_m.y(), ecef_m.x()) / kDegree, altitude};
 }
 

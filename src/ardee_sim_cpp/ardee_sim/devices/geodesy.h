@@ -12,8 +12,8 @@ struct GeoPoint {
   double altitude_m = 0.0;
 };
 
-/// A level frame on the Earth: x points along `heading`, clockwise from north (90 degrees: x is east
-/// and y north).
+/// A level frame on the Earth: x points along `heading`, clockwise from north (90 degrees: x is
+/// east and y north).
 class LocalFrame {
  public:
   /// kFlat: metres to degrees by the radii of curvature at the origin, as hector_gazebo does;
@@ -39,8 +39,8 @@ class LocalFrame {
   GeoPoint origin_;
   double heading_rad_;
   Projection projection_;
-  double radius_north_m_ = 0.0;   // of the meridian
-  double radius_east_m_ = 0.0;    // of the circle of latitude
+  double radius_north_m_ = 0.0;  // of the meridian
+  double radius_east_m_ = 0.0;   // of the circle of latitude
   Eigen::Vector3d origin_ecef_m_;
   Eigen::Matrix3d ecef_from_enu_;
 };

@@ -78,8 +78,7 @@ FixReading Gps::fix(TimeNs now_ns, const Vector3d& measured_W, const Sky& sky,
   const double sine = std::sin(frame_on_earth_.heading_rad());
   const double share = sine * sine;
   reading.covariance = {share * variance_m2.x() + (1.0 - share) * variance_m2.y(),
-                        (1.0 - share) * variance_m2.x() + share * variance_m2.y(),
-                        variance_m2.z()};
+                        (1.0 - share) * variance_m2.x() + share * variance_m2.y(), variance_m2.z()};
   if (sky.has_fix) {
     const GeoPoint point = frame_on_earth_.to_geodetic(measured_W);
     reading.latitude_deg = point.latitude_deg;
@@ -99,9 +98,8 @@ void Gps::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) 
   const Vector3d velocity_W = velocity_.corrupt(twist().linear, elapsed_s());
   // As hector: what drifts in the velocity drifts in the position as its integral.
   position_.set_drift(position_.drift() + elapsed_s() * velocity_.drift());
-  const Vector3d variance_m2 =
-      sky.variance_factor * position_.variance() +
-      Vector3d::Constant(sky.extra_std_m * sky.extra_std_m);
+  const Vector3d variance_m2 = sky.variance_factor * position_.variance() +
+                               Vector3d::Constant(sky.extra_std_m * sky.extra_std_m);
   if (fix_output_.demanded) {
     sink.on_reading(fix_output_, fix(now_ns, position_W + error_W, sky, variance_m2));
   }

@@ -19,10 +19,10 @@ class Gps : public Sensor {
  protected:
   /// What the sky does to the receiver at one moment.
   struct Sky {
-    double offset_factor = 1.0;             // of the position's offset
-    double variance_factor = 1.0;           // of the variance of its noise and drift
+    double offset_factor = 1.0;              // of the position's offset
+    double variance_factor = 1.0;            // of the variance of its noise and drift
     Eigen::Vector3d extra_error_m{0, 0, 0};  // in the world's axes
-    double extra_std_m = 0.0;               // standard deviation of that
+    double extra_std_m = 0.0;                // standard deviation of that
     bool has_fix = true;
   };
   /// Of an antenna at a place in the world.

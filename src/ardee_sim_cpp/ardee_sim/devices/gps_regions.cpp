@@ -52,8 +52,8 @@ struct GpsRegions::Parts {
       } else if (band.name == kDensityBand) {
         density_bands.add(band, log);
       } else {
-        throw Error(band.source, std::string("found <") + band.name + ">, expected " +
-                                     kHeightBand + " or " + kDensityBand);
+        throw Error(band.source, std::string("found <") + band.name + ">, expected " + kHeightBand +
+                                     " or " + kDensityBand);
       }
     }
   }
@@ -77,8 +77,7 @@ struct GpsRegions::Parts {
     parameters.finish(log);
     // An antenna above the crop sees the sky.
     plot.region.size_m = {row_length_m, rows * row_width_m, plot.height_m + kBelowGround_m};
-    plot.region.pose.p =
-        middle + Eigen::Vector3d(0.0, 0.0, (plot.height_m - kBelowGround_m) / 2.0);
+    plot.region.pose.p = middle + Eigen::Vector3d(0.0, 0.0, (plot.height_m - kBelowGround_m) / 2.0);
     plot.region.pose.q = quaternion_from_rpy({0.0, 0.0, turn_rad});
     plots.push_back(plot);
   }
@@ -171,8 +170,8 @@ GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& sc
   }
   regions_ = std::move(parts.boxes);
   for (Parts::Plot& plot : parts.plots) {
-    plot.region.noise = combined(parts.height_bands.at(plot.height_m),
-                                 parts.density_bands.at(plot.density_per_m2));
+    plot.region.noise =
+        combined(parts.height_bands.at(plot.height_m), parts.density_bands.at(plot.density_per_m2));
     regions_.push_back(plot.region);
   }
 }

@@ -14,11 +14,11 @@ namespace ardee {
 
 /// What a place does to the GPS. Factors are those of the open sky's noise.
 struct GpsNoise {
-  double mean_factor = 1.0;      // of its mean, the offset
-  double variance_factor = 1.0;  // of its variance
-  double correlated_std_m = 0.0; // of an error that comes and goes slowly, each axis
-  double loss_rate_hz = 0.0;     // losses of the fix a second
-  double loss_duration_s = 0.0;  // their mean duration
+  double mean_factor = 1.0;       // of its mean, the offset
+  double variance_factor = 1.0;   // of its variance
+  double correlated_std_m = 0.0;  // of an error that comes and goes slowly, each axis
+  double loss_rate_hz = 0.0;      // losses of the fix a second
+  double loss_duration_s = 0.0;   // their mean duration
 };
 
 /// Both together: factors multiply, errors add as independent ones do.
@@ -62,8 +62,8 @@ struct GpsRegion {
   bool contains(const Eigen::Vector3d& point_W) const;
 };
 
-/// The regions of the variable-accuracy GPS (thesis 4.3.1, Listings A.6 and A.7), from what a plugin
-/// says and from the files that it names.
+/// The regions of the variable-accuracy GPS (thesis 4.3.1, Listings A.6 and A.7), from what a
+/// plugin says and from the files that it names.
 class GpsRegions {
  public:
   GpsRegions() = default;

@@ -44,8 +44,8 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
   constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
   Parameters parameters(plugin.element);
   Params params{read_gps_params(parameters, context)};
-  params.correlation_time_s = parameters.number(
-      "correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
+  params.correlation_time_s =
+      parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
   const std::string space = plugin_namespace(parameters, context);
   const auto topic = [&](const char* key, const char* name) {
     return parameters.has(key) ? resolve_topic(parameters.text(key, ""), space)
@@ -55,8 +55,7 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
   params.regions_topic = topic("regionsTopicName", "regions");
   parameters.ignore({"field_gps_noise_characteristics", "plot", "periodic_noise_box",
                      "geofenceFile", "plotsFile"});
-  params.regions =
-      GpsRegions(plugin.element, context.surroundings.scenery_files(), context.log);
+  params.regions = GpsRegions(plugin.element, context.surroundings.scenery_files(), context.log);
   parameters.finish(context.log);
   return std::make_unique<GpsWithDropout>(plugin.name, params);
 }
@@ -143,9 +142,8 @@ void GpsWithDropout::report(TimeNs now_ns, const Sky& sky, const Vector3d& error
   reading.region = region_;
   reading.position_std_m = std::sqrt(0.5 * (std_m.x() * std_m.x() + std_m.y() * std_m.y()));
   reading.has_fix = sky.has_fix;
-  reading.error_m = sky.has_fix
-                        ? frame_on_earth().to_enu(error_W)
-                        : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  reading.error_m = sky.has_fix ? frame_on_earth().to_enu(error_W)
+                                : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   sink.on_reading(quality_output_, reading);
 }
 

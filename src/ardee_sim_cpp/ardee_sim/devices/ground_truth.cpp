@@ -7,8 +7,7 @@ namespace ardee {
 
 using Eigen::Vector3d;
 
-std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin,
-                                          DeviceContext& context) {
+std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, DeviceContext& context) {
   constexpr double kMostHz = 1e6;
   Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
@@ -17,11 +16,9 @@ std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin,
   params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   const std::string frame = parameters.text("frameName", "world");
-  const bool is_world =
-      frame == "world" || frame == "/world" || frame == "map" || frame == "/map";
+  const bool is_world = frame == "world" || frame == "/world" || frame == "map" || frame == "/map";
   if (!is_world) {
-    params.reference_link =
-        context.robot.link_index(frame, parameters.block("frameName")->source);
+    params.reference_link = context.robot.link_index(frame, parameters.block("frameName")->source);
   }
   params.frame = resolve_frame(frame, space, context);
   params.child_frame = resolve_frame(body, space, context);
@@ -48,8 +45,7 @@ void GroundTruth::relative_state(Pose& pose, Twist& twist) const {
   const Twist twist_WR = robot.link_twist(*params_.reference_link);
   const Vector3d arm = pose.p - X_WR.p;
   const Eigen::Quaterniond q_RW = X_WR.q.conjugate();
-  twist.linear =
-      q_RW * Vector3d(twist.linear - twist_WR.linear - twist_WR.angular.cross(arm));
+  twist.linear = q_RW * Vector3d(twist.linear - twist_WR.linear - twist_WR.angular.cross(arm));
   twist.angular = q_RW * Vector3d(twist.angular - twist_WR.angular);
   pose = X_WR.inverse() * pose;
 }

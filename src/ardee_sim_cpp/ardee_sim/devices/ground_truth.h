@@ -9,9 +9,10 @@
 
 namespace ardee {
 
-/// libgazebo_ros_p3d.so: where a link really is, in the world or seen from another link of the robot
-/// (<frameName>), turned by <rpyOffset> and shifted by <xyzOffset> in that frame. <gaussianNoise> is
-/// on the velocities. These are in the axes of <frameName>, as the stock plugin has them;
+/// libgazebo_ros_p3d.so: where a link really is, in the world or seen from another link of the
+/// robot
+/// (<frameName>), turned by <rpyOffset> and shifted by <xyzOffset> in that frame. <gaussianNoise>
+/// is on the velocities. These are in the axes of <frameName>, as the stock plugin has them;
 /// <local_twist> turns them into the link's, as nav_msgs/Odometry says.
 class GroundTruth : public Sensor {
  public:

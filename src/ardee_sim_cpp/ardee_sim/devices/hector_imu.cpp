@@ -12,7 +12,8 @@ using Eigen::Vector3d;
 HectorImu::Params read(const PluginDescription& plugin, DeviceContext& context) {
   Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
-  HectorImu::Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
+  HectorImu::Params params{
+      {context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
   params.mount.X_LS = Pose::from_xyz_rpy(parameters.vector3("xyzOffset", Vector3d::Zero()),
                                          parameters.vector3("rpyOffset", Vector3d::Zero()));
   read_update_times(parameters, 0.0, params.mount);

@@ -20,8 +20,7 @@ Vector3d rotation_vector(Eigen::Quaterniond q) {
 }  // namespace
 
 Vector3d InertialMotion::velocity(const Twist& link_twist_W) const {
-  return link_twist_W.linear +
-         link_twist_W.angular.cross(robot_.link_pose(link_).q * X_LS_.p);
+  return link_twist_W.linear + link_twist_W.angular.cross(robot_.link_pose(link_).q * X_LS_.p);
 }
 
 void InertialMotion::reset(TimeNs now_ns) {

@@ -38,10 +38,10 @@ class InertialMotion {
   std::size_t link_;
   Pose X_LS_;
   TimeNs begun_ns_ = 0;
-  Pose X_WS_;                                // when the step began
-  Twist link_twist_W_;                       // when the last step ended
-  Eigen::Vector3d velocity_W_{0, 0, 0};      // mean over the last step
-  Mean sum_;                                 // times seconds
+  Pose X_WS_;                            // when the step began
+  Twist link_twist_W_;                   // when the last step ended
+  Eigen::Vector3d velocity_W_{0, 0, 0};  // mean over the last step
+  Mean sum_;                             // times seconds
   double summed_s_ = 0.0;
 };
 

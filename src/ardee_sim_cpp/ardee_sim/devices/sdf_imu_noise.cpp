@@ -7,7 +7,8 @@ namespace ardee {
 namespace {
 
 /// One axis' errors from the element that holds <mean>, <stddev> and so on.
-void read_axis(const Element& noise, int axis, Rng& random, SensorErrors& errors, Log& log) {
+void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+  SensorErrors& errors = axes.errors;
   Parameters parameters(noise);
   const auto type = noise.attributes.find("type");
   const std::string kind =
@@ -18,13 +19,17 @@ void read_axis(const Element& noise, int axis, Rng& random, SensorErrors& errors
   const double bias_std = parameters.number("bias_stddev", 0.0, 0.0);
   const double bias_density = parameters.number("dynamic_bias_stddev", 0.0, 0.0);
   const double bias_time_s = parameters.number("dynamic_bias_correlation_time", 0.0, 0.0);
-  parameters.ignore({"type", "precision"});
+  const double precision = parameters.number("precision", 0.0, 0.0);
+  parameters.ignore({"type"});
   parameters.finish(log);
   const double drawn = bias_mean + bias_std * random.normal();
   const double bias = random.uniform() < 0.5 ? -drawn : drawn;
   if (kind == "none") return;
-  if (kind != "gaussian") {
-    throw Error(noise.source, "found noise type '" + kind + "', expected gaussian or none");
+  if (kind == "gaussian_quantized") {
+    axes.precision[axis] = precision;
+  } else if (kind != "gaussian") {
+    throw Error(noise.source,
+                "found noise type '" + kind + "', expected gaussian, gaussian_quantized or none");
   }
   errors.offset[axis] = mean + bias;
   errors.gaussian_noise[axis] = std;
@@ -33,24 +38,33 @@ void read_axis(const Element& noise, int axis, Rng& random, SensorErrors& errors
   errors.drift_frequency_hz[axis] = 1.0 / bias_time_s;
 }
 
-void read_axes(const Element* vector, Rng& random, SensorErrors& errors, Log& log) {
+void read_axes(const Element* vector, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
   static constexpr const char* kAxes[] = {"x", "y", "z"};
-  errors.mode = NoiseMode::kExact;
+  axes.errors.mode = NoiseMode::kExact;
   if (!vector) return;
   for (int axis = 0; axis < 3; ++axis) {
     const Element* component = vector->child(kAxes[axis]);
     const Element* noise = component ? component->child("noise") : nullptr;
-    if (noise) read_axis(*noise, axis, random, errors, log);
+    if (noise) read_axis(*noise, axis, random, axes, log);
   }
 }
 
 /// SDF 1.4: one block for all three axes.
-void read_common(const Element* noise, Rng& random, SensorErrors& errors, Log& log) {
+void read_common(const Element* noise, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
   if (!noise) return;
-  for (int axis = 0; axis < 3; ++axis) read_axis(*noise, axis, random, errors, log);
+  for (int axis = 0; axis < 3; ++axis) read_axis(*noise, axis, random, axes, log);
 }
 
 }  // namespace
+
+Eigen::Vector3d SdfImuNoise::Axes::quantised(const Eigen::Vector3d& value) const {
+  Eigen::Vector3d rounded = value;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = precision[axis];
+    if (step > 0.0) rounded[axis] = step * std::round(value[axis] / step);
+  }
+  return rounded;
+}
 
 SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key, Log& log) {
   SdfImuNoise noise;

@@ -7,8 +7,15 @@ namespace ardee {
 
 /// The errors of SDF's <imu> block, in rad/s and m/s^2.
 struct SdfImuNoise {
-  SensorErrors rate;
-  SensorErrors accel;
+  /// Of one vector.
+  struct Axes {
+    SensorErrors errors{};
+    Eigen::Vector3d precision{0, 0, 0};  // values are multiples of it; 0: not quantised
+
+    Eigen::Vector3d quantised(const Eigen::Vector3d& value) const;
+  };
+  Axes rate;
+  Axes accel;
 };
 
 /// Reads <angular_velocity> and <linear_acceleration> with a <noise> an axis, or SDF 1.4's <noise>

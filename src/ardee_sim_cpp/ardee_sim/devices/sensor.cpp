@@ -4,7 +4,10 @@
 namespace ardee {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
-    : Device(name), mount_(mount), timer_(mount.rate_hz, mount.offset_ns), stream_(stream_key(mount.seed, name)) {}
+    : Device(name),
+      mount_(mount),
+      timer_(mount.rate_hz, mount.offset_ns),
+      stream_(stream_key(mount.seed, name)) {}
 
 void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
   follow(now_ns);

@@ -67,7 +67,8 @@ void BandNoise::design(double dt_s) {
   // The variance of filtered white noise is the energy of the impulse response, which has died away
   // after some periods of the lower corner.
   constexpr double kPeriods = 10.0, kMostSamples = 1e6;
-  const auto samples = static_cast<int>(std::min(kPeriods / (low_hz_ * dt_s) + 100.0, kMostSamples));
+  const auto samples =
+      static_cast<int>(std::min(kPeriods / (low_hz_ * dt_s) + 100.0, kMostSamples));
   double energy = 0.0;
   for (int i = 0; i < samples; ++i) {
     const double response = low_pass_.next(high_pass_.next(i == 0 ? 1.0 : 0.0));

@@ -24,8 +24,8 @@ struct VibrationParams {
 /// first is absent or zero.
 std::optional<VibrationParams> read_vibration(Parameters& parameters);
 
-/// Gaussian noise in a band of frequencies: white noise through Butterworth filters of second order,
-/// a high-pass at `low_hz` and a low-pass at `high_hz`, of unit variance.
+/// Gaussian noise in a band of frequencies: white noise through Butterworth filters of second
+/// order, a high-pass at `low_hz` and a low-pass at `high_hz`, of unit variance.
 class BandNoise {
  public:
   BandNoise(double low_hz, double high_hz) : low_hz_(low_hz), high_hz_(high_hz) {}

@@ -74,9 +74,9 @@ TEST(LocalFrame, heading_turns_x_from_north_clockwise) {
   const Vector3d x(1, 0, 0), y(0, 1, 0);
   const LocalFrame north(origin, 0.0, kFlat), east(origin, 90.0 * kDegree, kFlat);
   EXPECT_TRUE(north.to_nwu(x).isApprox(Vector3d(1, 0, 0)));
-  EXPECT_TRUE(north.to_nwu(y).isApprox(Vector3d(0, 1, 0)));   // west
-  EXPECT_TRUE(east.to_nwu(x).isApprox(Vector3d(0, -1, 0)));   // east
-  EXPECT_TRUE(east.to_nwu(y).isApprox(Vector3d(1, 0, 0)));    // north
+  EXPECT_TRUE(north.to_nwu(y).isApprox(Vector3d(0, 1, 0)));  // west
+  EXPECT_TRUE(east.to_nwu(x).isApprox(Vector3d(0, -1, 0)));  // east
+  EXPECT_TRUE(east.to_nwu(y).isApprox(Vector3d(1, 0, 0)));   // north
   EXPECT_TRUE(east.to_enu(x + 2 * y).isApprox(Vector3d(1, 2, 0)));
   EXPECT_GT(east.to_geodetic(100 * x).longitude_deg, origin.longitude_deg);
   EXPECT_GT(north.to_geodetic(100 * x).latitude_deg, origin.latitude_deg);

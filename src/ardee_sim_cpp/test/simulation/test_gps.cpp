@@ -17,9 +17,7 @@ constexpr const char* kReference =
 
 std::string gps(const std::string& keys) { return plugin("hector_gazebo_ros_gps", keys); }
 
-std::vector<FixReading> fixes(TestWorld& world) {
-  return world.recorder().on<FixReading>("/fix");
-}
+std::vector<FixReading> fixes(TestWorld& world) { return world.recorder().on<FixReading>("/fix"); }
 
 Vector3d local(const FixReading& fix, double heading_deg = 0.0) {
   const LocalFrame frame({40.1, -88.2, 220.0}, heading_deg * kDegree,
@@ -141,8 +139,8 @@ TEST(Gps, reference_from_the_world) {
 
 TEST(Gps, reference_is_set_by_the_service_with_its_radii) {
   TestWorld world(free_space(0.0), 0.01);
-  Entity& robot = world.spawn(still(gps(kReference)), "ball",
-                              Pose::from_xyz_rpy({0, 1000, 0}, {0, 0, 0}));
+  Entity& robot =
+      world.spawn(still(gps(kReference)), "ball", Pose::from_xyz_rpy({0, 1000, 0}, {0, 0, 0}));
   const auto& set_reference = std::get<std::function<void(const GeoPose&)>>(
       service(robot, "/fix/set_reference_geopose").act);
   GeoPose place{60.0, 25.0, 7.0, Eigen::Quaterniond::Identity()};  // x is east

@@ -47,8 +47,7 @@ std::vector<GpsQualityReading> quality(TestWorld& world) {
 }
 
 /// Quality readings of a robot that stands still for a number of samples.
-std::vector<GpsQualityReading> stand(const std::string& keys, const Pose& pose,
-                                     std::size_t count) {
+std::vector<GpsQualityReading> stand(const std::string& keys, const Pose& pose, std::size_t count) {
   TestWorld world(free_space(0.0), 0.1);
   world.spawn(still(gps(keys)), "ball", pose);
   for (const std::string& message : world.messages()) ADD_FAILURE() << message;
@@ -67,9 +66,8 @@ std::vector<double> east_errors(const std::vector<GpsQualityReading>& readings) 
 }
 
 const std::string kTwoPlots = plot("7", 0.0, 1.5) + plot("8", 30.0, 2.5);
-const std::string kBands =
-    bands(band("0", "2", "<mean>1</mean><variance>4</variance>") +
-          band("2", "-1", "<mean>1</mean><variance>25</variance>"));
+const std::string kBands = bands(band("0", "2", "<mean>1</mean><variance>4</variance>") +
+                                 band("2", "-1", "<mean>1</mean><variance>25</variance>"));
 
 TEST(GpsRegions, a_plot_is_its_rows_from_below_the_ground_to_the_crops_height) {
   const std::string keys = kBands + plot("3", 5.0, 1.5) + "<gaussianNoise>1</gaussianNoise>";
@@ -134,20 +132,19 @@ TEST(GpsRegions, density_bands_add_to_those_of_height) {
   const std::string density =
       "<biomass_density_noise_coefficient><r1>5</r1><r2>-1</r2><mean>1</mean><variance>9"
       "</variance></biomass_density_noise_coefficient>";
-  const std::string keys =
-      plot("1", 0.0, 1.0) +
-      bands(band("0", "2", "<mean>1</mean><variance>4</variance>") + density) +
-      "<gaussianNoise>0.1</gaussianNoise>";
+  const std::string keys = plot("1", 0.0, 1.0) +
+                           bands(band("0", "2", "<mean>1</mean><variance>4</variance>") + density) +
+                           "<gaussianNoise>0.1</gaussianNoise>";
   EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 0.1 * std::sqrt(4.0 * 9.0), 1e-9);
 }
 
 TEST(GpsRegions, correlated_error_is_a_gauss_markov_process) {
   const std::size_t count = 200000;
-  const std::string keys =
-      plot("1", 0.0, 2.5) +
-      bands(band("2", "-1", "<mean>1</mean><variance>1</variance>"
-                            "<correlated_std>1.37</correlated_std>")) +
-      "<correlationTime>2</correlationTime>";
+  const std::string keys = plot("1", 0.0, 2.5) +
+                           bands(band("2", "-1",
+                                      "<mean>1</mean><variance>1</variance>"
+                                      "<correlated_std>1.37</correlated_std>")) +
+                           "<correlationTime>2</correlationTime>";
   const auto readings = stand(keys, at(0), count);
   const std::vector<double> errors = east_errors(readings);
   const double phi = std::exp(-0.1 / 2.0);
@@ -163,10 +160,11 @@ TEST(GpsRegions, correlated_error_is_a_gauss_markov_process) {
 TEST(GpsRegions, fix_is_lost_as_often_and_as_long_as_said) {
   const std::size_t count = 200000;
   const double rate_hz = 0.2, duration_s = 1.5, dt_s = 0.1;
-  const std::string keys = plot("1", 0.0, 2.5) +
-                           bands(band("2", "-1", "<mean>1</mean><variance>1</variance>"
-                                                 "<fix_loss_rate>0.2</fix_loss_rate>"
-                                                 "<fix_loss_duration>1.5</fix_loss_duration>"));
+  const std::string keys =
+      plot("1", 0.0, 2.5) + bands(band("2", "-1",
+                                       "<mean>1</mean><variance>1</variance>"
+                                       "<fix_loss_rate>0.2</fix_loss_rate>"
+                                       "<fix_loss_duration>1.5</fix_loss_duration>"));
   TestWorld world(free_space(0.0), dt_s);
   world.spawn(still(gps(keys)), "ball", at(0));
   for (std::size_t i = 0; i < count; ++i) world->step();
@@ -193,10 +191,11 @@ TEST(GpsRegions, fix_is_lost_as_often_and_as_long_as_said) {
 }
 
 TEST(GpsRegions, fix_comes_back_outside) {
-  const std::string keys = plot("1", 0.0, 2.5) +
-                           bands(band("2", "-1", "<mean>1</mean><variance>1</variance>"
-                                                 "<fix_loss_rate>1000</fix_loss_rate>"
-                                                 "<fix_loss_duration>2</fix_loss_duration>"));
+  const std::string keys =
+      plot("1", 0.0, 2.5) + bands(band("2", "-1",
+                                       "<mean>1</mean><variance>1</variance>"
+                                       "<fix_loss_rate>1000</fix_loss_rate>"
+                                       "<fix_loss_duration>2</fix_loss_duration>"));
   TestWorld world(free_space(0.0), 0.1);
   world.spawn(ball(gps(keys)), "ball", at(0));
   world.run(1.0);
@@ -211,8 +210,7 @@ TEST(GpsRegions, periodic_box_draws_its_noise_anew_each_period) {
       "<periodic_noise_box><cx>0</cx><cy>0</cy><cz>0</cz><w>4</w><l>20</l><h>2</h><rot>0</rot>"
       "<nps>5</nps><nmpm>2</nmpm><nmpv>0.09</nmpv><nvpm>16</nvpm><nvpv>4</nvpv>"
       "</periodic_noise_box>";
-  const std::string keys =
-      box + "<gaussianNoise>0.1</gaussianNoise><offset>1 0 0</offset>";
+  const std::string keys = box + "<gaussianNoise>0.1</gaussianNoise><offset>1 0 0</offset>";
   EXPECT_EQ(region_at(keys, at(0, 9)), "box 0");
   EXPECT_EQ(region_at(keys, at(3, 0)), "");
   EXPECT_EQ(region_at(keys, at(0, 0, 1.5)), "");
@@ -292,15 +290,14 @@ TEST(GpsFiles, plots_of_the_worlds_field_and_the_geofence_on_the_path) {
     return quality(world).back().position_std_m;
   };
   EXPECT_NEAR(std_in_corn(), 0.5, 1e-9);
-  folder.write("custom_gps_behavior.geofence",
-               "<robot>" + bands(band("0", "-1", "<mean>1</mean><variance>100</variance>")) +
-                   "</robot>");
+  folder.write(
+      "custom_gps_behavior.geofence",
+      "<robot>" + bands(band("0", "-1", "<mean>1</mean><variance>100</variance>")) + "</robot>");
   EXPECT_NEAR(std_in_corn(), 1.0, 1e-9);
 }
 
 TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
-  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" +
-                           std::string(ARDEE_TEST_DATA) +
+  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + std::string(ARDEE_TEST_DATA) +
                            "/../../../ardee_geofence/default_gps_behavior.geofence</geofenceFile>";
   EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 1.37, 1e-9);
 }

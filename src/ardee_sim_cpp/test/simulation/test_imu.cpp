@@ -41,7 +41,8 @@ TEST(Imu, at_rest_on_the_ground_from_the_first_sample_after_settling) {
       "<sdf version='1.6'><model name='box'><pose>0 0 0.1 0 0 0</pose><link name='body'><inertial>"
       "<mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia></inertial>"
       "<collision name='c'><geometry><box><size>0.2 0.2 0.2</size></box></geometry></collision>"
-      "</link>" + hector("<updateRate>50</updateRate>") + "</model></sdf>";
+      "</link>" +
+      hector("<updateRate>50</updateRate>") + "</model></sdf>";
   TestWorld world(free_space(-kG) + ground_plane());
   world.spawn(box, "box");
   world.run(1.0);
@@ -61,8 +62,11 @@ TEST(Imu, any_mounting_feels_gravity_along_its_own_axes) {
     Pose pose;
     Vector3d expected;
   } cases[] = {
-      {"", Pose::from_xyz_rpy({0, 0, 0}, {roll, 0, 0}), {0, kG * std::sin(roll), kG * std::cos(roll)}},
-      {"", Pose::from_xyz_rpy({0, 0, 0}, {0, pitch, 0}),
+      {"",
+       Pose::from_xyz_rpy({0, 0, 0}, {roll, 0, 0}),
+       {0, kG * std::sin(roll), kG * std::cos(roll)}},
+      {"",
+       Pose::from_xyz_rpy({0, 0, 0}, {0, pitch, 0}),
        {-kG * std::sin(pitch), 0, kG * std::cos(pitch)}},
       {"<bodyName>nose</bodyName>", {}, {0, kG, 0}},
       {"<rpyOffset>0 1.5707963267948966 0</rpyOffset>", {}, {-kG, 0, 0}},
@@ -94,7 +98,8 @@ TEST(Imu, on_a_circle_feels_the_centripetal_acceleration) {
       world.spawn(ball(hector("<bodyName>nose</bodyName>") +
                        plugin("hector_gazebo_ros_imu",
                               "<topicName>tilted</topicName><xyzOffset>0 2 0</xyzOffset>"
-                              "<rpyOffset>0 0 1.5707963267948966</rpyOffset>", "tilted")),
+                              "<rpyOffset>0 0 1.5707963267948966</rpyOffset>",
+                              "tilted")),
                   "ball");
       spin(world, {0, 0, 0}, {0, 0, turn});
       world.run(0.2);
@@ -108,8 +113,7 @@ TEST(Imu, on_a_circle_feels_the_centripetal_acceleration) {
       }
       for (const ImuReading& reading : imu(world, "/tilted")) {
         // 2 m to the left; x points there.
-        expect_near(reading.linear_acceleration, {-2 * turn * turn, 0, 0},
-                    2 * turn * turn * share);
+        expect_near(reading.linear_acceleration, {-2 * turn * turn, 0, 0}, 2 * turn * turn * share);
         expect_near(reading.angular_velocity, {0, 0, turn}, turn * share);
       }
     }
@@ -186,10 +190,10 @@ TEST(Imu, rate_integrates_to_the_turn) {
 
 TEST(Imu, services_set_and_take_away_biases) {
   TestWorld world(free_space(-kG));
-  Entity& robot = world.spawn(
-      still(hector("<accelDriftFrequency>0</accelDriftFrequency><rateDriftFrequency>0"
-                   "</rateDriftFrequency><rateOffset>0 0 0.5</rateOffset>")),
-      "ball");
+  Entity& robot =
+      world.spawn(still(hector("<accelDriftFrequency>0</accelDriftFrequency><rateDriftFrequency>0"
+                               "</rateDriftFrequency><rateOffset>0 0 0.5</rateOffset>")),
+                  "ball");
   const auto set_bias = [&robot](const char* name, const Vector3d& bias) {
     std::get<std::function<void(const Vector3d&)>>(service(robot, name).act)(bias);
   };

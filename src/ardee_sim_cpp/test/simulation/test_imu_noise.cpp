@@ -28,16 +28,14 @@ std::vector<double> rates_z(const std::string& keys, std::size_t count, std::uin
 TEST(ImuNoise, white_noise_falls_as_the_root_of_the_averaging_time) {
   const double std = 0.02;
   const std::size_t count = 100000;
-  const std::vector<double> values =
-      rates_z("<rateGaussianNoise>0.02</rateGaussianNoise>", count);
+  const std::vector<double> values = rates_z("<rateGaussianNoise>0.02</rateGaussianNoise>", count);
   ASSERT_EQ(values.size(), count);
   const double n = std * std::sqrt(kStep_s);  // angle random walk, rad/s/sqrt(Hz)
   std::vector<double> slopes;
   for (const std::size_t window : {1u, 4u, 16u, 64u}) {
     const double tau_s = static_cast<double>(window) * kStep_s;
     // IEEE Std 952-1997, C.1.8: relative error 1 / sqrt(2 (count / window - 1)).
-    const double error =
-        kFourSigma / std::sqrt(2.0 * (static_cast<double>(count / window) - 1.0));
+    const double error = kFourSigma / std::sqrt(2.0 * (static_cast<double>(count / window) - 1.0));
     EXPECT_NEAR(allan_deviation(values, window) * std::sqrt(tau_s) / n, 1.0, error) << window;
   }
   const double slope =
@@ -60,8 +58,7 @@ TEST(ImuNoise, exact_drift_has_the_peak_of_a_gauss_markov_process) {
     const double variance =
         2.0 * drift * drift / ratio *
         (1.0 - (3.0 - 4.0 * std::exp(-ratio) + std::exp(-2.0 * ratio)) / (2.0 * ratio));
-    const double error =
-        kFourSigma / std::sqrt(2.0 * (static_cast<double>(count / window) - 1.0));
+    const double error = kFourSigma / std::sqrt(2.0 * (static_cast<double>(count / window) - 1.0));
     const double found = allan_deviation(values, window);
     EXPECT_NEAR(found / std::sqrt(variance), 1.0, error) << tau_s;
     if (found > largest) {
@@ -83,9 +80,9 @@ TEST(ImuNoise, same_seed_same_bytes_another_seed_another_noise) {
 }
 
 TEST(ImuNoise, goes_on_the_same_whoever_listens_and_begins_again_with_the_simulation) {
-  const std::string robot =
-      still(plugin("hector_gazebo_ros_imu", "<accelGaussianNoise>1</accelGaussianNoise>"
-                                            "<accelDrift>1</accelDrift>"));
+  const std::string robot = still(plugin("hector_gazebo_ros_imu",
+                                         "<accelGaussianNoise>1</accelGaussianNoise>"
+                                         "<accelDrift>1</accelDrift>"));
   TestWorld heard(""), unheard("");
   heard.spawn(robot, "ball");
   Entity& other = unheard.spawn(robot, "ball");
@@ -108,14 +105,13 @@ TEST(ImuNoise, goes_on_the_same_whoever_listens_and_begins_again_with_the_simula
 
 TEST(ImuNoise, stock_sensor_adds_sdf_noise_and_its_own) {
   const auto axis = [](const char* name, const char* mean, const char* std) {
-    return std::string("<") + name + "><noise type='gaussian'><mean>" + mean +
-           "</mean><stddev>" + std + "</stddev></noise></" + name + ">";
+    return std::string("<") + name + "><noise type='gaussian'><mean>" + mean + "</mean><stddev>" +
+           std + "</stddev></noise></" + name + ">";
   };
   const std::string sensor =
       "<sensor name='s' type='imu'><update_rate>0</update_rate><imu><angular_velocity>" +
-      axis("x", "0", "0") + axis("y", "0.5", "0.3") +
-      "</angular_velocity><linear_acceleration>" + axis("z", "-1", "0.4") +
-      "</linear_acceleration></imu>" +
+      axis("x", "0", "0") + axis("y", "0.5", "0.3") + "</angular_velocity><linear_acceleration>" +
+      axis("z", "-1", "0.4") + "</linear_acceleration></imu>" +
       plugin("gazebo_ros_imu_sensor",
              "<frameName>f</frameName><updateRateHZ>0</updateRateHZ><gaussianNoise>0.1"
              "</gaussianNoise>") +
@@ -142,10 +138,28 @@ TEST(ImuNoise, stock_sensor_adds_sdf_noise_and_its_own) {
   EXPECT_NEAR(std_of(roll), 0.1, 0.003);  // to first order
 }
 
-TEST(ImuNoise, stock_sensor_measures_once_a_second_unless_told) {
+TEST(ImuNoise, stock_sensor_quantises_and_has_a_bias_and_a_drift) {
   const std::string sensor =
-      "<sensor name='s' type='imu'><update_rate>100</update_rate>" +
-      plugin("gazebo_ros_imu_sensor", "<frameName>f</frameName>") + "</sensor>";
+      "<sensor name='s' type='imu'><update_rate>0</update_rate><imu><noise><type>gaussian</type>"
+      "<rate><mean>0</mean><stddev>0</stddev><bias_mean>0.2</bias_mean><bias_stddev>0</bias_stddev>"
+      "</rate><accel><type>gaussian_quantized</type><mean>0</mean><stddev>0.3</stddev>"
+      "<precision>0.25</precision></accel></noise></imu>" +
+      plugin("gazebo_ros_imu_sensor", "<frameName>f</frameName><updateRateHZ>0</updateRateHZ>") +
+      "</sensor>";
+  TestWorld world(free_space(-9.81), kStep_s);
+  world.spawn(ball("", "<static>true</static>", sensor), "ball");
+  world.run(1.0);
+  ASSERT_EQ(world.recorder().on<ImuReading>("/imu_data").size(), 100u);
+  for (const ImuReading& reading : world.recorder().on<ImuReading>("/imu_data")) {
+    EXPECT_NEAR(std::abs(reading.angular_velocity.y()), 0.2, 1e-12);  // of either sign
+    EXPECT_NEAR(std::remainder(reading.linear_acceleration.x(), 0.25), 0.0, 1e-12);
+  }
+}
+
+TEST(ImuNoise, stock_sensor_measures_once_a_second_unless_told) {
+  const std::string sensor = "<sensor name='s' type='imu'><update_rate>100</update_rate>" +
+                             plugin("gazebo_ros_imu_sensor", "<frameName>f</frameName>") +
+                             "</sensor>";
   TestWorld world(free_space(-9.81), kStep_s);
   world.spawn(ball("", "<static>true</static>", sensor), "ball");
   world.run(3.5);
