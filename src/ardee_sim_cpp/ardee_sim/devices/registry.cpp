@@ -3,6 +3,9 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/devices/battery.h"
+#include "ardee_sim/devices/diff_drive.h"
+#include "ardee_sim/devices/encoder.h"
 #include "ardee_sim/devices/gazebo_imu.h"
 #include "ardee_sim/devices/gps.h"
 #include "ardee_sim/devices/gps_with_dropout.h"
@@ -108,9 +111,13 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
 
 Registry builtin_registry() {
   Registry registry;
+  registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
+  registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
+  registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
   registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", GpsWithDropout::make);
   registry.add_model_sensor("libgazebo_ros_imu.so", GazeboImu::make_on_model);
   registry.add_model_sensor("libgazebo_ros_p3d.so", GroundTruth::make);

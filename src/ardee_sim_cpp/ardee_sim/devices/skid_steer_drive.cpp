@@ -23,24 +23,35 @@ std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& par
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Element* given = parameters.block(kKeys[i]);
     const Source& source = given ? given->source : parameters.source();
-    joints[i] = context.robot.joint_index(given ? given->text : kDefaults[i], source);
-    const JointType type = context.robot.model().joints[joints[i]].type;
-    if (type != JointType::kRevolute && type != JointType::kContinuous) {
-      throw Error(source, std::string("found a joint that does not turn for ") + kKeys[i] +
-                              ", expected a continuous or revolute one");
-    }
+    joints[i] = turning_joint(context, given ? given->text : kDefaults[i], source);
   }
   return joints;
 }
 
-SkidSteerDrive::OdometrySource read_source(Parameters& parameters) {
-  const std::string source = parameters.text("odometrySource", "world");
-  if (source == "world" || source == "1") return SkidSteerDrive::OdometrySource::kWorld;
-  if (source == "encoder" || source == "0") return SkidSteerDrive::OdometrySource::kEncoder;
-  throw parameters.error("odometrySource", "expected world or encoder");
+/// Encoders on all wheels, where the plugin asks for them.
+void read_encoders(Parameters& parameters, const std::string& space, bool always,
+                   const DeviceContext& context, SkidSteerDrive::Params& params) {
+  static constexpr std::array<const char*, SkidSteerDrive::kWheelCount> kKeys = {
+      "leftFrontEncoderTopic", "rightFrontEncoderTopic", "leftRearEncoderTopic",
+      "rightRearEncoderTopic"};
+  static constexpr std::array<const char*, SkidSteerDrive::kWheelCount> kDefaults = {
+      "ardee/encoder/fl", "ardee/encoder/fr", "ardee/encoder/rl", "ardee/encoder/rr"};
+  if (!always && !parameters.has("pulsesPR")) return;
+  for (std::size_t wheel = 0; wheel < SkidSteerDrive::kWheelCount; ++wheel) {
+    WheelEncoder::Params encoder = read_encoder_params(parameters);
+    encoder.wheel_diameter_m = params.wheel_diameter_m;
+    encoder.joint = params.joints[wheel];
+    encoder.id = static_cast<int>(wheel);
+    const Joint& joint = context.robot.model().joints[encoder.joint];
+    encoder.frame = resolve_frame(joint.child, space, context);
+    params.encoders.push_back(encoder);
+    params.encoder_topics[wheel] =
+        resolve_topic(parameters.text(kKeys[wheel], kDefaults[wheel]), space);
+  }
 }
 
-SkidSteerDrive::Params read(const PluginDescription& plugin, DeviceContext& context) {
+SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
+                            DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
   Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
@@ -55,7 +66,7 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, DeviceContext& cont
   params.covariance_y = parameters.number("covariance_y", 1e-4, 0.0);
   params.covariance_yaw = parameters.number("covariance_yaw", 0.01, 0.0);
   params.broadcast_tf = parameters.boolean("broadcastTF", false);
-  params.source = read_source(parameters);
+  params.source = read_odometry_source(parameters);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
   const auto frame = [&](const char* key, const char* fallback) {
@@ -67,6 +78,7 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, DeviceContext& cont
   };
   params.odometry_frame = frame("odometryFrame", "odom");
   params.base_frame = frame("robotBaseFrame", "base_footprint");
+  read_encoders(parameters, space, with_encoders, context, params);
   parameters.ignore({"topicName", "alwaysOn"});  // in Listing A.13; the stock plugin reads neither
   parameters.finish(context.log);
   return params;
@@ -76,7 +88,12 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, DeviceContext& cont
 
 std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
                                              DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, context), context.robot);
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, false, context), context.robot);
+}
+
+std::unique_ptr<Device> SkidSteerDrive::make_with_encoders(const PluginDescription& plugin,
+                                                           DeviceContext& context) {
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, true, context), context.robot);
 }
 
 SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Robot& robot)
@@ -85,12 +102,15 @@ SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Ro
       robot_(robot),
       command_timer_(params.update_rate_hz),
       odometry_timer_(params.update_rate_hz),
+      command_(params.command_timeout_s),
       odometry_output_(add_output(params.odometry_topic, reading_kind<OdometryReading>())) {
   if (params_.broadcast_tf) tf_output_ = &add_output("/tf", reading_kind<TransformReading>());
-  add_input(params_.command_topic, [this](const Twist& command) {
-    command_ = command;
-    command_is_new_ = true;
-  });
+  for (std::size_t wheel = 0; wheel < params_.encoders.size(); ++wheel) {
+    encoders_.emplace_back(params_.encoders[wheel], robot_);
+    encoder_outputs_.push_back(
+        &add_output(params_.encoder_topics[wheel], reading_kind<EncoderReading>()));
+  }
+  add_input(params_.command_topic, [this](const Twist& command) { command_.set(command); });
   reset(0);
 }
 
@@ -100,25 +120,18 @@ double SkidSteerDrive::side_speed(const Params& params, const Twist& command, bo
 }
 
 void SkidSteerDrive::before_step(TimeNs now_ns) {
-  if (command_is_new_) {
-    command_is_new_ = false;
-    command_time_ns_ = now_ns;
-  }
-  if (params_.command_timeout_s > 0.0 &&
-      now_ns - command_time_ns_ > nanoseconds(params_.command_timeout_s)) {
-    command_ = Twist{};
-  }
+  const Twist& command = command_.at(now_ns);
   if (!command_timer_.due(now_ns)) return;
   PhysicsModel& dynamics = robot_.dynamics();
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     const bool left = wheel == kLeftFront || wheel == kLeftRear;
-    const double speed = side_speed(params_, command_, left);
+    const double speed = side_speed(params_, command, left);
     dynamics.set_joint_motor(params_.joints[wheel], std::clamp(speed, -kFastest, kFastest),
                              params_.torque_n_m);
   }
 }
 
-void SkidSteerDrive::integrate_encoders() {
+void SkidSteerDrive::integrate_wheels() {
   const PhysicsModel& dynamics = robot_.dynamics();
   std::array<double, kWheelCount> turned{};
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
@@ -127,16 +140,9 @@ void SkidSteerDrive::integrate_encoders() {
     wheel_angles_[wheel] = angle;
   }
   const double radius = params_.wheel_diameter_m / 2.0;
-  const double left = radius * (turned[kLeftFront] + turned[kLeftRear]) / 2.0;
-  const double right = radius * (turned[kRightFront] + turned[kRightRear]) / 2.0;
-  const double turn = (right - left) / params_.wheel_separation_m;
-  const double yaw = rpy_from_quaternion(encoder_pose_.q).z();
-  // Along the chord of the arc: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots,
-  // eq. 5.7.
-  const double heading = yaw + turn / 2.0;
-  encoder_pose_.p +=
-      0.5 * (left + right) * Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.0);
-  encoder_pose_.q = quaternion_from_rpy({0.0, 0.0, yaw + turn});
+  wheel_odometry_.roll(radius * (turned[kLeftFront] + turned[kLeftRear]) / 2.0,
+                       radius * (turned[kRightFront] + turned[kRightRear]) / 2.0,
+                       params_.wheel_separation_m);
 }
 
 OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
@@ -159,7 +165,7 @@ OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
     };
     const double left = side(kLeftFront, kLeftRear);
     const double right = side(kRightFront, kRightRear);
-    reading.pose = encoder_pose_;
+    reading.pose = wheel_odometry_.pose();
     reading.twist.linear.x() = 0.5 * (left + right);
     reading.twist.angular.z() = (right - left) / params_.wheel_separation_m;
   }
@@ -170,7 +176,10 @@ OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
 
 void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!odometry_timer_.due(now_ns)) return;
-  if (params_.source == OdometrySource::kEncoder) integrate_encoders();
+  if (params_.source == OdometrySource::kEncoder) integrate_wheels();
+  for (std::size_t wheel = 0; wheel < encoders_.size(); ++wheel) {
+    sink.on_reading(*encoder_outputs_[wheel], encoders_[wheel].read(now_ns));
+  }
   OdometryReading reading = odometry(now_ns);
   if (tf_output_) {
     sink.on_reading(*tf_output_,
@@ -183,14 +192,13 @@ void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void SkidSteerDrive::reset(TimeNs now_ns) {
-  command_ = Twist{};
-  command_is_new_ = false;
-  command_time_ns_ = now_ns;
+  command_.reset(now_ns);
   command_timer_.reset();
   command_timer_.start_at(now_ns);
   odometry_timer_.reset();
   odometry_timer_.start_at(now_ns + 1);
-  encoder_pose_ = Pose{};
+  wheel_odometry_.reset();
+  for (WheelEncoder& encoder : encoders_) encoder.reset(now_ns);
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     wheel_angles_[wheel] = robot_.dynamics().joint_position(params_.joints[wheel]);
   }

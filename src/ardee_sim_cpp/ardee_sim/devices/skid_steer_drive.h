@@ -4,17 +4,20 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/drive_command.h"
+#include "ardee_sim/devices/wheel_encoder.h"
+#include "ardee_sim/devices/wheel_odometry.h"
 
 namespace ardee {
 
 /// libgazebo_ros_skid_steer_drive.so (thesis 4.4.4, Listing A.3): four wheels, those of a side at
 /// one speed. Each wheel's motor has at most `torque`; there is no PID and no acceleration limit,
-/// and the last command stays unless a timeout is set.
+/// and the last command stays unless a timeout is set. With <pulsesPR> each wheel has an encoder
+/// (thesis 4.3.1); libardee_ros_skid_steer_drive.so has them always.
 class SkidSteerDrive : public Device {
  public:
-  enum class OdometrySource { kWorld, kEncoder };
   enum Wheel { kLeftFront, kRightFront, kLeftRear, kRightRear, kWheelCount };
 
   struct Params {
@@ -33,9 +36,13 @@ class SkidSteerDrive : public Device {
     std::string odometry_topic;
     std::string odometry_frame;
     std::string base_frame;
+    std::vector<WheelEncoder::Params> encoders;  // none, or one a wheel
+    std::array<std::string, kWheelCount> encoder_topics;
   };
 
   static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make_with_encoders(const PluginDescription& plugin,
+                                                    DeviceContext& context);
   SkidSteerDrive(const std::string& name, const Params& params, Robot& robot);
 
   /// Wheel speed in rad/s of one side for a command (v in m/s, w in rad/s): (v -+ w * separation /
@@ -47,18 +54,18 @@ class SkidSteerDrive : public Device {
   void reset(TimeNs now_ns) override;
 
  private:
-  void integrate_encoders();
+  void integrate_wheels();
   OdometryReading odometry(TimeNs now_ns) const;
 
   Params params_;
   Robot& robot_;
   RateTimer command_timer_;
   RateTimer odometry_timer_;
-  Twist command_;
-  bool command_is_new_ = false;
-  TimeNs command_time_ns_ = 0;
+  DriveCommand command_;
   std::array<double, kWheelCount> wheel_angles_{};
-  Pose encoder_pose_;
+  WheelOdometry wheel_odometry_;
+  std::vector<WheelEncoder> encoders_;
+  std::vector<Output*> encoder_outputs_;
   Output& odometry_output_;
   Output* tf_output_ = nullptr;
 };

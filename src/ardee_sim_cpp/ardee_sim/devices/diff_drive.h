@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/drive_command.h"
+#include "ardee_sim/devices/wheel_encoder.h"
+#include "ardee_sim/devices/wheel_odometry.h"
+
+namespace ardee {
+
+/// libgazebo_ros_diff_drive.so: two driven wheels.
+class DiffDrive : public Device {
+ public:
+  enum Wheel { kLeft, kRight, kWheelCount };
+
+  struct Params {
+    std::array<std::size_t, kWheelCount> joints{};
+    double wheel_separation_m = 0.34;
+    double wheel_diameter_m = 0.15;
+    double wheel_acceleration_m_per_s2 = 0.0;  // 0: at once
+    double torque_n_m = 5.0;
+    double update_rate_hz = 100.0;
+    double command_timeout_s = 0.0;  // 0: the last command stays
+    OdometrySource source = OdometrySource::kWorld;
+    bool legacy_mode = true;  // the stock plugin's default: left and right are swapped
+    bool publish_odometry = true;
+    bool publish_odometry_tf = true;
+    bool publish_wheel_tf = false;
+    bool publish_wheel_joints = false;
+    std::string command_topic;
+    std::string odometry_topic;
+    std::string joints_topic;
+    std::string odometry_frame;
+    std::string base_frame;
+    std::array<std::string, kWheelCount> wheel_frames;
+    std::array<std::string, kWheelCount> wheel_parent_frames;
+  };
+
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  DiffDrive(const std::string& name, const Params& params, Robot& robot);
+
+  void before_step(TimeNs now_ns) override;
+  void after_step(TimeNs now_ns, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override;
+
+ private:
+  /// Rim speeds in m/s, left and right, that the command asks for.
+  std::array<double, kWheelCount> wanted_speeds(const Twist& command) const;
+  void integrate_wheels();
+  OdometryReading odometry(TimeNs now_ns) const;
+  void publish_wheels(TimeNs now_ns, ReadingSink& sink) const;
+
+  Params params_;
+  Robot& robot_;
+  RateTimer command_timer_;
+  RateTimer odometry_timer_;
+  DriveCommand command_;
+  std::array<double, kWheelCount> speeds_m_per_s_{};  // asked of the wheels now
+  std::array<double, kWheelCount> wheel_angles_{};
+  TimeNs last_command_ns_ = 0;
+  WheelOdometry wheel_odometry_;
+  Output* odometry_output_ = nullptr;
+  Output* tf_output_ = nullptr;
+  Output* joints_output_ = nullptr;
+};
+
+}  // namespace ardee

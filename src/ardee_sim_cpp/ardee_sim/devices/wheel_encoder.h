@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// A rotary encoder on a wheel's joint. It counts whole pulses: the angle is a multiple of one
+/// pulse, and speeds are pulses counted over a short window, as a motor controller derives them.
+class WheelEncoder {
+ public:
+  struct Params {
+    std::size_t joint = 0;
+    int id = 0;
+    double wheel_diameter_m = 0.15;
+    double pulses_per_turn = 150.0;
+    double speed_window_s = 0.1;  // 0: from one reading to the next
+    bool ideal = false;           // angle and speed of the joint as they are, not in pulses
+    std::string frame;
+  };
+
+  WheelEncoder(const Params& params, Robot& robot) : params_(params), robot_(robot) { reset(0); }
+
+  EncoderReading read(TimeNs now_ns);
+  /// Counts from the wheel's present angle; angles stay those of the joint.
+  void reset(TimeNs now_ns);
+
+ private:
+  struct Count {
+    TimeNs time_ns = 0;
+    double pulses = 0.0;
+  };
+  double pulses() const;
+
+  Params params_;
+  Robot& robot_;
+  std::deque<Count> counts_;  // within the window, oldest first, at least one
+};
+
+/// The joint called `name`, which must turn; `source` is where the name was found.
+std::size_t turning_joint(const DeviceContext& context, const std::string& name,
+                          const Source& source);
+
+/// The keys that all encoders have: wheelDiameter, pulsesPR, speedWindow, ideal.
+WheelEncoder::Params read_encoder_params(Parameters& parameters);
+
+}  // namespace ardee
