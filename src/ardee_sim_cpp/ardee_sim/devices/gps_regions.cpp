@@ -135,7 +135,7 @@ struct GpsRegions::Parts {
       if (!file.empty()) folders.insert(folder_of(file));
     }
     for (const std::string& folder : folders) {
-      const std::string path = folder + "/plots.xacro";
+      const std::string path = (std::filesystem::path(folder) / "plots.xacro").string();
       std::error_code error;
       if (std::filesystem::is_regular_file(path, error)) add_file(path, source, log);
     }
