@@ -68,9 +68,10 @@ class GpsRegions {
  public:
   GpsRegions() = default;
   /// Inline <field_gps_noise_characteristics>, <plot>, <periodic_noise_box>; <geofenceFile> and
-  /// <plotsFile> with the same. Without plots of its own, those beside `scenery_files` (plots.xacro);
-  /// if there are plots but no bands, GAZEBO_RESOURCE_PATH's custom_gps_behavior.geofence, else
-  /// default_gps_behavior.geofence. Throws Error for what is missing or malformed.
+  /// <plotsFile> with the same. Without plots of its own, those beside `scenery_files`
+  /// (plots.xacro); if there are plots but no bands, GAZEBO_RESOURCE_PATH's
+  /// custom_gps_behavior.geofence, else default_gps_behavior.geofence. Throws Error for what is
+  /// missing or malformed.
   GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files, Log& log);
 
   /// The first that contains the point, boxes of periodic noise before plots; nullptr: open sky.
