@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GPS, IMU, magnetometer and ground truth over ROS: topics, types, rates, services, dynamic_reconfigure, geofence files."""
+"""GPS, IMU, magnetometer and ground truth over ROS: topics, rates, services, dynamic_reconfigure, geofences."""
 import math
 import pathlib
 import xml.etree.ElementTree as ElementTree
