@@ -31,6 +31,7 @@ OdometryFrames::OdometryFrames(bool enabled) : enabled_(enabled) {
 }
 
 void OdometryFrames::on_reading(const Robot& robot, const OdometryReading& reading) {
+  if (!reading.places_frame) return;
   // The height in odometry messages is 0, whatever the robot's.
   learn(robot, reading.header, reading.pose, true);
 }

@@ -17,7 +17,11 @@ using dynamic_reconfigure::Config;
 Config config_of(const Tuning& tuning, const std::function<double(const Tunable&)>& value) {
   Config config;
   for (const Tunable& parameter : tuning.parameters) {
-    if (parameter.type == Tunable::Type::kInt) {
+    if (parameter.type == Tunable::Type::kBool) {
+      auto& kept = config.bools.emplace_back();
+      kept.name = parameter.name;
+      kept.value = value(parameter) != 0.0;
+    } else if (parameter.type == Tunable::Type::kInt) {
       auto& kept = config.ints.emplace_back();
       kept.name = parameter.name;
       kept.value = static_cast<int>(std::lround(value(parameter)));
@@ -33,6 +37,11 @@ Config config_of(const Tuning& tuning, const std::function<double(const Tunable&
   return config;
 }
 
+const char* type_name(Tunable::Type type) {
+  if (type == Tunable::Type::kBool) return "bool";
+  return type == Tunable::Type::kInt ? "int" : "double";
+}
+
 dynamic_reconfigure::ConfigDescription describe(const Tuning& tuning) {
   dynamic_reconfigure::ConfigDescription description;
   auto& group = description.groups.emplace_back();
@@ -40,7 +49,7 @@ dynamic_reconfigure::ConfigDescription describe(const Tuning& tuning) {
   for (const Tunable& parameter : tuning.parameters) {
     auto& kept = group.parameters.emplace_back();
     kept.name = parameter.name;
-    kept.type = parameter.type == Tunable::Type::kInt ? "int" : "double";
+    kept.type = type_name(parameter.type);
     kept.description = parameter.description;
   }
   description.min = config_of(tuning, [](const Tunable& each) { return each.low; });
@@ -81,6 +90,7 @@ bool TuningServer::set(dynamic_reconfigure::Reconfigure::Request& request,
                        dynamic_reconfigure::Reconfigure::Response& response) {
   for (const auto& each : request.config.doubles) apply(tuning_, each.name, each.value);
   for (const auto& each : request.config.ints) apply(tuning_, each.name, each.value);
+  for (const auto& each : request.config.bools) apply(tuning_, each.name, each.value);
   response.config = current();
   updates_.publish(response.config);
   return true;

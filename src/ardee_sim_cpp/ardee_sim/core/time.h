@@ -20,8 +20,10 @@ TimeNs nanoseconds(double time_s);
 /// does is exactly periodic.
 class RateTimer {
  public:
-  /// rate_hz <= 0: due at each step.
-  explicit RateTimer(double rate_hz = 0.0) : rate_hz_(rate_hz) {}
+  /// rate_hz <= 0: due at each step. All firings come `offset_ns` later than those of a timer
+  /// without.
+  explicit RateTimer(double rate_hz = 0.0, TimeNs offset_ns = 0)
+      : rate_hz_(rate_hz), offset_ns_(offset_ns) {}
 
   /// True if a firing falls due at `now_ns`; missed firings (rate above the step's) are skipped,
   /// not made up for.
@@ -39,6 +41,7 @@ class RateTimer {
   TimeNs firing_time(std::uint64_t index) const;
 
   double rate_hz_;
+  TimeNs offset_ns_;
   std::uint64_t next_ = 0;
 };
 

@@ -4,12 +4,14 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/reading.h"
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/raycast/ray_scene.h"
@@ -45,8 +47,8 @@ struct GeoPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose. What
-/// it throws is the caller's answer.
+/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose.
+/// What it throws is the caller's answer.
 struct Service {
   using Act = std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
                            std::function<void(const GeoPose&)>>;
@@ -56,7 +58,7 @@ struct Service {
 
 /// A number of a device that may be changed while it runs.
 struct Tunable {
-  enum class Type { kDouble, kInt };
+  enum class Type { kDouble, kInt, kBool };
   std::string name;
   std::string description;
   Type type = Type::kDouble;
@@ -94,6 +96,14 @@ class ReadingSink {
   virtual void on_reading(const Output& output, const Reading& reading) = 0;
 };
 
+/// What a device may know of the world that its robot is in.
+struct Surroundings {
+  std::function<Eigen::Vector3d()> gravity_m_per_s2;  // as it is now
+  std::optional<SphericalCoordinates> spherical_coordinates;
+  /// Files that the static models come from, each once.
+  std::function<std::vector<std::string>()> scenery_files;
+};
+
 /// What a device is given when it is made. All references outlive the device.
 struct DeviceContext {
   Robot& robot;
@@ -104,6 +114,7 @@ struct DeviceContext {
   TimeNs step_ns = 0;
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+  Surroundings surroundings;
 };
 
 /// Something active on a robot: a controller, a sensor, a publisher of state.

@@ -22,6 +22,7 @@ struct OdometryReading {
   Twist twist;
   std::array<double, 6> pose_covariance{};
   std::array<double, 6> twist_covariance{};
+  bool places_frame = true;  // false: the frame in header has a place already (ground truth)
 };
 
 /// A transform for the tf tree.

@@ -33,4 +33,10 @@ std::string resolve_frame(const std::string& frame, const std::string& robot_nam
   return prefix + "/" + without_slashes(frame);
 }
 
+std::size_t plugin_link(Parameters& parameters, const DeviceContext& context) {
+  const Element* body = parameters.block("bodyName");
+  if (!body || body->text.empty()) return 0;
+  return context.robot.link_index(body->text, body->source);
+}
+
 }  // namespace ardee

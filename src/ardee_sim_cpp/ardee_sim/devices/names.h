@@ -21,4 +21,8 @@ std::string resolve_topic(const std::string& topic, const std::string& robot_nam
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
                           const DeviceContext& context);
 
+/// The link that a model plugin's <bodyName> names, of its own robot; the first where there is
+/// none. Throws Error if the robot has no such link.
+std::size_t plugin_link(Parameters& parameters, const DeviceContext& context);
+
 }  // namespace ardee

@@ -6,8 +6,14 @@
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/diff_drive.h"
 #include "ardee_sim/devices/encoder.h"
+#include "ardee_sim/devices/gazebo_imu.h"
+#include "ardee_sim/devices/gps.h"
+#include "ardee_sim/devices/gps_with_dropout.h"
+#include "ardee_sim/devices/ground_truth.h"
+#include "ardee_sim/devices/hector_imu.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/magnetometer.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
 
@@ -112,8 +118,15 @@ Registry builtin_registry() {
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
   registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
   registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
+  registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", GpsWithDropout::make);
+  registry.add_model_sensor("libgazebo_ros_imu.so", GazeboImu::make_on_model);
+  registry.add_model_sensor("libgazebo_ros_p3d.so", GroundTruth::make);
+  registry.add_model_sensor("libhector_gazebo_ros_gps.so", Gps::make);
+  registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
+  registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
   return registry;
 }
 

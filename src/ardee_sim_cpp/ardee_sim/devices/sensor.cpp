@@ -4,10 +4,16 @@
 namespace ardee {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
-    : Device(name), mount_(mount), timer_(mount.rate_hz), stream_(stream_key(mount.seed, name)) {}
+    : Device(name),
+      mount_(mount),
+      timer_(mount.rate_hz, mount.offset_ns),
+      stream_(stream_key(mount.seed, name)) {}
 
 void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
+  follow(now_ns);
   if (!timer_.due(now_ns) || !wanted()) return;
+  elapsed_s_ = seconds(now_ns - last_ns_);
+  last_ns_ = now_ns;
   // The frame's index counts unwanted frames too, so that noise does not depend on who listens.
   sample(now_ns, stream_.frame(timer_.count() - 1), sink);
 }
@@ -15,6 +21,22 @@ void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
 void Sensor::reset(TimeNs now_ns) {
   timer_.reset();
   timer_.start_at(now_ns + 1);
+  last_ns_ = now_ns;
+}
+
+Twist Sensor::twist() const {
+  const Pose X_WL = mount_.robot.link_pose(mount_.link);
+  Twist twist_W = mount_.robot.link_twist(mount_.link);
+  twist_W.linear += twist_W.angular.cross(X_WL.q * mount_.X_LS.p);
+  return twist_W;
+}
+
+void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount) {
+  constexpr double kMostHz = 1e6, kLongest_s = 1e6;
+  mount.rate_hz = parameters.number("updateRate", default_rate_hz, 0.0, kMostHz);
+  const double period_s = parameters.number("updatePeriod", 0.0, 0.0, kLongest_s);
+  if (period_s > 0.0) mount.rate_hz = 1.0 / period_s;
+  mount.offset_ns = nanoseconds(parameters.number("updateOffset", 0.0, 0.0, kLongest_s));
 }
 
 }  // namespace ardee

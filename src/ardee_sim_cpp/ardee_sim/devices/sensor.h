@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
 namespace ardee {
@@ -17,6 +18,7 @@ class Sensor : public Device {
     Pose X_LS;
     double rate_hz = 0.0;    // 0: at each step
     std::uint64_t seed = 0;  // of the robot; the sensor's own stream is derived from it by name
+    TimeNs offset_ns = 0;    // of the times at which it measures
   };
 
   Sensor(const std::string& name, const Mount& mount);
@@ -29,13 +31,25 @@ class Sensor : public Device {
   virtual void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) = 0;
   /// True if somebody listens to any output.
   virtual bool wanted() const = 0;
+  /// After each step, also those at which no sample is due.
+  virtual void follow(TimeNs /*now_ns*/) {}
   Pose pose() const { return mount_.robot.link_pose(mount_.link) * mount_.X_LS; }
   const Mount& mount() const { return mount_; }
+  /// Velocity of the sensor's origin, and angular velocity, in world axes.
+  Twist twist() const;
+  /// Since the sample before, or the reset; in sample().
+  double elapsed_s() const { return elapsed_s_; }
 
  private:
   Mount mount_;
   RateTimer timer_;
   CounterRng stream_;
+  TimeNs last_ns_ = 0;
+  double elapsed_s_ = 0.0;
 };
+
+/// When a hector_gazebo plugin measures: <updateRate> in Hz (0: at each step) or <updatePeriod> in
+/// s, from <updateOffset> in s on.
+void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount);
 
 }  // namespace ardee

@@ -2,6 +2,7 @@
 #include "ardee_sim/simulation/simulation.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "ardee_sim/core/rng.h"
@@ -130,9 +131,24 @@ void Simulation::build_devices(Entity& entity) {
                         stream_key(options_.seed, entity.name()),
                         entity.robot_namespace,
                         step_ns_,
-                        options_.tf_prefix};
+                        options_.tf_prefix,
+                        surroundings()};
   entity.devices = registry_.make_devices(context);
   for (const auto& device : entity.devices) device->reset(now_ns_);
+}
+
+Surroundings Simulation::surroundings() const {
+  Surroundings made;
+  made.gravity_m_per_s2 = [this] { return physics_.params().gravity_m_per_s2; };
+  made.spherical_coordinates = world_.spherical_coordinates;
+  made.scenery_files = [this] {
+    std::set<std::string> files;
+    for (const auto& entity : entities_) {
+      if (entity->is_static()) files.insert(entity->instance.model->source.file);
+    }
+    return std::vector<std::string>(files.begin(), files.end());
+  };
+  return made;
 }
 
 void Simulation::remove(const std::string& name) {

@@ -98,6 +98,7 @@ class Simulation {
   void step_physics();
   void sample_devices();
   void build_devices(Entity& entity);
+  Surroundings surroundings() const;
   void restore(Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);
   /// Puts back what the physics lost (a state that is not finite); the rest of the world goes on.

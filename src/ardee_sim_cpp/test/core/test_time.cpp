@@ -62,5 +62,16 @@ TEST(Time, RoundsToTheNearestNanosecond) {
   EXPECT_EQ(nanoseconds(0.1 + 0.2), 300 * kMillisecond);
 }
 
+TEST(RateTimer, offset_moves_all_firings) {
+  RateTimer timer(4.0, 100000000);
+  std::vector<TimeNs> fired_ms;
+  for (TimeNs now_ms = 0; now_ms <= 1000; now_ms += 10) {
+    if (timer.due(now_ms * 1000000)) fired_ms.push_back(now_ms);
+  }
+  EXPECT_EQ(fired_ms, (std::vector<TimeNs>{100, 350, 600, 850}));
+  timer.start_at(400000000);
+  EXPECT_EQ(timer.count(), 2u);
+}
+
 }  // namespace
 }  // namespace ardee

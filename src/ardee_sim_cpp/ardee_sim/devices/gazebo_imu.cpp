@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/gazebo_imu.h"
+
+#include <algorithm>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMostHz = 1e6;
+
+Pose read_mounting(Parameters& parameters) {
+  return Pose::from_xyz_rpy(parameters.vector3("xyzOffset", Vector3d::Zero()),
+                            parameters.vector3("rpyOffset", Vector3d::Zero()));
+}
+
+/// The slower of two rates; 0 does not limit.
+double slower(double one_hz, double other_hz) {
+  if (one_hz <= 0.0 || other_hz <= 0.0) return std::max(one_hz, other_hz);
+  return std::min(one_hz, other_hz);
+}
+
+}  // namespace
+
+std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin,
+                                                 DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  const std::string body = parameters.required_text("bodyName");
+  Params params{{context.robot, plugin_link(parameters, context), read_mounting(parameters), 0.0,
+                 context.seed}};
+  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
+  params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
+  params.feels_gravity = parameters.boolean("gravity", false);
+  params.topic = resolve_topic(parameters.text("topicName", "/default_imu"), space);
+  params.service = resolve_topic(parameters.text("serviceName", "/default_imu"), space);
+  params.frame = resolve_frame(parameters.text("frameName", body), space, context);
+  parameters.ignore({"alwaysOn", "updateRateHZ"});
+  parameters.finish(context.log);
+  return std::make_unique<GazeboImu>(plugin.name, params, context.surroundings.gravity_m_per_s2);
+}
+
+std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& sensor,
+                                                  const PluginDescription& plugin, std::size_t link,
+                                                  DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
+  const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, kMostHz);
+  params.mount.rate_hz = slower(sensor.update_rate_hz, rate_hz);
+  params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
+  params.noisy_orientation = true;
+  params.initial_orientation_is_reference =
+      parameters.boolean("initialOrientationAsReference", false);
+  params.topic = resolve_topic(parameters.text("topicName", "imu_data"), space);
+  params.frame = resolve_frame(parameters.required_text("frameName"), space, context);
+  if (const Element* imu = sensor.element.child("imu")) {
+    const std::uint64_t key = stream_key(context.seed, sensor.name + "/bias");
+    params.noise = read_sdf_imu_noise(*imu, key, context.log);
+  }
+  parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
+  parameters.finish(context.log);
+  return std::make_unique<GazeboImu>(sensor.name, params, context.surroundings.gravity_m_per_s2);
+}
+
+GazeboImu::GazeboImu(const std::string& name, const Params& params,
+                     std::function<Vector3d()> gravity_m_per_s2)
+    : InertialSensor(name, params.mount, std::move(gravity_m_per_s2)),
+      params_(params),
+      accel_(params.noise.accel.errors, 3, stream_key(params.mount.seed, name + "/accel")),
+      rate_(params.noise.rate.errors, 3, stream_key(params.mount.seed, name + "/rate")),
+      output_(add_output(params.topic, reading_kind<ImuReading>())) {
+  if (!params.service.empty()) add_service(params.service, std::function<void()>([] {}));
+}
+
+void GazeboImu::reset(TimeNs now_ns) {
+  InertialSensor::reset(now_ns);
+  accel_.reset(now_ns);
+  rate_.reset(now_ns);
+  if (params_.initial_orientation_is_reference) q_RW_ = pose().q.conjugate();
+}
+
+void GazeboImu::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
+  const InertialMotion::Mean motion = take_motion();
+  const double std = params_.gaussian_noise;
+  const auto white = [&noise, std](std::uint64_t first) {
+    return Vector3d(std * noise.normal(first), std * noise.normal(first + 1),
+                    std * noise.normal(first + 2));
+  };
+  ImuReading reading;
+  reading.header = {now_ns, params_.frame};
+  const Vector3d force = params_.feels_gravity ? motion.specific_force() : motion.acceleration;
+  const Vector3d rate = rate_.corrupt(motion.angular_velocity, elapsed_s());
+  const Vector3d accel = accel_.corrupt(force, elapsed_s());
+  reading.angular_velocity = params_.noise.rate.quantised(rate) + white(0);
+  reading.linear_acceleration = params_.noise.accel.quantised(accel) + white(3);
+  reading.orientation = q_RW_ * pose().q;
+  if (params_.noisy_orientation) {
+    // A component of a small rotation's quaternion is half its angle.
+    const Vector3d half = white(6);
+    reading.orientation =
+        reading.orientation * Eigen::Quaterniond(1.0, half.x(), half.y(), half.z());
+  }
+  reading.orientation.normalize();
+  const double variance = std * std;
+  reading.orientation_covariance.fill(variance);
+  reading.angular_velocity_covariance.fill(variance);
+  reading.linear_acceleration_covariance.fill(variance);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    reading.angular_velocity_covariance[axis] += rate_.noise_variance()[i];
+    reading.linear_acceleration_covariance[axis] += accel_.noise_variance()[i];
+  }
+  if (output_.demanded) sink.on_reading(output_, reading);
+}
+
+}  // namespace ardee

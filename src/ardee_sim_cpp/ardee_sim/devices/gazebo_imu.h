@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/inertial_sensor.h"
+#include "ardee_sim/devices/sdf_imu_noise.h"
+
+namespace ardee {
+
+/// libgazebo_ros_imu.so, a model plugin, and libgazebo_ros_imu_sensor.so, in a <sensor type="imu">.
+/// The first has no gravity in its acceleration (0 at rest) unless <gravity> is true; the second
+/// has, and the errors of its <imu> block. Both add white noise of <gaussianNoise>. <xyzOffset> and
+/// <rpyOffset> are the mounting in the body. Unlike the stock ones they rotate the right way, find
+/// bodies in their own robot only, and keep orientations of unit length.
+class GazeboImu : public InertialSensor {
+ public:
+  struct Params {
+    Mount mount;
+    SdfImuNoise noise{};
+    double gaussian_noise = 0.0;     // rad/s and m/s^2, as the stock plugins have it
+    bool noisy_orientation = false;  // gaussian_noise on the quaternion's components too
+    bool feels_gravity = true;
+    bool initial_orientation_is_reference = false;
+    std::string topic{};
+    std::string frame{};
+    std::string service{};  // that answers, and does nothing: white noise has no bias; empty: none
+  };
+
+  static std::unique_ptr<Device> make_on_model(const PluginDescription& plugin,
+                                               DeviceContext& context);
+  static std::unique_ptr<Device> make_on_sensor(const SensorDescription& sensor,
+                                                const PluginDescription& plugin, std::size_t link,
+                                                DeviceContext& context);
+  GazeboImu(const std::string& name, const Params& params,
+            std::function<Eigen::Vector3d()> gravity_m_per_s2);
+
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+
+ private:
+  Params params_;
+  SensorModel accel_;
+  SensorModel rate_;
+  Eigen::Quaterniond q_RW_ = Eigen::Quaterniond::Identity();  // world in the reference
+  Output& output_;
+};
+
+}  // namespace ardee

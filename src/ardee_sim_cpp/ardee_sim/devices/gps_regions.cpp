@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/gps_regions.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "ardee_sim/readers/resource_locator.h"
+#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/readers/xml.h"
+
+namespace ardee {
+namespace {
+
+constexpr double kFarthest_m = 1e6;
+constexpr double kBelowGround_m = 2.0;  // how far ground within a plot may lie below its middle
+
+constexpr const char* kBands = "field_gps_noise_characteristics";
+constexpr const char* kHeightBand = "biomass_height_noise_coefficient";
+constexpr const char* kDensityBand = "biomass_density_noise_coefficient";
+constexpr const char* kPlot = "plot";
+constexpr const char* kBox = "periodic_noise_box";
+
+bool is_part(const std::string& name) { return name == kBands || name == kPlot || name == kBox; }
+
+double required(Parameters& parameters, const char* key, double low, double high) {
+  parameters.required_text(key);
+  return parameters.number(key, 0.0, low, high);
+}
+
+}  // namespace
+
+/// What files and plugins say, before the bands are known for all plots.
+struct GpsRegions::Parts {
+  struct Plot {
+    GpsRegion region;
+    double height_m = 0.0;
+    double density_per_m2 = 0.0;
+  };
+
+  NoiseBands height_bands;
+  NoiseBands density_bands;
+  bool has_bands = false;
+  std::vector<Plot> plots;
+  std::vector<GpsRegion> boxes;
+
+  void add_bands(const Element& element, Log& log) {
+    has_bands = true;
+    for (const Element& band : element.children) {
+      if (band.name == kHeightBand) {
+        height_bands.add(band, log);
+      } else if (band.name == kDensityBand) {
+        density_bands.add(band, log);
+      } else {
+        throw Error(band.source, std::string("found <") + band.name + ">, expected " + kHeightBand +
+                                     " or " + kDensityBand);
+      }
+    }
+  }
+
+  void add_plot(const Element& element, Log& log) {
+    Parameters parameters(element);
+    Plot plot;
+    plot.region.name = "plot " + parameters.required_text("plot_id");
+    const auto place = [&](const char* key) {
+      return required(parameters, key, -kFarthest_m, kFarthest_m);
+    };
+    const Eigen::Vector3d middle{place("x"), place("y"), place("z")};
+    const double turn_rad = place("rotation");
+    parameters.required_text("row_count");
+    const int rows = parameters.integer("row_count", 1, 1, 1000000);
+    const double row_width_m = required(parameters, "row_width", 0.0, kFarthest_m);
+    const double row_length_m = required(parameters, "row_length", 0.0, kFarthest_m);
+    plot.height_m = required(parameters, "average_height", 0.0, 100.0);
+    plot.density_per_m2 = parameters.number("average_density", 0.0, 0.0);
+    parameters.ignore({"plot_range_index", "plot_crossrange_index"});
+    parameters.finish(log);
+    // An antenna above the crop sees the sky.
+    plot.region.size_m = {row_length_m, rows * row_width_m, plot.height_m + kBelowGround_m};
+    plot.region.pose.p = middle + Eigen::Vector3d(0.0, 0.0, (plot.height_m - kBelowGround_m) / 2.0);
+    plot.region.pose.q = quaternion_from_rpy({0.0, 0.0, turn_rad});
+    plots.push_back(plot);
+  }
+
+  void add_box(const Element& element, Log& log) {
+    constexpr double kMost = 1e9;
+    Parameters parameters(element);
+    const auto place = [&](const char* key) {
+      return required(parameters, key, -kFarthest_m, kFarthest_m);
+    };
+    GpsRegion box;
+    box.name = "box " + std::to_string(boxes.size());
+    box.pose.p = {place("cx"), place("cy"), place("cz")};
+    box.pose.q = quaternion_from_rpy({0.0, 0.0, place("rot")});
+    for (int axis = 0; axis < 3; ++axis) {
+      static constexpr const char* kSides[] = {"w", "l", "h"};
+      box.size_m[axis] = required(parameters, kSides[axis], 0.0, kFarthest_m);
+    }
+    PeriodicNoise noise;
+    noise.period_s = required(parameters, "nps", 1e-3, kMost);
+    noise.mean_mean = required(parameters, "nmpm", -kMost, kMost);
+    noise.mean_variance = required(parameters, "nmpv", 0.0, kMost);
+    noise.variance_mean = required(parameters, "nvpm", 0.0, kMost);
+    noise.variance_variance = required(parameters, "nvpv", 0.0, kMost);
+    parameters.finish(log);
+    box.periodic = noise;
+    boxes.push_back(box);
+  }
+
+  void add_all(const Element& parent, Log& log) {
+    for (const Element& child : parent.children) {
+      if (child.name == kBands) add_bands(child, log);
+      if (child.name == kPlot) add_plot(child, log);
+      if (child.name == kBox) add_box(child, log);
+    }
+  }
+
+  /// `source`: of what names the file.
+  void add_file(const std::string& path, const Source& source, Log& log) {
+    const XmlFile file = XmlFile::read(path, source);
+    const Element root = file.root().to_element();
+    for (const Element& child : root.children) {
+      if (!is_part(child.name)) {
+        throw Error(child.source, "found <" + child.name + ">, expected " + kBands + ", " + kPlot +
+                                      " or " + kBox);
+      }
+    }
+    add_all(root, log);
+  }
+
+  void add_plots_beside(const std::vector<std::string>& scenery_files, const Source& source,
+                        Log& log) {
+    std::set<std::string> folders;
+    for (const std::string& file : scenery_files) {
+      if (!file.empty()) folders.insert(folder_of(file));
+    }
+    for (const std::string& folder : folders) {
+      const std::string path = (std::filesystem::path(folder) / "plots.xacro").string();
+      std::error_code error;
+      if (std::filesystem::is_regular_file(path, error)) add_file(path, source, log);
+    }
+  }
+
+  void add_default_bands(const ResourceLocator& locator, const Source& source, Log& log) {
+    std::string path;
+    try {
+      path = locator.resolve("file://custom_gps_behavior.geofence", source);
+    } catch (const Error&) {
+      path = locator.resolve("file://default_gps_behavior.geofence", source);
+    }
+    add_file(path, source, log);
+  }
+};
+
+GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files,
+                       Log& log) {
+  Parts parts;
+  parts.add_all(plugin, log);
+  const ResourceLocator locator = ResourceLocator::from_environment();
+  for (const char* key : {"geofenceFile", "plotsFile"}) {
+    const Element* named = plugin.child(key);
+    if (!named) continue;
+    parts.add_file(locator.resolve(named->text, named->source), named->source, log);
+  }
+  if (parts.plots.empty() && !plugin.child("plotsFile")) {
+    parts.add_plots_beside(scenery_files, plugin.source, log);
+  }
+  if (!parts.plots.empty() && !parts.has_bands) {
+    parts.add_default_bands(locator, plugin.source, log);
+  }
+  regions_ = std::move(parts.boxes);
+  for (Parts::Plot& plot : parts.plots) {
+    plot.region.noise =
+        combined(parts.height_bands.at(plot.height_m), parts.density_bands.at(plot.density_per_m2));
+    regions_.push_back(plot.region);
+  }
+}
+
+const GpsRegion* GpsRegions::find(const Eigen::Vector3d& point_W) const {
+  for (const GpsRegion& region : regions_) {
+    if (region.contains(point_W)) return &region;
+  }
+  return nullptr;
+}
+
+}  // namespace ardee

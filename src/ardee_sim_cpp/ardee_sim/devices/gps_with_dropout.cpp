@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/gps_with_dropout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+using Eigen::Vector3d;
+
+/// "gps/fix" and "gps" stand for the topics of "gps"; "fix" for those of the namespace.
+std::string topic_beside(const std::string& fix_topic, const char* name) {
+  const std::string ending = "/fix";
+  std::string base = fix_topic;
+  if (base.size() >= ending.size() &&
+      base.compare(base.size() - ending.size(), ending.size(), ending) == 0) {
+    base.resize(base.size() - ending.size());
+  }
+  return base + "/" + name;
+}
+
+/// Green where a region does nothing, over yellow to red at an error of 1.5 m or a variance
+/// multiplied by 5 (the worst band of Listing A.6).
+std::array<float, 4> colour_of(const GpsRegion& region) {
+  constexpr double kWorst_m = 1.5, kWorstFactor = 5.0, kOpacity = 0.25;
+  const double variance =
+      region.periodic ? region.periodic->variance_mean : region.noise.variance_factor;
+  const double badness = std::clamp(
+      std::max(region.noise.correlated_std_m / kWorst_m, (variance - 1.0) / (kWorstFactor - 1.0)),
+      0.0, 1.0);
+  return {static_cast<float>(std::min(1.0, 2.0 * badness)),
+          static_cast<float>(std::min(1.0, 2.0 - 2.0 * badness)), 0.0f,
+          static_cast<float>(kOpacity)};
+}
+
+}  // namespace
+
+std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
+                                             DeviceContext& context) {
+  constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
+  Parameters parameters(plugin.element);
+  Params params{read_gps_params(parameters, context)};
+  params.correlation_time_s =
+      parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
+  const std::string space = plugin_namespace(parameters, context);
+  const auto topic = [&](const char* key, const char* name) {
+    return parameters.has(key) ? resolve_topic(parameters.text(key, ""), space)
+                               : topic_beside(params.gps.fix_topic, name);
+  };
+  params.quality_topic = topic("dataTopicName", "data");
+  params.regions_topic = topic("regionsTopicName", "regions");
+  parameters.ignore({"field_gps_noise_characteristics", "plot", "periodic_noise_box",
+                     "geofenceFile", "plotsFile"});
+  params.regions = GpsRegions(plugin.element, context.surroundings.scenery_files(), context.log);
+  parameters.finish(context.log);
+  return std::make_unique<GpsWithDropout>(plugin.name, params);
+}
+
+GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params)
+    : Gps(name, params.gps),
+      regions_(params.regions),
+      correlation_time_s_(params.correlation_time_s),
+      key_(stream_key(params.gps.mount.seed, name + "/dropout")),
+      random_(key_),
+      periods_(mix_bits(key_)),
+      quality_output_(add_output(params.quality_topic, reading_kind<GpsQualityReading>())),
+      regions_output_(add_output(params.regions_topic, reading_kind<RegionsReading>())) {
+  regions_output_.latched = true;
+}
+
+void GpsWithDropout::reset(TimeNs now_ns) {
+  Gps::reset(now_ns);
+  random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
+  for (int axis = 0; axis < 3; ++axis) unit_error_[axis] = random_.normal();
+  has_fix_ = true;
+  loss_duration_s_ = 0.0;
+  regions_shown_ = false;
+}
+
+void GpsWithDropout::move_error() {
+  // Exact at any rate: x(t + dt) = phi x(t) + sqrt(1 - phi^2) N(0, 1), phi = exp(-dt / tau).
+  const double phi = std::exp(-elapsed_s() / correlation_time_s_);
+  const double fresh = std::sqrt(-std::expm1(-2.0 * elapsed_s() / correlation_time_s_));
+  for (int axis = 0; axis < 3; ++axis) {
+    unit_error_[axis] = phi * unit_error_[axis] + fresh * random_.normal();
+  }
+}
+
+void GpsWithDropout::move_fix(const GpsNoise& noise) {
+  if (noise.loss_duration_s > 0.0) loss_duration_s_ = noise.loss_duration_s;
+  const double losses_hz = noise.loss_rate_hz;
+  const double recoveries_hz = loss_duration_s_ > 0.0 ? 1.0 / loss_duration_s_ : 0.0;
+  const double draw = random_.uniform();
+  if (losses_hz + recoveries_hz <= 0.0) return;
+  // Two states in continuous time, seen dt apart: the chance to be lost is the stationary one, away
+  // from which the present state decays.
+  const double both_hz = losses_hz + recoveries_hz;
+  const double stationary = losses_hz / both_hz;
+  const double kept = std::exp(-both_hz * elapsed_s());
+  const double lost = stationary + ((has_fix_ ? 0.0 : 1.0) - stationary) * kept;
+  has_fix_ = draw >= lost;
+}
+
+Gps::Sky GpsWithDropout::sky(const Vector3d& position_W, TimeNs now_ns) {
+  const GpsRegion* region = regions_.find(position_W);
+  GpsNoise noise;
+  if (region) noise = region->periodic ? region->periodic->at(now_ns, periods_) : region->noise;
+  region_ = region ? region->name : "";
+  move_error();
+  move_fix(noise);
+  Sky sky;
+  sky.offset_factor = noise.mean_factor;
+  sky.variance_factor = noise.variance_factor;
+  sky.extra_std_m = noise.correlated_std_m;
+  sky.extra_error_m = noise.correlated_std_m * unit_error_;
+  sky.has_fix = has_fix_;
+  return sky;
+}
+
+RegionsReading GpsWithDropout::regions_reading(TimeNs now_ns) const {
+  RegionsReading reading;
+  reading.header = {now_ns, "world"};
+  for (const GpsRegion& region : regions_.all()) {
+    reading.regions.push_back({region.name, region.pose, region.size_m, colour_of(region)});
+  }
+  return reading;
+}
+
+void GpsWithDropout::report(TimeNs now_ns, const Sky& sky, const Vector3d& error_W,
+                            const Vector3d& std_m, ReadingSink& sink) {
+  if (!regions_shown_) {
+    sink.on_reading(regions_output_, regions_reading(now_ns));
+    regions_shown_ = true;
+  }
+  if (!quality_output_.demanded) return;
+  GpsQualityReading reading;
+  reading.header = {now_ns, "world"};
+  reading.region = region_;
+  reading.position_std_m = std::sqrt(0.5 * (std_m.x() * std_m.x() + std_m.y() * std_m.y()));
+  reading.has_fix = sky.has_fix;
+  reading.error_m = sky.has_fix ? frame_on_earth().to_enu(error_W)
+                                : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  sink.on_reading(quality_output_, reading);
+}
+
+}  // namespace ardee

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/gps.h"
+#include "ardee_sim/devices/gps_regions.h"
+
+namespace ardee {
+
+/// libgazebo_ros_gps_with_dropout.so (thesis 4.3.1): hector's GPS that is worse in regions, and in
+/// none of them as good as ever. In a region its noise is multiplied; an error that is correlated
+/// in time is added (first-order Gauss-Markov, <correlationTime> s); and the fix is lost and found
+/// at random (a two-state Markov process). Beside the fix it publishes what degrades it, and once
+/// the regions for rviz.
+class GpsWithDropout : public Gps {
+ public:
+  struct Params {
+    GpsParams gps;
+    GpsRegions regions{};
+    // Measured under 2 m of corn with a receiver without RTK at 1 Hz.
+    double correlation_time_s = 12.0;
+    std::string quality_topic{};
+    std::string regions_topic{};
+  };
+
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  GpsWithDropout(const std::string& name, const Params& params);
+
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  Sky sky(const Eigen::Vector3d& position_W, TimeNs now_ns) override;
+  void report(TimeNs now_ns, const Sky& sky, const Eigen::Vector3d& error_W,
+              const Eigen::Vector3d& std_m, ReadingSink& sink) override;
+
+ private:
+  void move_error();
+  void move_fix(const GpsNoise& noise);
+  RegionsReading regions_reading(TimeNs now_ns) const;
+
+  GpsRegions regions_;
+  double correlation_time_s_;
+  std::uint64_t key_;
+  Rng random_;
+  CounterRng periods_;
+  Eigen::Vector3d unit_error_{0, 0, 0};  // of unit variance
+  bool has_fix_ = true;
+  double loss_duration_s_ = 0.0;  // of the region where the fix was lost
+  std::string region_;            // where the last sample was taken
+  bool regions_shown_ = false;
+  Output& quality_output_;
+  Output& regions_output_;
+};
+
+}  // namespace ardee

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/hector_imu.h"
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+using Eigen::Vector3d;
+
+HectorImu::Params read(const PluginDescription& plugin, DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  HectorImu::Params params{
+      {context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
+  params.mount.X_LS = Pose::from_xyz_rpy(parameters.vector3("xyzOffset", Vector3d::Zero()),
+                                         parameters.vector3("rpyOffset", Vector3d::Zero()));
+  read_update_times(parameters, 0.0, params.mount);
+  const NoiseMode mode = read_noise_mode(parameters);
+  params.accel = read_sensor_errors(parameters, "accel", mode);
+  params.rate = read_sensor_errors(parameters, "rate", mode);
+  params.yaw = read_sensor_errors(parameters, "yaw", mode);
+  const double of_both = parameters.number("gaussianNoise", 0.0, 0.0);
+  if (of_both > 0.0) {
+    params.accel.gaussian_noise.setConstant(of_both);
+    params.rate.gaussian_noise.setConstant(of_both);
+  }
+  params.vibration = read_vibration(parameters);
+  const std::string topic = parameters.text("topicName", "imu");
+  params.topic = resolve_topic(topic, space);
+  params.bias_topic = resolve_topic(parameters.text("biasTopicName", topic + "/bias"), space);
+  params.calibrate_service =
+      resolve_topic(parameters.text("serviceName", topic + "/calibrate"), space);
+  const std::string link = context.robot.model().links[params.mount.link].name;
+  params.frame = resolve_frame(parameters.text("frameId", link), space, context);
+  parameters.ignore({"alwaysOn"});
+  parameters.finish(context.log);
+  return params;
+}
+
+std::uint64_t key_of(const HectorImu::Params& params, const std::string& name, const char* part) {
+  return stream_key(params.mount.seed, name + "/" + part);
+}
+
+std::array<double, 3> diagonal(const Vector3d& variances) {
+  return {variances.x(), variances.y(), variances.z()};
+}
+
+}  // namespace
+
+std::unique_ptr<Device> HectorImu::make(const PluginDescription& plugin, DeviceContext& context) {
+  return std::make_unique<HectorImu>(plugin.name, read(plugin, context),
+                                     context.surroundings.gravity_m_per_s2);
+}
+
+HectorImu::HectorImu(const std::string& name, const Params& params,
+                     std::function<Vector3d()> gravity_m_per_s2)
+    : InertialSensor(name, params.mount, std::move(gravity_m_per_s2)),
+      accel_(params.accel, 3, key_of(params, name, "accel")),
+      rate_(params.rate, 3, key_of(params, name, "rate")),
+      yaw_(params.yaw, 1, key_of(params, name, "yaw")),
+      frame_(params.frame),
+      output_(add_output(params.topic, reading_kind<ImuReading>())),
+      bias_output_(add_output(params.bias_topic, reading_kind<ImuReading>())) {
+  if (params.vibration) vibration_.emplace(*params.vibration, key_of(params, name, "vibration"));
+  add_service(params.calibrate_service, [this] { rate_.set_drift(Vector3d::Zero()); });
+  add_service(params.topic + "/set_accel_bias",
+              [this](const Vector3d& bias) { accel_.set_drift(checked_bias(bias)); });
+  add_service(params.topic + "/set_rate_bias",
+              [this](const Vector3d& bias) { rate_.set_drift(checked_bias(bias)); });
+  add_tuning(accel_.tuning(params.topic + "/accel"));
+  add_tuning(rate_.tuning(params.topic + "/rate"));
+  add_tuning(yaw_.tuning(params.topic + "/yaw"));
+}
+
+void HectorImu::reset(TimeNs now_ns) {
+  InertialSensor::reset(now_ns);
+  for (SensorModel* model : {&accel_, &rate_, &yaw_}) model->reset(now_ns);
+  if (vibration_) vibration_->reset(now_ns);
+  followed_ns_ = now_ns;
+}
+
+void HectorImu::follow(TimeNs now_ns) {
+  InertialSensor::follow(now_ns);
+  if (vibration_) vibration_->step(seconds(now_ns - followed_ns_));
+  followed_ns_ = now_ns;
+}
+
+Vector3d HectorImu::vibration() const {
+  if (!vibration_) return Vector3d::Zero();
+  return vibration_->at_speed(mount().robot.twist().linear.head<2>().norm());
+}
+
+Eigen::Quaterniond HectorImu::orientation_error(const Eigen::Quaterniond& q_WS) const {
+  const Eigen::AngleAxisd turn(yaw_.bias().x(), Vector3d::UnitZ());
+  const double g = gravity().norm();
+  if (g <= 0.0) return Eigen::Quaterniond(turn);
+  // A filter that levels itself by a biased accelerometer is tilted by bias / g.
+  const Vector3d bias_W = q_WS * accel_.bias();
+  const Eigen::Quaterniond tilt(1.0, 0.5 * bias_W.y() / g, -0.5 * bias_W.x() / g, 0.0);
+  return turn * tilt.normalized();
+}
+
+void HectorImu::set_covariances(ImuReading& reading) const {
+  const Vector3d accel = accel_.noise_variance();
+  reading.linear_acceleration_covariance = diagonal(accel);
+  reading.angular_velocity_covariance = diagonal(rate_.noise_variance());
+  const double g2 = gravity().squaredNorm();
+  if (g2 > 0.0) {
+    reading.orientation_covariance = {accel.x() / g2, accel.y() / g2, yaw_.noise_variance().x()};
+  }
+}
+
+void HectorImu::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {
+  const InertialMotion::Mean motion = take_motion();
+  const Eigen::Quaterniond q_WS = pose().q;
+  ImuReading reading;
+  reading.header = {now_ns, frame_};
+  reading.linear_acceleration = accel_.corrupt(motion.specific_force() + vibration(), elapsed_s());
+  reading.angular_velocity = rate_.corrupt(motion.angular_velocity, elapsed_s());
+  yaw_.next_error(elapsed_s());
+  const Eigen::Quaterniond error = orientation_error(q_WS);
+  reading.orientation = (error * q_WS).normalized();
+  set_covariances(reading);
+  if (output_.demanded) sink.on_reading(output_, reading);
+  if (!bias_output_.demanded) return;
+  ImuReading bias;
+  bias.header = reading.header;
+  bias.orientation = error;
+  bias.angular_velocity = rate_.bias();
+  bias.linear_acceleration = accel_.bias();
+  sink.on_reading(bias_output_, bias);
+}
+
+}  // namespace ardee

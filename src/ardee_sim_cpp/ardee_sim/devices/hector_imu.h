@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "ardee_sim/devices/inertial_sensor.h"
+#include "ardee_sim/devices/sensor_model.h"
+#include "ardee_sim/devices/vibration.h"
+
+namespace ardee {
+
+/// libhector_gazebo_ros_imu.so: specific force, angular velocity and the orientation of an attitude
+/// filter that trusts its biased sensors, each with hector's errors (<accel...>, <rate...>,
+/// <yaw...>). <xyzOffset> and <rpyOffset> are the mounting in the body (hector reads the first and
+/// does not apply it, and turns by the second in the world). <vibrationStdAccel> shakes it with the
+/// robot's speed over ground.
+class HectorImu : public InertialSensor {
+ public:
+  struct Params {
+    Mount mount;
+    SensorErrors accel{};
+    SensorErrors rate{};
+    SensorErrors yaw{};
+    std::optional<VibrationParams> vibration{};
+    std::string topic{};
+    std::string bias_topic{};
+    std::string calibrate_service{};
+    std::string frame{};
+  };
+
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  HectorImu(const std::string& name, const Params& params,
+            std::function<Eigen::Vector3d()> gravity_m_per_s2);
+
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void follow(TimeNs now_ns) override;
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+
+ private:
+  Eigen::Quaterniond orientation_error(const Eigen::Quaterniond& q_WS) const;
+  Eigen::Vector3d vibration() const;
+  void set_covariances(ImuReading& reading) const;
+
+  SensorModel accel_;
+  SensorModel rate_;
+  SensorModel yaw_;
+  std::optional<Vibration> vibration_;
+  TimeNs followed_ns_ = 0;
+  std::string frame_;
+  Output& output_;
+  Output& bias_output_;
+};
+
+}  // namespace ardee

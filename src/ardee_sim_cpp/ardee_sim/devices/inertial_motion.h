@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/robot.h"
+
+namespace ardee {
+
+/// How a point of a robot moves, from its poses before and after each step: what the physics did,
+/// whatever the mounting. A model that is moved or pushed between steps makes no spike.
+class InertialMotion {
+ public:
+  /// X_LS: the point and its axes in the link.
+  InertialMotion(const Robot& robot, std::size_t link, const Pose& X_LS)
+      : robot_(robot), link_(link), X_LS_(X_LS) {}
+
+  /// Means over some steps, in the axes of S.
+  struct Mean {
+    Eigen::Vector3d acceleration{0, 0, 0};
+    Eigen::Vector3d gravity{0, 0, 0};
+    Eigen::Vector3d angular_velocity{0, 0, 0};
+
+    /// What an accelerometer feels: +g upwards at rest, 0 in free fall.
+    Eigen::Vector3d specific_force() const { return acceleration - gravity; }
+  };
+
+  void reset(TimeNs now_ns);
+  void begin_step(TimeNs now_ns);
+  void end_step(TimeNs now_ns, const Eigen::Vector3d& gravity_W);
+  /// Of the steps since the last call.
+  Mean take();
+
+ private:
+  Pose pose() const { return robot_.link_pose(link_) * X_LS_; }
+  Eigen::Vector3d velocity(const Twist& link_twist_W) const;
+
+  const Robot& robot_;
+  std::size_t link_;
+  Pose X_LS_;
+  TimeNs begun_ns_ = 0;
+  Pose X_WS_;                            // when the step began
+  Twist link_twist_W_;                   // when the last step ended
+  Eigen::Vector3d velocity_W_{0, 0, 0};  // mean over the last step
+  Mean sum_;                             // times seconds
+  double summed_s_ = 0.0;
+};
+
+}  // namespace ardee

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/magnetometer.h"
+
+#include <cmath>
+
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+
+using Eigen::Vector3d;
+
+Vector3d Magnetometer::field_in_world(double magnitude, double heading_rad, double declination_rad,
+                                      double inclination_rad) {
+  const double turn = heading_rad - declination_rad;
+  const double level = magnitude * std::cos(inclination_rad);
+  return {level * std::cos(turn), level * std::sin(turn), -magnitude * std::sin(inclination_rad)};
+}
+
+std::unique_ptr<Device> Magnetometer::make(const PluginDescription& plugin,
+                                           DeviceContext& context) {
+  constexpr double kDegree = M_PI / 180.0;
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
+  read_update_times(parameters, 0.0, params.mount);
+  params.errors = read_sensor_errors(parameters, "", read_noise_mode(parameters));
+  const double magnitude = parameters.number("magnitude", 1.0, 0.0);
+  const double heading_deg = parameters.number("referenceHeading", 0.0, -360.0, 360.0);
+  const double declination_deg = parameters.number("declination", 0.0, -360.0, 360.0);
+  const double inclination_deg = parameters.number("inclination", 60.0, -90.0, 90.0);
+  params.field_W = field_in_world(magnitude, heading_deg * kDegree, declination_deg * kDegree,
+                                  inclination_deg * kDegree);
+  params.as_magnetic_field = parameters.boolean("useMagneticFieldMsgs", false);
+  params.topic = resolve_topic(parameters.text("topicName", "magnetic"), space);
+  const std::string link = context.robot.model().links[params.mount.link].name;
+  params.frame = resolve_frame(parameters.text("frameId", link), space, context);
+  parameters.ignore({"alwaysOn"});
+  parameters.finish(context.log);
+  return std::make_unique<Magnetometer>(plugin.name, params);
+}
+
+Magnetometer::Magnetometer(const std::string& name, const Params& params)
+    : Sensor(name, params.mount),
+      params_(params),
+      model_(params.errors, 3, stream_key(params.mount.seed, name + "/field")),
+      output_(add_output(params.topic, params.as_magnetic_field
+                                           ? reading_kind<MagneticFieldReading>()
+                                           : reading_kind<VectorReading>())) {
+  add_tuning(model_.tuning(params.topic));
+}
+
+void Magnetometer::reset(TimeNs now_ns) {
+  Sensor::reset(now_ns);
+  model_.reset(now_ns);
+}
+
+void Magnetometer::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {
+  const Vector3d field = model_.corrupt(pose().q.conjugate() * params_.field_W, elapsed_s());
+  if (!output_.demanded) return;
+  const Header header{now_ns, params_.frame};
+  if (params_.as_magnetic_field) {
+    sink.on_reading(output_, MagneticFieldReading{header, field});
+  } else {
+    sink.on_reading(output_, VectorReading{header, field});
+  }
+}
+
+}  // namespace ardee

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/sdf_imu_noise.h"
+
+#include <cmath>
+
+namespace ardee {
+namespace {
+
+/// One axis' errors from the element that holds <mean>, <stddev> and so on.
+void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+  SensorErrors& errors = axes.errors;
+  Parameters parameters(noise);
+  const auto type = noise.attributes.find("type");
+  const std::string kind =
+      type == noise.attributes.end() ? parameters.text("type", "gaussian") : type->second;
+  const double mean = parameters.number("mean", 0.0);
+  const double std = parameters.number("stddev", 0.0, 0.0);
+  const double bias_mean = parameters.number("bias_mean", 0.0);
+  const double bias_std = parameters.number("bias_stddev", 0.0, 0.0);
+  const double bias_density = parameters.number("dynamic_bias_stddev", 0.0, 0.0);
+  const double bias_time_s = parameters.number("dynamic_bias_correlation_time", 0.0, 0.0);
+  const double precision = parameters.number("precision", 0.0, 0.0);
+  parameters.ignore({"type"});
+  parameters.finish(log);
+  const double drawn = bias_mean + bias_std * random.normal();
+  const double bias = random.uniform() < 0.5 ? -drawn : drawn;
+  if (kind == "none") return;
+  if (kind == "gaussian_quantized") {
+    axes.precision[axis] = precision;
+  } else if (kind != "gaussian") {
+    throw Error(noise.source,
+                "found noise type '" + kind + "', expected gaussian, gaussian_quantized or none");
+  }
+  errors.offset[axis] = mean + bias;
+  errors.gaussian_noise[axis] = std;
+  if (bias_density <= 0.0 || bias_time_s <= 0.0) return;
+  errors.drift[axis] = bias_density * std::sqrt(bias_time_s / 2.0);
+  errors.drift_frequency_hz[axis] = 1.0 / bias_time_s;
+}
+
+void read_axes(const Element* vector, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+  static constexpr const char* kAxes[] = {"x", "y", "z"};
+  axes.errors.mode = NoiseMode::kExact;
+  if (!vector) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Element* component = vector->child(kAxes[axis]);
+    const Element* noise = component ? component->child("noise") : nullptr;
+    if (noise) read_axis(*noise, axis, random, axes, log);
+  }
+}
+
+/// SDF 1.4: one block for all three axes.
+void read_common(const Element* noise, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+  if (!noise) return;
+  for (int axis = 0; axis < 3; ++axis) read_axis(*noise, axis, random, axes, log);
+}
+
+}  // namespace
+
+Eigen::Vector3d SdfImuNoise::Axes::quantised(const Eigen::Vector3d& value) const {
+  Eigen::Vector3d rounded = value;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = precision[axis];
+    if (step > 0.0) rounded[axis] = step * std::round(value[axis] / step);
+  }
+  return rounded;
+}
+
+SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key, Log& log) {
+  SdfImuNoise noise;
+  Rng random(key);
+  read_axes(imu.child("angular_velocity"), random, noise.rate, log);
+  read_axes(imu.child("linear_acceleration"), random, noise.accel, log);
+  if (const Element* old = imu.child("noise")) {
+    read_common(old->child("rate"), random, noise.rate, log);
+    read_common(old->child("accel"), random, noise.accel, log);
+  }
+  return noise;
+}
+
+}  // namespace ardee

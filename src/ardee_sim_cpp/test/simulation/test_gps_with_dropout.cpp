@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "../statistics.h"
+#include "../temp_folder.h"
+#include "ardee_sim/devices/geodesy.h"
+#include "motion_rig.h"
+
+namespace ardee {
+namespace {
+
+using Eigen::Vector3d;
+
+std::string gps(const std::string& keys) {
+  return plugin("gazebo_ros_gps_with_dropout",
+                "<topicName>gps/fix</topicName><updateRate>10</updateRate>" + keys);
+}
+
+std::string band(const std::string& r1, const std::string& r2, const std::string& rest) {
+  return "<biomass_height_noise_coefficient><r1>" + r1 + "</r1><r2>" + r2 + "</r2>" + rest +
+         "</biomass_height_noise_coefficient>";
+}
+
+std::string bands(const std::string& all) {
+  return "<field_gps_noise_characteristics>" + all + "</field_gps_noise_characteristics>";
+}
+
+/// 20 m along its rows, 6 m across.
+std::string plot(const std::string& id, double x, double height_m, double rotation_rad = 0.0) {
+  return "<plot><plot_id>" + id + "</plot_id><plot_range_index>0</plot_range_index>" +
+         "<plot_crossrange_index>0</plot_crossrange_index><x>" + std::to_string(x) +
+         "</x><y>0</y><z>0</z><rotation>" + std::to_string(rotation_rad) +
+         "</rotation><row_count>8</row_count><row_width>0.75</row_width>"
+         "<row_length>20</row_length><average_height>" +
+         std::to_string(height_m) + "</average_height><average_density>7</average_density></plot>";
+}
+
+Pose at(double x, double y = 0.0, double z = 0.5) {
+  return Pose::from_xyz_rpy({x, y, z}, {0, 0, 0});
+}
+
+std::vector<GpsQualityReading> quality(TestWorld& world) {
+  return world.recorder().on<GpsQualityReading>("/gps/data");
+}
+
+/// Quality readings of a robot that stands still for a number of samples.
+std::vector<GpsQualityReading> stand(const std::string& keys, const Pose& pose, std::size_t count) {
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(still(gps(keys)), "ball", pose);
+  for (const std::string& message : world.messages()) ADD_FAILURE() << message;
+  for (std::size_t i = 0; i < count; ++i) world->step();
+  return quality(world);
+}
+
+std::string region_at(const std::string& keys, const Pose& pose) {
+  return stand(keys, pose, 1).back().region;
+}
+
+std::vector<double> east_errors(const std::vector<GpsQualityReading>& readings) {
+  std::vector<double> values;
+  for (const GpsQualityReading& each : readings) values.push_back(each.error_m.x());
+  return values;
+}
+
+const std::string kTwoPlots = plot("7", 0.0, 1.5) + plot("8", 30.0, 2.5);
+const std::string kBands = bands(band("0", "2", "<mean>1</mean><variance>4</variance>") +
+                                 band("2", "-1", "<mean>1</mean><variance>25</variance>"));
+
+TEST(GpsRegions, a_plot_is_its_rows_from_below_the_ground_to_the_crops_height) {
+  const std::string keys = kBands + plot("3", 5.0, 1.5) + "<gaussianNoise>1</gaussianNoise>";
+  EXPECT_EQ(region_at(keys, at(5)), "plot 3");
+  EXPECT_EQ(region_at(keys, at(14.9, 2.9)), "plot 3");
+  EXPECT_EQ(region_at(keys, at(15.1)), "");
+  EXPECT_EQ(region_at(keys, at(5, 3.1)), "");
+  EXPECT_EQ(region_at(keys, at(5, 0, 1.4)), "plot 3");
+  EXPECT_EQ(region_at(keys, at(5, 0, 1.6)), "");  // a mast above the crop
+  const std::string turned = kBands + plot("4", 5.0, 1.5, M_PI / 2);
+  EXPECT_EQ(region_at(turned, at(5, 9.9)), "plot 4");
+  EXPECT_EQ(region_at(turned, at(8.1, 0)), "");
+}
+
+TEST(GpsRegions, noise_is_that_of_the_present_region_only) {
+  const std::string keys = kTwoPlots + kBands + "<gaussianNoise>0.1</gaussianNoise>";
+  const std::size_t count = 5000;
+  const struct {
+    Pose pose;
+    std::string region;
+    double std_m;
+  } cases[] = {{at(-100), "", 0.1}, {at(0), "plot 7", 0.2}, {at(30), "plot 8", 0.5}};
+  for (const auto& each : cases) {
+    const auto readings = stand(keys, each.pose, count);
+    EXPECT_EQ(readings.back().region, each.region);
+    EXPECT_NEAR(readings.back().position_std_m, each.std_m, 1e-9);
+    EXPECT_NEAR(std_of(east_errors(readings)) / each.std_m, 1.0,
+                kFourSigma / std::sqrt(2.0 * static_cast<double>(count)));
+  }
+}
+
+TEST(GpsRegions, leaving_restores_the_open_sky) {
+  const std::string keys = kTwoPlots + kBands + "<gaussianNoise>0.1</gaussianNoise>";
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(ball(gps(keys)), "ball", at(-100));
+  const auto go = [&world](const Pose& pose) {
+    world->set_state("ball", {pose, {}}, "world");
+    world.recorder().clear();
+    world.run(100.0);
+    return std::make_pair(quality(world).back().position_std_m,
+                          std_of(east_errors(quality(world))));
+  };
+  const double tolerance = kFourSigma / std::sqrt(2.0 * 1000.0);
+  for (int turn = 0; turn < 3; ++turn) {
+    for (const auto& [x, std_m] : {std::pair{0.0, 0.2}, {30.0, 0.5}, {-100.0, 0.1}}) {
+      const auto [told, found] = go(at(x));
+      EXPECT_NEAR(told, std_m, 1e-9) << x;
+      EXPECT_NEAR(found / std_m, 1.0, tolerance) << x;
+    }
+  }
+}
+
+TEST(GpsRegions, mean_multiplies_the_offset) {
+  const std::string keys = plot("1", 0.0, 3.0) +
+                           bands(band("2", "-1", "<mean>3</mean><variance>1</variance>")) +
+                           "<offset>0.5 0 0</offset><referenceHeading>90</referenceHeading>";
+  expect_near(stand(keys, at(0), 1).back().error_m, {1.5, 0, 0}, 1e-9);
+  expect_near(stand(keys, at(50), 1).back().error_m, {0.5, 0, 0}, 1e-9);
+}
+
+TEST(GpsRegions, density_bands_add_to_those_of_height) {
+  const std::string density =
+      "<biomass_density_noise_coefficient><r1>5</r1><r2>-1</r2><mean>1</mean><variance>9"
+      "</variance></biomass_density_noise_coefficient>";
+  const std::string keys = plot("1", 0.0, 1.0) +
+                           bands(band("0", "2", "<mean>1</mean><variance>4</variance>") + density) +
+                           "<gaussianNoise>0.1</gaussianNoise>";
+  EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 0.1 * std::sqrt(4.0 * 9.0), 1e-9);
+}
+
+TEST(GpsRegions, correlated_error_is_a_gauss_markov_process) {
+  const std::size_t count = 200000;
+  const std::string keys = plot("1", 0.0, 2.5) +
+                           bands(band("2", "-1",
+                                      "<mean>1</mean><variance>1</variance>"
+                                      "<correlated_std>1.37</correlated_std>")) +
+                           "<correlationTime>2</correlationTime>";
+  const auto readings = stand(keys, at(0), count);
+  const std::vector<double> errors = east_errors(readings);
+  const double phi = std::exp(-0.1 / 2.0);
+  const double independent = static_cast<double>(count) * (1 - phi * phi) / (1 + phi * phi);
+  EXPECT_NEAR(std_of(errors) / 1.37, 1.0, kFourSigma / std::sqrt(2.0 * independent));
+  EXPECT_NEAR(correlation_at(errors, 1), phi,
+              kFourSigma * std::sqrt((1 - phi * phi) / static_cast<double>(count)));
+  EXPECT_NEAR(correlation_at(errors, 20), std::exp(-1.0),
+              kFourSigma * std::sqrt(2.0 / independent));
+  EXPECT_NEAR(readings.back().position_std_m, 1.37, 1e-9);
+}
+
+TEST(GpsRegions, fix_is_lost_as_often_and_as_long_as_said) {
+  const std::size_t count = 200000;
+  const double rate_hz = 0.2, duration_s = 1.5, dt_s = 0.1;
+  const std::string keys =
+      plot("1", 0.0, 2.5) + bands(band("2", "-1",
+                                       "<mean>1</mean><variance>1</variance>"
+                                       "<fix_loss_rate>0.2</fix_loss_rate>"
+                                       "<fix_loss_duration>1.5</fix_loss_duration>"));
+  TestWorld world(free_space(0.0), dt_s);
+  world.spawn(still(gps(keys)), "ball", at(0));
+  for (std::size_t i = 0; i < count; ++i) world->step();
+  std::size_t lost = 0, losses = 0;
+  bool had = true;
+  for (const FixReading& fix : world.recorder().on<FixReading>("/gps/fix")) {
+    const bool has = fix.status == 0;
+    EXPECT_EQ(std::isnan(fix.latitude_deg), !has);
+    EXPECT_TRUE(has || fix.status == -1);
+    lost += has ? 0 : 1;
+    losses += had && !has ? 1 : 0;
+    had = has;
+  }
+  // A two-state process: stationary share, and its autocorrelation exp(-(a + b) dt).
+  const double both_hz = rate_hz + 1.0 / duration_s;
+  const double share = rate_hz / both_hz, phi = std::exp(-both_hz * dt_s);
+  const double independent = static_cast<double>(count) * (1 - phi) / (1 + phi);
+  EXPECT_NEAR(static_cast<double>(lost) / static_cast<double>(count), share,
+              kFourSigma * std::sqrt(share * (1 - share) / independent));
+  const double expected = static_cast<double>(count) * (1 - share) * share * (1 - phi);
+  EXPECT_NEAR(static_cast<double>(losses), expected, kFourSigma * std::sqrt(expected));
+  // Without a fix there is no velocity.
+  EXPECT_EQ(world.recorder().on<VectorReading>("/fix_velocity").size(), count - lost);
+}
+
+TEST(GpsRegions, fix_comes_back_outside) {
+  const std::string keys =
+      plot("1", 0.0, 2.5) + bands(band("2", "-1",
+                                       "<mean>1</mean><variance>1</variance>"
+                                       "<fix_loss_rate>1000</fix_loss_rate>"
+                                       "<fix_loss_duration>2</fix_loss_duration>"));
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(ball(gps(keys)), "ball", at(0));
+  world.run(1.0);
+  EXPECT_FALSE(quality(world).back().has_fix);
+  world->set_state("ball", {at(100), {}}, "world");
+  world.run(60.0);  // 30 mean durations
+  EXPECT_TRUE(quality(world).back().has_fix);
+}
+
+TEST(GpsRegions, periodic_box_draws_its_noise_anew_each_period) {
+  const std::string box =
+      "<periodic_noise_box><cx>0</cx><cy>0</cy><cz>0</cz><w>4</w><l>20</l><h>2</h><rot>0</rot>"
+      "<nps>5</nps><nmpm>2</nmpm><nmpv>0.09</nmpv><nvpm>16</nvpm><nvpv>4</nvpv>"
+      "</periodic_noise_box>";
+  const std::string keys = box + "<gaussianNoise>0.1</gaussianNoise><offset>1 0 0</offset>";
+  EXPECT_EQ(region_at(keys, at(0, 9)), "box 0");
+  EXPECT_EQ(region_at(keys, at(3, 0)), "");
+  EXPECT_EQ(region_at(keys, at(0, 0, 1.5)), "");
+  TestWorld world(free_space(0.0), 0.5);
+  world.spawn(still(gps(keys)), "ball", at(0));
+  world.run(5.0 * 4000);
+  std::vector<double> factors;
+  double last = 0.0;
+  std::size_t changes = 0;
+  for (const GpsQualityReading& each : quality(world)) {
+    const double factor = std::pow(each.position_std_m / 0.1, 2);
+    factors.push_back(factor);
+    changes += factor != last ? 1 : 0;
+    last = factor;
+  }
+  EXPECT_NEAR(static_cast<double>(changes), 4000.0, 1.0);
+  EXPECT_NEAR(mean_of(factors), 16.0, kFourSigma * 2.0 / std::sqrt(4000.0));
+  EXPECT_NEAR(std_of(factors) / 2.0, 1.0, kFourSigma / std::sqrt(8000.0));
+}
+
+TEST(GpsRegions, are_shown_once) {
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(still(gps(kTwoPlots + kBands)), "ball");
+  world.run(1.0);
+  const auto shown = world.recorder().on<RegionsReading>("/gps/regions");
+  ASSERT_EQ(shown.size(), 1u);
+  ASSERT_EQ(shown[0].regions.size(), 2u);
+  EXPECT_EQ(shown[0].header.frame_id, "world");
+  EXPECT_EQ(shown[0].regions[1].name, "plot 8");
+  expect_near(shown[0].regions[1].size_m, {20, 6, 4.5}, 1e-9);
+  EXPECT_GT(shown[0].regions[1].rgba[0], shown[0].regions[0].rgba[0] - 1e-6f);
+}
+
+TEST(GpsRegions, same_seed_same_errors) {
+  const std::string keys = kTwoPlots + bands(band("0", "-1",
+                                                  "<mean>1</mean><variance>2</variance>"
+                                                  "<correlated_std>1</correlated_std>"));
+  EXPECT_EQ(east_errors(stand(keys, at(0), 50)), east_errors(stand(keys, at(0), 50)));
+}
+
+/// GAZEBO_RESOURCE_PATH as long as this lives.
+class ResourcePath {
+ public:
+  explicit ResourcePath(const std::string& path) {
+    const char* before = std::getenv(kName);
+    if (before) before_ = before;
+    setenv(kName, path.c_str(), 1);
+  }
+  ~ResourcePath() { before_ ? setenv(kName, before_->c_str(), 1) : unsetenv(kName); }
+
+ private:
+  static constexpr const char* kName = "GAZEBO_RESOURCE_PATH";
+  std::optional<std::string> before_;
+};
+
+TEST(GpsFiles, elements_name_them) {
+  const TempFolder folder;
+  folder.write("my.geofence", "<robot>" + kBands + "</robot>");
+  const std::string plots = folder.write("plots.xacro", "<robot>" + kTwoPlots + "</robot>");
+  const ResourcePath path(folder.path());
+  const std::string keys = "<geofenceFile>file://my.geofence</geofenceFile><plotsFile>" + plots +
+                           "</plotsFile><gaussianNoise>0.1</gaussianNoise>";
+  EXPECT_NEAR(stand(keys, at(30), 1).back().position_std_m, 0.5, 1e-9);
+}
+
+TEST(GpsFiles, plots_of_the_worlds_field_and_the_geofence_on_the_path) {
+  const TempFolder folder;
+  folder.write_model("field", "<static>true</static><link name='l'/>");
+  folder.write("field/plots.xacro", "<robot>" + kTwoPlots + "</robot>");
+  folder.write("default_gps_behavior.geofence", "<robot>" + kBands + "</robot>");
+  const ResourcePath path(folder.path());
+  const auto std_in_corn = [&folder] {
+    TestWorld world(free_space(0.0) + "<include><uri>file://field</uri></include>", 0.1);
+    world.spawn(still(gps("<gaussianNoise>0.1</gaussianNoise>")), "ball", at(30));
+    world.run(0.1);
+    for (const std::string& message : world.messages()) ADD_FAILURE() << message;
+    return quality(world).back().position_std_m;
+  };
+  EXPECT_NEAR(std_in_corn(), 0.5, 1e-9);
+  folder.write(
+      "custom_gps_behavior.geofence",
+      "<robot>" + bands(band("0", "-1", "<mean>1</mean><variance>100</variance>")) + "</robot>");
+  EXPECT_NEAR(std_in_corn(), 1.0, 1e-9);
+}
+
+TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
+  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + std::string(ARDEE_TEST_DATA) +
+                           "/../../../ardee_geofence/default_gps_behavior.geofence</geofenceFile>";
+  EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 1.37, 1e-9);
+}
+
+TEST(GpsFiles, what_is_wrong_is_said_once_with_its_line_and_the_robot_spawns) {
+  const TempFolder folder;
+  const auto geofence = [&folder](const std::string& name, const std::string& text) {
+    return "<geofenceFile>" + folder.write(name, text) + "</geofenceFile>";
+  };
+  const std::string one = "\n<robot>\n" + bands("\n" + band("0", "-1", "X")) + "</robot>";
+  const auto with = [&one](const std::string& inside) {
+    std::string text = one;
+    return text.replace(text.find('X'), 1, inside);
+  };
+  const struct {
+    std::string keys;
+    std::string expected;
+  } cases[] = {
+      {"<plotsFile>file://nowhere/plots.xacro</plotsFile>", "nowhere/plots.xacro"},
+      {geofence("a", "<robot>\n<field_gps"), "a:"},
+      {geofence("b", with("<mean>1</mean><variance>-4</variance>")), "b:4"},
+      {geofence("c", with("<mean>1</mean>")), "c:4"},
+      {geofence("d", with("<mean>${m}</mean><variance>1</variance>")), "d:4"},
+      {geofence("e", "<robot>\n<plots/></robot>"), "e:2"},
+      {bands(band("2", "1", "<mean>1</mean><variance>1</variance>")), "ball.urdf:1"},
+      {bands("<band/>"), "ball.urdf:1"},
+      {kBands + "<plot><plot_id>1</plot_id></plot>", "<x>"},
+      {"<correlationTime>0</correlationTime>", "ball.urdf:1"},
+  };
+  for (const auto& each : cases) {
+    TestWorld world(free_space(0.0));
+    EXPECT_TRUE(world.spawn(ball(gps(each.keys)), "ball").devices.empty()) << each.keys;
+    ASSERT_EQ(world.messages().size(), 1u) << each.keys;
+    EXPECT_NE(world.messages()[0].find(each.expected), std::string::npos) << world.messages()[0];
+  }
+}
+
+}  // namespace
+}  // namespace ardee
