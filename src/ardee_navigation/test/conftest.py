@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: MIT
+"""Makes the packages importable from the source tree."""
+import sys
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[1]
+for name in ("ardee_models", "ardee_world", "ardee_navigation"):
+    sys.path.insert(0, str(PACKAGE.parent / name / "src"))
+
+
+@pytest.fixture(scope="session")
+def package() -> Path:
+    """Source folder of ardee_navigation."""
+    return PACKAGE
