@@ -6,7 +6,6 @@ from typing import Callable
 import numpy as np
 
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
-from ardee_navigation.lbirnt.preprocess import to_cartesian
 from ardee_navigation.record import Record
 from ardee_navigation.scenarios import Trial
 from ardee_navigation.simulation import Simulation
@@ -48,7 +47,7 @@ def drive(
         command = (output.speed_m_s, output.turn_rad_s)
         pose = simulation.command(*command)
         back = judge.look(now_s, pose, command, _seen(output))
-        judge.keep_raw(to_cartesian(ranges, scan.angle_min, scan.angle_increment))
+        judge.keep_scan(scan)
         progress(judge.record.samples[-1].along_m)
         if back is not None:
             simulation.set_pose(back, trial.height_m(back))

@@ -15,7 +15,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
-from ardee_navigation.scenarios import read_parameters, read_scenarios
+from ardee_navigation.scenario_files import read_parameters
+from ardee_navigation.scenarios import known_scenarios
 
 PATH_STEP_M = 0.05
 LONGEST_PATH = 20_000  # poses: a kilometre
@@ -121,7 +122,7 @@ def _parameters() -> Parameters:
         return read_parameters(FilePath(file))
     if not scenario:
         return Parameters()
-    known = read_scenarios()
+    known = known_scenarios()
     if scenario not in known:
         raise GeneratorError(f"~scenario: found {scenario!r}, expected one of {', '.join(known)}")
     return known[scenario].parameters

@@ -12,7 +12,8 @@ from tqdm import tqdm
 
 from ardee_models.errors import GeneratorError
 from ardee_navigation.record import Record
-from ardee_navigation.scenarios import Scenario, prepare, read_parameters, read_scenarios
+from ardee_navigation.scenario_files import Scenario, read_parameters
+from ardee_navigation.scenarios import known_scenarios, prepare
 
 
 class _Parser(argparse.ArgumentParser):
@@ -35,7 +36,7 @@ def _seed(text: str) -> int:
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
-    names = sorted(read_scenarios())
+    names = sorted(known_scenarios())
     parser = _Parser(
         prog="run_experiment",
         description="Let the row follower drive fields of a scenario and write a report: run r in a field of seed SEED + r.",
@@ -85,7 +86,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
     from ardee_navigation.report import table, write_report
     from ardee_navigation.simulation import Master, robot_urdf
 
-    scenario = read_scenarios()[args.scenario]
+    scenario = known_scenarios()[args.scenario]
     if args.parameters:
         scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
     output = args.output or Path("experiment_output") / args.scenario

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Scenarios by name, and what a run needs of one: a freshly sown field, its truth, a start pose, the ground's height."""
-import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional
+from typing import Dict, List
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,41 +10,15 @@ import rospkg
 
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
-from ardee_models.strict_yaml import Mapping, build, read_yaml_lines
+from ardee_models.strict_yaml import build, read_yaml_lines
 from ardee_models.terrain_files import ground_model
-from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.scenario_files import STAND_M, Scenario, Start, read_scenarios
 from ardee_navigation.truth import Field, Pose, read_field
 from ardee_world.cli import make_configured
 from ardee_world.request import yaml_values
 
-STAND_M = 0.175  # base_footprint above the ground (terrasentia_description)
 HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
 START_SD_M, START_SD_RAD = 0.03, 0.05  # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
-
-
-def _text(default: Optional[str]) -> object:
-    return dataclasses.field(default=default, metadata={})
-
-
-@dataclass(frozen=True)
-class Scenario:
-    """An entry of scenarios.yaml."""
-
-    world: str = _text("")
-    plan: Optional[str] = _text(None)
-    parameters: Parameters = dataclasses.field(
-        default_factory=Parameters, metadata={"group": Parameters}
-    )
-
-
-@dataclass(frozen=True)
-class Start:
-    """Where a world's .start.yaml sets a robot down."""
-
-    x_m: float = dataclasses.field(default=0.0, metadata={"limits": (-1e6, 1e6)})
-    y_m: float = dataclasses.field(default=0.0, metadata={"limits": (-1e6, 1e6)})
-    z_m: float = dataclasses.field(default=STAND_M, metadata={"limits": (-1e3, 1e4)})
-    yaw_rad: float = dataclasses.field(default=0.0, metadata={"limits": (-7.0, 7.0)})
 
 
 def package_folder(name: str) -> Path:
@@ -53,19 +26,9 @@ def package_folder(name: str) -> Path:
     return Path(rospkg.RosPack().get_path(name))
 
 
-def read_scenarios(path: Optional[Path] = None) -> Dict[str, Scenario]:
-    """Name to scenario of a file; this package's without one."""
-    path = path or package_folder("ardee_navigation") / "config" / "scenarios.yaml"
-    mapping = read_yaml_lines(path)
-    for name, entry in mapping.items():
-        if not isinstance(entry, Mapping):
-            raise mapping.error(name, f"{name}: found {entry!r}, expected a mapping")
-    return {name: build(Scenario, entry) for name, entry in mapping.items()}
-
-
-def read_parameters(path: Path) -> Parameters:
-    """Parameters of the row follower from a YAML file with any of their names as keys."""
-    return build(Parameters, read_yaml_lines(path))
+def known_scenarios() -> Dict[str, Scenario]:
+    """Name to scenario of this package's file."""
+    return read_scenarios(package_folder("ardee_navigation") / "config" / "scenarios.yaml")
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import subprocess
 import time
 import warnings
 from pathlib import Path
-from typing import Dict, List, Optional
+from typing import Callable, Dict, List, Optional
 
 import rosmaster.master
 import rospy
@@ -99,6 +99,7 @@ class Simulation:
         self._services = {}  # type: Dict[str, rospy.ServiceProxy]
         self._commands = None  # type: Optional[rospy.Publisher]
         self._subscriber = None  # type: Optional[rospy.Subscriber]
+        self.on_scan = None  # type: Optional[Callable[[], None]]
         with log.open("wb") as output:
             self._process = subprocess.Popen(
                 command,
@@ -161,7 +162,7 @@ class Simulation:
         except rospy.ServiceException as error:
             self._check_alive()
             raise SimulationError(f"{name}: {error}") from error
-        if not answer.success:
+        if not getattr(answer, "success", True):  # std_srvs/Empty has none
             raise SimulationError(f"{name}: {answer.status_message}")
         return answer
 
@@ -170,13 +171,18 @@ class Simulation:
         fields = (ROBOT, urdf, "/", to_ros(pose, z_m), "world")
         self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
         self._subscriber = rospy.Subscriber(
-            "/ardee/hokuyo", LaserScan, self.scans.put, tcp_nodelay=True, buff_size=1 << 20
+            "/ardee/hokuyo", LaserScan, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
         )
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # it recommends a queue, whose thread would race the step
             self._commands = rospy.Publisher("/cmd_vel", Twist, queue_size=None)
         ports = (self._subscriber, self._commands)
         _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        if self.on_scan:
+            self.on_scan()
+        self.scans.put(scan)
 
     def step(self, steps: int) -> float:
         """Simulated time [s] after so many physics steps."""

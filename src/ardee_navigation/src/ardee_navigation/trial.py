@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
 
 import numpy as np
+from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.contacts import Contacts
+from ardee_navigation.lbirnt.preprocess import to_cartesian
 from ardee_navigation.record import Intervention, Record, Sample
 from ardee_navigation.scenarios import Trial
 from ardee_navigation.truth import Deviation, Lane, Pose, lane_of
@@ -89,8 +91,9 @@ class Judge:
         y = pose.y_m + self._lidar_ahead_m * math.sin(pose.yaw_rad)
         return Pose(x, y, pose.yaw_rad)
 
-    def keep_raw(self, points: np.ndarray) -> None:
+    def keep_scan(self, scan: LaserScan) -> None:
         """Returns abeam of the lidar, for the figures; call after `look`."""
+        points = to_cartesian(np.asarray(scan.ranges), scan.angle_min, scan.angle_increment)
         beside = (np.abs(points[:, 0]) < BESIDE_M) & (np.abs(points[:, 1]) < RAW_WITHIN_M)
         lateral = points[beside, 1]
         along = self.record.samples[-1].along_m + self._lidar_ahead_m
