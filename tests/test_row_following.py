@@ -82,7 +82,7 @@ def model_position(name: str) -> Tuple[float, float]:
 
 
 def assert_behind_the_row(position: Tuple[float, float]) -> None:
-    """The artificial rows run from x = -1 m to -4.35 m about y = 0; the last stalks are out of sight behind the lidar."""
+    """The artificial rows run from x = -1 m to -4.35 m about y = 0; the robot stops behind the last stalks."""
     x, y = position
     assert -6.0 < x < -4.3 and abs(y) < 0.15
 

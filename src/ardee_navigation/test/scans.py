@@ -25,7 +25,11 @@ def scan_of(*walls: Wall, noise: Optional[Tuple[np.random.Generator, float]] = N
 
 
 def lane_walls(
-    lateral_m: float, heading_rad: float, width_m: float = 0.762, low: float = -5.0, high: float = 5.0
+    lateral_m: float,
+    heading_rad: float,
+    width_m: float = 0.762,
+    low: float = -5.0,
+    high: float = 5.0,
 ) -> Tuple[Wall, Wall]:
     """Two walls of a lane, for a lidar so far left of its middle and turned left by the heading."""
     slope = -math.tan(heading_rad)

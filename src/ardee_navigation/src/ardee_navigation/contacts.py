@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Stalks that the robot's outline touches.
 
-Plants are static scenery to the simulator: they stop a robot but never fall, and it publishes no contacts. So contacts are
-counted by geometry, from the robot's outline on the ground plan and the stalks of the truth file.
+Plants are static scenery to the simulator: they stop a robot but never fall, and it publishes no contacts. So
+contacts are counted by geometry, from the robot's outline on the ground plan and the stalks of the truth file.
 """
 from dataclasses import dataclass
 from typing import List, Set
@@ -11,7 +11,10 @@ import numpy as np
 
 from ardee_navigation.truth import Pose, Stalks
 
-LENGTH_M, WIDTH_M = 0.508, 0.4702  # chassis; outer faces of the wheels: separation 0.4318 and depth 0.03838 (tsv1_config)
+LENGTH_M, WIDTH_M = (
+    0.508,
+    0.4702,
+)  # chassis; outer faces of the wheels: separation 0.4318 and depth 0.03838 (tsv1_config)
 TOUCH_M = 0.01  # a rigid stalk is not entered: what is nearer than this is touched
 KNOCKED_M = 0.02  # a stalk as deep as this below the outline would have been pushed over
 _NEAR_M = 1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Figures of a run: raw lidar and perceived distances along the row against the truth (form of thesis 5.6-5.8), and errors."""
+"""Figures of a run: raw lidar and perceived distances along the row (form of thesis 5.6-5.8), and errors."""
 from pathlib import Path
 
 import matplotlib
@@ -27,7 +27,7 @@ def perceived_distances(record: Record, path: Path) -> None:
     figure, axes = pyplot.subplots(figsize=(10.0, 4.5))
     raw = np.concatenate(record.raw) if record.raw else np.empty((0, 2))
     raw = raw[:: max(len(raw) // LARGEST_POINTS, 1)]
-    along = record.column("along_m")
+    along = record.column("along_m") + record.lidar_ahead_m
     axes.plot(raw[:, 0], raw[:, 1], ".", color=RAW, markersize=1.5, alpha=0.5, label="raw lidar")
     for side, sign in (("left", 1.0), ("right", -1.0)):
         seen, true = record.column(f"{side}_seen_m"), record.column(f"{side}_true_m")
@@ -38,8 +38,8 @@ def perceived_distances(record: Record, path: Path) -> None:
     axes.axhline(0.0, color="grey", linewidth=0.5)
     axes.set_ylim(-1.0, 1.0)
     axes.set_xlim(min(along[0], 0.0), max(along[-1], record.length_m))
-    axes.set_xlabel("along the row [m]")
-    axes.set_ylabel("lateral distance from the robot [m], left positive")
+    axes.set_xlabel("the lidar's place along the row [m]")
+    axes.set_ylabel("lateral distance from the lidar [m], left positive")
     axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}")
     axes.legend(loc="upper right", ncol=4, markerscale=4.0, fontsize="small")
     _save(figure, path)

@@ -1,21 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge's two nodes."""
+"""A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge."""
+import dataclasses
 import json
 import os
 import signal
 import subprocess
+import tempfile
 import threading
 import time
 from collections import deque
+from pathlib import Path
 from typing import Callable, Deque, Dict, List, Optional
 
 import rospy
+import yaml
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.record import Record
-from ardee_navigation.scenarios import Trial, package_folder
+from ardee_navigation.scenarios import Trial
 from ardee_navigation.simulation import Simulation, SimulationError
 from ardee_navigation.trial import Judge, Seen
 
@@ -29,13 +33,19 @@ _ENDING = ((signal.SIGINT, 10.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
 class Process:
     """A child that ends with the run."""
 
-    def __init__(self, command: List[str], stdout: Optional[int] = subprocess.DEVNULL) -> None:
+    def __init__(
+        self,
+        command: List[str],
+        stdout: Optional[int] = subprocess.DEVNULL,
+        environment: Optional[Dict[str, str]] = None,
+    ) -> None:
         self.popen = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=stdout,
             stderr=subprocess.DEVNULL,
             text=True,
+            env=environment,
             start_new_session=True,
         )
 
@@ -52,12 +62,12 @@ class Process:
 
 
 class Follower(Process):
-    """The process without ROS: it gets an environment that knows no master, and says on its standard output what it did."""
+    """The process without ROS: its environment knows no master; it says on its standard output what it did."""
 
-    def __init__(self, scenario: str) -> None:
-        file = package_folder("ardee_navigation") / "config" / "scenarios.yaml"
+    def __init__(self, parameters: Path) -> None:
         command = ["rosrun", "ardee_navigation", "hil_row_follower", "--log", "-"]
-        super().__init__([*command, "--scenario", scenario, "--scenarios", str(file)], subprocess.PIPE)
+        environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
+        super().__init__([*command, f"--parameters={parameters}"], subprocess.PIPE, environment)
         self.answers: Dict[float, dict] = {}
         self._lock = threading.Lock()
         threading.Thread(target=self._read, daemon=True).start()
@@ -130,18 +140,31 @@ def _wait_for_first_answer(simulation: Simulation, follower: Follower) -> None:
 def drive(
     simulation: Simulation,
     trial: Trial,
-    _parameters: Parameters,
+    parameters: Parameters,
     judge: Judge,
     progress: Callable[[float], None],
 ) -> Record:
-    """One run in real time; the follower takes the scenario's parameters. After an intervention it is started anew."""
+    """One run in real time. After an intervention the follower is started anew."""
+    with tempfile.NamedTemporaryFile("w", prefix="ardee_lbirnt_", suffix=".yaml") as file:
+        yaml.safe_dump(dataclasses.asdict(parameters), file)
+        file.flush()
+        return _drive(simulation, trial, Path(file.name), judge, progress)
+
+
+def _drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Path,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
     processes = [Process(["rosrun", "ardee_bridge", node]) for node in BRIDGE_NODES]
     latency = Latency()
     simulation.on_scan = latency.on_scan
     try:
         simulation.step(SETTLE_STEPS)
         simulation.call("/gazebo/unpause_physics", Empty)
-        follower = Follower(judge.record.scenario)
+        follower = Follower(parameters)
         processes.append(follower)
         _wait_for_first_answer(simulation, follower)
         began = time.monotonic()
@@ -152,7 +175,7 @@ def drive(
             if back is not None:
                 follower.stop()
                 simulation.set_pose(back, trial.height_m(back))
-                follower = Follower(judge.record.scenario)
+                follower = Follower(parameters)
                 processes.append(follower)
                 _wait_for_first_answer(simulation, follower)
     finally:

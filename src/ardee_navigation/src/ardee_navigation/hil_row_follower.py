@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Command `hil_row_follower`: the row follower of a target computer. No ROS: scans and commands go over UDP (thesis 4.5).
+"""Command `hil_row_follower`: the row follower of a target computer, without ROS: over UDP alone (thesis 4.5).
 
-It asks the sensor server for scans and their time stamps (SET_PORT), follows the rows and sends motion commands to the controls
-client. With --log each answer is written as a line of JSON.
+It asks the sensor server for scans and their time stamps (SET_PORT), follows the rows and sends motion commands to
+the controls client. With --log each answer is written as a line of JSON.
 """
 import argparse
 import json
@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import IO, Any, Dict, List, NoReturn, Optional, Tuple
 
 import numpy as np
-
 from ardee_bridge import codec
 from ardee_bridge.pairing import Message, Pairer
+
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.scenario_files import read_parameters, read_scenarios
@@ -126,9 +126,14 @@ def _address(text: str) -> Address:
 def _arguments(argv: List[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="hil_row_follower", description=__doc__.splitlines()[0])
     parser.add_argument("--sensors", type=_address, default="127.0.0.1:30001", help="[%(default)s]")
-    parser.add_argument("--controls", type=_address, default="127.0.0.1:35555", help="[%(default)s]")
     parser.add_argument(
-        "--bind", type=_address, default="127.0.0.1:0", help="own address; port 0: any [%(default)s]"
+        "--controls", type=_address, default="127.0.0.1:35555", help="[%(default)s]"
+    )
+    parser.add_argument(
+        "--bind",
+        type=_address,
+        default="127.0.0.1:0",
+        help="own address; port 0: any [%(default)s]",
     )
     parser.add_argument("--parameters", default="", help="YAML file of the technique's parameters")
     parser.add_argument("--scenarios", type=Path, help="scenarios.yaml, for --scenario")
@@ -146,7 +151,9 @@ def _parameters(args: argparse.Namespace) -> Parameters:
         raise GeneratorError("--scenario: found no --scenarios, expected the file it is in")
     known = read_scenarios(args.scenarios)
     if args.scenario not in known:
-        raise GeneratorError(f"--scenario: found {args.scenario!r}, expected one of {', '.join(known)}")
+        raise GeneratorError(
+            f"--scenario: found {args.scenario!r}, expected one of {', '.join(known)}"
+        )
     return known[args.scenario].parameters
 
 

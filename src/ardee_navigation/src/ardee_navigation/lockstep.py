@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A run in lockstep: a scan, what the row follower makes of it, its command, as many physics steps as lie between scans."""
+"""A run in lockstep: a scan, what the row follower makes of it, its command, the physics steps between scans."""
 import time
 from typing import Callable
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Numbers of a run and of several: errors against the truth, distance per intervention, contacts, speed of simulation."""
+"""Numbers of a run and of several: errors against the truth, distance per intervention, contacts, pace."""
 import math
 from dataclasses import dataclass
 from typing import Sequence

@@ -52,6 +52,7 @@ class Record:
     seed: int
     length_m: float  # of the lane, first to last place of its rows
     width_m: float  # of the lane, ideal
+    lidar_ahead_m: float = 0.0  # of the robot's middle
     samples: List[Sample] = field(default_factory=list)
     interventions: List[Intervention] = field(default_factory=list)
     raw: List[np.ndarray] = field(default_factory=list)  # (n, 2): along m, lateral distance m

@@ -17,20 +17,27 @@ _TABLE: Tuple[Cell, ...] = (
     ("heading max [deg]", lambda s: f"{57.29578 * s.heading_max_rad:.1f}"),
     ("perceived width [m]", lambda s: f"{s.width_m:.3f} ± {s.width_sd_m:.3f}"),
     ("true width [m]", lambda s: f"{s.width_true_m:.3f}"),
-    ("left, right bias [cm]", lambda s: f"{100 * s.left_error_m:+.1f}, {100 * s.right_error_m:+.1f}"),
+    (
+        "left, right bias [cm]",
+        lambda s: f"{100 * s.left_error_m:+.1f}, {100 * s.right_error_m:+.1f}",
+    ),
     ("interventions", lambda s: str(s.interventions)),
-    ("m per intervention", lambda s: ("" if s.interventions else "> ") + f"{s.metres_per_intervention:.1f}"),
+    (
+        "m per intervention",
+        lambda s: ("" if s.interventions else "> ") + f"{s.metres_per_intervention:.1f}",
+    ),
     ("collisions", lambda s: str(s.collisions)),
     ("stalks touched", lambda s: str(s.touched)),
     ("plants knocked", lambda s: str(s.knocked)),
     ("time [s]", lambda s: f"{s.time_s:.1f}"),
     ("real-time factor", lambda s: f"{s.real_time_factor:.1f}"),
 )
-_NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row lines of the field's truth file,
-weighted by the way, between the rows' first and last places. A person steps in when the robot is more than 0.38 m off that line,
-when it was told to move and did not for 2 s, or when it stops in the row; it is then set down in the middle of the lane and goes on.
-Plants are rigid scenery to the simulator: they do not fall, and it reports no contacts. Collisions are counted by geometry: times
-that a stalk comes within 1 cm of the robot's outline; a plant counts as knocked when its stalk is more than 2 cm inside it.
+_NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row lines of
+the field's truth file, weighted by the way, between the rows' first and last places. A person steps in when the robot
+is more than 0.38 m off that line, when it was told to move and did not for 2 s, or when it stops in the row; it is then
+set down in the middle of the lane and goes on. Plants are rigid scenery to the simulator: they do not fall, and it
+reports no contacts. Collisions are counted by geometry: times that a stalk comes within 1 cm of the robot's outline; a
+plant counts as knocked when its stalk is more than 2 cm inside it.
 Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal row lines.
 """
 

@@ -39,13 +39,17 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
     names = sorted(known_scenarios())
     parser = _Parser(
         prog="run_experiment",
-        description="Let the row follower drive fields of a scenario and write a report: run r in a field of seed SEED + r.",
+        description="Let the row follower drive fields of a scenario and write a report; run r has the seed SEED + r.",
     )
-    parser.add_argument("--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names))
+    parser.add_argument(
+        "--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names)
+    )
     parser.add_argument("--runs", type=_positive, default=10, help="[%(default)s]")
     parser.add_argument("--seed", type=_seed, default=1, help="of the first run [%(default)s]")
     parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
-    parser.add_argument("--parameters", type=Path, help="YAML file of the row follower's parameters")
+    parser.add_argument(
+        "--parameters", type=Path, help="YAML file of the row follower's parameters"
+    )
     parser.add_argument("--bot-model", default="tsv1_default.urdf.xacro", help="[%(default)s]")
     parser.add_argument(
         "--hil",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenarios by name, and what a run needs of one: a freshly sown field, its truth, a start pose, the ground's height."""
+"""Scenarios by name, and what a run needs of one: a fresh field, its truth, a start pose, the ground."""
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List
@@ -18,7 +18,10 @@ from ardee_world.cli import make_configured
 from ardee_world.request import yaml_values
 
 HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
-START_SD_M, START_SD_RAD = 0.03, 0.05  # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
+START_SD_M, START_SD_RAD = (
+    0.03,
+    0.05,
+)  # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
 
 
 def package_folder(name: str) -> Path:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A simulation of one's own: a ROS master on a port that the kernel picks, the simulator, one robot; stepped or running.
+"""A simulation of one's own: a ROS master on a port that the kernel picks, the simulator, one robot.
 
-In lockstep nothing depends on the machine's speed: a command has reached the simulator before the next step is asked for. It is
-written to its socket in the calling thread (no queue), and the pose is asked for between command and step: when that answer is
-there, the simulator has read the command, for it reads everything that has arrived before it serves a later request.
+In lockstep nothing depends on the machine's speed: a command has reached the simulator before the next step is
+asked for. It is written to its socket in the calling thread (no queue), and the pose is asked for between command
+and step: when that answer is there, the simulator has read the command, for it reads everything that has arrived
+before it serves a later request.
 """
 import math
 import os
@@ -17,14 +18,14 @@ from typing import Callable, Dict, List, Optional
 
 import rosmaster.master
 import rospy
-from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import LaserScan
 
 from ardee_msgs.srv import Step
 from ardee_navigation.truth import Pose
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 
 ROBOT = "robot"
 _PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less
@@ -174,7 +175,9 @@ class Simulation:
             "/ardee/hokuyo", LaserScan, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
         )
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # it recommends a queue, whose thread would race the step
+            warnings.simplefilter(
+                "ignore"
+            )  # it recommends a queue, whose thread would race the step
             self._commands = rospy.Publisher("/cmd_vel", Twist, queue_size=None)
         ports = (self._subscriber, self._commands)
         _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")

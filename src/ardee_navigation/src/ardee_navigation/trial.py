@@ -45,8 +45,9 @@ class Judge:
         middle = self.lane.centre.at(self.lane.centre.length_m / 2)
         across = self.lane.deviation(middle)
         width_m = across.left_m + across.right_m
-        self.record = Record(scenario, number, seed, self.lane.centre.length_m, width_m)
-        self._lidar_ahead_m = lidar_ahead_m
+        self.record = Record(
+            scenario, number, seed, self.lane.centre.length_m, width_m, lidar_ahead_m
+        )
         self._contacts = Contacts(trial.field.stalks)
         self._track = deque()  # type: Deque[Tuple[float, Pose, bool]]
         self._began_s = None  # type: Optional[float]
@@ -87,8 +88,8 @@ class Judge:
         return self.lane.centre.at(here.along_m + (0.0 if why == "off the lane" else SET_AHEAD_M))
 
     def _lidar(self, pose: Pose) -> Pose:
-        x = pose.x_m + self._lidar_ahead_m * math.cos(pose.yaw_rad)
-        y = pose.y_m + self._lidar_ahead_m * math.sin(pose.yaw_rad)
+        x = pose.x_m + self.record.lidar_ahead_m * math.cos(pose.yaw_rad)
+        y = pose.y_m + self.record.lidar_ahead_m * math.sin(pose.yaw_rad)
         return Pose(x, y, pose.yaw_rad)
 
     def keep_scan(self, scan: LaserScan) -> None:
@@ -96,7 +97,7 @@ class Judge:
         points = to_cartesian(np.asarray(scan.ranges), scan.angle_min, scan.angle_increment)
         beside = (np.abs(points[:, 0]) < BESIDE_M) & (np.abs(points[:, 1]) < RAW_WITHIN_M)
         lateral = points[beside, 1]
-        along = self.record.samples[-1].along_m + self._lidar_ahead_m
+        along = self.record.samples[-1].along_m + self.record.lidar_ahead_m
         self.record.raw.append(np.column_stack((np.full(len(lateral), along), lateral)))
 
     def _why_step_in(

@@ -68,7 +68,7 @@ def _resampled(line_m: np.ndarray, fractions: np.ndarray) -> np.ndarray:
 
 
 class Projection(NamedTuple):
-    """Nearest point of a polyline to a place: how far along it, how far to its left the place is, its direction there."""
+    """Nearest point of a polyline to a place: how far along, how far to its left the place is, its direction there."""
 
     along_m: float
     left_m: float

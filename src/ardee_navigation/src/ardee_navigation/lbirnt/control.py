@@ -8,7 +8,7 @@ from ardee_navigation.lbirnt.parameters import Parameters
 
 
 def centre_error_m(centre: Line, parameters: Parameters) -> float:
-    """Lateral position of the centre line `target_ahead_m` before the lidar: the offset, and the angle times the distance."""
+    """Lateral position of the centre line `target_ahead_m` before the lidar: offset, and angle times distance."""
     return centre.at(parameters.target_ahead_m)
 
 
@@ -23,7 +23,11 @@ class Pid:
 
     def reset(self) -> None:
         """Forget the past."""
-        self._integral, self._derivative, self._last = 0.0, 0.0, None  # type: float, float, Optional[float]
+        self._integral, self._derivative, self._last = (
+            0.0,
+            0.0,
+            None,
+        )  # type: float, float, Optional[float]
 
     def update(self, error: float, dt_s: float) -> float:
         """Output within the limits for the error at `dt_s` after the one before."""

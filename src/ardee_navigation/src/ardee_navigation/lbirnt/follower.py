@@ -94,7 +94,9 @@ class RowFollower:
         lines = (None, None) if lost else (before.left, before.right)
         valid = valid_sides(left, right, lines, self._parameters)
         self._coasted_s = 0.0 if any(valid) else self._coasted_s + dt_s
-        self._lane = update_lane(before, _if(valid[0], left), _if(valid[1], right), self._parameters)
+        self._lane = update_lane(
+            before, _if(valid[0], left), _if(valid[1], right), self._parameters
+        )
         return valid
 
     def _update_state(

@@ -42,13 +42,13 @@ def rotate(points: np.ndarray, slope: float) -> Tuple[np.ndarray, np.ndarray]:
 
 
 def fullest_bin(distances_m: np.ndarray, bin_m: float) -> int:
-    """Index of the fullest bin [i bin_m, (i + 1) bin_m) of a histogram; of several the nearest. There is a point at least."""
+    """Index of the fullest bin [i bin_m, (i + 1) bin_m) of a histogram of at least one; of several the nearest."""
     index = np.floor(np.asarray(distances_m) / bin_m + 1e-9).astype(int)
     return int(np.argmax(np.bincount(index)))
 
 
 def choose_subset(points: np.ndarray, parameters: Parameters, slope: float) -> np.ndarray:
-    """Points whose distance from the robot, across the rows, lies in the fullest bin of their histogram or beside it."""
+    """Points whose distance across the rows lies in the fullest bin of their histogram or beside it."""
     if len(points) == 0:
         return points
     across = np.abs(rotate(points, slope)[1])

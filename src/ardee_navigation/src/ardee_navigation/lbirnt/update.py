@@ -57,16 +57,14 @@ def update_lane(
 ) -> Lane:
     """The next lane; pass None for a line that is not valid.
 
-    Both valid: each is blended with its predecessor. One valid: it is, and the other is laid parallel at the lane's width.
-    None: the lane before is kept.
+    Both valid: each is blended with its predecessor. One valid: it is, and the other is laid parallel at the lane's
+    width. None: the lane before is kept.
     """
     weight = parameters.blend
     if left is None and right is None:
         return before
     if left is not None and right is not None:
-        return Lane(
-            blend(before.left, left.line, weight), blend(before.right, right.line, weight)
-        )
+        return Lane(blend(before.left, left.line, weight), blend(before.right, right.line, weight))
     if left is not None:
         line = left.line
         other = line.shifted(-parameters.lane_width_m)

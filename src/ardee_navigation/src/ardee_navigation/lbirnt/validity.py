@@ -6,7 +6,9 @@ from ardee_navigation.lbirnt.lines import Estimate, Line
 from ardee_navigation.lbirnt.parameters import Parameters
 
 
-def is_acceptable(found: Optional[Estimate], before: Optional[Line], parameters: Parameters) -> bool:
+def is_acceptable(
+    found: Optional[Estimate], before: Optional[Line], parameters: Parameters
+) -> bool:
     """First checks, of one line: enough of it, lateral distance within bounds, angle near that of the line before."""
     if found is None or found.points < parameters.min_points:
         return False
