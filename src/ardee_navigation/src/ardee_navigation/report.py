@@ -32,13 +32,14 @@ _TABLE: Tuple[Cell, ...] = (
     ("time [s]", lambda s: f"{s.time_s:.1f}"),
     ("real-time factor", lambda s: f"{s.real_time_factor:.1f}"),
 )
-_NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row lines of
-the field's truth file, weighted by the way, between the rows' first and last places. A person steps in when the robot
-is more than 0.38 m off that line, when it was told to move and did not for 2 s, or when it stops in the row; it is then
-set down in the middle of the lane and goes on. Plants are rigid scenery to the simulator: they do not fall, and it
-reports no contacts. Collisions are counted by geometry: times that a stalk comes within 1 cm of the robot's outline; a
-plant counts as knocked when its stalk is more than 2 cm inside it.
-Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal row lines.
+_NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row
+lines of the field's truth file, weighted by the way, between the rows' first and last places. A person steps in
+when the robot is more than 0.38 m off that line, when it was told to move and did not for 2 s, or when it stops
+in the row; it is then set down in the middle of the lane and goes on. Plants are rigid scenery to the
+simulator: they do not fall, and it reports no contacts. Collisions are counted by geometry: times that a stalk
+comes within 1 cm of the robot's outline; a plant counts as knocked when its stalk is more than 2 cm inside it.
+Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal row
+lines.
 """
 
 

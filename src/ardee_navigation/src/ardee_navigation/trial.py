@@ -49,7 +49,7 @@ class Judge:
             scenario, number, seed, self.lane.centre.length_m, width_m, lidar_ahead_m
         )
         self._contacts = Contacts(trial.field.stalks)
-        self._track = deque()  # type: Deque[Tuple[float, Pose, bool]]
+        self._track = deque()  # type: Deque[Tuple[float, Pose]]
         self._began_s = None  # type: Optional[float]
 
     def look(
@@ -79,7 +79,7 @@ class Judge:
                 len(touching),
             )
         )
-        why = self._why_step_in(time_s, pose, here, command, seen)
+        why = self._why_step_in(time_s, pose, here, seen)
         self._note_end(time_s, here, seen, why)
         if why is None or self.record.end:
             return None
@@ -105,23 +105,22 @@ class Judge:
         time_s: float,
         pose: Pose,
         here: Deviation,
-        command: Tuple[float, float],
         seen: Seen,
     ) -> Optional[str]:
         if here.along_m > self.lane.centre.length_m - ROW_END_M:
             return None
         if abs(here.lateral_m) > LARGEST_OFFSET_M:
             return "off the lane"
-        if self._stands(time_s, pose, command):
+        if self._stands(time_s, pose):
             return "stuck"
         return "stopped in the row" if seen.state == "finished" else None
 
-    def _stands(self, time_s: float, pose: Pose, command: Tuple[float, float]) -> bool:
-        """Commanded motion without motion; a robot that waits at the entrance for longer than that also counts."""
-        self._track.append((time_s, pose, command != (0.0, 0.0)))
+    def _stands(self, time_s: float, pose: Pose) -> bool:
+        """Commanded motion without motion; so does a robot that waits for a row where it ought to see one."""
+        self._track.append((time_s, pose))
         while time_s - self._track[0][0] > STUCK_AFTER_S + 1e-9:
             self._track.popleft()
-        since_s, then, _ = self._track[0]
+        since_s, then = self._track[0]
         moved = math.hypot(pose.x_m - then.x_m, pose.y_m - then.y_m)
         return time_s - since_s >= STUCK_AFTER_S - 1e-6 and moved < STUCK_WITHIN_M
 

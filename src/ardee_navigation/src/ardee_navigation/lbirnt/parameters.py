@@ -2,8 +2,8 @@
 """Parameters of the lidar-based in-row navigation technique (LBIRNT), with units, limits and where they come from.
 
 [field] one published field deployment on this robot: lane 0.756 m, lateral window 0.5 m, longitudinal -1 to 2 m,
-0.1 m bins, PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as straight ahead, about 0.5 m/s. [robot] limits of the TerraSentia.
-[own] chosen here; the thesis (5.1) names the check but no number.
+0.1 m bins, PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as straight ahead, about 0.5 m/s. [robot] limits of the
+TerraSentia. [own] chosen here; the thesis (5.1) names the check but no number.
 """
 from dataclasses import dataclass, field
 from typing import Any
