@@ -13,7 +13,7 @@ P = Parameters()
 DT_S = 0.025
 
 
-def settle(ranges: np.ndarray, scans: int = 60, parameters: Parameters = P) -> Output:
+def settle(ranges: np.ndarray, scans: int = 250, parameters: Parameters = P) -> Output:
     """The output after the robot has stood before the same scene for a while (speed 0: nothing is predicted)."""
     still = RowFollower(Parameters(**{**vars(parameters), "speed_m_s": 0.0, "kp": 0.0, "kd": 0.0}))
     outputs = [still.update(ranges, ANGLE_MIN_RAD, INCREMENT_RAD, DT_S * i) for i in range(scans)]

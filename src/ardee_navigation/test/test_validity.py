@@ -39,6 +39,7 @@ def test_grade_of_equal_perfect_lines_is_even() -> None:
         {"line": Line(0.0, P.lateral_min_m - 0.01)},
         {"line": Line(P.max_angle_rad + 0.1, 0.38)},
         {"line": Line(P.max_angle_change_rad + 0.01, 0.38)},
+        {"change_m": P.max_change_m + 0.01},
     ],
 )
 def test_each_single_check_can_fail(fault: dict) -> None:

@@ -37,12 +37,13 @@ class Parameters:
     lateral_max_m: float = _value(0.60, 0.1, 3.0)  # [own]
     max_angle_rad: float = _value(0.45, 0.01, 1.5)  # of a row to the robot [own]
     max_angle_change_rad: float = _value(0.20, 0.01, 3.2)  # from the line used before [own]
+    max_change_m: float = _value(0.15, 0.005, 3.0)  # of lateral distance, likewise [own]
 
     # Checks of both lines, update heuristics (5.1.2)
     lane_width_m: float = _value(0.762, 0.2, 3.0)  # 30 in (5.2); [field] 0.756
     lane_width_tolerance_m: float = _value(0.15, 0.01, 1.0)  # [own]
     max_angle_between_rad: float = _value(0.25, 0.01, 3.2)  # rows are parallel [own]
-    blend: float = _value(0.35, 0.01, 1.0)  # weight of a new line against the one before [own]
+    blend: float = _value(0.12, 0.01, 1.0)  # weight of a new line against the one before [own]
     max_coast_s: float = _value(
         2.0, 0.0, 60.0
     )  # on old lines alone; then any valid line is taken [own]

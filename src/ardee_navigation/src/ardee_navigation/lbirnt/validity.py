@@ -9,7 +9,7 @@ from ardee_navigation.lbirnt.parameters import Parameters
 def is_acceptable(
     found: Optional[Estimate], before: Optional[Line], parameters: Parameters
 ) -> bool:
-    """First checks, of one line: enough of it, lateral distance within bounds, angle near that of the line before."""
+    """First checks, of one line: enough of it, lateral distance within bounds, near the line before in both."""
     if found is None or found.points < parameters.min_points:
         return False
     if found.length_m < parameters.min_length_m:
@@ -19,7 +19,10 @@ def is_acceptable(
     angle = found.line.angle_rad
     if abs(angle) > parameters.max_angle_rad:
         return False
-    return before is None or abs(angle - before.angle_rad) <= parameters.max_angle_change_rad
+    return before is None or (
+        abs(angle - before.angle_rad) <= parameters.max_angle_change_rad
+        and found.change_m <= parameters.max_change_m
+    )
 
 
 def _share(own: float, other: float) -> float:
