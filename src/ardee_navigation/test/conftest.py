@@ -3,14 +3,6 @@
 import sys
 from pathlib import Path
 
-import pytest
-
 PACKAGE = Path(__file__).resolve().parents[1]
-for name in ("ardee_models", "ardee_world", "ardee_navigation"):
+for name in ("ardee_bridge", "ardee_models", "ardee_world", "ardee_navigation"):
     sys.path.insert(0, str(PACKAGE.parent / name / "src"))
-
-
-@pytest.fixture(scope="session")
-def package() -> Path:
-    """Source folder of ardee_navigation."""
-    return PACKAGE

@@ -6,6 +6,7 @@ the controls client. With --log each answer is written as a line of JSON.
 """
 import argparse
 import json
+import math
 import signal
 import socket
 import sys
@@ -41,7 +42,8 @@ class Clock:
 
     def of_scan(self, component_id: int, period_s: float) -> float:
         """Time [s] of the scan that has just arrived."""
-        self._last_s = self._stamps.pop(component_id, self._last_s + period_s)
+        step_s = period_s if math.isfinite(period_s) else 0.0
+        self._last_s = self._stamps.pop(component_id, self._last_s + step_s)
         return self._last_s
 
 
