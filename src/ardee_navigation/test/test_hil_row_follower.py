@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The row follower of a target computer, on sockets of the loopback, with this test as the sensor server and the robot."""
+"""The row follower of a target computer, on sockets of the loopback."""
 import socket
 from typing import Any, Iterator, Tuple
 

@@ -8,19 +8,25 @@ import numpy as np
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.record import Record
 from ardee_navigation.scenarios import Trial
-from ardee_navigation.simulation import Simulation
+from ardee_navigation.simulation import Simulation, SimulationError
 from ardee_navigation.trial import Judge, Seen
 
-SETTLE_STEPS = 200  # 1 s at the worlds' 5 ms: the robot comes to rest on its springs
+STEP_S = 0.005  # of the worlds
 STEPS_A_SCAN = 5  # 25 ms: the UST-10LX's 40 Hz
+SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 
 
 def _settle(simulation: Simulation) -> None:
     """Let the robot come to rest; forget what was scanned meanwhile."""
     simulation.command(0.0, 0.0)
     end_s = simulation.step(SETTLE_STEPS)
-    while simulation.scan().header.stamp.to_sec() < end_s - (STEPS_A_SCAN - 0.5) * 0.005:
-        pass
+    before_s = now_s = simulation.scan().header.stamp.to_sec()
+    while now_s < end_s - (STEPS_A_SCAN - 0.5) * STEP_S:
+        before_s, now_s = now_s, simulation.scan().header.stamp.to_sec()
+    if abs(now_s - before_s - STEPS_A_SCAN * STEP_S) > 1e-6:
+        raise SimulationError(
+            f"found scans {now_s - before_s:.6f} s apart, expected {STEPS_A_SCAN} steps of {STEP_S} s"
+        )
 
 
 def _seen(output: Output) -> Seen:
