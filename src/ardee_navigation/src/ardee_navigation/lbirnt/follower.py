@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The technique as a whole: a scan in, a motion command and all that was seen on the way out (thesis Figure 5.1)."""
+import math
 from dataclasses import dataclass
 from enum import Enum
 from typing import Optional, Tuple
@@ -53,7 +54,11 @@ class RowFollower:
         """As before the first scan: after the robot was set down anew."""
         self._lane = straight_lane(self._parameters)
         self._state, self._last_s = State.WAITING, None  # type: State, Optional[float]
-        self._coasted_s, self._gone_s = float("inf"), 0.0  # nothing has been seen yet
+        self._unseen_s = (
+            math.inf,
+            math.inf,
+        )  # how long the left, the right line has not been valid
+        self._gone_s = 0.0
         self._command = (0.0, 0.0)
         self._pid.reset()
 
@@ -90,10 +95,11 @@ class RowFollower:
         self, sides: Tuple[np.ndarray, np.ndarray], before: Lane, dt_s: float
     ) -> Tuple[bool, bool]:
         left, right = estimate(sides[0], before.left), estimate(sides[1], before.right)
-        lost = self._coasted_s > self._parameters.max_coast_s
-        lines = (None, None) if lost else (before.left, before.right)
+        known = [unseen_s <= self._parameters.max_coast_s for unseen_s in self._unseen_s]
+        lines = (before.left if known[0] else None, before.right if known[1] else None)
         valid = valid_sides(left, right, lines, self._parameters)
-        self._coasted_s = 0.0 if any(valid) else self._coasted_s + dt_s
+        seconds = (0.0 if good else old_s + dt_s for good, old_s in zip(valid, self._unseen_s))
+        self._unseen_s = (next(seconds), next(seconds))
         self._lane = update_lane(
             before, _if(valid[0], left), _if(valid[1], right), self._parameters
         )

@@ -44,9 +44,7 @@ class Parameters:
     lane_width_tolerance_m: float = _value(0.15, 0.01, 1.0)  # [own]
     max_angle_between_rad: float = _value(0.25, 0.01, 3.2)  # rows are parallel [own]
     blend: float = _value(0.12, 0.01, 1.0)  # weight of a new line against the one before [own]
-    max_coast_s: float = _value(
-        2.0, 0.0, 60.0
-    )  # on old lines alone; then any valid line is taken [own]
+    max_coast_s: float = _value(0.5, 0.0, 60.0)  # a side lost for longer takes any line [own]
 
     # Control (5.1.3)
     speed_m_s: float = _value(0.5, 0.0, 1.2)  # [field]
