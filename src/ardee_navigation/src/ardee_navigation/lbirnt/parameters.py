@@ -18,17 +18,13 @@ class Parameters:
     """All numbers of the technique. Frame: the lidar's, x forward, y left."""
 
     # Pre-processing (thesis 5.1.1)
-    lidar_ahead_m: float = _value(
-        0.22, -2.0, 2.0
-    )  # lidar before the robot's turning centre [robot]
+    lidar_ahead_m: float = _value(0.22, -2.0, 2.0)  # before the turning centre [robot]
     behind_m: float = _value(1.0, 0.0, 10.0)  # rectangle: from here behind the lidar [field]
     ahead_m: float = _value(2.0, 0.1, 20.0)  # to here before it [field]
     beside_min_m: float = _value(0.10, 0.0, 2.0)  # nearer is the robot itself [own]
     beside_max_m: float = _value(0.50, 0.1, 3.0)  # farther is the next lane [field]
     bin_m: float = _value(0.1, 0.005, 1.0)  # of the histogram of lateral distance [field]
-    keep_bins: int = _value(
-        1, 0, 20
-    )  # on each side of the fullest bin that belong to the subset [own]
+    keep_bins: int = _value(1, 0, 20)  # kept on each side of the fullest [own]
 
     # Single-line checks (5.1.2)
     min_points: int = _value(8, 2, 1081)  # fewer returns make no line [own]
@@ -48,23 +44,17 @@ class Parameters:
 
     # Control (5.1.3)
     speed_m_s: float = _value(0.5, 0.0, 1.2)  # [field]
-    target_ahead_m: float = _value(
-        0.8, 0.0, 5.0
-    )  # where on the centre line the error is taken [own]
+    target_ahead_m: float = _value(0.8, 0.0, 5.0)  # where the error is taken [own]
     kp: float = _value(25.0, 0.0, 1e4)  # turn units per m [field]
     ki: float = _value(0.0, 0.0, 1e4)  # turn units per m s [field]
     kd: float = _value(5.0, 0.0, 1e4)  # turn units s per m [field]
     derivative_time_s: float = _value(0.1, 0.0, 10.0)  # low pass of the derivative [own]
-    turn_half_range: float = _value(
-        50.0, 1.0, 1e4
-    )  # turn units from straight ahead to full turn [field]
+    turn_half_range: float = _value(50.0, 1.0, 1e4)  # turn units of a full turn [field]
     max_speed_m_s: float = _value(1.2, 0.01, 10.0)  # [robot]
     min_turn_radius_m: float = _value(0.381, 0.01, 10.0)  # at full speed and full turn [robot]
 
     # Start and end (5.2.1)
-    end_points: int = _value(
-        8, 1, 1081
-    )  # fewer returns ahead than this on a side: no row there [own]
+    end_points: int = _value(8, 1, 1081)  # fewer returns ahead: no row there [own]
     end_after_s: float = _value(1.0, 0.0, 60.0)  # both rows gone for so long: the end [own]
 
     @property
