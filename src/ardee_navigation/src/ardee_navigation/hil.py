@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: MIT
+"""A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge."""
+import dataclasses
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+from collections import deque
+from pathlib import Path
+from typing import Callable, Deque, Dict, List, Optional
+
+import rospy
+import yaml
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty
+
+from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.record import Record
+from ardee_navigation.scenarios import Trial
+from ardee_navigation.simulation import Simulation, SimulationError
+from ardee_navigation.trial import Judge, Seen
+
+SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
+ANSWER_WITHIN_S = 5.0  # of a scan; the first one waits for the bridge to start
+START_WITHIN_S = 30.0
+BRIDGE_NODES = ("sensor_server_node", "controls_client_node")
+_ENDING = ((signal.SIGINT, 10.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
+
+
+class Process:
+    """A child that ends with the run."""
+
+    def __init__(
+        self,
+        command: List[str],
+        stdout: Optional[int] = subprocess.DEVNULL,
+        environment: Optional[Dict[str, str]] = None,
+    ) -> None:
+        self.popen = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=stdout,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env=environment,
+            start_new_session=True,
+        )
+
+    def stop(self) -> None:
+        """By Ctrl-C, and ever harder if that does not help."""
+        for number, patience_s in _ENDING:
+            if self.popen.poll() is not None:
+                return
+            os.killpg(self.popen.pid, number)
+            try:
+                self.popen.wait(patience_s)
+            except subprocess.TimeoutExpired:
+                continue
+
+
+class Follower(Process):
+    """The process without ROS: its environment knows no master; it says on its standard output what it did."""
+
+    def __init__(self, parameters: Path) -> None:
+        command = ["rosrun", "ardee_navigation", "hil_row_follower", "--log", "-"]
+        environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
+        super().__init__([*command, f"--parameters={parameters}"], subprocess.PIPE, environment)
+        self.answers: Dict[float, dict] = {}
+        self._lock = threading.Lock()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        for line in self.popen.stdout:
+            answer = json.loads(line)
+            with self._lock:
+                self.answers[round(answer["time_s"], 3)] = answer
+
+    def answer(self, time_s: float, patience_s: float) -> Optional[dict]:
+        """What it made of the scan of this simulated time; None where it has not, for all patience."""
+        deadline = time.monotonic() + patience_s
+        while True:
+            with self._lock:
+                found = self.answers.pop(round(time_s, 3), None)
+            if found or time.monotonic() > deadline:
+                return found
+            if self.popen.poll() is not None:
+                raise SimulationError("hil_row_follower has ended")
+            time.sleep(0.001)
+
+
+class Latency:
+    """From a scan's arrival on its ROS topic to that of the next command on cmd_vel, both in this process."""
+
+    def __init__(self) -> None:
+        self.milliseconds: List[float] = []
+        self._scans: Deque[float] = deque(maxlen=1)
+        self._subscriber = rospy.Subscriber("/cmd_vel", Twist, self._on_command, tcp_nodelay=True)
+
+    def on_scan(self) -> None:
+        """Call when a scan has arrived."""
+        self._scans.append(time.monotonic())
+
+    def _on_command(self, _command: Twist) -> None:
+        if self._scans:
+            self.milliseconds.append(1e3 * (time.monotonic() - self._scans.pop()))
+
+    def stop(self) -> None:
+        """Listen no more."""
+        self._subscriber.unregister()
+
+
+def _seen(answer: dict) -> Seen:
+    valid = (bool(answer["valid"][0]), bool(answer["valid"][1]))
+    return Seen(answer["left_m"], answer["right_m"], valid, answer["state"])
+
+
+def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: float) -> object:
+    """Judge the next scan that the follower has answered."""
+    scan = simulation.scan()
+    now_s = scan.header.stamp.to_sec()
+    answer = follower.answer(now_s, patience_s)
+    if answer is None:
+        return None
+    command = (answer["speed_m_s"], answer["turn_rad_s"])
+    back = judge.look(now_s, simulation.pose(), command, _seen(answer))
+    judge.keep_scan(scan)
+    return back
+
+
+def _wait_for_first_answer(simulation: Simulation, follower: Follower) -> None:
+    deadline = time.monotonic() + START_WITHIN_S
+    while follower.answer(simulation.scan().header.stamp.to_sec(), 0.02) is None:
+        if time.monotonic() > deadline:
+            raise SimulationError(f"hil_row_follower answered no scan in {START_WITHIN_S:.0f} s")
+
+
+def drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Parameters,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
+    """One run in real time. After an intervention the follower is started anew."""
+    with tempfile.NamedTemporaryFile("w", prefix="ardee_lbirnt_", suffix=".yaml") as file:
+        yaml.safe_dump(dataclasses.asdict(parameters), file)
+        file.flush()
+        return _drive(simulation, trial, Path(file.name), judge, progress)
+
+
+def _drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Path,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
+    processes = [Process(["rosrun", "ardee_bridge", node]) for node in BRIDGE_NODES]
+    latency = Latency()
+    simulation.on_scan = latency.on_scan
+    try:
+        simulation.step(SETTLE_STEPS)
+        simulation.call("/gazebo/unpause_physics", Empty)
+        follower = Follower(parameters)
+        processes.append(follower)
+        _wait_for_first_answer(simulation, follower)
+        began = time.monotonic()
+        while not judge.record.end:
+            back = _look(simulation, judge, follower, ANSWER_WITHIN_S)
+            if judge.record.samples:
+                progress(judge.record.samples[-1].along_m)
+            if back is not None:
+                follower.stop()
+                simulation.set_pose(back, trial.height_m(back))
+                follower = Follower(parameters)
+                processes.append(follower)
+                _wait_for_first_answer(simulation, follower)
+    finally:
+        latency.stop()
+        for process in reversed(processes):
+            process.stop()
+    judge.record.latency_ms = tuple(latency.milliseconds)
+    return judge.finish(time.monotonic() - began)

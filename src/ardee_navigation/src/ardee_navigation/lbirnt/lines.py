@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""Lines y = m x + b fitted to the points of a row, and what is read off them (thesis 5.1.1, equations 5.1 and 5.2)."""
+import math
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Line:
+    """A crop row: y = slope x + offset_m in the lidar's frame."""
+
+    slope: float
+    offset_m: float
+
+    @property
+    def angle_rad(self) -> float:
+        """Of the row to the robot, counter-clockwise."""
+        return math.atan(self.slope)
+
+    @property
+    def distance_m(self) -> float:
+        """Lateral distance: orthogonal, from the lidar; positive where the line passes on the left."""
+        return self.offset_m / math.hypot(1.0, self.slope)
+
+    def at(self, x_m: float) -> float:
+        """y [m] of the line at x."""
+        return self.slope * x_m + self.offset_m
+
+    def shifted(self, distance_m: float) -> "Line":
+        """The parallel line so far to the left."""
+        return Line(self.slope, self.offset_m + distance_m * math.hypot(1.0, self.slope))
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A fitted line with what its validation looks at."""
+
+    line: Line
+    points: int  # np of equation 5.3
+    length_m: float  # ly: of the fitted line
+    deviation_m: float  # sd: standard deviation of measured minus fitted y
+    change_m: float  # dd: of the orthogonal distance from the line used before
+
+
+def least_squares(points: np.ndarray) -> Optional[Line]:
+    """Slope by equation 5.1 and intercept by 5.2; None where all x are equal."""
+    n = len(points)
+    if n < 2:
+        return None
+    x, y = points[:, 0], points[:, 1]
+    sx, sy, sxx, sxy = x.sum(), y.sum(), (x * x).sum(), (x * y).sum()
+    denominator = n * sxx - sx**2
+    if denominator <= 1e-12 * n * sxx:
+        return None
+    slope = (n * sxy - sx * sy) / denominator
+    intercept = (sy * sxx - sx * sxy) / denominator
+    return Line(float(slope), float(intercept))
+
+
+def estimate(points: np.ndarray, before: Line) -> Optional[Estimate]:
+    """The line through the points of one side and its qualities; `before` is the line used for that side until now."""
+    line = least_squares(points)
+    if line is None:
+        return None
+    x, y = points[:, 0], points[:, 1]
+    deviation = float(np.std(y - (line.slope * x + line.offset_m)))
+    length = float(np.ptp(x)) * math.hypot(1.0, line.slope)
+    change = abs(line.distance_m - before.distance_m)
+    return Estimate(line, len(points), length, deviation, change)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Parameters of the lidar-based in-row navigation technique (LBIRNT), with units, limits and where they come from.
+
+[field] one published field deployment on this robot: lane 0.756 m, lateral window 0.5 m, longitudinal -1 to 2 m,
+0.1 m bins, PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as straight ahead, about 0.5 m/s. [robot] limits of the
+TerraSentia. [own] chosen here; the thesis (5.1) names the check but no number.
+"""
+from dataclasses import dataclass, field
+from typing import Any
+
+
+def _value(default: float, low: float, high: float) -> Any:
+    return field(default=default, metadata={"limits": (low, high)})
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """All numbers of the technique. Frame: the lidar's, x forward, y left."""
+
+    # Pre-processing (thesis 5.1.1)
+    lidar_ahead_m: float = _value(0.22, -2.0, 2.0)  # before the turning centre [robot]
+    behind_m: float = _value(1.0, 0.0, 10.0)  # rectangle: from here behind the lidar [field]
+    ahead_m: float = _value(2.0, 0.1, 20.0)  # to here before it [field]
+    beside_min_m: float = _value(0.10, 0.0, 2.0)  # nearer is the robot itself [own]
+    beside_max_m: float = _value(0.50, 0.1, 3.0)  # farther is the next lane [field]
+    bin_m: float = _value(0.1, 0.005, 1.0)  # of the histogram of lateral distance [field]
+    keep_bins: int = _value(1, 0, 20)  # kept on each side of the fullest [own]
+
+    # Single-line checks (5.1.2)
+    min_points: int = _value(8, 2, 1081)  # fewer returns make no line [own]
+    min_length_m: float = _value(0.3, 0.0, 20.0)  # shorter lines have no angle [own]
+    lateral_min_m: float = _value(0.15, 0.0, 3.0)  # acceptable distance of a row [own]
+    lateral_max_m: float = _value(0.60, 0.1, 3.0)  # [own]
+    max_angle_rad: float = _value(0.45, 0.01, 1.5)  # of a row to the robot [own]
+    max_angle_change_rad: float = _value(0.20, 0.01, 3.2)  # from the line used before [own]
+    max_change_m: float = _value(0.15, 0.005, 3.0)  # of lateral distance, likewise [own]
+
+    # Checks of both lines, update heuristics (5.1.2)
+    lane_width_m: float = _value(0.762, 0.2, 3.0)  # 30 in (5.2); [field] 0.756
+    lane_width_tolerance_m: float = _value(0.15, 0.01, 1.0)  # [own]
+    max_angle_between_rad: float = _value(0.25, 0.01, 3.2)  # rows are parallel [own]
+    blend: float = _value(0.12, 0.01, 1.0)  # weight of a new line against the one before [own]
+    max_coast_s: float = _value(0.5, 0.0, 60.0)  # a side lost for longer takes any line [own]
+
+    # Control (5.1.3)
+    speed_m_s: float = _value(0.5, 0.0, 1.2)  # [field]
+    target_ahead_m: float = _value(0.8, 0.0, 5.0)  # where the error is taken [own]
+    kp: float = _value(25.0, 0.0, 1e4)  # turn units per m [field]
+    ki: float = _value(0.0, 0.0, 1e4)  # turn units per m s [field]
+    kd: float = _value(5.0, 0.0, 1e4)  # turn units s per m [field]
+    derivative_time_s: float = _value(0.1, 0.0, 10.0)  # low pass of the derivative [own]
+    turn_half_range: float = _value(50.0, 1.0, 1e4)  # turn units of a full turn [field]
+    max_speed_m_s: float = _value(1.2, 0.01, 10.0)  # [robot]
+    min_turn_radius_m: float = _value(0.381, 0.01, 10.0)  # at full speed and full turn [robot]
+
+    # Start and end (5.2.1)
+    end_points: int = _value(8, 1, 1081)  # fewer returns ahead: no row there [own]
+    end_after_s: float = _value(1.0, 0.0, 60.0)  # both rows gone for so long: the end [own]
+
+    @property
+    def max_turn_rad_s(self) -> float:
+        """Turn rate of a full turn command: largest speed on the smallest radius."""
+        return self.max_speed_m_s / self.min_turn_radius_m

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""The report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
+from pathlib import Path
+from typing import Callable, List, Sequence, Tuple
+
+from ardee_navigation import figures
+from ardee_navigation.metrics import Summary, summarize
+from ardee_navigation.record import Record, write_csv
+
+Cell = Tuple[str, Callable[[Summary], str]]
+_TABLE: Tuple[Cell, ...] = (
+    ("way [m]", lambda s: f"{s.way_m:.1f}"),
+    ("lateral RMS [cm]", lambda s: f"{100 * s.lateral_rms_m:.1f}"),
+    ("lateral max [cm]", lambda s: f"{100 * s.lateral_max_m:.1f}"),
+    ("within 10 cm [%]", lambda s: f"{100 * s.share_near:.1f}"),
+    ("heading RMS [deg]", lambda s: f"{57.29578 * s.heading_rms_rad:.1f}"),
+    ("heading max [deg]", lambda s: f"{57.29578 * s.heading_max_rad:.1f}"),
+    ("perceived width [m]", lambda s: f"{s.width_m:.3f} ± {s.width_sd_m:.3f}"),
+    ("true width [m]", lambda s: f"{s.width_true_m:.3f}"),
+    (
+        "left, right bias [cm]",
+        lambda s: f"{100 * s.left_error_m:+.1f}, {100 * s.right_error_m:+.1f}",
+    ),
+    ("interventions", lambda s: str(s.interventions)),
+    (
+        "m per intervention",
+        lambda s: ("" if s.interventions else "> ") + f"{s.metres_per_intervention:.1f}",
+    ),
+    ("collisions", lambda s: str(s.collisions)),
+    ("stalks touched", lambda s: str(s.touched)),
+    ("plants knocked", lambda s: str(s.knocked)),
+    ("time [s]", lambda s: f"{s.time_s:.1f}"),
+    ("real-time factor", lambda s: f"{s.real_time_factor:.1f}"),
+)
+_NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row
+lines of the field's truth file, weighted by the way, between the rows' first and last places. A person steps in
+when the robot is more than 0.38 m off that line, when it was told to move and did not for 2 s, or when it stops
+in the row; it is then set down in the middle of the lane and goes on. Plants are rigid scenery to the
+simulator: they do not fall, and it reports no contacts. Collisions are counted by geometry: times that a stalk
+comes within 1 cm of the robot's outline; a plant counts as knocked when its stalk is more than 2 cm inside it.
+Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal row
+lines.
+"""
+
+
+def _line(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cells) + " |\n"
+
+
+def _latency(records: Sequence[Record]) -> str:
+    times = sorted(ms for record in records for ms in record.latency_ms)
+    if not times:
+        return ""
+    p50, p99 = (times[min(int(q * len(times)), len(times) - 1)] for q in (0.5, 0.99))
+    return (
+        f"\nHardware in the loop: from scan message to `cmd_vel` message {p50:.1f} ms median, {p99:.1f} ms p99,"
+        f" {times[-1]:.1f} ms at most, over {len(times)} commands.\n"
+    )
+
+
+def table(records: Sequence[Record]) -> str:
+    """Markdown: a line a run, one of all."""
+    text = _line(["run", "seed", "end", *(name for name, _ in _TABLE)])
+    text += "|" + "---|" * (3 + len(_TABLE)) + "\n"
+    for record in records:
+        summary = summarize([record])
+        cells = [str(record.number), str(record.seed), record.end]
+        text += _line([*cells, *(cell(summary) for _, cell in _TABLE)])
+    summary = summarize(records)
+    ends = f"{summary.completed} of {len(records)} at the end of the row"
+    return text + _line(["all", "", ends, *(cell(summary) for _, cell in _TABLE)])
+
+
+def _summary_csv(records: Sequence[Record], path: Path) -> None:
+    names = list(Summary.__annotations__)
+    with path.open("w") as file:
+        file.write(",".join(["run", "seed", "end", *names]) + "\n")
+        for record in records:
+            summary = summarize([record])
+            values = (f"{getattr(summary, name):.6g}" for name in names)
+            file.write(",".join([str(record.number), str(record.seed), record.end, *values]) + "\n")
+
+
+def _interventions(records: Sequence[Record]) -> str:
+    lines = [
+        f"- run {record.number}, {step_in.along_m:.1f} m along: {step_in.why}\n"
+        for record in records
+        for step_in in record.interventions
+    ]
+    return "\n## Interventions\n\n" + "".join(lines) if lines else ""
+
+
+def write_report(records: List[Record], command: str, folder: Path) -> Path:
+    """All files of an experiment into a folder; the path of report.md."""
+    pictures = ""
+    for record in records:
+        stem = f"run_{record.number:02d}"
+        write_csv(record, folder / f"{stem}.csv")
+        figures.perceived_distances(record, folder / f"{stem}_lidar.png")
+        figures.errors(record, folder / f"{stem}_errors.png")
+        pictures += f"\n![Run {record.number}: lidar and perceived distances]({stem}_lidar.png)\n"
+        pictures += f"\n![Run {record.number}: errors]({stem}_errors.png)\n"
+    _summary_csv(records, folder / "runs.csv")
+    text = f"# Row following: {records[0].scenario}\n\n`{command}`\n\n{_NOTES}\n{table(records)}"
+    text += _latency(records) + _interventions(records) + "\n## Runs\n" + pictures
+    path = folder / "report.md"
+    path.write_text(text)
+    return path

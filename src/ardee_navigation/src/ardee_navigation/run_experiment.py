@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: MIT
+"""Command `run_experiment`: runs of a scenario in lockstep, headless, and a report of them."""
+import argparse
+import shutil
+import signal
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any, List, NoReturn
+
+from tqdm import tqdm
+
+from ardee_models.errors import GeneratorError
+from ardee_navigation.record import Record
+from ardee_navigation.scenario_files import Scenario, read_parameters
+from ardee_navigation.scenarios import known_scenarios, prepare
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def _positive(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 10_000:
+        raise argparse.ArgumentTypeError(f"found {value}, expected 1 to 10000")
+    return value
+
+
+def _seed(text: str) -> int:
+    value = int(text)
+    if not 0 <= value < 2**31:
+        raise argparse.ArgumentTypeError(f"found {value}, expected 0 to {2**31 - 1}")
+    return value
+
+
+def _arguments(argv: List[str]) -> argparse.Namespace:
+    names = sorted(known_scenarios())
+    parser = _Parser(
+        prog="run_experiment",
+        description="Let the row follower drive fields of a scenario and write a report; run r has the seed SEED + r.",
+    )
+    parser.add_argument(
+        "--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names)
+    )
+    parser.add_argument("--runs", type=_positive, default=10, help="[%(default)s]")
+    parser.add_argument("--seed", type=_seed, default=1, help="of the first run [%(default)s]")
+    parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
+    parser.add_argument(
+        "--parameters", type=Path, help="YAML file of the row follower's parameters"
+    )
+    parser.add_argument("--bot-model", default="tsv1_default.urdf.xacro", help="[%(default)s]")
+    parser.add_argument(
+        "--hil",
+        action="store_true",
+        help="in real time, with the row follower as a process without ROS that speaks only UDP",
+    )
+    return parser.parse_args(argv)
+
+
+def _one_run(
+    scenario: Scenario, args: argparse.Namespace, number: int, urdf: str, work: Path
+) -> Record:
+    """Sow, start the simulator, drive, end it."""
+    if args.hil:
+        from ardee_navigation.hil import drive
+    else:
+        from ardee_navigation.lockstep import drive
+    from ardee_navigation.simulation import Simulation
+    from ardee_navigation.trial import Judge
+
+    seed = args.seed + number
+    trial = prepare(scenario, seed, work / "models")
+    judge = Judge(trial, args.scenario, number, seed, scenario.parameters.lidar_ahead_m)
+    length_m = judge.record.length_m
+    log = work / "simulator.log"
+    with Simulation(trial.world, seed, trial.models, log, realtime=args.hil) as simulation:
+        simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
+        with tqdm(total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False) as bar:
+
+            def progress(along_m: float) -> None:
+                bar.n = round(min(max(along_m, 0.0), length_m), 1)
+                bar.update(0)
+
+            return drive(simulation, trial, scenario.parameters, judge, progress)
+
+
+def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
+    from ardee_navigation.report import table, write_report
+    from ardee_navigation.simulation import Master, robot_urdf
+
+    scenario = known_scenarios()[args.scenario]
+    if args.parameters:
+        scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
+    output = args.output or Path("experiment_output") / args.scenario
+    output.mkdir(parents=True, exist_ok=True)
+    master, records = Master(), []  # type: Any, List[Record]
+    try:
+        urdf = robot_urdf(args.bot_model)
+        for number in tqdm(range(args.runs), unit="run", desc=args.scenario):
+            folder = work / f"run_{number}"
+            folder.mkdir()
+            records.append(_one_run(scenario, args, number, urdf, folder))
+            shutil.rmtree(folder)
+    finally:
+        master.stop()
+    print(table(records), end="")
+    return write_report(records, command, output)
+
+
+def _stop_here(number: int, _frame: Any) -> NoReturn:
+    raise SystemExit(128 + number)
+
+
+def main() -> int:
+    """Exit code: 0 all runs were driven, 1 the simulator failed, 2 bad input."""
+    try:
+        args = _arguments(sys.argv[1:])
+    except GeneratorError as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 2
+    from ardee_navigation.simulation import SimulationError
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _stop_here)
+    work = Path(tempfile.mkdtemp(prefix="ardee_experiment_"))
+    command = " ".join(["rosrun ardee_navigation run_experiment", *sys.argv[1:]])
+    try:
+        print(_experiment(args, command, work))
+    except GeneratorError as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 2
+    except (SimulationError, OSError) as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 1
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return 0

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""Judging runs, summing them up and reporting them, without a simulator."""
+import math
+from pathlib import Path
+from typing import Callable, List, Optional, Tuple
+
+import numpy as np
+import pytest
+
+from ardee_models.terrain_files import LevelGround
+from ardee_navigation.metrics import summarize
+from ardee_navigation.record import COLUMNS, Record
+from ardee_navigation.report import write_report
+from ardee_navigation.scenarios import Trial
+from ardee_navigation.trial import LARGEST_OFFSET_M, Judge, Seen
+from ardee_navigation.truth import Field, Pose, Stalks
+
+DT_S, SPEED_M_S = 0.025, 0.5
+Course = Callable[[float], Tuple[float, float]]  # along m -> lateral m, heading rad
+
+
+def trial(stalks: Optional[Stalks] = None) -> Trial:
+    rows = (np.array([[0.0, 0.4], [10.0, 0.4]]), np.array([[0.0, -0.4], [10.0, -0.4]]))
+    stalks = stalks or Stalks(np.empty((0, 2)), np.empty(0))
+    return Trial(Path("x.world"), [], Field(rows, stalks), Pose(-1.0, 0.0, 0.0), LevelGround())
+
+
+def run(course: Course, scans: int = 920, number: int = 0) -> Tuple[Record, List[Pose]]:
+    """A drive at constant speed on a course, until the judge ends it; where the judge wanted the robot set down."""
+    judge, set_down = Judge(trial(), "test", number, 7, 0.2), []
+    for i in range(scans):
+        along = -1.0 + SPEED_M_S * DT_S * i
+        lateral, heading = course(along)
+        state = "finished" if along > 10.3 else "following"
+        seen = Seen(0.38 - lateral, 0.40 + lateral, (True, False), state)
+        pose = Pose(along, lateral, heading)
+        back = judge.look(DT_S * i, pose, (SPEED_M_S, 0.0), seen)
+        if back:
+            set_down.append(back)
+        if judge.record.end:
+            break
+    return judge.finish(2.0), set_down
+
+
+def test_a_perfect_drive() -> None:
+    record, set_down = run(lambda along: (0.03, -0.02))
+    summary = summarize([record])
+    assert record.end == "end of the row" and not set_down and summary.completed == 1
+    assert summary.way_m == pytest.approx(10.0, abs=0.03)
+    assert summary.lateral_rms_m == pytest.approx(0.03) and summary.share_near == 1.0
+    assert summary.heading_max_rad == pytest.approx(0.02)
+    assert summary.width_m == pytest.approx(0.78) and summary.width_sd_m == pytest.approx(0.0)
+    assert summary.width_true_m == pytest.approx(0.8)
+    lidar = 0.03 + 0.2 * math.sin(-0.02)  # where the lidar is, 0.2 m ahead
+    assert summary.left_error_m == pytest.approx(0.35 - (0.4 - lidar))
+    assert summary.right_error_m == pytest.approx(0.43 - (0.4 + lidar))
+    assert summary.real_time_factor == pytest.approx(summary.time_s / 2.0)
+
+
+def test_errors_are_weighted_by_the_way() -> None:
+    """A quarter of the way 12 cm off, the rest in the middle: RMS 6 cm, three quarters near."""
+    record, _ = run(lambda along: (0.12 if 2.5 < along <= 5.0 else 0.0, 0.0))
+    summary = summarize([record])
+    assert summary.lateral_rms_m == pytest.approx(0.06, abs=5e-4)
+    assert summary.share_near == pytest.approx(0.75, abs=5e-3)
+    assert summary.lateral_max_m == pytest.approx(0.12)
+
+
+def test_a_person_steps_in_off_the_lane() -> None:
+    record, set_down = run(lambda along: (0.39 if 3.995 < along < 4.007 else 0.0, 0.0))
+    assert [step_in.why for step_in in record.interventions] == ["off the lane"]
+    assert set_down[0][1:] == pytest.approx((0.0, 0.0)) and set_down[0].x_m == pytest.approx(4.0)
+    assert summarize([record]).metres_per_intervention == pytest.approx(10.0, abs=0.03)
+    nearly, _ = run(lambda along: (LARGEST_OFFSET_M - 0.001, 0.0))
+    assert not nearly.interventions
+    behind, _ = run(lambda along: (0.5 if along > 9.6 else 0.0, 0.0))
+    assert not behind.interventions  # on its way out of the row
+
+
+def test_a_person_steps_in_when_it_does_not_move() -> None:
+    judge = Judge(trial(), "test", 0, 7, 0.2)
+    seen = Seen(0.4, 0.4, (True, True), "following")
+    looks = [judge.look(DT_S * i, Pose(5.0, 0.0, 0.0), (0.5, 0.0), seen) for i in range(100)]
+    when = [i for i, back in enumerate(looks) if back]
+    assert when == [80]  # 2 s
+    assert looks[80].x_m == pytest.approx(5.5)
+    assert judge.record.interventions[0].why == "stuck"
+
+
+def test_a_person_steps_in_when_it_stops_in_the_row() -> None:
+    judge = Judge(trial(), "test", 0, 7, 0.2)
+    back = judge.look(
+        0.0, Pose(5.0, 0.1, 0.0), (0.0, 0.0), Seen(0.4, 0.4, (True, True), "finished")
+    )
+    assert back[:2] == pytest.approx((5.5, 0.0)) and not judge.record.end
+    judge.look(1.0, Pose(9.7, 0.1, 0.0), (0.0, 0.0), Seen(0.4, 0.4, (True, True), "finished"))
+    assert judge.record.end == "end of the row"
+
+
+def test_a_robot_that_does_not_stop_is_stopped() -> None:
+    judge = Judge(trial(), "test", 0, 7, 0.2)
+    judge.look(0.0, Pose(15.1, 0.0, 0.0), (0.5, 0.0), Seen(0.4, 0.4, (True, True), "following"))
+    assert judge.record.end == "went on after the row"
+
+
+def test_report_has_all_files_and_the_same_bytes(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        records = [run(lambda along: (0.39 if 3.995 < along < 4.007 else 0.01, 0.0))[0]]
+        records.append(run(lambda along: (0.02, 0.0), number=1)[0])
+        write_report(records, "run_experiment ...", tmp_path / name)
+    files = sorted(path.name for path in (tmp_path / "one").iterdir())
+    runs = [f"run_0{i}{end}" for i in (0, 1) for end in (".csv", "_errors.png", "_lidar.png")]
+    assert files == ["report.md", *runs, "runs.csv"]
+    for name in files:
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+    text = (tmp_path / "one" / "report.md").read_text()
+    assert "- run 0, 4.0 m along: off the lane" in text and "2 of 2 at the end" in text
+    assert (tmp_path / "one" / "run_00.csv").read_text().splitlines()[0] == ",".join(COLUMNS)

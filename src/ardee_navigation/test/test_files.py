@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Scenarios, parameters, launch file and rviz configuration are whole and say the same."""
+import os
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from ardee_models.errors import GeneratorError
+from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.scenario_files import Start, read_parameters, read_scenarios
+from ardee_navigation.scenarios import START_SD_M, START_SD_RAD, start_near
+
+PACKAGE = Path(__file__).resolve().parents[1]
+WORLD = PACKAGE.parent / "ardee_world"
+SCENARIOS = read_scenarios(PACKAGE / "config" / "scenarios.yaml")
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_a_scenario_has_its_world_its_plan_and_its_rows(name: str) -> None:
+    scenario = SCENARIOS[name]
+    world = ElementTree.parse(WORLD / "worlds" / scenario.world).getroot()
+    field = world.findall("world/include")[1].findtext("uri")[len("model://") :]
+    assert (WORLD / "fields" / f"{field}.yaml").is_file()
+    assert scenario.plan in (None, f"{field}.yaml")
+    plan = yaml.safe_load((WORLD / "fields" / f"{field}.yaml").read_text())
+    assert scenario.parameters.lane_width_m == plan.get("row_spacing_m", 0.762)
+
+
+def roslaunch(option: str, *arguments: str) -> str:
+    environment = dict(os.environ, ROS_PACKAGE_PATH=str(PACKAGE.parent), PATH="/usr/bin:/bin")
+    environment.pop("DISPLAY", None)
+    command = [
+        "roslaunch",
+        *option.split(),
+        str(PACKAGE / "launch/row_following.launch"),
+        *arguments,
+    ]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+def test_launch_file_starts_what_is_asked_for() -> None:
+    usual = {"/gazebo", "/robot_state_publisher", "/spawn_terrasentia", "/row_follower"}
+    assert set(roslaunch("--nodes").split()) == usual
+    udp = {"/sensor_server_node", "/controls_client_node", "/hil_row_follower"}
+    assert set(roslaunch("--nodes", "hil:=true", "rviz:=true").split()) == usual | udp | {"/rviz"}
+
+
+def test_every_argument_of_the_launch_file_has_a_doc() -> None:
+    arguments = ElementTree.parse(PACKAGE / "launch/row_following.launch").getroot().findall("arg")
+    assert arguments and all(argument.get("doc") for argument in arguments)
+
+
+def test_rviz_shows_scan_lines_and_path() -> None:
+    manager = yaml.safe_load((PACKAGE / "rviz/row_following.rviz").read_text())[
+        "Visualization Manager"
+    ]
+    topics = {d.get("Topic") or d.get("Marker Topic") for d in manager["Displays"] if d["Enabled"]}
+    assert {"ardee/hokuyo", "/row_follower/markers", "/row_follower/path"} <= topics
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("speed: 1\n", r"p.yaml:1: unknown key 'speed'"),
+        (
+            "kp: 25\nspeed_m_s: 3\n",
+            r"p.yaml:2: speed_m_s: found 3, expected 0 to 1.2 m/s|p.yaml:2: ",
+        ),
+        ("min_points: 2.5\n", r"p.yaml:1: min_points: found 2.5, expected a whole number"),
+        ("kp: .nan\n", r"p.yaml:1: kp: found nan"),
+    ],
+)
+def test_bad_parameters_are_named_with_their_line(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text(text)
+    with pytest.raises(GeneratorError, match=message):
+        read_parameters(path)
+
+
+def test_parameters_default_to_the_listed_ones(tmp_path: Path) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text("kd: 4\n")
+    assert read_parameters(path) == Parameters(kd=4.0)
+
+
+def test_start_poses_scatter_as_said_and_repeat() -> None:
+    """Of 2000 seeds: mean and variance within 3.9 standard errors (99.99 %)."""
+    start = Start(1.0, 2.0, 0.0, 0.5)
+    poses = np.array([start_near(start, seed) for seed in range(2000)])
+    aside = -np.sin(0.5) * (poses[:, 0] - 1.0) + np.cos(0.5) * (poses[:, 1] - 2.0)
+    ahead = np.cos(0.5) * (poses[:, 0] - 1.0) + np.sin(0.5) * (poses[:, 1] - 2.0)
+    assert np.abs(ahead).max() < 1e-9
+    for values, sd in ((aside, START_SD_M), (poses[:, 2] - 0.5, START_SD_RAD)):
+        assert abs(values.mean()) < 3.9 * sd / np.sqrt(2000)
+        assert abs(values.var() / sd**2 - 1.0) < 3.9 * np.sqrt(2.0 / 2000)
+    assert start_near(start, 5) == start_near(start, 5)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: MIT
+"""The row follower of a target computer, on sockets of the loopback."""
+import socket
+from typing import Any, Iterator, Tuple
+
+import numpy as np
+import pytest
+from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
+
+codec = pytest.importorskip("ardee_bridge.codec")
+
+from ardee_navigation.hil_row_follower import Clock, Target  # noqa: E402
+from ardee_navigation.lbirnt import Parameters  # noqa: E402
+
+LOOPBACK = ("127.0.0.1", 0)
+
+
+def bound() -> socket.socket:
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    made.bind(LOOPBACK)
+    made.settimeout(5.0)
+    return made
+
+
+@pytest.fixture()
+def ends() -> Iterator[Tuple[Any, socket.socket, socket.socket]]:
+    """The target, the sensor server's socket, the robot's."""
+    server, robot = bound(), bound()
+    target = Target(Parameters(), server.getsockname(), robot.getsockname(), LOOPBACK)
+    yield target, server, robot
+    target.stop()
+    server.close()
+    robot.close()
+
+
+def scan_message(ranges_m: np.ndarray) -> Tuple[bytes, bytes]:
+    scan = codec.LidarData(
+        angle_min=ANGLE_MIN_RAD,
+        angle_max=-ANGLE_MIN_RAD,
+        dAngle=INCREMENT_RAD,
+        scan_time=0.025,
+        dTime=0.0,
+        range_min=0.06,
+        range_max=10.0,
+    ).to_raw()
+    scan.ranges = codec.range_counts(ranges_m, 0.06, 10.0)
+    return codec.encode(codec.DataType.LIDAR, 0, scan.pack(), count=len(ranges_m))
+
+
+def asked_by(target: Any, server: socket.socket) -> Tuple[str, int]:
+    """Where the target listens: it asks for scans and their times."""
+    target.ask()
+    header, sender = server.recvfrom(65535)
+    data, _ = server.recvfrom(65535)
+    assert codec.Header.unpack(header).msg_type == codec.MessageType.SET_PORT
+    wanted = codec.type_mask([codec.DataType.LIDAR, codec.DataType.TIME])
+    assert codec.SetPort.unpack(data).data_types == wanted
+    return sender
+
+
+def answer_to(target: Any, datagrams: int) -> Any:
+    """What it answered to the last of so many datagrams."""
+    return [target.receive() for _ in range(datagrams)][-1]
+
+
+def test_a_scan_is_answered_with_a_command(ends: tuple) -> None:
+    target, server, robot = ends
+    address = asked_by(target, server)
+    stamp = codec.TimeStamp(sec=3, nsec=500_000_000, data_type=codec.DataType.LIDAR)
+    messages = [codec.encode(codec.DataType.TIME, 0, stamp.pack())]
+    messages.append(scan_message(scan_of(*lane_walls(0.05, 0.0))))
+    for datagram in (d for message in messages for d in message):
+        server.sendto(datagram, address)
+    answer = answer_to(target, 4)
+    assert answer["state"] == "following" and answer["time_s"] == 3.5
+    header, command = (robot.recvfrom(65535)[0] for _ in range(2))
+    assert codec.data_struct(codec.Header.unpack(header)) is codec.MotionCommands
+    motion = codec.MotionCommands.unpack(command)
+    assert motion.normalized_speed / motion.multiplier * 1.2 == pytest.approx(0.5, abs=1e-5)
+    assert motion.normalized_yaw_rate < 0  # the middle is on the right
+
+
+def test_strangers_and_rubbish_are_not_answered(ends: tuple) -> None:
+    target, server, robot = ends
+    address = asked_by(target, server)
+    message = scan_message(scan_of(*lane_walls(0.0, 0.0)))
+    stranger = bound()
+    for datagram in message:
+        stranger.sendto(datagram, address)
+    stranger.close()
+    rubbish = [
+        b"",
+        b"x" * 20,
+        b"y" * 8676,
+        message[0][:19],
+        message[1],
+        message[0],
+        message[1][:-1],
+    ]
+    for datagram in rubbish:
+        server.sendto(datagram, address)
+    assert [target.receive() for _ in range(2 + len(rubbish))] == [None] * (2 + len(rubbish))
+    robot.settimeout(0.05)
+    with pytest.raises(socket.timeout):
+        robot.recvfrom(65535)
+
+
+def test_without_time_stamps_the_scans_period_counts() -> None:
+    clock = Clock()
+    assert clock.of_scan(0, 0.025) == pytest.approx(0.025)
+    assert clock.of_scan(0, 0.025) == pytest.approx(0.050)
+    clock.stamp(codec.TimeStamp(sec=7, nsec=0, data_type=codec.DataType.LIDAR))
+    assert clock.of_scan(0, 0.025) == 7.0
+    assert clock.of_scan(0, float("nan")) == 7.0
+    clock.stamp(codec.TimeStamp(sec=9, nsec=0, data_type=codec.DataType.IMU))
+    assert clock.of_scan(0, 0.025) == pytest.approx(7.025)

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: MIT
+"""The row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
+import csv
+import pathlib
+import subprocess
+from typing import Dict, List, Tuple
+
+import pytest
+from ros_graph import RosGraph, wait_until
+
+LARGEST_RMS_M = 0.05
+
+
+def experiment(graph: RosGraph, output: pathlib.Path, *arguments: str) -> pathlib.Path:
+    command = ["rosrun", "ardee_navigation", "run_experiment", "--scenario", "artificial"]
+    graph.run(*command, "--output", str(output), *arguments, timeout_s=120.0)
+    return output
+
+
+def rows(path: pathlib.Path) -> List[Dict[str, str]]:
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_artificial_row_in_lockstep(graph: RosGraph, tmp_path: pathlib.Path) -> None:
+    first = experiment(graph, tmp_path / "first", "--seed", "3", "--runs", "2")
+    again = experiment(graph, tmp_path / "again", "--seed", "3", "--runs", "1")
+    run, _ = rows(first / "runs.csv")
+    assert run["end"] == "end of the row" and run["interventions"] == "0"
+    assert float(run["way_m"]) == pytest.approx(22 * 0.1524, abs=0.03)  # 23 stalks; 1.25 cm a scan
+    assert float(run["lateral_rms_m"]) < LARGEST_RMS_M and float(run["share_near"]) >= 0.98
+    assert float(run["width_m"]) == pytest.approx(0.762, abs=0.06)
+    track = (first / "run_00.csv").read_bytes()
+    assert track == (again / "run_00.csv").read_bytes()
+    assert track != (first / "run_01.csv").read_bytes()
+    # the summary is that of the track, within what its rounding to micrometres loses
+    inside = [r for r in rows(first / "run_00.csv") if 0 <= float(r["along_m"]) <= 3.3528]
+    assert max(abs(float(r["lateral_m"])) for r in inside) == pytest.approx(
+        float(run["lateral_max_m"]), abs=1e-5
+    )
+    assert (first / "report.md").read_text().count(".png)") == 4
+    for name in ("run_00_lidar.png", "run_00_errors.png"):
+        assert (first / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_bad_scenario_is_one_line(graph: RosGraph) -> None:
+    process = graph.spawn("rosrun", "ardee_navigation", "run_experiment", "--scenario", "rice")
+    assert process.wait() == 2
+    assert process.output().count("\n") == 1 and "'rice'" in process.output()
+
+
+def test_ctrl_c_ends_an_experiment_and_its_simulator(graph: RosGraph) -> None:
+    command = ("rosrun", "ardee_navigation", "run_experiment", "--scenario", "corn", "--runs", "50")
+    process = graph.spawn(*command)
+    wait_until(lambda: simulators(process.pid), "a simulator", 60.0)
+    process.interrupt()
+    assert process.wait() != 0 and "Traceback" not in process.output()
+    assert simulators(process.pid) == []
+
+
+def simulators(pid: int) -> List[int]:
+    """Simulators that descend from a process, or that it has left behind with its own work folder."""
+    found = []
+    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (folder / "cmdline").read_bytes().split(b"\0")
+            parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+        except (OSError, IndexError):
+            continue
+        if words[0].endswith(b"/simulator") and parent == pid:
+            found.append(int(folder.name))
+    return found
+
+
+def model_position(name: str) -> Tuple[float, float]:
+    from probes import call_service
+
+    fields = {"model_name": name, "relative_entity_name": "world"}
+    answer = call_service("/gazebo/get_model_state", "gazebo_msgs/GetModelState", fields)
+    assert answer.success
+    return answer.pose.position.x, answer.pose.position.y
+
+
+def assert_behind_the_row(position: Tuple[float, float]) -> None:
+    """The artificial rows run from x = -1 m to -4.35 m about y = 0; the robot stops behind the last stalks."""
+    x, y = position
+    assert -6.0 < x < -4.3 and abs(y) < 0.15
+
+
+def what_rviz_gets() -> Dict[str, int]:
+    from probes import collect
+
+    (array,) = collect("/row_follower/markers", "visualization_msgs/MarkerArray", 1)
+    path = collect("/row_follower/path", "nav_msgs/Path", 1)[0]
+    found = {marker.ns: len(marker.points) for marker in array.markers}
+    assert all(marker.header.frame_id == "hokuyo_link" for marker in array.markers)
+    return {**found, "path": len(path.poses)}
+
+
+def test_launch_file_drives_the_row(graph: RosGraph) -> None:
+    arguments = ("scenario:=artificial", "rviz:=false", "rtf:=2")
+    launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
+    wait_until(lambda: "following" in launched.output(), "the first row in sight", 60.0)
+    shown = graph.call(what_rviz_gets)
+    for line in ("left line", "right line", "centre line"):
+        assert shown[line] == 2
+    assert shown["chosen points"] > 20 and shown["path"] >= 1
+    wait_until(lambda: "]: finished" in launched.output(), "the end of the row", 60.0)
+    assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
+
+
+BRIDGE = subprocess.run(["rospack", "find", "ardee_bridge"], capture_output=True).returncode == 0
+
+
+@pytest.mark.skipif(not BRIDGE, reason="the UDP bridge is not in this workspace")
+def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
+    arguments = ("scenario:=artificial", "rviz:=false", "hil:=true")
+    launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
+    wait_until(
+        lambda: "hil_row_follower: finished" in launched.output(), "the end of the row", 90.0
+    )
+    assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
