@@ -3,10 +3,13 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
+#include "ardee_sim/devices/velodyne_lidar.h"
 
 namespace ardee {
 namespace {
@@ -105,8 +108,13 @@ Registry builtin_registry() {
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_range.so", RangeFinder::make_range);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so", VelodyneLidar::make_on_visuals);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so", VelodyneLidar::make_on_collisions);
+  registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
   return registry;
 }
 

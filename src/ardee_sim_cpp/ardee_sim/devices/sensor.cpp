@@ -4,7 +4,11 @@
 namespace ardee {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
-    : Device(name), mount_(mount), timer_(mount.rate_hz), stream_(stream_key(mount.seed, name)) {}
+    : Device(name), mount_(mount), timer_(mount.rate_hz), stream_(stream_key(mount.seed, name)) {
+  if (mount.rate_hz < 0.0) {
+    throw Error("sensor '" + name + "': found an update rate below 0 Hz, expected 0 or more");
+  }
+}
 
 void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!timer_.due(now_ns) || !wanted()) return;

@@ -165,34 +165,14 @@ void require_sane(const Pose& X_WS, const RayPattern& pattern, float max_range_m
   }
 }
 
-/// Starts the queries of some rays of a pattern.
-class PatternRays {
- public:
-  PatternRays(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
-              std::uint32_t own_entity, std::uint32_t own_link)
-      : origin_(X_WS.p),
-        R_WS_(X_WS.q.normalized().toRotationMatrix()),
-        directions_S_(pattern.directions_S),
-        reach_m_(static_cast<double>(max_range_m)),
-        own_entity_(own_entity),
-        own_link_(own_link) {}
-
-  void start(std::size_t first, int count, RayQuery queries[kPacketRays]) const {
-    for (int k = 0; k < count; ++k) {
-      const Eigen::Vector3f& direction_S = directions_S_[first + static_cast<std::size_t>(k)];
-      const Eigen::Vector3d direction = (R_WS_ * direction_S.cast<double>()).normalized();
-      queries[k].start({origin_, direction}, reach_m_, own_entity_, own_link_);
+void require_sane(const std::vector<SceneRay>& rays) {
+  for (const SceneRay& ray : rays) {
+    const double square = ray.direction_W.squaredNorm();
+    if (!ray.origin_W.allFinite() || !(std::abs(square - 1.0) < 1e-3) || !(ray.reach_m >= 0.0)) {
+      throw Error("ray scene: rays must be finite, of length 1 and of reach 0 m or more");
     }
   }
-
- private:
-  Eigen::Vector3d origin_;
-  Eigen::Matrix3d R_WS_;
-  const std::vector<Eigen::Vector3f>& directions_S_;
-  double reach_m_;
-  std::uint32_t own_entity_;
-  std::uint32_t own_link_;
-};
+}
 
 }  // namespace
 
@@ -201,38 +181,37 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
                     std::vector<RayHit>& hits) const {
   require_sane(X_WS, pattern, max_range_m);
   const NearRegion* region = impl_->regions.find(X_WS.p);
-  const PatternRays rays(X_WS, pattern, max_range_m, own_entity, own_link);
-  impl_->cast_in_parallel(pattern.directions_S.size(), hits,
-                          [&](std::size_t first, int count, RayQuery* queries) {
-                            rays.start(first, count, queries);
-                            impl_->cast(queries, count, region);
-                          });
+  const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
+  const auto cast_some = [&](std::size_t first, int count, RayQuery* queries) {
+    for (int k = 0; k < count; ++k) {
+      const Eigen::Vector3f& direction_S = pattern.directions_S[first + static_cast<std::size_t>(k)];
+      const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
+      queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity, own_link);
+    }
+    impl_->cast(queries, count, region);
+  };
+  impl_->cast_in_parallel(pattern.directions_S.size(), hits, cast_some);
 }
 
 void RayScene::cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity,
                     std::uint32_t own_link, std::vector<RayHit>& hits) const {
-  for (const SceneRay& ray : rays) {
-    const double square = ray.direction_W.squaredNorm();
-    if (!ray.origin_W.allFinite() || !(std::abs(square - 1.0) < 1e-3) || !(ray.reach_m >= 0.0)) {
-      throw Error("ray scene: rays must be finite, of direction 1 and of reach 0 m or more");
-    }
-  }
+  require_sane(rays);
   impl_->cast_in_parallel(rays.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
     impl_->cast_packet(rays.data() + first, count, RayQuery::Purpose::kNearest, own_entity, own_link,
                        queries);
   });
 }
 
-void RayScene::cast_at_model(std::uint32_t entity, std::uint32_t own_link, const Pose& X_WS,
-                             const RayPattern& pattern, float max_range_m,
-                             std::vector<RayHit>& hits) const {
-  require_sane(X_WS, pattern, max_range_m);
-  const PatternRays rays(X_WS, pattern, max_range_m, entity, own_link);
-  impl_->cast_in_parallel(
-      pattern.directions_S.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
-        rays.start(first, count, queries);
-        for (int k = 0; k < count; ++k) impl_->moving.meet(queries[k], entity);
-      });
+void RayScene::cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
+                             std::uint32_t own_link, std::vector<RayHit>& hits) const {
+  require_sane(rays);
+  impl_->cast_in_parallel(rays.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
+    for (int k = 0; k < count; ++k) {
+      const SceneRay& ray = rays[first + static_cast<std::size_t>(k)];
+      queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, entity, own_link);
+      impl_->moving.meet(queries[k], entity);
+    }
+  });
 }
 
 void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {

@@ -78,8 +78,8 @@ class RayScene {
   void cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity, std::uint32_t own_link,
             std::vector<RayHit>& hits) const;
   /// What of one moving model alone the rays meet, its link `own_link` left out.
-  void cast_at_model(std::uint32_t entity, std::uint32_t own_link, const Pose& X_WS,
-                     const RayPattern& pattern, float max_range_m, std::vector<RayHit>& hits) const;
+  void cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
+                     std::uint32_t own_link, std::vector<RayHit>& hits) const;
 
   /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
   /// best asked side by side. The work is the caller's thread's; many threads may call at once.
