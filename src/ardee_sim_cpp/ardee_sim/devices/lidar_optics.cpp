@@ -43,9 +43,9 @@ LidarOptics read_lidar_optics(Parameters& parameters) {
   optics.divergence_rad = parameters.number("beamDivergence", 0.0, 0.0, kWidest_rad);
   optics.sub_rays = parameters.integer("subRays", 1, 1, kMostSubRays);
   optics.pulse_length_m = parameters.number("pulseLength", optics.pulse_length_m, 0.0, 1e3);
-  optics.return_mode = choose(parameters, "returnMode", "strongest",
-                              LidarOptics::ReturnMode::kStrongest, "first",
-                              LidarOptics::ReturnMode::kFirst);
+  optics.return_mode =
+      choose(parameters, "returnMode", "strongest", LidarOptics::ReturnMode::kStrongest, "first",
+             LidarOptics::ReturnMode::kFirst);
   return optics;
 }
 
@@ -96,8 +96,8 @@ BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines) {
   returns_.clear();
   for (int k = 0; k < optics_.sub_rays; ++k) {
     if (!std::isfinite(hits[k].range_m)) continue;
-    returns_.push_back({hits[k].range_m, cosines[k],
-                        power(hits[k], cosines[k]) / optics_.sub_rays, &hits[k]});
+    returns_.push_back(
+        {hits[k].range_m, cosines[k], power(hits[k], cosines[k]) / optics_.sub_rays, &hits[k]});
   }
   std::stable_sort(returns_.begin(), returns_.end(),
                    [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
@@ -107,8 +107,8 @@ BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines) {
 
 BeamEcho EchoMaker::single(const RayHit& hit, float cosine) const {
   if (hit.range_m < range_min_m_) return {-kInfinity, 0.0f, 0};
-  const bool seen = std::isfinite(hit.range_m) &&
-                    (least_power_ <= 0.0 || power(hit, cosine) >= least_power_);
+  const bool seen =
+      std::isfinite(hit.range_m) && (least_power_ <= 0.0 || power(hit, cosine) >= least_power_);
   if (!seen) return {kInfinity, 0.0f, 0};
   return {hit.range_m, intensity(hit, cosine), hit.label};
 }

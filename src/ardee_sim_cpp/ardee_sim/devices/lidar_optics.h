@@ -23,10 +23,11 @@ struct LidarOptics {
 
   Intensity intensity = Intensity::kPlain;
   double intensity_scale = 1.0;
-  double reflectivity_range_m = 0.0;  // where a 10 % target, met squarely, is just seen; 0: no limit
-  double divergence_rad = 0.0;        // full angle of the beam
-  int sub_rays = 1;                   // that sample its footprint evenly; 1: its axis alone
-  double pulse_length_m = 0.3;        // returns less than this apart are one (2 ns; nominal)
+  double reflectivity_range_m =
+      0.0;                      // where a 10 % target, met squarely, is just seen; 0: no limit
+  double divergence_rad = 0.0;  // full angle of the beam
+  int sub_rays = 1;             // that sample its footprint evenly; 1: its axis alone
+  double pulse_length_m = 0.3;  // returns less than this apart are one (2 ns; nominal)
   ReturnMode return_mode = ReturnMode::kStrongest;
 };
 
@@ -41,8 +42,8 @@ struct BeamEcho {
   std::uint32_t label = 0;
 };
 
-/// Directions of all sub-rays, those of a beam side by side. They lie on a sunflower (Vogel 1979) of
-/// equal areas about the beam's axis, turned by an angle of the beam's own.
+/// Directions of all sub-rays, those of a beam side by side. They lie on a sunflower (Vogel 1979)
+/// of equal areas about the beam's axis, turned by an angle of the beam's own.
 RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarOptics& optics);
 
 /// Makes an echo of what the sub-rays of a beam have met.

@@ -36,8 +36,6 @@ double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double 
   return std::min(own_hz, sensor.update_rate_hz);
 }
 
-double read_gaussian_noise(Parameters& plugin) {
-  return plugin.number("gaussianNoise", 0.0, 0.0);
-}
+double read_gaussian_noise(Parameters& plugin) { return plugin.number("gaussianNoise", 0.0, 0.0); }
 
 }  // namespace ardee

@@ -24,8 +24,8 @@ struct LidarParams {
 LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin, SceneKind scene,
                               const char* default_topic, DeviceContext& context);
 
-/// What a sensor's rays meet where the plugin's name does not say it: a sensor of type gpu_ray meets
-/// visual bodies, one of type ray collision bodies (thesis 4.3.3).
+/// What a sensor's rays meet where the plugin's name does not say it: a sensor of type gpu_ray
+/// meets visual bodies, one of type ray collision bodies (thesis 4.3.3).
 SceneKind scene_of(const SensorDescription& sensor);
 
 /// The rate of a plugin with an <updateRate> of its own: the slower of it and the sensor's. A rate

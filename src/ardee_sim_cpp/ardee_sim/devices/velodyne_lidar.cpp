@@ -13,12 +13,9 @@ namespace {
 using Type = PointCloudReading::Type;
 
 /// As velodyne_pointcloud and velodyne_simulator lay a point out; the label is ours.
-const std::vector<PointCloudReading::Field> kFields{{"x", 0, Type::kFloat32},
-                                                    {"y", 4, Type::kFloat32},
-                                                    {"z", 8, Type::kFloat32},
-                                                    {"intensity", 16, Type::kFloat32},
-                                                    {"ring", 20, Type::kUint16},
-                                                    {"label", 24, Type::kUint32}};
+const std::vector<PointCloudReading::Field> kFields{
+    {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
+    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32}};
 constexpr std::uint32_t kPointStep = 32;
 
 template <typename T>
@@ -98,7 +95,8 @@ void VelodyneLidar::measure(TimeNs now_ns) {
   std::vector<Pose> X_WS;
   X_WS.reserve(static_cast<std::size_t>(rays.columns));
   for (int column = 1; column <= rays.columns; ++column) {
-    const double to_go = rays.columns > 1 ? double(rays.columns - column) / (rays.columns - 1) : 0.0;
+    const double to_go =
+        rays.columns > 1 ? double(rays.columns - column) / (rays.columns - 1) : 0.0;
     X_WS.push_back(track_.at(static_cast<double>(now_ns) - to_go * sweep_ns));
   }
   beams_.measure_moving(X_WS, scene, echoes_);
@@ -134,8 +132,8 @@ PointCloudReading VelodyneLidar::to_cloud() const {
     }
   }
   cloud.data.resize(static_cast<std::size_t>(point - cloud.data.data()));
-  cloud.width = static_cast<std::uint32_t>(params_.organised ? rings
-                                                             : cloud.data.size() / kPointStep);
+  cloud.width =
+      static_cast<std::uint32_t>(params_.organised ? rings : cloud.data.size() / kPointStep);
   cloud.height = static_cast<std::uint32_t>(params_.organised ? columns : 1);
   cloud.is_dense = !params_.organised;
   return cloud;

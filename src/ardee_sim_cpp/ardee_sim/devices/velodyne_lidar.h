@@ -13,13 +13,13 @@
 
 namespace ardee {
 
-/// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver, with
-/// each point's label in bytes that are free there.
+/// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver,
+/// with each point's label in bytes that are free there.
 ///
 /// Points come column by column and in a column from the lowest ring up. By default a scan is taken
 /// at one moment; a scan with motion distortion ends at its time stamp, its columns are taken
-/// evenly over the turn before, and each point is told, as by the real device, in the sensor's frame
-/// of its own moment. Other models stand where they are at the stamp.
+/// evenly over the turn before, and each point is told, as by the real device, in the sensor's
+/// frame of its own moment. Other models stand where they are at the stamp.
 class VelodyneLidar : public Sensor {
  public:
   struct Params {

@@ -92,17 +92,17 @@ struct RayScene::Impl {
     require_committed();
     hits.resize(rays);
     arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, rays, kGrain),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
-              const int count =
-                  static_cast<int>(std::min<std::size_t>(kPacketRays, range.end() - i));
-              RayQuery queries[kPacketRays];
-              cast_some(i, count, queries);
-              for (int k = 0; k < count; ++k) queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
-            }
-          });
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays, kGrain),
+                        [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
+                            const int count = static_cast<int>(
+                                std::min<std::size_t>(kPacketRays, range.end() - i));
+                            RayQuery queries[kPacketRays];
+                            cast_some(i, count, queries);
+                            for (int k = 0; k < count; ++k)
+                              queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
+                          }
+                        });
     });
   }
 
@@ -184,7 +184,8 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
   const auto cast_some = [&](std::size_t first, int count, RayQuery* queries) {
     for (int k = 0; k < count; ++k) {
-      const Eigen::Vector3f& direction_S = pattern.directions_S[first + static_cast<std::size_t>(k)];
+      const Eigen::Vector3f& direction_S =
+          pattern.directions_S[first + static_cast<std::size_t>(k)];
       const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
       queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity, own_link);
     }
@@ -197,8 +198,8 @@ void RayScene::cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity,
                     std::uint32_t own_link, std::vector<RayHit>& hits) const {
   require_sane(rays);
   impl_->cast_in_parallel(rays.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
-    impl_->cast_packet(rays.data() + first, count, RayQuery::Purpose::kNearest, own_entity, own_link,
-                       queries);
+    impl_->cast_packet(rays.data() + first, count, RayQuery::Purpose::kNearest, own_entity,
+                       own_link, queries);
   });
 }
 

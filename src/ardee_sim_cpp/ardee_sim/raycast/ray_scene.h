@@ -25,7 +25,7 @@ struct RayHit {
   std::uint32_t shape = 0;  // index of the visual or collision in the link
   std::uint32_t label = 0;
   float laser_retro = 0.0f;
-  float reflectivity = 0.0f;  // laser_retro if given, else of the diffuse colour, 0 to 1
+  float reflectivity = 0.0f;          // laser_retro if given, else of the diffuse colour, 0 to 1
   Eigen::Vector3f normal_W{0, 0, 0};  // unit, towards the ray's origin
 };
 

@@ -81,10 +81,10 @@ TEST(LidarOptics, ThePoleSendsBackItsShareOfTheBeam) {
   // The share of a disc of radius R = 25 mm that a centred strip of half width 10 mm covers.
   const double u = 0.4;
   const double share = 2.0 / M_PI * (std::asin(u) + u * std::sqrt(1.0 - u * u));
-  const LidarReading scan =
-      first_scan(board("pole", 5.0, 0.0, 0.02),
-                 lidar(wide_beam(0.01, "<intensityModel>lambert</intensityModel>"
-                                       "<intensityScale>100</intensityScale>")));
+  const LidarReading scan = first_scan(board("pole", 5.0, 0.0, 0.02),
+                                       lidar(wide_beam(0.01,
+                                                       "<intensityModel>lambert</intensityModel>"
+                                                       "<intensityScale>100</intensityScale>")));
   EXPECT_NEAR(scan.intensities[0], 100.0 * kGreyReflectivity * share, 100.0 * 0.02);
 }
 
@@ -148,10 +148,10 @@ TEST(LidarOptics, SameBytesForAnyThreadsAndForTilesAndInstances) {
     options.rays.threads = threads;
     options.rays.flatten = flatten;
     TestWorld world(room() + edge(2.2), 0.001, options);
-    world.spawn(lidar(wide_beam(0.02, "<reflectivityRange>8</reflectivityRange>"),
-                      angles(401, -M_PI, M_PI))
-                    .xml(),
-                "post", kOneMetreUp);
+    world.spawn(
+        lidar(wide_beam(0.02, "<reflectivityRange>8</reflectivityRange>"), angles(401, -M_PI, M_PI))
+            .xml(),
+        "post", kOneMetreUp);
     world.run(0.1);
     return world.recorder().on<LidarReading>("/seen").at(0).ranges_m;
   };

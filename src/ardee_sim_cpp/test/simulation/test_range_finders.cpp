@@ -84,8 +84,9 @@ INSTANTIATE_TEST_SUITE_P(Both, RangeFinders, testing::Values(kRange, kSonar),
 
 TEST(Range, TellsTheFieldOfViewAndRadiationOfItsKeys) {
   TestWorld world(room());
-  RayPost post = cone(kRange, "<fov>0.12</fov><radiation>infrared</radiation>"
-                              "<updateRate>5</updateRate><frameName>nose</frameName>");
+  RayPost post = cone(kRange,
+                      "<fov>0.12</fov><radiation>infrared</radiation>"
+                      "<updateRate>5</updateRate><frameName>nose</frameName>");
   world.spawn(post.xml(), "post", kOneMetreUp);
   world.run(1.0);
   const auto readings = world.recorder().on<RangeReading>("/seen");
@@ -118,9 +119,9 @@ TEST(Sonar, HasHectorsOffsetAndScale) {
 TEST(Sonar, NoiseDoesNotDependOnWhoListens) {
   const auto last = [](bool listen_always) {
     TestWorld world(room());
-    Entity& post = world.spawn(
-        cone(kSonar, "<gaussianNoise>0.02</gaussianNoise><drift>0.1</drift>").xml(), "post",
-        kOneMetreUp);
+    Entity& post =
+        world.spawn(cone(kSonar, "<gaussianNoise>0.02</gaussianNoise><drift>0.1</drift>").xml(),
+                    "post", kOneMetreUp);
     Output& output = post.devices[0]->outputs()[0];
     output.demanded = listen_always;
     world.run(0.5);

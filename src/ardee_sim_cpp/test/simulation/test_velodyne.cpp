@@ -93,8 +93,7 @@ TEST(Velodyne, GoesColumnByColumnAndFromTheLowestRingUpInARoom) {
       const double azimuth = -0.5 + 0.5 * double(k / 4);
       const double elevation = -0.3 + 0.2 * double(k % 4);
       const double wall_m = 5.0 / std::cos(azimuth);
-      const Eigen::Vector3d expected(5.0, wall_m * std::sin(azimuth),
-                                     wall_m * std::tan(elevation));
+      const Eigen::Vector3d expected(5.0, wall_m * std::sin(azimuth), wall_m * std::tan(elevation));
       EXPECT_LT((place(cloud, k) - expected).norm(), 3e-6) << "point " << k;
       EXPECT_EQ(at<std::uint16_t>(cloud, k, 20), k % 4);
     }
@@ -103,8 +102,7 @@ TEST(Velodyne, GoesColumnByColumnAndFromTheLowestRingUpInARoom) {
 
 TEST(Velodyne, OrganisedHasAPlaceForEveryBeam) {
   TestWorld world(board("wall", 2.0, 0.0, 1.0));  // half a metre to each side: the middle column
-  const PointCloudReading cloud =
-      first_cloud(world, velodyne("<organised>true</organised>"), {});
+  const PointCloudReading cloud = first_cloud(world, velodyne("<organised>true</organised>"), {});
   EXPECT_EQ(cloud.width, 4u);
   EXPECT_EQ(cloud.height, 3u);
   EXPECT_FALSE(cloud.is_dense);
@@ -148,7 +146,8 @@ PointCloudReading cloud_in_motion(TestWorld& world, const std::string& keys, con
   return world.recorder().on<PointCloudReading>("/seen").at(1);
 }
 
-const std::string kDistorted = "<organised>true</organised><motionDistortion>true</motionDistortion>";
+const std::string kDistorted =
+    "<organised>true</organised><motionDistortion>true</motionDistortion>";
 
 TEST(Velodyne, MotionTowardsAWallBendsIt) {
   // It moves at 2 m/s along x; the beam at azimuth a leaves (pi - a) / 2 pi of a turn before the
@@ -174,7 +173,8 @@ TEST(Velodyne, MotionTowardsAWallBendsIt) {
 }
 
 TEST(Velodyne, TurningShiftsWhatStandsBesideIt) {
-  // It turns at 2 rad/s: what stands at bearing b is met by the beam at azimuth a with a + yaw(a) = b, where yaw(a) = yaw_now - spin * (pi - a) / 2 pi.
+  // It turns at 2 rad/s: what stands at bearing b is met by the beam at azimuth a with a + yaw(a) =
+  // b, where yaw(a) = yaw_now - spin * (pi - a) / 2 pi.
   const double rate = 2.0;
   const double yaw_now = rate * 2.0 * kSpin_s;
   const double bearing = 0.9;
