@@ -3,11 +3,16 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "ardee_sim/devices/lidar_beams.h"
 #include "ardee_sim/devices/lidar_params.h"
 #include "ardee_sim/devices/sensor.h"
 
 namespace ardee {
+
+/// Range noise on all finite echoes, which stay within the device's limits. Beam i uses counter i.
+void corrupt_echoes(const RayBlock& rays, const CounterRng& noise, std::vector<BeamEcho>& echoes);
 
 /// A planar lidar, on collision or visual bodies. Beam i leaves the sensor's origin at angle_min +
 /// i * increment about z.
@@ -23,24 +28,16 @@ class Lidar : public Sensor {
                                                  DeviceContext& context);
   Lidar(const std::string& name, const Mount& mount, const LidarParams& params, RayScenes& scenes);
 
-  /// The ideal scan from X_WS: a pure function of the scene.
-  LidarReading measure(const Pose& X_WS, const RayScene& scene) const;
-  /// Gaussian range noise; noisy ranges stay within the device's limits. Beam i uses counter i.
-  void corrupt(LidarReading& reading, const CounterRng& noise) const;
-
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
   bool wanted() const override { return output_.demanded; }
 
  private:
-  RayHit first_beyond_minimum(const RayHit& hit, const Pose& X_WS,
-                              const Eigen::Vector3f& direction_S, const RayScene& scene) const;
-
   LidarParams params_;
   RayScenes& scenes_;
-  RayPattern pattern_;
+  LidarBeams beams_;
   std::shared_ptr<void> eye_;
-  mutable std::vector<RayHit> hits_;  // scratch, to spare an allocation a scan
+  std::vector<BeamEcho> echoes_;
   Output& output_;
 };
 

@@ -4,34 +4,36 @@
 #include <string>
 
 #include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/lidar_optics.h"
+#include "ardee_sim/devices/ray_block.h"
 
 namespace ardee {
 
-/// A planar lidar: SDF's <ray> block and the plugin's keys.
+/// What all lidars share: SDF's <ray> block and the plugin's keys.
 struct LidarParams {
-  int samples = 640;           // beams, SDF's samples * resolution
-  double angle_min_rad = 0.0;  // may exceed angle_max_rad: the scan then runs backwards
-  double angle_max_rad = 0.0;
-  double range_min_m = 0.0;
-  double range_max_m = 10.0;
-  double noise_mean_m = 0.0;
-  double noise_std_m = 0.0;
-  double precision_m = 0.0;  // noisy ranges are multiples of it; 0: not quantised
+  RayBlock rays;
+  LidarOptics optics;
   SceneKind scene = SceneKind::kVisual;
   bool look_through_near =
-      false;  // Gazebo's way: what is nearer than range_min_m is not seen at all
+      false;  // Gazebo's way: what is nearer than the minimum is not seen at all
   std::string topic;
   std::string frame;
-
-  /// Angle between beams; 0 for a single one.
-  double angle_increment_rad() const {
-    return samples > 1 ? (angle_max_rad - angle_min_rad) / (samples - 1) : 0.0;
-  }
 };
 
-/// Reads and checks them; `scene` is what the plugin's name says: gazebo_ros_laser meets collision
-/// bodies, gazebo_ros_gpu_laser visual ones (thesis 4.3.3).
-LidarParams read_lidar_params(const SensorDescription& sensor, const PluginDescription& plugin,
-                              SceneKind scene, DeviceContext& context);
+/// Reads and checks them; the caller reads what keys are left and calls plugin.finish().
+LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin, SceneKind scene,
+                              const char* default_topic, DeviceContext& context);
+
+/// What a sensor's rays meet where the plugin's name does not say it: a sensor of type gpu_ray
+/// meets visual bodies, one of type ray collision bodies (thesis 4.3.3).
+SceneKind scene_of(const SensorDescription& sensor);
+
+/// The rate of a plugin with an <updateRate> of its own: the slower of it and the sensor's. A rate
+/// of 0 is no limit.
+double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz,
+                    double least_hz);
+
+/// The plugin's <gaussianNoise>: a standard deviation.
+double read_gaussian_noise(Parameters& plugin);
 
 }  // namespace ardee

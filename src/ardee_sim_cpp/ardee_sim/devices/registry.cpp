@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "ardee_sim/devices/battery.h"
+#include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/diff_drive.h"
 #include "ardee_sim/devices/encoder.h"
 #include "ardee_sim/devices/gazebo_imu.h"
@@ -14,8 +15,10 @@
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/magnetometer.h"
+#include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
+#include "ardee_sim/devices/velodyne_lidar.h"
 
 namespace ardee {
 namespace {
@@ -124,9 +127,14 @@ Registry builtin_registry() {
   registry.add_model_sensor("libhector_gazebo_ros_gps.so", Gps::make);
   registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
   registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
+  registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
-  registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
   registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
+  registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_range.so", RangeFinder::make_range);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so", VelodyneLidar::make_on_visuals);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so", VelodyneLidar::make_on_collisions);
+  registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
   return registry;
 }
 

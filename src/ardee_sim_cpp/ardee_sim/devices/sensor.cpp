@@ -7,7 +7,11 @@ Sensor::Sensor(const std::string& name, const Mount& mount)
     : Device(name),
       mount_(mount),
       timer_(mount.rate_hz, mount.offset_ns),
-      stream_(stream_key(mount.seed, name)) {}
+      stream_(stream_key(mount.seed, name)) {
+  if (mount.rate_hz < 0.0) {
+    throw Error("sensor '" + name + "': found an update rate below 0 Hz, expected 0 or more");
+  }
+}
 
 void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
   follow(now_ns);

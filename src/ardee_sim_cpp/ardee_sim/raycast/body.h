@@ -20,6 +20,7 @@ struct BodySurface {
   std::uint32_t link = 0;
   std::uint32_t shape = 0;
   float laser_retro = 0.0f;
+  float reflectivity = 0.0f;
   bool two_sided = true;
   std::shared_ptr<const AlphaMask> mask;  // null: no holes
   // For pictures.

@@ -16,6 +16,15 @@ constexpr std::size_t kTreeThreshold = 3;
 /// Visuals at least this transparent cast no shadow.
 constexpr double kThin = 0.5;
 
+/// Share of light that a surface sends back: its laser_retro, else the brightest channel of its
+/// diffuse colour. Lidars see near infrared light, which plants send back at least as well as any
+/// colour.
+float reflectivity(float laser_retro, const Material* material) {
+  if (laser_retro > 0.0f) return laser_retro;
+  const Color diffuse = material != nullptr ? material->diffuse : Material().diffuse;
+  return diffuse.head<3>().maxCoeff();
+}
+
 /// Collects the shapes of links into a body.
 class BodyCompiler {
  public:
@@ -77,6 +86,7 @@ class BodyCompiler {
   }
 
   std::uint32_t add_surface() {
+    surface_.reflectivity = reflectivity(surface_.laser_retro, surface_.material);
     body_->surfaces.push_back(surface_);
     return static_cast<std::uint32_t>(body_->surfaces.size() - 1);
   }

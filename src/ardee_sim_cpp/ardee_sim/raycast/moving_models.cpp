@@ -85,16 +85,23 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
 }
 
 void MovingModels::meet(RayQuery& query) const {
+  for (const auto& [entity, entry] : entries_) meet(query, entity, entry);
+}
+
+void MovingModels::meet(RayQuery& query, std::uint32_t entity) const {
+  const auto found = entries_.find(entity);
+  if (found != entries_.end()) meet(query, entity, found->second);
+}
+
+void MovingModels::meet(RayQuery& query, std::uint32_t entity, const Entry& entry) {
+  if (entry.boxes_W.empty()) return;
   const Ray& ray = query.ray_W();
   const Eigen::Vector3d inverse = ray.direction.cwiseInverse();
-  for (const auto& [entity, entry] : entries_) {
-    if (entry.boxes_W.empty()) continue;
-    if (!touches(entry.box_W, ray.origin, inverse, query.reach())) continue;
-    for (std::size_t k = 0; k < entry.placed.size(); ++k) {
-      if (query.passes(entity, entry.links[k])) continue;
-      if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
-        query.meet_body(entry.placed[k], 0.0);
-      }
+  if (!touches(entry.box_W, ray.origin, inverse, query.reach())) return;
+  for (std::size_t k = 0; k < entry.placed.size(); ++k) {
+    if (query.passes(entity, entry.links[k])) continue;
+    if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
+      query.meet_body(entry.placed[k], 0.0);
     }
   }
 }

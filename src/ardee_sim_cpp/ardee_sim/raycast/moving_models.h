@@ -20,6 +20,7 @@ class MovingModels {
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
   void meet(RayQuery& query) const;
+  void meet(RayQuery& query, std::uint32_t entity) const;
 
  private:
   struct Entry {
@@ -30,6 +31,8 @@ class MovingModels {
     std::vector<Bounds> boxes_W;                // empty until the first poses
     Bounds box_W;
   };
+
+  static void meet(RayQuery& query, std::uint32_t entity, const Entry& entry);
 
   const EmbreeDevice& device_;
   AlphaMasks& masks_;

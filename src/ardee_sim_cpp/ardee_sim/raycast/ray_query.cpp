@@ -180,6 +180,7 @@ void RayQuery::fill(RayHit& hit) const {
   hit.shape = surface.shape;
   hit.label = placed_->label;
   hit.laser_retro = surface.laser_retro;
+  hit.reflectivity = surface.reflectivity;
   Eigen::Vector3d normal_W = (placed_->q * normal_B_).normalized();
   if (normal_W.dot(ray_W_.direction) > 0.0) normal_W = -normal_W;
   hit.normal_W = normal_W.cast<float>();

@@ -19,7 +19,7 @@ class RayQuery {
   /// Shadow: whatever casts one ends the ray, near or far, seen from either side.
   enum class Purpose { kNearest, kShadow };
 
-  /// Rays meet nothing of the link (own_entity, own_link).
+  /// Rays meet nothing of the link (own_entity, own_link), or of all links of that entity.
   void start(const Ray& ray_W, double reach_m, std::uint32_t own_entity, std::uint32_t own_link,
              Purpose purpose = Purpose::kNearest) {
     purpose_ = purpose;
@@ -35,7 +35,7 @@ class RayQuery {
   bool has_hit() const { return placed_ != nullptr; }
   /// Whether the ray passes through that link: the sensor's own.
   bool passes(std::uint32_t entity, std::uint32_t link) const {
-    return entity == own_entity_ && link == own_link_;
+    return entity == own_entity_ && (link == own_link_ || own_link_ == kAllLinks);
   }
 
   /// Makes `placed` the body that the next calls speak of.

@@ -60,22 +60,54 @@ struct RayScene::Impl {
     if (onwards) scenery.meet_places(queries, t_low);
   }
 
-  /// Rays of any origins, in packets.
+  /// Rays of any origins, up to kPacketRays.
+  void cast_packet(const SceneRay* rays, int count, RayQuery::Purpose purpose,
+                   std::uint32_t own_entity, std::uint32_t own_link,
+                   RayQuery queries[kPacketRays]) const {
+    const NearRegion* region = regions.find(rays[0].origin_W);
+    for (int k = 0; k < count; ++k) {
+      const SceneRay& ray = rays[k];
+      queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, own_entity, own_link, purpose);
+      if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
+    }
+    cast(queries, count, region);
+  }
+
+  /// The same for any number of them, by the caller's thread.
   template <typename Take>
   void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, Take take) const {
-    if (!scenery.committed()) throw Error("ray scene: prepare() must follow a change of scenery");
+    require_committed();
     for (std::size_t first = 0; first < count; first += kPacketRays) {
       const int packet = static_cast<int>(std::min<std::size_t>(kPacketRays, count - first));
       RayQuery queries[kPacketRays];
-      const NearRegion* region = regions.find(rays[first].origin_W);
-      for (int k = 0; k < packet; ++k) {
-        const SceneRay& ray = rays[first + static_cast<std::size_t>(k)];
-        queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, kNoEntity, 0, purpose);
-        if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
-      }
-      cast(queries, packet, region);
+      cast_packet(rays + first, packet, purpose, kNoEntity, 0, queries);
       for (int k = 0; k < packet; ++k) take(queries[k], first + static_cast<std::size_t>(k));
     }
+  }
+
+  /// Calls cast_some(first, count, queries) for packets of rays by all threads, and keeps what they
+  /// met.
+  template <typename CastSome>
+  void cast_in_parallel(std::size_t rays, std::vector<RayHit>& hits, CastSome cast_some) const {
+    require_committed();
+    hits.resize(rays);
+    arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rays, kGrain),
+                        [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
+                            const int count = static_cast<int>(
+                                std::min<std::size_t>(kPacketRays, range.end() - i));
+                            RayQuery queries[kPacketRays];
+                            cast_some(i, count, queries);
+                            for (int k = 0; k < count; ++k)
+                              queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
+                          }
+                        });
+    });
+  }
+
+  void require_committed() const {
+    if (!scenery.committed()) throw Error("ray scene: prepare() must follow a change of scenery");
   }
 
   EmbreeDevice device;
@@ -120,40 +152,66 @@ void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
   impl_->regions.prepare(eyes_W);
 }
 
-void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
-                    std::uint32_t own_entity, std::uint32_t own_link,
-                    std::vector<RayHit>& hits) const {
+namespace {
+
+void require_sane(const Pose& X_WS, const RayPattern& pattern, float max_range_m) {
   if (!X_WS.is_finite()) throw Error("ray scene: the sensor's pose is not finite");
   if (!(max_range_m >= 0.0f)) throw Error("ray scene: the maximum range must be 0 m or more");
-  if (!impl_->scenery.committed())
-    throw Error("ray scene: prepare() must follow a change of scenery");
-  const std::vector<Eigen::Vector3f>& directions = pattern.directions_S;
-  for (const Eigen::Vector3f& direction : directions) {
+  for (const Eigen::Vector3f& direction : pattern.directions_S) {
     const float square = direction.squaredNorm();
     if (!(std::abs(square - 1.0f) < 1e-3f)) {
       throw Error("ray scene: directions must be finite and of length 1");
     }
   }
-  hits.resize(directions.size());
+}
+
+void require_sane(const std::vector<SceneRay>& rays) {
+  for (const SceneRay& ray : rays) {
+    const double square = ray.direction_W.squaredNorm();
+    if (!ray.origin_W.allFinite() || !(std::abs(square - 1.0) < 1e-3) || !(ray.reach_m >= 0.0)) {
+      throw Error("ray scene: rays must be finite, of length 1 and of reach 0 m or more");
+    }
+  }
+}
+
+}  // namespace
+
+void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
+                    std::uint32_t own_entity, std::uint32_t own_link,
+                    std::vector<RayHit>& hits) const {
+  require_sane(X_WS, pattern, max_range_m);
   const NearRegion* region = impl_->regions.find(X_WS.p);
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
-  impl_->arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, directions.size(), kGrain),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i < range.end(); i += kPacketRays) {
-            const int count = static_cast<int>(std::min<std::size_t>(kPacketRays, range.end() - i));
-            RayQuery queries[kPacketRays];
-            for (int k = 0; k < count; ++k) {
-              const Eigen::Vector3f& direction_S = directions[i + static_cast<std::size_t>(k)];
-              const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
-              queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity,
-                               own_link);
-            }
-            impl_->cast(queries, count, region);
-            for (int k = 0; k < count; ++k) queries[k].fill(hits[i + static_cast<std::size_t>(k)]);
-          }
-        });
+  const auto cast_some = [&](std::size_t first, int count, RayQuery* queries) {
+    for (int k = 0; k < count; ++k) {
+      const Eigen::Vector3f& direction_S =
+          pattern.directions_S[first + static_cast<std::size_t>(k)];
+      const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
+      queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity, own_link);
+    }
+    impl_->cast(queries, count, region);
+  };
+  impl_->cast_in_parallel(pattern.directions_S.size(), hits, cast_some);
+}
+
+void RayScene::cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity,
+                    std::uint32_t own_link, std::vector<RayHit>& hits) const {
+  require_sane(rays);
+  impl_->cast_in_parallel(rays.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
+    impl_->cast_packet(rays.data() + first, count, RayQuery::Purpose::kNearest, own_entity,
+                       own_link, queries);
+  });
+}
+
+void RayScene::cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
+                             std::uint32_t own_link, std::vector<RayHit>& hits) const {
+  require_sane(rays);
+  impl_->cast_in_parallel(rays.size(), hits, [&](std::size_t first, int count, RayQuery* queries) {
+    for (int k = 0; k < count; ++k) {
+      const SceneRay& ray = rays[first + static_cast<std::size_t>(k)];
+      queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, entity, own_link);
+      impl_->moving.meet(queries[k], entity);
+    }
   });
 }
 

@@ -25,6 +25,7 @@ struct RayHit {
   std::uint32_t shape = 0;  // index of the visual or collision in the link
   std::uint32_t label = 0;
   float laser_retro = 0.0f;
+  float reflectivity = 0.0f;          // laser_retro if given, else of the diffuse colour, 0 to 1
   Eigen::Vector3f normal_W{0, 0, 0};  // unit, towards the ray's origin
 };
 
@@ -72,6 +73,13 @@ class RayScene {
   /// Inside it the work is parallel; call it from one thread at a time.
   void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
             std::uint32_t own_entity, std::uint32_t own_link, std::vector<RayHit>& hits) const;
+
+  /// As above for rays with origins and reaches of their own; `own_link` may be kAllLinks.
+  void cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity, std::uint32_t own_link,
+            std::vector<RayHit>& hits) const;
+  /// What of one moving model alone the rays meet, its link `own_link` left out.
+  void cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
+                     std::uint32_t own_link, std::vector<RayHit>& hits) const;
 
   /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
   /// best asked side by side. The work is the caller's thread's; many threads may call at once.

@@ -10,6 +10,7 @@
 namespace ardee {
 
 constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
+constexpr std::uint32_t kAllLinks = 0xFFFFFFFFu;
 
 /// A ray with an origin of its own.
 struct SceneRay {

@@ -94,7 +94,7 @@ SensorDescription read_sensor(const Node& sensor) {
   SensorDescription made;
   made.name = sensor.required_attribute("name");
   made.type = sensor.required_attribute("type");
-  made.update_rate_hz = sensor.number("update_rate", 0.0, 0.0);
+  made.update_rate_hz = sensor.number("update_rate", 0.0);
   made.X_LS = sensor.pose();
   made.element = sensor.to_element();
   sensor.each("plugin", [&made](const Node& node) { made.plugins.push_back(read_plugin(node)); });

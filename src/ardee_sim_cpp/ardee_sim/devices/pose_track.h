@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/time.h"
+
+namespace ardee {
+
+/// Where something was in the last while, step by step.
+class PoseTrack {
+ public:
+  /// Remembers poses for `duration_ns`.
+  explicit PoseTrack(TimeNs duration_ns) : duration_ns_(duration_ns) {}
+
+  /// Times must not decrease; a pose at the time of the last one replaces it.
+  void add(TimeNs time_ns, const Pose& X_WS);
+  void clear() { track_.clear(); }
+  /// Between the poses before and after, straight and by the shortest turn; before the first pose
+  /// and after the last one it stands still. There must be a pose.
+  Pose at(double time_ns) const;
+
+ private:
+  struct Stamped {
+    TimeNs time_ns;
+    Pose X_WS;
+  };
+
+  TimeNs duration_ns_;
+  std::deque<Stamped> track_;
+};
+
+}  // namespace ardee

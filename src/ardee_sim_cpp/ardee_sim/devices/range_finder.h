@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/lidar_beams.h"
+#include "ardee_sim/devices/ray_block.h"
+#include "ardee_sim/devices/sensor.h"
+#include "ardee_sim/devices/sensor_model.h"
+
+namespace ardee {
+
+/// A sonar or infrared ranger: the nearest range of all rays over its cone. Without a return it
+/// tells its maximum; what is nearer than its minimum is told as the minimum.
+class RangeFinder : public Sensor {
+ public:
+  struct Params {
+    RayBlock rays;
+    SceneKind scene = SceneKind::kCollision;
+    bool look_through_near = false;
+    RangeReading::Radiation radiation = RangeReading::Radiation::kUltrasound;
+    double field_of_view_rad = 0.0;  // as told
+    SensorErrors errors;             // of a range below the maximum, m
+    bool is_tunable = false;         // the errors can be changed while it runs
+    std::string topic;
+    std::string frame;
+  };
+
+  /// libgazebo_ros_range.so
+  static std::unique_ptr<Device> make_range(const SensorDescription& sensor,
+                                            const PluginDescription& plugin, std::size_t link,
+                                            DeviceContext& context);
+  /// libhector_gazebo_ros_sonar.so
+  static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor,
+                                            const PluginDescription& plugin, std::size_t link,
+                                            DeviceContext& context);
+  RangeFinder(const std::string& name, const Mount& mount, const Params& params, RayScenes& scenes);
+
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+  /// Its errors move on whether anybody listens or not; rays are cast only if somebody does.
+  bool wanted() const override { return true; }
+
+ private:
+  /// By REP 117: +inf nothing, -inf nearer than the minimum.
+  double nearest_m(const CounterRng& noise);
+
+  Params params_;
+  RayScenes& scenes_;
+  LidarBeams beams_;
+  std::shared_ptr<void> eye_;
+  SensorModel model_;
+  TimeNs last_ns_ = 0;
+  std::vector<BeamEcho> echoes_;
+  Output& output_;
+};
+
+}  // namespace ardee

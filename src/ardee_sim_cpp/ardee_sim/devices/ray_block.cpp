@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/ray_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ardee {
+namespace {
+
+constexpr int kMostRays = 1 << 20;
+constexpr double kTwoTurns = 4.0 * M_PI;
+constexpr double kQuarterTurn = 0.5 * M_PI;
+
+const Element& required_block(const Element& parent, const char* name) {
+  const Element* block = parent.child(name);
+  if (!block) throw Error(parent.source, "found no <" + std::string(name) + ">, expected one");
+  return *block;
+}
+
+int read_samples(Parameters& direction, int fallback) {
+  const int samples = direction.integer("samples", fallback, 1, kMostRays);
+  const double resolution = direction.number("resolution", 1.0, 1e-6, 1e6);
+  return static_cast<int>(std::clamp(std::round(samples * resolution), 1.0, double(kMostRays)));
+}
+
+void read_scan(const Element& scan, RayBlock& block, Log& log) {
+  Parameters horizontal(required_block(scan, "horizontal"));
+  block.columns = read_samples(horizontal, 640);
+  block.angle_min_rad = horizontal.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
+  block.angle_max_rad = horizontal.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
+  horizontal.finish(log);
+  const Element* given = scan.child("vertical");
+  if (!given) return;
+  Parameters vertical(*given);
+  block.rows = read_samples(vertical, 1);
+  block.elevation_min_rad = vertical.number("min_angle", 0.0, -kQuarterTurn, kQuarterTurn);
+  block.elevation_max_rad = vertical.number("max_angle", 0.0, -kQuarterTurn, kQuarterTurn);
+  vertical.finish(log);
+  if (block.rows > 1 && block.elevation_max_rad <= block.elevation_min_rad) {
+    throw vertical.error("max_angle", "expected more than <min_angle>");
+  }
+  if (block.rays() > static_cast<std::size_t>(kMostRays)) {
+    throw Error(scan.source, "found " + std::to_string(block.columns) + " x " +
+                                 std::to_string(block.rows) + " rays, expected up to " +
+                                 std::to_string(kMostRays));
+  }
+}
+
+void read_range(const Element& range, RayBlock& block, Log& log) {
+  Parameters parameters(range);
+  block.range_min_m = parameters.number("min", 0.0, 0.0, 1e6);
+  block.range_max_m = parameters.number("max", 0.0, 0.0, 1e6);
+  if (block.range_max_m <= block.range_min_m) {
+    throw parameters.error("max", "expected more than <min>");
+  }
+  parameters.ignore({"resolution"});  // Gazebo does not quantise ranges either
+  parameters.finish(log);
+}
+
+void read_noise(const Element& noise, RangeNoise& made, Log& log) {
+  Parameters parameters(noise);
+  const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
+                                                          : parameters.text("type", "none");
+  const double mean = parameters.number("mean", 0.0);
+  const double std = parameters.number("stddev", 0.0, 0.0);
+  const double precision = parameters.number("precision", 0.0, 0.0);
+  parameters.ignore({"type", "bias_mean", "bias_stddev"});
+  parameters.finish(log);
+  if (type == "none") return;
+  if (type != "gaussian" && type != "gaussian_quantized") {
+    throw Error(noise.source,
+                "found noise type '" + type + "', expected gaussian, gaussian_quantized or none");
+  }
+  if (type == "gaussian_quantized") made.precision_m = precision;
+  made.mean_m = mean;
+  made.std_m = std;
+}
+
+void require_rate(const Element& sensor) {
+  Parameters parameters(sensor);
+  if (parameters.number("update_rate", 1.0) <= 0.0) {
+    throw parameters.error("update_rate", "expected more than 0 Hz");
+  }
+}
+
+}  // namespace
+
+double RangeNoise::corrupt(double range_m, double normal) const {
+  const double noisy_m = range_m + mean_m + (std_m + growth * range_m) * normal;
+  return precision_m > 0.0 ? precision_m * std::round(noisy_m / precision_m) : noisy_m;
+}
+
+RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
+  RayBlock block;
+  const Element* ray = sensor.element.child("ray");
+  if (!ray) ray = sensor.element.child("lidar");
+  if (!ray) {
+    throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +
+                                           "': found no <ray>, expected one");
+  }
+  require_rate(sensor.element);
+  read_scan(required_block(*ray, "scan"), block, log);
+  read_range(required_block(*ray, "range"), block, log);
+  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise, log);
+  return block;
+}
+
+}  // namespace ardee

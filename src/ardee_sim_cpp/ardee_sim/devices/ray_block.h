@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/core/rng.h"
+#include "ardee_sim/description/model.h"
+#include "ardee_sim/description/parameters.h"
+
+namespace ardee {
+
+/// Errors of a measured range: normal, with a deviation that grows with it.
+struct RangeNoise {
+  double mean_m = 0.0;
+  double std_m = 0.0;
+  double growth = 0.0;       // deviation added, m per m of range
+  double precision_m = 0.0;  // noisy ranges are multiples of it; 0: not quantised
+
+  bool is_none() const {
+    return mean_m == 0.0 && std_m <= 0.0 && growth <= 0.0 && precision_m <= 0.0;
+  }
+  /// A finite range as it is measured, before the device's limits; `normal` is a standard normal.
+  double corrupt(double range_m, double normal) const;
+};
+
+/// SDF's <ray> block: rays from one point over a grid of angles, and what limits and disturbs their
+/// ranges. Column i leaves at angle_min + i * increment about z, row j at an elevation likewise,
+/// from the lowest up; a single row lies level.
+struct RayBlock {
+  int columns = 640;           // SDF's samples * resolution
+  double angle_min_rad = 0.0;  // may exceed angle_max_rad: the scan then runs backwards
+  double angle_max_rad = 0.0;
+  int rows = 1;
+  double elevation_min_rad = 0.0;
+  double elevation_max_rad = 0.0;
+  double range_min_m = 0.0;
+  double range_max_m = 10.0;
+  RangeNoise noise;
+
+  std::size_t rays() const {
+    return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+  /// Angle between beams; 0 for a single one.
+  double angle_increment_rad() const {
+    return columns > 1 ? (angle_max_rad - angle_min_rad) / (columns - 1) : 0.0;
+  }
+  double elevation_increment_rad() const {
+    return rows > 1 ? (elevation_max_rad - elevation_min_rad) / (rows - 1) : 0.0;
+  }
+  double azimuth_rad(int column) const { return angle_min_rad + column * angle_increment_rad(); }
+  double elevation_rad(int row) const {
+    return rows > 1 ? elevation_min_rad + row * elevation_increment_rad() : 0.0;
+  }
+};
+
+/// Reads and checks it; an <update_rate> that is written must be more than 0.
+RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
+
+}  // namespace ardee

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/velodyne_lidar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "ardee_sim/devices/lidar.h"
+
+namespace ardee {
+namespace {
+
+using Type = PointCloudReading::Type;
+
+/// As velodyne_pointcloud and velodyne_simulator lay a point out; the label is ours.
+const std::vector<PointCloudReading::Field> kFields{
+    {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
+    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32}};
+constexpr std::uint32_t kPointStep = 32;
+
+template <typename T>
+void write(std::uint8_t* point, std::size_t offset, T value) {
+  std::memcpy(point + offset, &value, sizeof value);
+}
+
+std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescription& plugin,
+                             std::size_t link, SceneKind scene, DeviceContext& context) {
+  Parameters keys(plugin.element);
+  VelodyneLidar::Params params;
+  params.lidar = read_lidar_params(sensor, keys, scene, "/points", context);
+  params.min_range_m = keys.number("min_range", params.min_range_m, 0.0);
+  params.max_range_m = keys.number("max_range", params.max_range_m, 0.0);
+  if (params.max_range_m <= params.min_range_m) {
+    throw keys.error("max_range", "expected more than <min_range>");
+  }
+  params.min_intensity = keys.number("min_intensity", params.min_intensity);
+  params.organised = keys.boolean("organised", keys.boolean("organize_cloud", false));
+  params.motion_distortion = keys.boolean("motionDistortion", false);
+  // Two independent errors make one.
+  RangeNoise& noise = params.lidar.rays.noise;
+  noise.std_m = std::hypot(noise.std_m, read_gaussian_noise(keys));
+  keys.finish(context.log);
+  if (sensor.update_rate_hz <= 0.0) {
+    throw Error(sensor.element.source, "found no <update_rate>, expected one of more than 0 Hz");
+  }
+  const Sensor::Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};
+  return std::make_unique<VelodyneLidar>(sensor.name, mount, params, context.scenes);
+}
+
+}  // namespace
+
+std::unique_ptr<Device> VelodyneLidar::make_on_collisions(const SensorDescription& sensor,
+                                                          const PluginDescription& plugin,
+                                                          std::size_t link,
+                                                          DeviceContext& context) {
+  return make(sensor, plugin, link, SceneKind::kCollision, context);
+}
+
+std::unique_ptr<Device> VelodyneLidar::make_on_visuals(const SensorDescription& sensor,
+                                                       const PluginDescription& plugin,
+                                                       std::size_t link, DeviceContext& context) {
+  return make(sensor, plugin, link, SceneKind::kVisual, context);
+}
+
+VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
+                             RayScenes& scenes)
+    : Sensor(name, mount),
+      params_(params),
+      scenes_(scenes),
+      beams_(params.lidar.rays, params.lidar.optics, params.lidar.look_through_near,
+             {mount.robot.entity(), static_cast<std::uint32_t>(mount.link)}),
+      eye_(scenes.register_eye(params.lidar.scene, [this] { return pose().p; })),
+      track_(nanoseconds(1.0 / mount.rate_hz)),
+      output_(add_output(params.lidar.topic, reading_kind<PointCloudReading>())) {}
+
+void VelodyneLidar::before_step(TimeNs now_ns) {
+  if (is_distorted()) track_.add(now_ns, pose());
+}
+
+void VelodyneLidar::reset(TimeNs now_ns) {
+  Sensor::reset(now_ns);
+  track_.clear();
+}
+
+void VelodyneLidar::measure(TimeNs now_ns) {
+  const RayScene& scene = scenes_.now(params_.lidar.scene);
+  if (!is_distorted()) {
+    beams_.measure(pose(), scene, echoes_);
+    return;
+  }
+  track_.add(now_ns, pose());
+  const RayBlock& rays = params_.lidar.rays;
+  const double turn = std::abs(rays.angle_max_rad - rays.angle_min_rad) / (2.0 * M_PI);
+  const double sweep_ns = std::min(turn, 1.0) * kNsPerSecond / mount().rate_hz;
+  std::vector<Pose> X_WS;
+  X_WS.reserve(static_cast<std::size_t>(rays.columns));
+  for (int column = 1; column <= rays.columns; ++column) {
+    const double to_go =
+        rays.columns > 1 ? double(rays.columns - column) / (rays.columns - 1) : 0.0;
+    X_WS.push_back(track_.at(static_cast<double>(now_ns) - to_go * sweep_ns));
+  }
+  beams_.measure_moving(X_WS, scene, echoes_);
+}
+
+bool VelodyneLidar::keeps(const BeamEcho& echo) const {
+  const auto range_m = static_cast<double>(echo.range_m);
+  return std::isfinite(range_m) && range_m > params_.min_range_m && range_m < params_.max_range_m &&
+         static_cast<double>(echo.intensity) >= params_.min_intensity;
+}
+
+PointCloudReading VelodyneLidar::to_cloud() const {
+  const auto columns = static_cast<std::size_t>(params_.lidar.rays.columns);
+  const auto rings = static_cast<std::size_t>(params_.lidar.rays.rows);
+  PointCloudReading cloud;
+  cloud.fields = kFields;
+  cloud.point_step = kPointStep;
+  cloud.data.resize(beams_.count() * kPointStep);
+  std::uint8_t* point = cloud.data.data();
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t ring = 0; ring < rings; ++ring) {
+      const std::size_t beam = ring * columns + column;
+      const BeamEcho& echo = echoes_[beam];
+      const bool kept = keeps(echo);
+      if (!kept && !params_.organised) continue;
+      const float range_m = kept ? echo.range_m : std::numeric_limits<float>::quiet_NaN();
+      const Eigen::Vector3f place_S = range_m * beams_.axis_S(beam);
+      std::memcpy(point, place_S.data(), 3 * sizeof(float));
+      write(point, 16, kept ? echo.intensity : 0.0f);
+      write(point, 20, static_cast<std::uint16_t>(ring));
+      write(point, 24, kept ? echo.label : 0u);
+      point += kPointStep;
+    }
+  }
+  cloud.data.resize(static_cast<std::size_t>(point - cloud.data.data()));
+  cloud.width =
+      static_cast<std::uint32_t>(params_.organised ? rings : cloud.data.size() / kPointStep);
+  cloud.height = static_cast<std::uint32_t>(params_.organised ? columns : 1);
+  cloud.is_dense = !params_.organised;
+  return cloud;
+}
+
+void VelodyneLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
+  measure(now_ns);
+  corrupt_echoes(params_.lidar.rays, noise, echoes_);
+  PointCloudReading cloud = to_cloud();
+  cloud.header = {now_ns, params_.lidar.frame};
+  sink.on_reading(output_, cloud);
+}
+
+}  // namespace ardee

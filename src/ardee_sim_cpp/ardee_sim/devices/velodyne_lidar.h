@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/lidar_beams.h"
+#include "ardee_sim/devices/lidar_params.h"
+#include "ardee_sim/devices/pose_track.h"
+#include "ardee_sim/devices/sensor.h"
+
+namespace ardee {
+
+/// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver,
+/// with each point's label in bytes that are free there.
+///
+/// Points come column by column and in a column from the lowest ring up. By default a scan is taken
+/// at one moment; a scan with motion distortion ends at its time stamp, its columns are taken
+/// evenly over the turn before, and each point is told, as by the real device, in the sensor's
+/// frame of its own moment. Other models stand where they are at the stamp.
+class VelodyneLidar : public Sensor {
+ public:
+  struct Params {
+    LidarParams lidar;
+    // Points out of (min_range_m, max_range_m), or less bright, are left out.
+    double min_range_m = 0.0;
+    double max_range_m = std::numeric_limits<double>::max();
+    double min_intensity = std::numeric_limits<double>::lowest();
+    bool organised = false;  // NaN for points that are left out; a row of the cloud is a column
+    bool motion_distortion = false;
+  };
+
+  /// libgazebo_ros_velodyne_laser.so
+  static std::unique_ptr<Device> make_on_collisions(const SensorDescription& sensor,
+                                                    const PluginDescription& plugin,
+                                                    std::size_t link, DeviceContext& context);
+  /// libgazebo_ros_velodyne_gpu_laser.so
+  static std::unique_ptr<Device> make_on_visuals(const SensorDescription& sensor,
+                                                 const PluginDescription& plugin, std::size_t link,
+                                                 DeviceContext& context);
+  VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
+                RayScenes& scenes);
+
+  void before_step(TimeNs now_ns) override;
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+  bool wanted() const override { return output_.demanded; }
+
+ private:
+  bool is_distorted() const { return params_.motion_distortion && mount().robot.is_dynamic(); }
+  void measure(TimeNs now_ns);
+  bool keeps(const BeamEcho& echo) const;
+  PointCloudReading to_cloud() const;
+
+  Params params_;
+  RayScenes& scenes_;
+  LidarBeams beams_;
+  std::shared_ptr<void> eye_;
+  PoseTrack track_;
+  std::vector<BeamEcho> echoes_;
+  Output& output_;
+};
+
+}  // namespace ardee

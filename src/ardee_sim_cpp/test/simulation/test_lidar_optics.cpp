@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../statistics.h"
+#include "ray_posts.h"
+
+namespace ardee {
+namespace {
+
+constexpr const char* kGpu = "libgazebo_ros_gpu_laser.so";
+constexpr double kGreyReflectivity = 0.7;  // of what has no material
+const Pose kOneMetreUp = Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0});
+
+RayPost lidar(const std::string& keys, const std::string& horizontal = angles(1, 0.0, 0.0)) {
+  RayPost post{kGpu, "gpu_ray"};
+  post.horizontal = horizontal;
+  post.keys = keys;
+  return post;
+}
+
+LidarReading first_scan(const std::string& world_text, const RayPost& post, const Pose& pose = {}) {
+  TestWorld world(world_text);
+  world.spawn(post.xml(), "post", pose);
+  world.run(0.1);
+  return world.recorder().on<LidarReading>("/seen").at(0);
+}
+
+std::string wide_beam(double divergence_rad, const std::string& more = "") {
+  return "<subRays>256</subRays><beamDivergence>" + std::to_string(divergence_rad) +
+         "</beamDivergence>" + more;
+}
+
+/// A board left of the x axis at 2 m, and one across it behind.
+std::string edge(double behind_m, double retro_front = 0.0, double retro_behind = 0.0) {
+  return board("front", 2.0, 1.0, 2.0, retro_front) +
+         board("behind", behind_m, 0.0, 10.0, retro_behind);
+}
+
+TEST(LidarOptics, ABeamHalfOnAnEdgeMixesWhatIsCloseTogether) {
+  // Half of the beam at 2 m, half at 2.2 m, each weighed with its 1 / range^2.
+  const double near = 0.5 / (2.0 * 2.0);
+  const double far = 0.5 / (2.2 * 2.2);
+  const LidarReading scan = first_scan(edge(2.2), lidar(wide_beam(0.02)));
+  EXPECT_NEAR(scan.ranges_m[0], (near * 2.0 + far * 2.2) / (near + far), 0.004);
+  EXPECT_NEAR(first_scan(edge(2.2), lidar("")).ranges_m[0], 2.1, 0.11) << "plain: one or the other";
+}
+
+TEST(LidarOptics, OfReturnsFarApartTheStrongestOrTheFirstCounts) {
+  // Powers, half of the beam each: front 0.1 / 4, behind 0.9 / 9.
+  const std::string dark_front = edge(3.0, 0.1, 0.9);
+  EXPECT_NEAR(first_scan(dark_front, lidar(wide_beam(0.02))).ranges_m[0], 3.0, 1e-3);
+  const std::string first = "<returnMode>first</returnMode>";
+  EXPECT_NEAR(first_scan(dark_front, lidar(wide_beam(0.02, first))).ranges_m[0], 2.0, 1e-3);
+  const std::string bright_front = edge(3.0, 0.9, 0.1);
+  EXPECT_NEAR(first_scan(bright_front, lidar(wide_beam(0.02))).ranges_m[0], 2.0, 1e-3);
+  // A longer pulse makes one of them.
+  const std::string longer = "<pulseLength>1.5</pulseLength>";
+  const double near = 0.9 / 4.0;
+  const double far = 0.1 / 9.0;
+  EXPECT_NEAR(first_scan(bright_front, lidar(wide_beam(0.02, longer))).ranges_m[0],
+              (near * 2.0 + far * 3.0) / (near + far), 0.01);
+}
+
+TEST(LidarOptics, ANarrowPoleIsMetByAsManyBeamsAsTouchIt) {
+  // 2 cm wide at 5 m, under beams 1 mrad apart: it spans 4 mrad, and a beam of 10 mrad meets it
+  // 5 mrad beside that on both sides.
+  const std::string pole = board("pole", 5.0, 0.0, 0.02);
+  const auto count = [&](const std::string& keys) {
+    const LidarReading scan = first_scan(pole, lidar(keys, angles(41, -0.02, 0.02)));
+    int met = 0;
+    for (const float range : scan.ranges_m) met += std::isfinite(range) ? 1 : 0;
+    return met;
+  };
+  EXPECT_NEAR(count(""), 4, 1);
+  EXPECT_NEAR(count(wide_beam(0.01)), 14, 1);
+}
+
+TEST(LidarOptics, ThePoleSendsBackItsShareOfTheBeam) {
+  // The share of a disc of radius R = 25 mm that a centred strip of half width 10 mm covers.
+  const double u = 0.4;
+  const double share = 2.0 / M_PI * (std::asin(u) + u * std::sqrt(1.0 - u * u));
+  const LidarReading scan = first_scan(board("pole", 5.0, 0.0, 0.02),
+                                       lidar(wide_beam(0.01,
+                                                       "<intensityModel>lambert</intensityModel>"
+                                                       "<intensityScale>100</intensityScale>")));
+  EXPECT_NEAR(scan.intensities[0], 100.0 * kGreyReflectivity * share, 100.0 * 0.02);
+}
+
+TEST(LidarOptics, LambertianIntensityIsReflectivityTimesTheCosineOfIncidence) {
+  const std::string green = "<material><diffuse>0.1 0.6 0.2 1</diffuse></material>";
+  const std::string lambert =
+      "<intensityModel>lambert</intensityModel><intensityScale>255</intensityScale>";
+  const RayPost post = lidar(lambert, angles(3, -0.8, 0.8));
+  const LidarReading coloured = first_scan(board("wall", 4.0, 0.0, 20.0, 0.0, green), post);
+  const LidarReading retro = first_scan(board("wall", 4.0, 0.0, 20.0, 0.3, green), post);
+  for (std::size_t beam = 0; beam < 3; ++beam) {
+    const double cosine = beam == 1 ? 1.0 : std::cos(0.8);
+    EXPECT_NEAR(coloured.intensities[beam], 255.0 * 0.6 * cosine, 1e-3);
+    EXPECT_NEAR(retro.intensities[beam], 255.0 * 0.3 * cosine, 1e-3) << "laser_retro wins";
+  }
+}
+
+TEST(LidarOptics, RangeEndsWhereTooLittleLightComesBack) {
+  // A 10 % target is seen to 2 m: reflectivity * cos / range^2 >= 0.1 / 2^2. On a wall at 4 m the
+  // range is 4 / cos, so cos^3 >= 16 * 0.1 / (4 * 0.7).
+  const std::string wall = board("wall", 4.0, 0.0, 40.0);
+  const std::string limit = "<reflectivityRange>2</reflectivityRange>";
+  const double widest = std::acos(std::cbrt(16.0 * 0.1 / (4.0 * kGreyReflectivity)));
+  for (const std::string& keys : {limit, limit + "<subRays>8</subRays>"}) {
+    const LidarReading scan = first_scan(wall, lidar(keys, angles(401, -1.2, 1.2)));
+    for (std::size_t beam = 0; beam < 401; ++beam) {
+      const double angle = scan.angle_min_rad + double(beam) * scan.angle_increment_rad;
+      if (std::abs(std::abs(angle) - widest) < 1e-3) continue;
+      EXPECT_EQ(std::isfinite(scan.ranges_m[beam]), std::abs(angle) < widest) << angle;
+    }
+  }
+  // Head on: to 2 m * sqrt(reflectivity / 0.1).
+  const double farthest = 2.0 * std::sqrt(0.4 / 0.1);
+  EXPECT_TRUE(std::isfinite(
+      first_scan(board("wall", farthest - 0.01, 0.0, 9.0, 0.4), lidar(limit)).ranges_m[0]));
+  EXPECT_FALSE(std::isfinite(
+      first_scan(board("wall", farthest + 0.01, 0.0, 9.0, 0.4), lidar(limit)).ranges_m[0]));
+}
+
+TEST(LidarOptics, NoiseGrowsWithTheRange) {
+  for (const double wall_m : {2.0, 8.0}) {
+    RayPost post = lidar("<noiseGrowth>0.005</noiseGrowth>", angles(1001, -0.001, 0.001));
+    post.noise = "<type>gaussian</type><mean>0</mean><stddev>0.01</stddev>";
+    TestWorld world(board("wall", wall_m, 0.0, 9.0));
+    world.spawn(post.xml(), "post");
+    world.run(1.0);
+    std::vector<double> errors;
+    for (const LidarReading& scan : world.recorder().on<LidarReading>("/seen")) {
+      for (const float range : scan.ranges_m) errors.push_back(static_cast<double>(range) - wall_m);
+    }
+    ASSERT_EQ(errors.size(), 10010u);
+    const double std = 0.01 + 0.005 * wall_m;
+    EXPECT_NEAR(mean_of(errors), 0.0, kFourSigma * std / std::sqrt(10010.0));
+    EXPECT_NEAR(std_of(errors), std, kFourSigma * std / std::sqrt(2.0 * 10010.0));
+  }
+}
+
+TEST(LidarOptics, SameBytesForAnyThreadsAndForTilesAndInstances) {
+  const auto scan = [](int threads, bool flatten) {
+    SimulationOptions options;
+    options.rays.threads = threads;
+    options.rays.flatten = flatten;
+    TestWorld world(room() + edge(2.2), 0.001, options);
+    world.spawn(
+        lidar(wide_beam(0.02, "<reflectivityRange>8</reflectivityRange>"), angles(401, -M_PI, M_PI))
+            .xml(),
+        "post", kOneMetreUp);
+    world.run(0.1);
+    return world.recorder().on<LidarReading>("/seen").at(0).ranges_m;
+  };
+  const auto reference = scan(1, true);
+  EXPECT_EQ(scan(4, true), reference);
+  EXPECT_EQ(scan(2, false), reference);
+}
+
+}  // namespace
+}  // namespace ardee
