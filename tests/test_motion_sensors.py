@@ -7,7 +7,10 @@ from typing import Any, Dict, Iterator, List
 
 import probes
 import pytest
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from ros_graph import RosGraph, wait_until
+
+from geographic_msgs.msg import GeoPoint, GeoPose
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 G_M_S2, LATITUDE_DEG, LONGITUDE_DEG = 9.81, 40.1, -88.2
@@ -134,7 +137,7 @@ def test_values_at_rest(post: RosGraph) -> None:
 
 
 def test_bias_services_and_calibrate(post: RosGraph) -> None:
-    bias = {"bias": {"x": 0.1, "y": 0.0, "z": -0.2}}
+    bias = {"bias": Vector3(0.1, 0.0, -0.2)}
     kind = "hector_gazebo_plugins/SetBias"
     post.call(probes.call_service, "/imu/set_rate_bias", kind, bias)
     rate = one(post, "/imu").angular_velocity
@@ -161,8 +164,7 @@ def test_dynamic_reconfigure_of_noise_and_status(post: RosGraph) -> None:
 
 
 def test_reference_geopose_is_set(post: RosGraph) -> None:
-    pose = {"position": {"latitude": 52.0, "longitude": 6.0, "altitude": 3.0}}
-    pose["orientation"] = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
+    pose = GeoPose(GeoPoint(52.0, 6.0, 3.0), Quaternion(0, 0, 0, 1))
     kind = "hector_gazebo_plugins/SetReferenceGeoPose"
     post.call(probes.call_service, "/gps/set_reference_geopose", kind, {"geo_pose": pose})
     fix = one(post, "/gps")
@@ -215,8 +217,6 @@ def spawn(name: str, x: float, y: float, z: float) -> Any:
     model = POST.format(
         name=name, x=0, y=0, z=0, sensor="", plugins=DROPOUT.format(topic=name, keys="")
     )
-    from geometry_msgs.msg import Point, Pose, Quaternion
-
     fields = {
         "model_name": name,
         "model_xml": f"<sdf version='1.6'>{model}</sdf>",
