@@ -10,6 +10,7 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/pictures.h"
 #include "ardee_sim/devices/reading.h"
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/raycast/ray_scene.h"
@@ -98,6 +99,7 @@ class ReadingSink {
 struct DeviceContext {
   Robot& robot;
   RayScenes& scenes;
+  Pictures& pictures;
   Log& log;
   std::uint64_t seed = 0;       // of this robot's streams
   std::string robot_namespace;  // where plugins without one of their own put their topics

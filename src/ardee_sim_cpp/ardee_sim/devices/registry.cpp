@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/devices/camera_sensor.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
@@ -105,6 +106,13 @@ Registry builtin_registry() {
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
+  registry.add_sensor_plugin("libgazebo_ros_camera.so", CameraSensor::make_color);
+  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so", CameraSensor::make_depth);
+  registry.add_sensor_plugin("libgazebo_ros_multicamera.so", CameraSensor::make_several);
+  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so", CameraSensor::make_openni);
+  registry.add_sensor_plugin("libgazebo_ros_triggered_camera.so", CameraSensor::make_triggered);
+  registry.add_sensor_plugin("libgazebo_ros_triggered_multicamera.so",
+                             CameraSensor::make_several_triggered);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
   return registry;

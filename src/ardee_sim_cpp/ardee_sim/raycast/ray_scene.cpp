@@ -162,6 +162,11 @@ void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* point
               [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
 }
 
+void RayScene::meet(const SceneRay* rays, std::size_t count, RayHit* hits) const {
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest,
+              [hits](const RayQuery& query, std::size_t i) { query.fill(hits[i]); });
+}
+
 void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const {
   impl_->cast(
       rays, count, RayQuery::Purpose::kShadow,

@@ -76,6 +76,8 @@ class RayScene {
   /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
   /// best asked side by side. The work is the caller's thread's; many threads may call at once.
   void look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
+  /// The same without the look: range, entity, label and normal.
+  void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.
   void find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "ardee_sim/render/lights.h"
@@ -34,6 +35,7 @@ struct Sample {
   Eigen::Vector3f light{0, 0, 0};
   float rest = 1.0f;
   double travelled_m = 0.0;
+  double stretch = 1.0;  // length of the way for each metre along the camera's axis
 };
 
 /// A lit point that waits for the answer of its shadow ray.
@@ -58,17 +60,35 @@ class Tile {
     pixel_rad_ = cone / std::sqrt(static_cast<double>(s_.options.samples));
   }
 
+  /// `samples` a pixel, in a fixed pattern.
   void shade() {
-    start();
-    for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
-      points_.resize(rays_.size());
-      s_.rays.look(rays_.data(), rays_.size(), points_.data());
-      shade_layer(layer + 1 == kMaxLayers);
-      add_unshadowed();
-      rays_.swap(next_rays_);
-      owners_.swap(next_owners_);
-      next_rays_.clear();
-      next_owners_.clear();
+    const int count = s_.options.samples;
+    for (int k = 0; k < area_.width * area_.height; ++k) {
+      const double x = area_.left + k % area_.width;
+      const double y = area_.upper + k / area_.width;
+      for (int i = 0; i < count; ++i) {
+        const double dx = (i + 0.5) / count;
+        const double dy = mirrored_bits(static_cast<unsigned>(i)) + 0.5 / count;
+        send(x + dx, y + std::fmod(dy, 1.0));
+      }
+    }
+    gather_light();
+  }
+
+  /// Through the middle of each pixel.
+  void shoot(const FrameParts& parts, Frame& frame) {
+    for (int k = 0; k < area_.width * area_.height; ++k) {
+      send(area_.left + k % area_.width + 0.5, area_.upper + k / area_.width + 0.5);
+    }
+    if (parts.depth || parts.ids) {
+      hits_.resize(rays_.size());
+      s_.rays.meet(rays_.data(), rays_.size(), hits_.data());
+      write_hits(parts, frame);
+    }
+    if (!parts.light) return;
+    gather_light();
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      frame.light[index_in(frame, k)] = samples_[k].light;
     }
   }
 
@@ -91,19 +111,55 @@ class Tile {
   }
 
  private:
-  void start() {
-    const int count = s_.options.samples;
-    for (int k = 0; k < area_.width * area_.height; ++k) {
-      const double x = area_.left + k % area_.width;
-      const double y = area_.upper + k / area_.width;
-      for (int i = 0; i < count; ++i) {
-        const double dx = (i + 0.5) / count;
-        const double dy = mirrored_bits(static_cast<unsigned>(i)) + 0.5 / count;
-        rays_.push_back({s_.camera.X_WC.p, s_.camera.direction_W(x + dx, y + std::fmod(dy, 1.0)),
-                         s_.options.max_range_m});
-        owners_.push_back(samples_.size());
-        samples_.emplace_back();
+  std::size_t index_in(const Frame& frame, std::size_t pixel) const {
+    const int k = static_cast<int>(pixel);
+    return frame.index(area_.left + k % area_.width, area_.upper + k / area_.width);
+  }
+
+  /// A sample through (x, y) in pixels; one without a ray where the lens lets no light through.
+  void send(double x, double y) {
+    Sample& sample = samples_.emplace_back();
+    const Eigen::Vector3d way_C = s_.camera.direction_C(x, y);
+    const double stretch = way_C.norm();
+    if (!std::isfinite(stretch)) return;
+    const Eigen::Vector3d direction_W = s_.camera.X_WC.q * (way_C / stretch);
+    sample.travelled_m = s_.camera.near_m * stretch;
+    sample.stretch = stretch;
+    const double end_m = std::min(s_.camera.far_m * stretch, s_.options.max_range_m);
+    rays_.push_back({s_.camera.X_WC.p + sample.travelled_m * direction_W, direction_W,
+                     end_m - sample.travelled_m});
+    owners_.push_back(samples_.size() - 1);
+  }
+
+  void write_hits(const FrameParts& parts, Frame& frame) const {
+    std::vector<RayHit> of_pixel(samples_.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i) of_pixel[owners_[i]] = hits_[i];
+    for (std::size_t k = 0; k < of_pixel.size(); ++k) {
+      const RayHit& hit = of_pixel[k];
+      const bool met = hit.entity != kNoEntity;
+      const std::size_t at = index_in(frame, k);
+      if (parts.depth) {
+        const double range_m = samples_[k].travelled_m + static_cast<double>(hit.range_m);
+        frame.depth_m[at] = met ? static_cast<float>(range_m / samples_[k].stretch)
+                                : std::numeric_limits<float>::infinity();
       }
+      if (parts.ids) {
+        frame.entities[at] = hit.entity;
+        frame.labels[at] = static_cast<std::uint16_t>(hit.label);
+      }
+    }
+  }
+
+  void gather_light() {
+    for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
+      points_.resize(rays_.size());
+      s_.rays.look(rays_.data(), rays_.size(), points_.data());
+      shade_layer(layer + 1 == kMaxLayers);
+      add_unshadowed();
+      rays_.swap(next_rays_);
+      owners_.swap(next_owners_);
+      next_rays_.clear();
+      next_owners_.clear();
     }
   }
 
@@ -178,6 +234,7 @@ class Tile {
   std::vector<SceneRay> rays_;
   std::vector<std::size_t> owners_;  // the sample of each ray
   std::vector<SurfacePoint> points_;
+  std::vector<RayHit> hits_;
   std::vector<SceneRay> next_rays_;
   std::vector<std::size_t> next_owners_;
   std::vector<SceneRay> shadow_rays_;
@@ -190,6 +247,11 @@ void shade_tile(const TileShading& shading, const TileArea& area, Image& image) 
   Tile tile(shading, area);
   tile.shade();
   tile.write(image);
+}
+
+void shoot_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
+                Frame& frame) {
+  Tile(shading, area).shoot(parts, frame);
 }
 
 }  // namespace ardee
