@@ -24,9 +24,9 @@ std::string checkerboard() {
     const double y = (kColumns / 2.0 - column - 0.5) * kSquare_m;
     const double z = 1.0 + (kRows / 2.0 - row - 0.5) * kSquare_m;
     xml += glowing_box("square" + std::to_string(k),
-                       std::to_string(kBoard_m + 0.005) + " " + std::to_string(y) + " " +
+                       std::to_string(kBoard_m + 1e-5) + " " + std::to_string(y) + " " +
                            std::to_string(z) + " 0 0 0",
-                       "0.01 0.2 0.2", 1.0);
+                       "2e-5 0.2 0.2", 1.0);
   }
   return xml;
 }
@@ -92,7 +92,7 @@ void expect_corners_in_place(const std::string& camera, const std::string& keys 
     ASSERT_LE(std::abs(error), 0.52);  // a pixel is half white or not; the edge bends a little
     sum += error;
   }
-  EXPECT_LT(std::abs(sum / static_cast<double>(errors.size())), 0.1);
+  EXPECT_LT(std::abs(sum / static_cast<double>(errors.size())), 0.2);
 }
 
 TEST(CameraPlugin, SeesACheckerboardWhereCameraInfoSays) {
