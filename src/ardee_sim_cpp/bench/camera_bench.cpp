@@ -15,10 +15,11 @@ namespace ardee::bench {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: camera_bench --world FILE [--robot IGNORED] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
-    "         [--speed-m-s 0.5] [--height-m 0.3] [--seconds 2] [--rounds 3] [--threads 0]\n"
+    "usage: camera_bench --world FILE [--robot FILE] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
+    "         [--speed-m-s 0.5] [--height-m 0.3] [--seconds 1] [--rounds 2] [--threads 0]\n"
+    "         [--reach-m 40]\n"
     "Prints JSON. Three cameras of 640 x 480 at 10 Hz look ahead, to the left and to the right as\n"
-    "they go down the lane; then the same rays through the pixels' middles by bare Embree.\n";
+    "they go down the lane (without a robot: its file is not read); then the same rays through the pixels' middles by bare Embree.\n";
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
@@ -169,8 +170,8 @@ int main(int argc, char** argv) {
                                                   {"--lane-m", "6"},
                                                   {"--speed-m-s", "0.5"},
                                                   {"--height-m", "0.3"},
-                                                  {"--seconds", "2"},
-                                                  {"--rounds", "3"},
+                                                  {"--seconds", "1"},
+                                                  {"--rounds", "2"},
                                                   {"--reach-m", "40"},
                                                   {"--threads", "0"}},
                                                  ardee::bench::kUsage);

@@ -86,6 +86,8 @@ class RayScenes {
   virtual std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) = 0;
   /// The scene as of this step.
   virtual const RayScene& now(SceneKind kind) = 0;
+  /// The visual scene, from now on ready for pictures too.
+  virtual const RayScene& for_pictures() = 0;
 };
 
 /// Receives what devices measure; the ROS node publishes it, a test records it.

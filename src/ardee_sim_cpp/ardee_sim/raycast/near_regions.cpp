@@ -20,9 +20,15 @@ constexpr std::uint64_t kIdleCalls = 2000;
 double NearRegions::slack_m() const { return kSpareShare * options_.flattened_radius_m; }
 
 std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) const {
-  return std::make_unique<NearRegion>(device_, store_, center_W,
-                                      options_.flattened_radius_m + slack_m(),
-                                      options_.flattened_budget_bytes / kBudgetShare);
+  auto made = std::make_unique<NearRegion>(device_, store_, center_W,
+                                           options_.flattened_radius_m + slack_m(),
+                                           options_.flattened_budget_bytes / kBudgetShare);
+  if (drafts_) draft(*made);
+  return made;
+}
+
+void NearRegions::draft(NearRegion& region) const {
+  region.add_draft(device_, options_.flattened_budget_bytes / 2);
 }
 
 void NearRegions::clear() {
@@ -76,7 +82,9 @@ void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
     return;
   }
   for (Kept& kept : kept_) {
-    if (kept.region.get() == region) kept.last_used = tick_;
+    if (kept.region.get() != region) continue;
+    kept.last_used = tick_;
+    if (drafts_ && !region->has_tried_draft()) draft(*kept.region);
   }
   const Eigen::Vector2d way = eye_W.head<2>() - region->center_W();
   const double reserve_m = region->half_size_m() * (kSpareShare / (1.0 + kSpareShare));
@@ -86,9 +94,13 @@ void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   next_ = std::async(std::launch::async, [this, center] { return make(center); });
 }
 
-void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
+void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool drafts) {
   ++tick_;
   collect();
+  if (drafts && !drafts_) {
+    if (next_.valid()) keep(next_.get());  // it is being made without
+    drafts_ = true;
+  }
   if (!options_.flatten || store_.places().empty()) return;
   for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
 }

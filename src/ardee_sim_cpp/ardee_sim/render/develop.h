@@ -33,8 +33,7 @@ struct Development {
   double noise_std = 0.0;
 };
 
-/// What automatic exposure makes of a frame: the middle of the brightness of what is not sky-bright
-/// comes to a middle grey, within limits.
+/// The factor of automatic exposure: the median brightness comes to a middle grey, within limits.
 float automatic_exposure(const Frame& frame);
 
 /// The bytes of a picture, row by row; the noise of a value uses the counter of its own. The work

@@ -75,7 +75,9 @@ Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
   if (parts.depth) frame.depth_m.resize(count);
   if (parts.ids) frame.entities.resize(count);
   if (parts.ids) frame.labels.resize(count);
-  const TileShading shading{rays_, looks_, scene_, lights_, camera, options};
+  RenderOptions once = options;
+  once.samples = 1;
+  const TileShading shading{rays_, looks_, scene_, lights_, camera, once};
   for_each_tile(camera, options.threads,
                 [&](const TileArea& area) { shoot_tile(shading, area, parts, frame); });
   return frame;

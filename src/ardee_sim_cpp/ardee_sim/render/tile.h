@@ -17,6 +17,8 @@ struct RenderOptions {
   bool shadows = true;
   int threads = 0;  // 0: all cores
   double max_range_m = 1e5;
+  /// RayScene::look_quickly, and fewer looks where a surface is even (shoot only).
+  bool quickly = false;
 };
 
 /// All that the shading of a part of a picture needs.

@@ -22,7 +22,9 @@ Frame PictureMaker::take(const Camera& camera, const FrameParts& parts) {
   if (parts.light && !current_) look_at_models();
   RenderOptions options;
   options.threads = threads_;
-  const Renderer renderer(scenes_.now(SceneKind::kVisual), looks_, world_.scene, world_.lights);
+  options.quickly = true;
+  const RayScene& rays = parts.light ? scenes_.for_pictures() : scenes_.now(SceneKind::kVisual);
+  const Renderer renderer(rays, looks_, world_.scene, world_.lights);
   return renderer.shoot(camera, parts, options);
 }
 
