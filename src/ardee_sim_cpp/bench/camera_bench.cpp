@@ -19,7 +19,8 @@ constexpr const char* kUsage =
     "         [--speed-m-s 0.5] [--height-m 0.3] [--seconds 1] [--rounds 2] [--threads 0]\n"
     "         [--reach-m 40]\n"
     "Prints JSON. Three cameras of 640 x 480 at 10 Hz look ahead, to the left and to the right as\n"
-    "they go down the lane (without a robot: its file is not read); then the same rays through the pixels' middles by bare Embree.\n";
+    "they go down the lane (without a robot: its file is not read); then the same rays through the "
+    "pixels' middles by bare Embree.\n";
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
@@ -101,8 +102,8 @@ double embree_rays_per_s(const BenchArguments& arguments, const Simulation& simu
   for (const auto& entity : simulation.entities()) {
     scenery.insert(scenery.end(), entity->placements.begin(), entity->placements.end());
   }
-  const auto flat =
-      EmbreeReference::flat(scenery, done.poses_W.front().p.head<2>(), arguments.number("--reach-m"));
+  const auto flat = EmbreeReference::flat(scenery, done.poses_W.front().p.head<2>(),
+                                          arguments.number("--reach-m"));
   Camera camera;
   camera.width = kWidth;
   camera.height = kHeight;
@@ -138,9 +139,8 @@ void run(const BenchArguments& arguments, std::ostream& out) {
   world.physics.step_s = kStep_s;
   SimulationOptions options;
   options.rays.threads = static_cast<int>(arguments.number("--threads"));
-  Simulation simulation(world, options, [](LogLevel, const std::string& text) {
-    std::cerr << text << '\n';
-  });
+  Simulation simulation(world, options,
+                        [](LogLevel, const std::string& text) { std::cerr << text << '\n'; });
   SpawnRequest request;
   request.name = "carrier";
   request.model = loader.load_model_text(carrier(), "carrier.sdf");

@@ -171,8 +171,9 @@ void fill_info(CameraParams& camera, const std::array<double, 5>& D, double cx_p
   info.height = static_cast<std::uint32_t>(camera.height);
   info.D = D;
   info.K = {lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1};
-  info.P = {lens.fx_px, 0, cx_prime_px, -lens.fx_px * baseline_m, 0, lens.fy_px,
-            lens.cy_px, 0, 0, 0, 1, 0};
+  info.P = {lens.fx_px, 0,          cx_prime_px, -lens.fx_px * baseline_m,
+            0,          lens.fy_px, lens.cy_px,  0,
+            0,          0,          1,           0};
 }
 
 std::optional<float> read_exposure(Parameters& parameters) {
@@ -258,8 +259,7 @@ CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescript
     if (several && own.empty()) throw Error(block.source, "found no name, expected one");
     const bool is_left = several && own.find("left") != std::string::npos;
     const bool is_right = several && own.find("right") != std::string::npos;
-    const std::string suffix =
-        !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
+    const std::string suffix = !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
     read_plugin(plugin, kind, suffix, !is_left, bend, camera, all, context);
     all.cameras.push_back(std::move(camera));
     if (!several) break;

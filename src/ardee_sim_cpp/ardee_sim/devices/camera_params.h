@@ -17,8 +17,8 @@ struct DepthParams {
   double noise_constant_m = 0.0;  // standard deviation: constant + linear * z + quadratic * z^2
   double noise_linear = 0.0;
   double noise_quadratic_per_m = 0.0;
-  double nearest_m = 0.0;   // nearer is not a number
-  double farthest_m = 0.0;  // likewise
+  double nearest_m = 0.0;    // nearer is not a number
+  double farthest_m = 0.0;   // likewise
   bool millimetres = false;  // 16UC1 instead of 32FC1
 
   bool has_noise() const {

@@ -54,8 +54,8 @@ CameraSensor::Made CameraSensor::make_openni(const SensorDescription& sensor,
   return make(sensor, plugin, link, CameraKind::kOpenni, false, false, context);
 }
 
-CameraSensor::CameraSensor(const std::string& name, const Mount& mount,
-                           const CamerasParams& params, DeviceContext& context)
+CameraSensor::CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
+                           DeviceContext& context)
     : Sensor(name, mount), pictures_(context.pictures), triggered_(params.triggered) {
   for (const CameraParams& camera : params.cameras) add_eye(camera, context);
   if (triggered_) add_trigger(params.trigger_topic, [this] { asked_ = true; });
@@ -69,8 +69,8 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
   eye.camera.lens = std::make_shared<LensTable>(params.lens, params.width, params.height);
-  eye.view = context.scenes.register_eye(
-      SceneKind::kVisual, [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
+  eye.view = context.scenes.register_eye(SceneKind::kVisual,
+                                         [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
   const auto output = [this](const std::string& topic, std::size_t kind) {
     return topic.empty() ? nullptr : &add_output(topic, kind);
   };
@@ -95,8 +95,8 @@ void CameraSensor::reset(TimeNs now_ns) {
 bool CameraSensor::wanted() const {
   if (triggered_ && !asked_) return false;
   for (const Eye& eye : eyes_) {
-    for (const Output* output : {eye.image, eye.info, eye.depth, eye.depth_info, eye.points,
-                                 eye.labels, eye.instances}) {
+    for (const Output* output :
+         {eye.image, eye.info, eye.depth, eye.depth_info, eye.points, eye.labels, eye.instances}) {
       if (asked_for(output)) return true;
     }
   }
@@ -129,8 +129,7 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
       const auto depths_m = measured_depths(frame, eye.params.depth, noise.frame(1));
       if (asked_for(eye.depth)) give(eye.depth, depth_image(frame, depths_m, eye.params.depth));
       if (asked_for(eye.points)) {
-        give(eye.points,
-             point_cloud(eye.camera, depths_m, image, eye.params.development.format));
+        give(eye.points, point_cloud(eye.camera, depths_m, image, eye.params.development.format));
       }
     }
     if (asked_for(eye.image)) give(eye.image, std::move(image));

@@ -46,8 +46,8 @@ struct GeoPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose. What
-/// it throws is the caller's answer.
+/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose.
+/// What it throws is the caller's answer.
 struct Service {
   using Act = std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
                            std::function<void(const GeoPose&)>>;

@@ -63,8 +63,7 @@ void DraftScene::attach(const EmbreeDevice& device, Part& part, bool careful) {
                              part.vertices.data(), 0, sizeof(Eigen::Vector3f),
                              part.vertices.size() - 1);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             part.corners.data(), 0, 3 * sizeof(std::uint32_t),
-                             part.owners.size());
+                             part.corners.data(), 0, 3 * sizeof(std::uint32_t), part.owners.size());
   if (careful) {
     rtcSetGeometryUserData(geometry, &part);
     rtcSetGeometryIntersectFilterFunction(geometry, &DraftScene::sort_out_hits);
@@ -100,19 +99,18 @@ void DraftScene::filter(const RTCFilterFunctionNArguments* args, const Keep& kee
 }
 
 void DraftScene::sort_out_hits(const RTCFilterFunctionNArguments* args) {
-  filter(args,
-         [args](const Part& part, const BodySurface& surface, unsigned number, unsigned i) {
-           if (surface.two_sided) return true;
-           const std::uint32_t* corner = &part.corners[3 * static_cast<std::size_t>(number)];
-           const Eigen::Vector3f& a = part.vertices[corner[0]];
-           const Eigen::Vector3f normal =
-               (part.vertices[corner[1]] - a).cross(part.vertices[corner[2]] - a);
-           const unsigned n = args->N;
-           return normal.x() * RTCRayN_dir_x(args->ray, n, i) +
-                      normal.y() * RTCRayN_dir_y(args->ray, n, i) +
-                      normal.z() * RTCRayN_dir_z(args->ray, n, i) <=
-                  0.0f;
-         });
+  filter(args, [args](const Part& part, const BodySurface& surface, unsigned number, unsigned i) {
+    if (surface.two_sided) return true;
+    const std::uint32_t* corner = &part.corners[3 * static_cast<std::size_t>(number)];
+    const Eigen::Vector3f& a = part.vertices[corner[0]];
+    const Eigen::Vector3f normal =
+        (part.vertices[corner[1]] - a).cross(part.vertices[corner[2]] - a);
+    const unsigned n = args->N;
+    return normal.x() * RTCRayN_dir_x(args->ray, n, i) +
+               normal.y() * RTCRayN_dir_y(args->ray, n, i) +
+               normal.z() * RTCRayN_dir_z(args->ray, n, i) <=
+           0.0f;
+  });
 }
 
 void DraftScene::sort_out_shadows(const RTCFilterFunctionNArguments* args) {
@@ -146,7 +144,8 @@ void DraftScene::meet_shadows(RayQuery queries[kPacketRays],
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded8(packet.valid, scene_, &context, &packet.rays.ray);
   for (int i = 0; i < kPacketRays; ++i) {
-    if (packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0.0f) queries[i].end_in_shadow(*bodies_[0]);
+    if (packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0.0f)
+      queries[i].end_in_shadow(*bodies_[0]);
   }
 }
 

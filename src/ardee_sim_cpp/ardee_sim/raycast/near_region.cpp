@@ -179,8 +179,7 @@ void NearRegion::meet(RayQuery queries[kPacketRays], const double t_high[kPacket
   traverse_packet(scene_->get(), queries, passages);
 }
 
-void NearRegion::meet_draft(RayQuery queries[kPacketRays],
-                            const double t_high[kPacketRays]) const {
+void NearRegion::meet_draft(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
   if (draft_ == nullptr) return meet(queries, t_high);
   Passage passages[kPacketRays];
   if (!find_passages(queries, t_high, passages)) return;

@@ -55,7 +55,8 @@ class Writer {
     const std::uint64_t bits = std_ > 0.0f ? noise_.bits(pixel) : 0;
     const auto value = [&](float brightness, int draw) {
       if (std_ <= 0.0f) return brightness + mean_;
-      return brightness + mean_ + std_ * normal_of_bits(static_cast<std::uint16_t>(bits >> (16 * draw)));
+      return brightness + mean_ +
+             std_ * normal_of_bits(static_cast<std::uint16_t>(bits >> (16 * draw)));
     };
     const auto channel = [&](int c) { return value(tone(gain_ * light[c]), c); };
     switch (how_.format) {
@@ -76,8 +77,8 @@ class Writer {
         return;
       }
       default:
-        out[0] = to_byte(
-            channel((*bayer_)[static_cast<std::size_t>(2 * (row & 1) + (column & 1))]));
+        out[0] =
+            to_byte(channel((*bayer_)[static_cast<std::size_t>(2 * (row & 1) + (column & 1))]));
     }
   }
 

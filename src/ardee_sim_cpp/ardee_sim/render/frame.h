@@ -21,10 +21,10 @@ struct FrameParts {
 struct Frame {
   int width = 0;
   int height = 0;
-  std::vector<Eigen::Vector3f> light;    // red, green, blue; 1: a white surface in full light
-  std::vector<float> depth_m;            // along the camera's axis; +inf: nothing
-  std::vector<std::uint32_t> entities;   // kNoEntity: nothing
-  std::vector<std::uint16_t> labels;     // 0: none
+  std::vector<Eigen::Vector3f> light;   // red, green, blue; 1: a white surface in full light
+  std::vector<float> depth_m;           // along the camera's axis; +inf: nothing
+  std::vector<std::uint32_t> entities;  // kNoEntity: nothing
+  std::vector<std::uint16_t> labels;    // 0: none
 
   std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

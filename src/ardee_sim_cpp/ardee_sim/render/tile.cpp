@@ -352,8 +352,8 @@ class Tile {
   std::vector<std::size_t> next_owners_;
   std::vector<SceneRay> shadow_rays_;
   std::vector<Waiting> waiting_;
-  std::vector<Seen> seen_;                                      // of the first samples
-  std::vector<std::pair<std::size_t, std::size_t>> between_;    // places in the frame, and samples
+  std::vector<Seen> seen_;                                    // of the first samples
+  std::vector<std::pair<std::size_t, std::size_t>> between_;  // places in the frame, and samples
 };
 
 }  // namespace

@@ -45,8 +45,7 @@ inline std::string glowing_box(const std::string& name, const std::string& pose,
 inline void listen_to(Entity& robot, const std::vector<std::string>& topics) {
   for (const auto& device : robot.devices) {
     for (Output& output : device->outputs()) {
-      output.demanded =
-          std::find(topics.begin(), topics.end(), output.topic) != topics.end();
+      output.demanded = std::find(topics.begin(), topics.end(), output.topic) != topics.end();
     }
   }
 }

@@ -132,9 +132,8 @@ TEST(CameraPlugin, TellsItsCalibration) {
 }
 
 TEST(CameraPlugin, AMulticameraHasALeftAndARightEye) {
-  TestWorld world(
-      "<scene><background>0 0 0 1</background></scene>" +
-      glowing_box("mark", "2.05 0 0 0 0 0", "0.1 0.02 0.04", 1.0));
+  TestWorld world("<scene><background>0 0 0 1</background></scene>" +
+                  glowing_box("mark", "2.05 0 0 0 0 0", "0.1 0.02 0.04", 1.0));
   const auto eye = [](const std::string& name, const std::string& pose) {
     std::string block = camera_block(320, 240, 1.0, "<pose>" + pose + "</pose>");
     return block.replace(0, 7, "<camera name='" + name + "'");
@@ -185,9 +184,8 @@ TEST(CameraPlugin, WhatNobodyWantsIsNotMade) {
 
 TEST(CameraPlugin, WaitsForItsTrigger) {
   TestWorld world("");
-  Entity& post =
-      world.spawn(camera_post("camera", camera_block(8, 8, 1.0), "<triggered>true</triggered>"),
-                  "post");
+  Entity& post = world.spawn(
+      camera_post("camera", camera_block(8, 8, 1.0), "<triggered>true</triggered>"), "post");
   ASSERT_EQ(post.devices.at(0)->triggers().size(), 1u);
   EXPECT_EQ(post.devices[0]->triggers()[0].topic, "/cam/image_trigger");
   world.run(0.5);
@@ -218,9 +216,8 @@ TEST(CameraPlugin, GivesTheSameBytesForAnyNumberOfThreads) {
 TEST(CameraPlugin, SegmentationNamesWhatIsSeen) {
   const std::string plain = static_box("ignored", "9 9 9 0 0 0", "1 1 1");
   TestWorld world(plain + static_box("wall", "3.5 2 0 0 0 0", "1 4 9"));
-  world.spawn(
-      camera_post("camera", camera_block(65, 49, 1.0), "<segmentation>true</segmentation>"),
-      "post");
+  world.spawn(camera_post("camera", camera_block(65, 49, 1.0), "<segmentation>true</segmentation>"),
+              "post");
   world.run(0.1);
   const auto image = world.recorder().on<ImageReading>("/cam/segmentation/instance").at(0);
   EXPECT_EQ(image.encoding, "32SC1");
@@ -238,8 +235,7 @@ class BadCamera : public testing::TestWithParam<std::array<const char*, 3>> {};
 TEST_P(BadCamera, IsLeftOutWithOneMessage) {
   const auto [block, keys, expected] = GetParam();
   TestWorld world("");
-  const std::string camera =
-      "<camera>" + std::string(block) + "</camera>";
+  const std::string camera = "<camera>" + std::string(block) + "</camera>";
   Entity& post = world.spawn(camera_post("openni_kinect", camera, keys), "post");
   EXPECT_TRUE(post.devices.empty());
   ASSERT_EQ(world.messages().size(), 1u);

@@ -22,9 +22,7 @@ struct Kinect {
     world.run(0.1);
   }
   ImageReading depth() { return world.recorder().on<ImageReading>("/cam/depth/image_raw").at(0); }
-  PointCloudReading cloud() {
-    return world.recorder().on<PointCloudReading>("/cam/points").at(0);
-  }
+  PointCloudReading cloud() { return world.recorder().on<PointCloudReading>("/cam/points").at(0); }
   TestWorld world;
 };
 
@@ -90,8 +88,9 @@ TEST(DepthCamera, MillimetresAndCutOffs) {
   Kinect cut_m("<pointCloudCutoffMax>2.5</pointCloudCutoffMax>");
   EXPECT_TRUE(std::isnan(value_at<float>(cut_m.depth().data, 0)));
   EXPECT_TRUE(std::isnan(value_at<float>(cut_m.cloud().data, 0)));
-  Kinect cut_mm("<pointCloudCutoff>3.5</pointCloudCutoff>"
-                "<useDepth16UC1Format>true</useDepth16UC1Format>");
+  Kinect cut_mm(
+      "<pointCloudCutoff>3.5</pointCloudCutoff>"
+      "<useDepth16UC1Format>true</useDepth16UC1Format>");
   EXPECT_EQ(value_at<std::uint16_t>(cut_mm.depth().data, 0), 0);
 }
 
