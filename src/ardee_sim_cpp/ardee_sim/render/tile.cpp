@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "ardee_sim/render/lights.h"
@@ -83,6 +84,16 @@ class Tile {
   Tile(const TileShading& shading, const TileArea& area) : s_(shading), area_(area) {
     const double cone = 1.0 / s_.camera.focal_length_px();
     pixel_rad_ = cone / std::sqrt(static_cast<double>(s_.options.samples));
+    for (const Light& light : s_.lights) {
+      const bool distant = light.type == Light::Type::kDirectional;
+      distant_.push_back(distant ? illuminate(light, Eigen::Vector3d::Zero()) : std::nullopt);
+    }
+    const auto most = static_cast<std::size_t>(area.width * area.height * s_.options.samples);
+    samples_.reserve(most);
+    rays_.reserve(most);
+    owners_.reserve(most);
+    shadow_rays_.reserve(most);
+    waiting_.reserve(most);
   }
 
   /// `samples` a pixel, in a fixed pattern.
@@ -290,7 +301,9 @@ class Tile {
                    ambient_light(s_.scene, -point.smooth_normal_W);
       }
       sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
-      for (const Light& light : s_.lights) send_to(light, at_W, point, share * look.diffuse, i);
+      for (std::size_t k = 0; k < s_.lights.size(); ++k) {
+        send_to(k, at_W, point, share * look.diffuse, i);
+      }
       sample.rest *= 1.0f - opacity;
       if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, i);
     }
@@ -302,9 +315,11 @@ class Tile {
     next_owners_.push_back(owners_[i]);
   }
 
-  void send_to(const Light& light, const Eigen::Vector3d& at_W, const SurfacePoint& point,
+  void send_to(std::size_t lamp, const Eigen::Vector3d& at_W, const SurfacePoint& point,
                const Eigen::Vector3f& diffuse, std::size_t i) {
-    const auto found = illuminate(light, at_W);
+    const Light& light = s_.lights[lamp];
+    const bool distant = light.type == Light::Type::kDirectional;
+    const std::optional<Illumination> found = distant ? distant_[lamp] : illuminate(light, at_W);
     if (!found) return;
     double cosine = point.smooth_normal_W.dot(found->to_light_W);
     Eigen::Vector3d lit_side_W = point.normal_W;
@@ -343,6 +358,7 @@ class Tile {
   const TileShading& s_;
   const TileArea area_;
   double pixel_rad_ = 0.0;
+  std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
   std::vector<SceneRay> rays_;
   std::vector<std::size_t> owners_;  // the sample of each ray
