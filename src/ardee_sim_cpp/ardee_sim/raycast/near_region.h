@@ -13,6 +13,9 @@ namespace ardee {
 /// starts in the square needs nothing else until it leaves it.
 class NearRegion {
  public:
+  /// A draft takes at most so many times the room of the entries that the budget counts.
+  static constexpr std::size_t kDraftOfEntries = 15;
+
   /// Shrinks the square until it fits into the budget.
   NearRegion(const EmbreeDevice& device, const SceneryStore& store, const Eigen::Vector2d& center_W,
              double half_size_m, std::size_t budget_bytes);

@@ -38,7 +38,6 @@ class NearRegions {
   std::unique_ptr<NearRegion> make(const Eigen::Vector2d& center_W) const;
   void collect();
   void prepare(const Eigen::Vector3d& eye_W);
-  void draft(NearRegion& region) const;
   void keep(std::unique_ptr<NearRegion> region);
 
   const EmbreeDevice& device_;

@@ -81,7 +81,8 @@ double mirrored_bits(unsigned number) {
 
 class Tile {
  public:
-  Tile(const TileShading& shading, const TileArea& area) : s_(shading), area_(area) {
+  Tile(const TileShading& shading, const TileArea& area)
+      : s_(shading), area_(area), R_WC_(shading.camera.X_WC.q.toRotationMatrix()) {
     const double cone = 1.0 / s_.camera.focal_length_px();
     pixel_rad_ = cone / std::sqrt(static_cast<double>(s_.options.samples));
     for (const Light& light : s_.lights) {
@@ -226,7 +227,7 @@ class Tile {
     const Eigen::Vector3d way_C = s_.camera.direction_C(x, y);
     const double stretch = way_C.norm();
     if (!std::isfinite(stretch)) return;
-    const Eigen::Vector3d direction_W = s_.camera.X_WC.q * (way_C / stretch);
+    const Eigen::Vector3d direction_W = R_WC_ * (way_C / stretch);
     sample.travelled_m = s_.camera.near_m * stretch;
     sample.stretch = stretch;
     const double end_m = std::min(s_.camera.far_m * stretch, s_.options.max_range_m);
@@ -357,6 +358,7 @@ class Tile {
 
   const TileShading& s_;
   const TileArea area_;
+  const Eigen::Matrix3d R_WC_;
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
