@@ -56,12 +56,12 @@ struct Seen {
   float met() const { return entity == kNoEntity ? 0.0f : 1.0f; }
 
   /// Cosine between normals of a surface that counts as smooth.
-  static constexpr float kSmooth = 0.9f;
+  static constexpr float kSmooth = 0.85f;
 };
 
 /// Four looks at the corners of a square of pixels differ by less in light, and in depth (as a
 /// share of it) from a plane: what lies between is theirs too.
-constexpr float kSameLight = 0.05f;
+constexpr float kSameLight = 0.1f;
 constexpr float kSameRange = 0.02f;
 
 /// A lit point that waits for the answer of its shadow ray.
