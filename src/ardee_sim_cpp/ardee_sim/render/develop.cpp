@@ -16,9 +16,9 @@ namespace {
 const Eigen::Vector3f kLuma(0.299f, 0.587f, 0.114f);  // ITU-R BT.601
 
 // Automatic exposure; nominal, chosen by eye on fields.
-constexpr float kMiddleGrey = 0.38f;
+constexpr float kMiddleGrey = 0.32f;
 constexpr float kLeastGain = 0.5f;
-constexpr float kMostGain = 3.0f;
+constexpr float kMostGain = 2.5f;
 constexpr int kEvery = 4;  // each so many pixels, both ways, are metered
 
 using Colors = std::array<int, 4>;  // of the upper two and lower two pixels of a Bayer square
