@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_models.cli import run
+from ardee_models.cli import Parser, run
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.output import model_directory, write_file
@@ -90,7 +90,7 @@ def assemble(args: argparse.Namespace) -> Path:
 
 def make_parser() -> argparse.ArgumentParser:
     """Arguments of `python3 -m ardee_world.assemble`."""
-    parser = argparse.ArgumentParser(prog="assemble_world", description=__doc__)
+    parser = Parser(prog="assemble_world", description=__doc__)
     parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
     parser.add_argument("terrain", help="model directory of a terrain, or its name")
     parser.add_argument("geofence", help="geofence file")
