@@ -65,6 +65,13 @@ def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> 
             (folder / name).write_text(rows)
 
 
+def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
+    """Let a copied model's URIs name the copy: the folder of the old one need not be on any path."""
+    old, new = (f"://{name}/".encode() for name in (old_name, new_name))
+    for sdf in sorted(folder.glob("*.sdf")):
+        sdf.write_bytes(sdf.read_bytes().replace(old, new))
+
+
 def assemble(args: argparse.Namespace) -> Path:
     """Arguments to a folder with models/, worlds/custom.world and ardee_geofence/; returns the world's path."""
     models: List[Path] = search_path(args.model_path)
@@ -82,6 +89,7 @@ def assemble(args: argparse.Namespace) -> Path:
     _write_field(model, plots, table, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
         shutil.copytree(terrain, folder, dirs_exist_ok=True)
+        _refer_to_itself(folder, terrain.name, HEIGHTMAP)
     write_file(out / GEOFENCE, geofence.read_bytes())
     world = out / "worlds" / "custom.world"
     write_file(world, world_text([HEIGHTMAP, FIELD]).encode())
