@@ -13,4 +13,7 @@ def not_yaml(path: Path, error: Exception) -> GeneratorError:
     mark = getattr(error, "problem_mark", None)
     where = f"{path}:{mark.line + 1}" if mark else f"{path}"
     text = getattr(error, "problem", None) or str(error)
+    start = getattr(error, "context_mark", None)
+    if start:
+        text += f" {error.context} from line {start.line + 1}"
     return GeneratorError(f"{where}: not valid YAML: {' '.join(text.split())}")

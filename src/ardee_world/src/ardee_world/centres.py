@@ -48,7 +48,9 @@ def read_centres(path: Path) -> Plan:
             header = reader.fieldnames or []
             if not {"x_m", "y_m"} <= set(header):
                 found = ",".join(header) or "nothing"
-                raise GeneratorError(f"{path}: line 1: found {found[:80]}, expected columns x_m,y_m")
+                raise GeneratorError(
+                    f"{path}: line 1: found {found[:80]}, expected columns x_m,y_m"
+                )
             for entry in reader:
                 lines.append(_line(path, reader.line_num, entry))
                 if len(lines) > MAX_PLANTS:
