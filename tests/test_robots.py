@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The three TerraSentias side by side, each in a namespace: what they publish, where their frames are, how they drive."""
+"""The three TerraSentias side by side, each in a namespace: what they publish, their frames, how they move."""
 import math
 import time
 import xml.etree.ElementTree as ElementTree
