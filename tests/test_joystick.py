@@ -10,7 +10,8 @@ import subprocess
 import termios
 import threading
 import time
-from typing import Any, Iterator, List, Tuple
+import xmlrpc.client
+from typing import Any, Iterator, List
 
 import probes
 import pytest
@@ -18,6 +19,7 @@ from ros_graph import RosGraph, wait_until
 
 BUTTON, AXIS, INIT = 0x01, 0x02, 0x80
 ENABLE = 7  # the Xbox controller's, see the launch file
+SCALE_LINEAR = 1.0  # m/s at full deflection, see the launch file
 DRIVE_AXIS, TURN_AXIS = 1, 2
 
 
@@ -52,73 +54,52 @@ class Joystick:
         os.close(self._file)
 
 
-def watch_commands(seconds: float) -> List[Tuple[float, float]]:
-    """The commands (m/s, rad/s) on cmd_vel in a while of wall time."""
-    import rospy
-    from geometry_msgs.msg import Twist
+class Robot:
+    """What a probe's process hears of the robot."""
 
-    probes._start()
-    heard = []  # type: List[Any]
-    rospy.Subscriber("/cmd_vel", Twist, heard.append, queue_size=1000)
-    time.sleep(seconds)
-    return [(twist.linear.x, twist.angular.z) for twist in heard]
+    def __init__(self) -> None:
+        import rospy
+        from geometry_msgs.msg import Twist
+        from nav_msgs.msg import Odometry
+        from sensor_msgs.msg import Joy
+
+        probes._start()
+        self.commands, self.states = [], []  # type: List[Any], List[Any]
+        self.speed_m_s = 0.0
+        rospy.Subscriber("/cmd_vel", Twist, self.commands.append, queue_size=1000)
+        rospy.Subscriber("/joy", Joy, self.states.append, queue_size=1000)
+        rospy.Subscriber("/odom", Odometry, self._on_odometry, queue_size=1000)
+
+    def _on_odometry(self, odometry: Any) -> None:
+        self.speed_m_s = odometry.twist.twist.linear.x
+
+    def drives(self, speed_m_s: float) -> None:
+        """Waits until the robot has that speed."""
+        wait_until(
+            lambda: abs(self.speed_m_s - speed_m_s) < 0.02,
+            f"{speed_m_s} m/s, not {self.speed_m_s}",
+            10.0,
+        )
+
+    def hears_nothing(self) -> None:
+        """No command comes in a while."""
+        count = len(self.commands)
+        time.sleep(0.3)
+        assert len(self.commands) == count, f"commands {self.commands[count:]}"
 
 
-def speed() -> float:
-    """Forward speed (m/s) of the robot by its odometry."""
-    return probes.collect("/odom", "nav_msgs/Odometry", 1)[0].twist.twist.linear.x
-
-
-def robot_moves(moves: bool) -> bool:
-    """Has the robot come to drive, or to stand, within a while?"""
-    import rospy
-    from nav_msgs.msg import Odometry
-
-    probes._start()
-    last = []  # type: List[float]
-    rospy.Subscriber(
-        "/odom",
-        Odometry,
-        lambda message: last.append(abs(message.twist.twist.linear.x)),
-        queue_size=1000,
-    )
-    wait_until(lambda: last and (last[-1] > 0.3) == moves and (moves or last[-1] < 0.02), "speed")
-    return True
-
-
-def joy_after(path: str) -> Any:
-    """The next state of the joystick, an axis of which is moved to and fro here."""
-    import rospy
-    from sensor_msgs.msg import Joy
-
-    probes._start()
-    heard = []  # type: List[Any]
-    rospy.Subscriber("/joy", Joy, heard.append, queue_size=1000)
-    file = os.open(path, os.O_WRONLY)
+def wait_for_contact(joystick: Joystick, robot: Robot) -> None:
+    """An axis is moved to and fro until the probe hears of it."""
     value = 0
 
     def answered() -> Any:
         nonlocal value
         value = 8000 - value
-        os.write(file, struct.pack("=IhBB", 0, value, AXIS, TURN_AXIS))
-        return heard and heard[-1]
+        joystick.event(AXIS, TURN_AXIS, value)
+        return robot.states
 
-    state = wait_until(answered, "messages on /joy")
-    os.write(file, struct.pack("=IhBB", 0, 0, AXIS, TURN_AXIS))
-    return state
-
-
-@pytest.fixture
-def robot(graph: RosGraph) -> RosGraph:
-    """A graph with a world."""
-    graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
-    graph.call(probes.clock_at_least, 0.2)
-    return graph
-
-
-def launch_robot(graph: RosGraph, *args: str) -> None:
-    graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false", *args)
-    graph.call(probes.wait_for_topics, ["/odom"], [])
+    wait_until(answered, "messages on /joy")
+    joystick.event(AXIS, TURN_AXIS, 0)
 
 
 def push(joystick: Joystick) -> None:
@@ -127,37 +108,68 @@ def push(joystick: Joystick) -> None:
     joystick.event(AXIS, DRIVE_AXIS, -32767)
 
 
-def test_a_joystick_drives_until_let_go_or_unplugged(
-    robot: RosGraph, tmp_path: pathlib.Path
-) -> None:
-    joystick = Joystick(tmp_path / "js0")
-    launch_robot(robot, "use_joy:=true", f"dev_joy:={joystick.path}")
-    robot.call(probes.wait_for_topics, ["/joy", "/cmd_vel"], [])
+def pid_of(node: str) -> int:
+    """As the node itself says."""
+    import rosgraph
+
+    address = rosgraph.Master("/probe").lookupNode(node)
+    return xmlrpc.client.ServerProxy(address).getPid("/probe")[2]
+
+
+def ride(path: str) -> None:
+    """Drive by a joystick, let go, unplug it, plug it in again, lose joy_node."""
+    robot, joystick = Robot(), Joystick(pathlib.Path(path))
     joystick.plug_in()
-    state = robot.call(joy_after, str(joystick.path))
-    assert (len(state.axes), len(state.buttons)) == (6, 11)
+    wait_for_contact(joystick, robot)
+    numbers = len(robot.states[-1].axes), len(robot.states[-1].buttons)
+    assert numbers == (6, 11), f"axes and buttons: {numbers}"
 
     joystick.event(AXIS, DRIVE_AXIS, -32767)
-    assert robot.call(watch_commands, 0.5) == []  # nothing without the enable button
+    robot.hears_nothing()  # without the enable button
     joystick.event(BUTTON, ENABLE, 1)
-    assert robot.call(robot_moves, True)
-    assert robot.call(speed) == pytest.approx(1.0, abs=0.1)  # scale_linear of the launch file
+    robot.drives(SCALE_LINEAR)
     joystick.event(BUTTON, ENABLE, 0)
-    assert robot.call(robot_moves, False)
+    robot.drives(0.0)
 
     push(joystick)
-    assert robot.call(robot_moves, True)
+    robot.drives(SCALE_LINEAR)
     joystick.unplug()
-    assert robot.call(robot_moves, False)
+    robot.drives(0.0)
 
     joystick.plug_in()
-    assert robot.call(watch_commands, 0.5) == []  # plugged in again it drives only when told
+    robot.hears_nothing()  # plugged in again it drives only when told
     push(joystick)
-    assert robot.call(robot_moves, True)
+    robot.drives(SCALE_LINEAR)
+    os.kill(pid_of("/joy_node"), signal.SIGKILL)
+    robot.drives(0.0)
 
-    (pid,) = [pid for pid, words in robot.alive().items() if "/joy_node" in words]
-    os.kill(pid, signal.SIGKILL)
-    assert robot.call(robot_moves, False)
+
+@pytest.fixture(scope="module")
+def device(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
+    """Where a joystick will be."""
+    return tmp_path_factory.mktemp("joystick") / "js0"
+
+
+@pytest.fixture(scope="module")
+def robot(shared_graph: RosGraph, device: pathlib.Path) -> RosGraph:
+    """A robot in an empty world that waits for a joystick."""
+    shared_graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
+    shared_graph.call(probes.clock_at_least, 0.2)
+    arguments = ("use_rviz:=false", "use_joy:=true", f"dev_joy:={device}")
+    shared_graph.launch("terrasentia_description", "launch_default_tsv1.launch", *arguments)
+    shared_graph.call(probes.wait_for_topics, ["/odom", "/joy", "/cmd_vel"], [])
+    return shared_graph
+
+
+def test_a_joystick_drives_until_let_go_or_unplugged(robot: RosGraph, device: pathlib.Path) -> None:
+    robot.call(ride, str(device))
+
+
+def robot_moves(speeds_m_s: List[float]) -> None:
+    """Waits for one speed after the other."""
+    robot = Robot()
+    for speed_m_s in speeds_m_s:
+        robot.drives(speed_m_s)
 
 
 @contextlib.contextmanager
@@ -179,7 +191,6 @@ def held_key(terminal: int, key: bytes) -> Iterator[None]:
 
 
 def test_the_keyboard_drives_while_keys_come_and_restores_the_terminal(robot: RosGraph) -> None:
-    launch_robot(robot)
     master, slave = pty.openpty()
     before = termios.tcgetattr(slave)
     teleop = subprocess.Popen(
@@ -194,8 +205,8 @@ def test_the_keyboard_drives_while_keys_come_and_restores_the_terminal(robot: Ro
         robot.call(probes.wait_for_topics, ["/cmd_vel"], [])
         wait_until(lambda: termios.tcgetattr(slave) != before, "the terminal is raw")
         with held_key(master, b"i"):
-            assert robot.call(robot_moves, True)
-        assert robot.call(robot_moves, False)  # keys have ceased
+            robot.call(robot_moves, [0.6])
+        robot.call(robot_moves, [0.0])  # keys have ceased
         os.write(master, b"\x03")
         assert teleop.wait(10) == 0
         assert termios.tcgetattr(slave) == before

@@ -21,6 +21,7 @@ class Generation:
     leg_travel: float
     wheelbase: float  # with extended legs
     stiffness: float
+    appears_at_rest: bool  # joint angle 0 is at rest, else fully extended
     torque: float
     sensors: frozenset  # links, without encoders
     heavy_end: int  # 1 front, -1 rear
@@ -45,6 +46,7 @@ V1 = Generation(
     leg_travel=0.682,
     wheelbase=0.339,
     stiffness=100,
+    appears_at_rest=False,
     torque=10,
     sensors=frozenset({"hokuyo", "camera", "camera_left", "imu", "gps", "battery"}),
     heavy_end=-1,
@@ -64,6 +66,7 @@ V2 = Generation(
     leg_travel=0.3,
     wheelbase=0.339,
     stiffness=100,
+    appears_at_rest=False,
     torque=10,
     sensors=V1.sensors | {"camera_right"},
     heavy_end=-1,
@@ -82,6 +85,7 @@ V3 = Generation(
     leg_travel=0.4363,
     wheelbase=2 * (0.0305 + 0.115 * 0.86602),
     stiffness=20,
+    appears_at_rest=True,
     torque=6,
     sensors=frozenset({"hokuyo", "imu", "gps", "battery"})
     | {

@@ -54,6 +54,12 @@ class Robot:
         """Plugin elements of a library, wherever they are."""
         return [p for p in self.root.iter("plugin") if p.get("filename") == filename]
 
+    def spring_reference(self, joint: str) -> float:
+        """Where the torsional spring on a joint has no torque, rad."""
+        springs = self.plugins("libTorsionalSpringPlugin.so")
+        (spring,) = [s for s in springs if s.findtext("joint_handle") == joint]
+        return float(spring.findtext("spring_reference"))
+
     def frame(self, link: str, positions: Optional[Dict[str, float]] = None) -> np.ndarray:
         """Pose of a link in the root link, joints at `positions` (rad), 0 where not given."""
         joint = self.joint_of.get(link)

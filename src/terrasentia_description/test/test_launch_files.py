@@ -85,6 +85,15 @@ def test_joystick(xbox: str, button: int):
     assert parameters["/joy_controller_node/enable_button"] == button
 
 
+def test_the_joystick_is_the_default_of_a_desk():
+    """Listing A.21 drives by joystick unless told not to; here only where a person can sit, and for one robot."""
+    joystick = {"/joy_node", "/joy_controller_node"}
+    assert joystick <= set(nodes(FILES[0], display=":0"))
+    for arguments in (["use_joy:=false"], ["use_udp:=true"], ["ns:=robot2"]):
+        names = nodes(FILES[0], *arguments, display=":0")
+        assert not [name for name in names if "joy" in name]
+
+
 def test_spawn_arguments():
     text = spawn_arguments(FILES[0], "x:=1.5", "yaw:=0.5", "ns:=robot2")
     assert text == (

@@ -19,12 +19,14 @@ def wheel_centers(robot: Robot, legs: Dict[str, float]) -> np.ndarray:
 
 
 def leg_positions(robot: Robot, front: float, rear: float) -> Dict[str, float]:
-    """Joint positions for legs deflected by `front` and `rear` (rad >= 0) towards their far limits."""
+    """Joint positions for legs deflected by `front` and `rear` (rad >= 0) from fully extended to their far limits."""
     positions = {}
     for place in PLACES:
-        limit = robot.joints[f"{place}_leg_joint"].find("limit")
-        sign = 1 if float(limit.get("upper")) > 0 else -1
-        positions[f"{place}_leg_joint"] = sign * (front if place.startswith("front") else rear)
+        joint = f"{place}_leg_joint"
+        limit = robot.joints[joint].find("limit")
+        lower, extended = float(limit.get("lower")), robot.spring_reference(joint)
+        sign = 1 if extended == lower else -1
+        positions[joint] = extended + sign * (front if place.startswith("front") else rear)
     return positions
 
 
@@ -70,7 +72,8 @@ def deflections(robot: Robot, generation: Generation) -> np.ndarray:
 
 
 def test_wheels_are_where_the_drive_expects_them(robot: Robot, generation: Generation):
-    left_front, right_front, left_rear, right_rear = wheel_centers(robot, {})
+    extended = leg_positions(robot, 0, 0)
+    left_front, right_front, left_rear, right_rear = wheel_centers(robot, extended)
     assert left_front - right_front == pytest.approx([0, 0.4318, 0], abs=1e-6)
     assert left_rear - right_rear == pytest.approx([0, 0.4318, 0], abs=1e-6)
     assert left_front - left_rear == pytest.approx([generation.wheelbase, 0, 0], abs=1e-3)
@@ -116,14 +119,29 @@ def test_at_rest_the_legs_touch_no_stop(generation: Generation, deflections: np.
         assert 0.005 < deflection < generation.leg_travel - 0.1
 
 
-def test_weight_turns_each_leg_from_its_reference_into_its_range(robot: Robot):
+def test_weight_turns_each_leg_from_its_reference_into_its_range(
+    robot: Robot, generation: Generation
+):
+    extended = wheel_centers(robot, leg_positions(robot, 0, 0))
     for place in PLACES:
-        joint = robot.joints[f"{place}_leg_joint"].find("limit")
-        limits = float(joint.get("lower")), float(joint.get("upper"))
-        assert 0 in limits
-        far = {f"{place}_leg_joint": sum(limits)}
+        joint = f"{place}_leg_joint"
+        limit = robot.joints[joint].find("limit")
+        limits = float(limit.get("lower")), float(limit.get("upper"))
+        assert robot.spring_reference(joint) in limits
+        far = leg_positions(robot, generation.leg_travel, generation.leg_travel)
+        assert far[joint] == pytest.approx(sum(limits) - robot.spring_reference(joint))
         index = PLACES.index(place)
-        assert wheel_centers(robot, far)[index][2] > wheel_centers(robot, {})[index][2] + 0.03
+        assert wheel_centers(robot, far)[index][2] > extended[index][2] + 0.03
+
+
+def test_a_robot_on_soft_springs_appears_standing(robot: Robot, generation: Generation):
+    """With all joints at 0, as robots are spawned: v3 at its height at rest, the others a little higher."""
+    at_zero = WHEEL_RADIUS - wheel_centers(robot, {})[:, 2].mean()
+    if generation.appears_at_rest:
+        assert at_zero == pytest.approx(0.175, abs=2e-4)
+    else:
+        assert at_zero == pytest.approx(height(robot, 0, 0))
+    assert at_zero < 0.18
 
 
 def test_legs_stay_outside_the_chassis_and_inside_the_wheels(robot: Robot, generation: Generation):
