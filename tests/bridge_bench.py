@@ -228,7 +228,7 @@ def feed_until_killed(pipe: Any) -> None:
     import rospy
 
     from ardee_bridge import latency_messages
-    from ardee_bridge.sensor_server_node import TYPES
+    from ardee_bridge.subscriptions import TYPES
 
     rospy.init_node("feeder", anonymous=True, disable_signals=True, disable_rostime=True)
     rates_hz = {"imu": 100, "gps": 20, "battery": 5, "fr": 100, "fl": 100, "camera": 5, "depth": 5}

@@ -153,6 +153,18 @@ static int32_t nearest_mm(const Ardee_Msg_LidarData *scan, int32_t beams) {
   return nearest;
 }
 
+static void describe_gps(const Ardee_Msg_GPSData *gps, char *text, size_t size) {
+  if (gps->status < 0) {
+    snprintf(text, size, "no fix");
+    return;
+  }
+  snprintf(text, size, "latitude %.7f deg longitude %.7f deg altitude %.3f m north %.3f m/s",
+           (double)gps->latitude / ARDEE_SCALE_GPS_LATITUDE,
+           (double)gps->longitude / ARDEE_SCALE_GPS_LONGITUDE,
+           (double)gps->altitude / ARDEE_SCALE_GPS_ALTITUDE,
+           (double)gps->velocity.x / ARDEE_SCALE_GPS_VELOCITY);
+}
+
 static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes, char *text,
                      size_t size) {
   union {
@@ -169,9 +181,7 @@ static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes,
   memcpy(&data, bytes, length < sizeof data ? length : sizeof data);
   switch (h->data_type) {
     case ARDEE_DATA_GPS:
-      snprintf(text, size, "latitude %.7f deg longitude %.7f deg",
-               (double)data.gps.latitude / ARDEE_SCALE_GPS_LATITUDE,
-               (double)data.gps.longitude / ARDEE_SCALE_GPS_LONGITUDE);
+      describe_gps(&data.gps, text, size);
       break;
     case ARDEE_DATA_IMU:
       snprintf(text, size, "accel_z %.3f m/s2 gyro_z %.4f rad/s",

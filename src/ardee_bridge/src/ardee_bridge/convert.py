@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
 import io
+import math
 from typing import Any, Callable, Dict, List, NamedTuple, Optional
 
 import numpy as np
@@ -77,13 +78,19 @@ def orientation(message: Any) -> Reading:
 
 
 def gps(message: Any, velocity: Any = None) -> Reading:
-    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one."""
+    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one.
+
+    Without a fix the receiver says nothing new of its velocity: position and velocity have no value then.
+    """
+    has_fix = message.status.status >= 0
+    has_velocity = velocity is not None and has_fix
+    nothing = Vector(x=math.nan, y=math.nan, z=math.nan)
     stamp_ms = message.header.stamp.secs * 1000 + message.header.stamp.nsecs // 1_000_000
     data = codec.GPSData(
-        latitude=message.latitude,
-        longitude=message.longitude,
-        altitude=message.altitude,
-        velocity=Vector() if velocity is None else _vector(velocity),
+        latitude=message.latitude if has_fix else math.nan,
+        longitude=message.longitude if has_fix else math.nan,
+        altitude=message.altitude if has_fix else math.nan,
+        velocity=_vector(velocity) if has_velocity else nothing,
         covariance=_diagonal(message.position_covariance),
         covariance_type=message.position_covariance_type,
         service=message.status.service,

@@ -211,7 +211,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     import rospy
 
     from ardee_bridge import latency_messages
-    from ardee_bridge.sensor_server_node import TYPES
+    from ardee_bridge.subscriptions import TYPES
 
     rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
     publishers = [
