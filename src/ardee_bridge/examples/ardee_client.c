@@ -158,11 +158,13 @@ static void describe_gps(const Ardee_Msg_GPSData *gps, char *text, size_t size) 
     snprintf(text, size, "no fix");
     return;
   }
-  snprintf(text, size, "latitude %.7f deg longitude %.7f deg altitude %.3f m north %.3f m/s",
+  snprintf(text, size,
+           "latitude %.7f deg longitude %.7f deg altitude %.3f m north %.3f west %.3f m/s",
            (double)gps->latitude / ARDEE_SCALE_GPS_LATITUDE,
            (double)gps->longitude / ARDEE_SCALE_GPS_LONGITUDE,
            (double)gps->altitude / ARDEE_SCALE_GPS_ALTITUDE,
-           (double)gps->velocity.x / ARDEE_SCALE_GPS_VELOCITY);
+           (double)gps->velocity.x / ARDEE_SCALE_GPS_VELOCITY,
+           (double)gps->velocity.y / ARDEE_SCALE_GPS_VELOCITY);
 }
 
 static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes, char *text,
