@@ -39,7 +39,7 @@ def make_urdf(folder: pathlib.Path) -> pathlib.Path:
 
 
 def run_engine(name: str, field: Field, urdf: pathlib.Path, *extra: str) -> Dict[str, Any]:
-    """What simulation_bench or lidar_bench prints."""
+    """What simulation_bench, lidar_bench or camera_bench prints."""
     command = [program(name), "--world", str(field.world), "--robot", str(urdf)]
     command += ["--pose", " ".join(map(str, field.start)), "--lane-m", str(field.lane_m), *extra]
     done = subprocess.run(
@@ -122,6 +122,9 @@ def measure(
     if "lidar" in only:
         say("rays")
         result["lidar"] = run_engine("lidar_bench", field, urdf)
+    if "camera" in only:
+        say("cameras")
+        result["camera"] = run_engine("camera_bench", field, urdf)
     if "start" in only or "rtf" in only:
         say("node")
         result["node"] = run_node(field, urdf, window_s if "rtf" in only else 0.0)

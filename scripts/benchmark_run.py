@@ -16,7 +16,7 @@ import benchmark_table
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
-KINDS = ("start", "physics", "lidar", "rtf", "bridge")
+KINDS = ("start", "physics", "lidar", "camera", "rtf", "bridge")
 SIZES = [200, 2_000, 20_000, 200_000]
 
 

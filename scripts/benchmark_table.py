@@ -12,6 +12,7 @@ START_BUDGETS_S = {200: 1.0, 20_000: 3.0, 200_000: 10.0}
 MEMORY_BUDGETS_MB = {200: 300.0, 20_000: 800.0, 200_000: 1500.0}
 REAL_TIME_BUDGET = 30.0
 LARGE_FIELD_SHARE = 0.8  # of the real-time factor with 200 plants; asked for at 100,000
+CAMERA_REAL_TIME_BUDGET = 1.0
 OF_EMBREE_BUDGET, OF_FLAT_BUDGET = 0.8, 0.6
 
 Figures = Dict[str, Any]
@@ -94,6 +95,15 @@ ROWS = [
     Row(
         "lidar / bare Embree, one flat BVH", "lidar.of_flat", "{:.2f}", least=fixed(OF_FLAT_BUDGET)
     ),
+    Row("three cameras of 640x480 at 10 Hz [frames/s]", "camera.frames_per_s", "{:.1f}"),
+    Row("their pixels, a core [M/s]", "camera.mpixels_per_s", "{:.2f}"),
+    Row("bare Embree, a ray a pixel, a core [Mrays/s]", "camera.embree_mrays_per_s", "{:.2f}"),
+    Row(
+        "real-time factor with these cameras",
+        "camera.real_time_factor",
+        "{:.2f}",
+        least=of_size({200: CAMERA_REAL_TIME_BUDGET}),
+    ),
     Row("real-time factor, engine alone", "engine.everything.real_time_factor", "{:.1f}"),
     Row("real-time factor, with ROS", "node.real_time_factor", "{:.1f}", least=real_time_budget),
     Row(
@@ -132,6 +142,10 @@ def derive(figures: Figures) -> Figures:
             lidar["m" + name if name == "rays_per_s" else name.replace("rays", "mrays")] = (
                 lidar[name] / 1e6
             )
+    camera = figures.get("camera", {})
+    if camera:
+        camera["mpixels_per_s"] = camera["pixels_per_cpu_s"] / 1e6
+        camera["embree_mrays_per_s"] = camera["embree_rays_per_s"] / 1e6
     for part in (node, figures.get("engine", {}).get("everything", {})):
         if "cpu_s_per_simulated_s" in part:
             part["cpu_ms"] = part["cpu_s_per_simulated_s"] * 1e3

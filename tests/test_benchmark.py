@@ -40,7 +40,7 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
 def test_bad_arguments_are_named() -> None:
     done = run("--only", "start,nonsense")
     assert done.returncode == 2
-    assert "found 'nonsense', expected some of start,physics,lidar,rtf" in done.stderr
+    assert "found 'nonsense', expected some of start,physics,lidar,camera,rtf" in done.stderr
 
 
 def test_fields_are_whole_and_about_square() -> None:

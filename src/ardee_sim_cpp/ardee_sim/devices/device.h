@@ -12,6 +12,7 @@
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/devices/pictures.h"
 #include "ardee_sim/devices/reading.h"
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/raycast/ray_scene.h"
@@ -87,6 +88,8 @@ class RayScenes {
   virtual std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) = 0;
   /// The scene as of this step.
   virtual const RayScene& now(SceneKind kind) = 0;
+  /// The visual scene, from now on ready for pictures too.
+  virtual const RayScene& for_pictures() = 0;
 };
 
 /// Receives what devices measure; the ROS node publishes it, a test records it.
@@ -108,6 +111,7 @@ struct Surroundings {
 struct DeviceContext {
   Robot& robot;
   RayScenes& scenes;
+  Pictures& pictures;
   Log& log;
   std::uint64_t seed = 0;       // of this robot's streams
   std::string robot_namespace;  // where plugins without one of their own put their topics

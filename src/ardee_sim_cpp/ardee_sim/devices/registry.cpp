@@ -5,6 +5,7 @@
 
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
+#include "ardee_sim/devices/camera_sensor.h"
 #include "ardee_sim/devices/diff_drive.h"
 #include "ardee_sim/devices/encoder.h"
 #include "ardee_sim/devices/gazebo_imu.h"
@@ -128,6 +129,13 @@ Registry builtin_registry() {
   registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
   registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
+  registry.add_sensor_plugin("libgazebo_ros_camera.so", CameraSensor::make_color);
+  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so", CameraSensor::make_depth);
+  registry.add_sensor_plugin("libgazebo_ros_multicamera.so", CameraSensor::make_several);
+  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so", CameraSensor::make_openni);
+  registry.add_sensor_plugin("libgazebo_ros_triggered_camera.so", CameraSensor::make_triggered);
+  registry.add_sensor_plugin("libgazebo_ros_triggered_multicamera.so",
+                             CameraSensor::make_several_triggered);
   registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
   registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);

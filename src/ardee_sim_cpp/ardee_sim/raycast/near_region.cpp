@@ -9,6 +9,8 @@ namespace {
 
 /// Of one entry with its share of Embree's tree (measured: README).
 constexpr std::size_t kBytesPerEntry = 120;
+/// Of a triangle of the draft with its share of Embree's tree (nominal).
+constexpr std::size_t kBytesPerDraftTriangle = 110;
 /// Bodies wider than this are taken in piece by piece.
 constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
@@ -126,21 +128,87 @@ double NearRegion::exit_t(const Ray& ray_W) const {
   return t;
 }
 
-void NearRegion::meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
+void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes) {
+  tried_draft_ = true;
   if (scene_ == nullptr) return;
-  Passage passages[kPacketRays];
+  std::vector<const PlacedBody*> bodies;
+  std::size_t triangles = 0;
+  for (const Frame& frame : frames_) {
+    if (frame.placed->body->triangles.empty()) continue;
+    bodies.push_back(frame.placed);
+    triangles += frame.placed->body->triangle_count();
+  }
+  if (bodies.empty() || triangles * kBytesPerDraftTriangle > budget_bytes) return;
+  rest_.region = this;
+  for (std::uint32_t k = 0; k < entries_.size(); ++k) {
+    if (entries_[k].block == nullptr) rest_.entries.push_back(k);
+  }
+  if (!rest_.entries.empty()) {
+    rest_scene_ = std::make_unique<EmbreeScene>(
+        device, rest_.entries.size(),
+        [this](std::size_t k, float* lower, float* upper) {
+          entry_bounds(rest_.entries[k], lower, upper);
+        },
+        &meet_rest, &rest_, BuildQuality::kMedium);
+  }
+  draft_ = std::make_unique<DraftScene>(device, bodies, origin_W_);
+}
+
+bool NearRegion::find_passages(const RayQuery queries[kPacketRays],
+                               const double t_high[kPacketRays],
+                               Passage passages[kPacketRays]) const {
+  bool any = false;
   for (int i = 0; i < kPacketRays; ++i) {
     if (t_high[i] < 0.0) continue;
     const Ray& ray_W = queries[i].ray_W();
     passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
     passages[i].t_high = t_high[i];
+    any = true;
     // From high above, floats are of the scenery's size from where the ray enters its layer.
     const double above = std::abs(passages[i].ray.origin.z()) - half_height_m_;
     if (above <= 0.0) continue;
     const double towards = -std::copysign(1.0, passages[i].ray.origin.z()) * ray_W.direction.z();
     passages[i].t_low = towards > 0.0 ? above / towards : std::numeric_limits<double>::infinity();
   }
+  return any;
+}
+
+void NearRegion::meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
+  Passage passages[kPacketRays];
+  if (scene_ == nullptr || !find_passages(queries, t_high, passages)) return;
   traverse_packet(scene_->get(), queries, passages);
+}
+
+void NearRegion::meet_draft(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
+  if (draft_ == nullptr) return meet(queries, t_high);
+  Passage passages[kPacketRays];
+  if (!find_passages(queries, t_high, passages)) return;
+  bool undecided[kPacketRays] = {};
+  if (queries[0].is_shadow()) {
+    draft_->meet_shadows(queries, passages);
+  } else {
+    draft_->meet(queries, passages, undecided);
+  }
+  bool doubts = false;
+  double again[kPacketRays];
+  for (int i = 0; i < kPacketRays; ++i) {
+    again[i] = undecided[i] ? t_high[i] : -1.0;
+    doubts |= undecided[i];
+    passages[i].t_high = std::min(passages[i].t_high, queries[i].reach());
+  }
+  if (rest_scene_ != nullptr) traverse_packet(rest_scene_->get(), queries, passages);
+  if (doubts) meet(queries, again);
+}
+
+void NearRegion::meet_rest(const RTCIntersectFunctionNArguments* args) {
+  const auto& rest = *static_cast<const Rest*>(args->geometryUserPtr);
+  const Entry& entry = rest.region->entries_[rest.entries[args->primID]];
+  const PlacedBody& placed = *rest.region->frames_[entry.frame].placed;
+  for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double) {
+    query.enter(placed);
+    query.meet_piece(placed.body->pieces[entry.piece]);
+    return true;
+  });
 }
 
 void NearRegion::meet_entry(const RTCIntersectFunctionNArguments* args) {
@@ -169,7 +237,8 @@ void NearRegion::meet_entry(const RTCIntersectFunctionNArguments* args) {
 }
 
 std::size_t NearRegion::bytes() const {
-  return entries_.capacity() * sizeof(Entry) + frames_.capacity() * sizeof(Frame);
+  return entries_.capacity() * sizeof(Entry) + frames_.capacity() * sizeof(Frame) +
+         (draft_ != nullptr ? draft_->bytes() : 0);
 }
 
 }  // namespace ardee

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/raycast/draft_scene.h"
 #include "ardee_sim/raycast/scenery_store.h"
 
 namespace ardee {
@@ -12,6 +13,9 @@ namespace ardee {
 /// starts in the square needs nothing else until it leaves it.
 class NearRegion {
  public:
+  /// A draft takes at most so many times the room of the entries that the budget counts.
+  static constexpr std::size_t kDraftOfEntries = 15;
+
   /// Shrinks the square until it fits into the budget.
   NearRegion(const EmbreeDevice& device, const SceneryStore& store, const Eigen::Vector2d& center_W,
              double half_size_m, std::size_t budget_bytes);
@@ -28,6 +32,12 @@ class NearRegion {
   /// All hits, each query up to its t_high (negative: not at all).
   void meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
+  /// Makes meet_draft quick; without it, or if it would take more than `budget_bytes`, it is exact.
+  void add_draft(const EmbreeDevice& device, std::size_t budget_bytes);
+  bool has_tried_draft() const { return tried_draft_; }
+  /// For pictures: as meet, but what is nearest is decided in floats among triangles.
+  void meet_draft(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
+
   std::size_t bytes() const;
   std::size_t triangles() const { return triangles_; }
 
@@ -43,6 +53,16 @@ class NearRegion {
     std::uint32_t piece;
   };
 
+  /// The entries that are no triangles.
+  struct Rest {
+    const NearRegion* region;
+    std::vector<std::uint32_t> entries;
+  };
+
+  /// False if no query has to be asked.
+  bool find_passages(const RayQuery queries[kPacketRays], const double t_high[kPacketRays],
+                     Passage passages[kPacketRays]) const;
+  static void meet_rest(const RTCIntersectFunctionNArguments* args);
   static void meet_entry(const RTCIntersectFunctionNArguments* args);
   void choose_size(const SceneryStore& store, std::size_t budget_bytes);
   void add(const PlacedBody& placed);
@@ -59,6 +79,10 @@ class NearRegion {
   std::vector<Frame> frames_;
   std::vector<Entry> entries_;
   std::unique_ptr<EmbreeScene> scene_;
+  bool tried_draft_ = false;
+  std::unique_ptr<DraftScene> draft_;
+  Rest rest_;
+  std::unique_ptr<EmbreeScene> rest_scene_;
 };
 
 }  // namespace ardee

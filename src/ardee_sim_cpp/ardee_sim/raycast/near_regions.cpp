@@ -12,6 +12,8 @@ constexpr std::size_t kBudgetShare = 4;
 /// The square reaches this much further than the radius asked for (as a share of it), so that it
 /// lasts for a while.
 constexpr double kSpareShare = 0.5;
+/// Where pictures are taken, the square reaches so far, if the budget allows.
+constexpr double kPictureRadius_m = 12.0;
 /// Regions that no sensor was in for so many calls make room.
 constexpr std::uint64_t kIdleCalls = 2000;
 
@@ -20,9 +22,19 @@ constexpr std::uint64_t kIdleCalls = 2000;
 double NearRegions::slack_m() const { return kSpareShare * options_.flattened_radius_m; }
 
 std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) const {
-  return std::make_unique<NearRegion>(device_, store_, center_W,
-                                      options_.flattened_radius_m + slack_m(),
-                                      options_.flattened_budget_bytes / kBudgetShare);
+  const std::size_t budget = options_.flattened_budget_bytes / kBudgetShare;
+  if (!drafts_) {
+    return std::make_unique<NearRegion>(device_, store_, center_W,
+                                        options_.flattened_radius_m + slack_m(), budget);
+  }
+  // A picture sees farther than a scan, but the triangles take the most room.
+  const double half_size_m = std::max(options_.flattened_radius_m, kPictureRadius_m) + slack_m();
+  const std::size_t draft_budget = options_.flattened_budget_bytes / 2;
+  auto made =
+      std::make_unique<NearRegion>(device_, store_, center_W, half_size_m,
+                                   std::min(budget, draft_budget / NearRegion::kDraftOfEntries));
+  made->add_draft(device_, draft_budget);
+  return made;
 }
 
 void NearRegions::clear() {
@@ -71,7 +83,7 @@ void NearRegions::collect() {
 
 void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   const NearRegion* region = find(eye_W);
-  if (region == nullptr) {
+  if (region == nullptr || (drafts_ && !region->has_tried_draft())) {
     keep(make(eye_W.head<2>()));
     return;
   }
@@ -86,9 +98,13 @@ void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   next_ = std::async(std::launch::async, [this, center] { return make(center); });
 }
 
-void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
+void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool drafts) {
   ++tick_;
   collect();
+  if (drafts && !drafts_) {
+    if (next_.valid()) keep(next_.get());  // it is being made without
+    drafts_ = true;
+  }
   if (!options_.flatten || store_.places().empty()) return;
   for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
 }

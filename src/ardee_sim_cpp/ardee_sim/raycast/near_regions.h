@@ -20,7 +20,8 @@ class NearRegions {
 
   /// Waits for the background and forgets all regions: the scenery is about to change.
   void clear();
-  void prepare(const std::vector<Eigen::Vector3d>& eyes_W);
+  /// With `drafts`, also for pictures.
+  void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool drafts);
   /// The region that holds the point deepest, or nullptr.
   const NearRegion* find(const Eigen::Vector3d& eye_W) const;
 
@@ -45,6 +46,7 @@ class NearRegions {
   std::vector<Kept> kept_;
   std::future<std::unique_ptr<NearRegion>> next_;
   std::uint64_t tick_ = 0;
+  bool drafts_ = false;
 };
 
 }  // namespace ardee

@@ -125,6 +125,26 @@ void RayQuery::meet_solid(const Solid& solid) {
   }
 }
 
+bool RayQuery::meet_triangle_of(const PlacedBody& placed, std::uint32_t number) {
+  enter(placed);
+  const Body& body = *placed.body;
+  const BodyTriangle& triangle = body.triangles[number];
+  TriangleHit hit;
+  if (!meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
+                     body.vertices[triangle.vertices[1]].cast<double>(),
+                     body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
+    return false;
+  }
+  const double before = best_t_;
+  offer({hit.t, triangle.surface, triangle.primitive, number, hit.normal});
+  return hit.t >= before || best_t_ == hit.t;
+}
+
+void RayQuery::end_in_shadow(const PlacedBody& placed) {
+  best_t_ = kNothingMatters;
+  placed_ = &placed;
+}
+
 void RayQuery::meet_patch(const TerrainPatch& patch) {
   const Terrain& terrain = entered_->body->terrains[patch.terrain];
   const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
@@ -208,35 +228,39 @@ void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage) {
   rtcIntersect1(scene, &context.embree, &rayhit);
 }
 
+bool RayPacket::load(const Passage* passages) {
+  bool any = false;
+  for (int i = 0; i < kPacketRays; ++i) {
+    const Passage& passage = passages[i];
+    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    valid[i] = passage.empty() ? 0 : -1;
+    if (passage.empty()) continue;
+    any = true;
+    const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
+    const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
+    rays.ray.org_x[i] = origin.x();
+    rays.ray.org_y[i] = origin.y();
+    rays.ray.org_z[i] = origin.z();
+    rays.ray.dir_x[i] = direction.x();
+    rays.ray.dir_y[i] = direction.y();
+    rays.ray.dir_z[i] = direction.z();
+    rays.ray.tfar[i] = float_above(passage.t_high - passage.t_low);
+    rays.ray.mask[i] = 0xFFFFFFFFu;
+    rays.ray.id[i] = static_cast<unsigned>(i);
+  }
+  return any;
+}
+
 void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const Passage* passages) {
+  RayPacket packet;
+  if (!packet.load(passages)) return;
   TraversalContext context;
   rtcInitIntersectContext(&context.embree);
   context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   context.queries = queries;
-  alignas(32) int valid[kPacketRays];
-  RTCRayHit8 rayhit{};
-  int active = 0;
-  for (int i = 0; i < kPacketRays; ++i) {
-    const Passage& passage = passages[i];
-    rayhit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    valid[i] = passage.empty() ? 0 : -1;
-    if (passage.empty()) continue;
-    ++active;
-    context.t_shift[i] = passage.t_low;
-    const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
-    const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
-    rayhit.ray.org_x[i] = origin.x();
-    rayhit.ray.org_y[i] = origin.y();
-    rayhit.ray.org_z[i] = origin.z();
-    rayhit.ray.dir_x[i] = direction.x();
-    rayhit.ray.dir_y[i] = direction.y();
-    rayhit.ray.dir_z[i] = direction.z();
-    rayhit.ray.tfar[i] = float_above(passage.t_high - passage.t_low);
-    rayhit.ray.mask[i] = 0xFFFFFFFFu;
-    rayhit.ray.id[i] = static_cast<unsigned>(i);
-  }
-  if (active > 0) rtcIntersect8(valid, scene, &context.embree, &rayhit);
+  for (int i = 0; i < kPacketRays; ++i) context.t_shift[i] = passages[i].t_low;
+  rtcIntersect8(packet.valid, scene, &context.embree, &packet.rays);
 }
 
 void meet_body_piece(const RTCIntersectFunctionNArguments* args) {

@@ -32,6 +32,7 @@ class RayQuery {
   const Ray& ray_W() const { return ray_W_; }
   /// No candidate beyond this is of interest any more.
   double reach() const { return best_t_; }
+  bool is_shadow() const { return purpose_ == Purpose::kShadow; }
   bool has_hit() const { return placed_ != nullptr; }
   /// Whether the ray passes through that link: the sensor's own.
   bool passes(std::uint32_t entity, std::uint32_t link) const {
@@ -52,6 +53,10 @@ class RayQuery {
   void meet_block(const TriangleBlock& block);
   void meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]);
   void meet_solid(const Solid& solid);
+  /// One triangle of a body; false if the ray misses it or may not meet it.
+  bool meet_triangle_of(const PlacedBody& placed, std::uint32_t triangle);
+  /// What a shadow ray has found is in its way.
+  void end_in_shadow(const PlacedBody& placed);
 
   void fill(RayHit& hit) const;
   void fill(SurfacePoint& point) const;
@@ -106,6 +111,15 @@ struct Passage {
   double t_high = -1.0;  // below t_low: the query stays out
 
   bool empty() const { return !(t_low <= t_high); }
+};
+
+/// Passages as Embree takes them.
+struct RayPacket {
+  alignas(32) int valid[kPacketRays];
+  RTCRayHit8 rays{};
+
+  /// False if all stay out.
+  bool load(const Passage* passages);
 };
 
 void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage);

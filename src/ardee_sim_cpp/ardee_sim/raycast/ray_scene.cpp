@@ -37,7 +37,8 @@ struct RayScene::Impl {
 
   /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
   /// leave it unhindered.
-  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region) const {
+  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region,
+            bool quickly = false) const {
     double t_leave[kPacketRays];
     double t_high[kPacketRays];
     double t_low[kPacketRays];
@@ -50,7 +51,9 @@ struct RayScene::Impl {
       t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
       t_high[i] = std::min(queries[i].reach(), t_leave[i]);
     }
-    if (region != nullptr) region->meet(queries, t_high);
+    if (region != nullptr) {
+      quickly ? region->meet_draft(queries, t_high) : region->meet(queries, t_high);
+    }
     bool onwards = false;
     for (int i = 0; i < count; ++i) {
       if (region != nullptr && queries[i].reach() <= t_leave[i]) continue;
@@ -63,24 +66,25 @@ struct RayScene::Impl {
   /// Rays of any origins, up to kPacketRays.
   void cast_packet(const SceneRay* rays, int count, RayQuery::Purpose purpose,
                    std::uint32_t own_entity, std::uint32_t own_link,
-                   RayQuery queries[kPacketRays]) const {
+                   RayQuery queries[kPacketRays], bool quickly = false) const {
     const NearRegion* region = regions.find(rays[0].origin_W);
     for (int k = 0; k < count; ++k) {
       const SceneRay& ray = rays[k];
       queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, own_entity, own_link, purpose);
       if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
     }
-    cast(queries, count, region);
+    cast(queries, count, region, quickly);
   }
 
   /// The same for any number of them, by the caller's thread.
   template <typename Take>
-  void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, Take take) const {
+  void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, bool quickly,
+            Take take) const {
     require_committed();
     for (std::size_t first = 0; first < count; first += kPacketRays) {
       const int packet = static_cast<int>(std::min<std::size_t>(kPacketRays, count - first));
       RayQuery queries[kPacketRays];
-      cast_packet(rays + first, packet, purpose, kNoEntity, 0, queries);
+      cast_packet(rays + first, packet, purpose, kNoEntity, 0, queries, quickly);
       for (int k = 0; k < packet; ++k) take(queries[k], first + static_cast<std::size_t>(k));
     }
   }
@@ -144,12 +148,12 @@ void RayScene::set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_W
   impl_->moving.set_link_poses(entity, X_WL);
 }
 
-void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W) {
+void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures) {
   for (const Eigen::Vector3d& eye : eyes_W) {
     if (!eye.allFinite()) throw Error("ray scene: a sensor's position is not finite");
   }
   if (!impl_->scenery.committed()) impl_->scenery.commit();
-  impl_->regions.prepare(eyes_W);
+  impl_->regions.prepare(eyes_W, pictures);
 }
 
 namespace {
@@ -216,13 +220,30 @@ void RayScene::cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t en
 }
 
 void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
-  impl_->cast(rays, count, RayQuery::Purpose::kNearest,
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest, false,
               [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
+}
+
+void RayScene::meet(const SceneRay* rays, std::size_t count, RayHit* hits) const {
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest, false,
+              [hits](const RayQuery& query, std::size_t i) { query.fill(hits[i]); });
 }
 
 void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const {
   impl_->cast(
-      rays, count, RayQuery::Purpose::kShadow,
+      rays, count, RayQuery::Purpose::kShadow, false,
+      [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
+}
+
+void RayScene::look_quickly(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest, true,
+              [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
+}
+
+void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
+                                    bool* in_shadow) const {
+  impl_->cast(
+      rays, count, RayQuery::Purpose::kShadow, true,
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 

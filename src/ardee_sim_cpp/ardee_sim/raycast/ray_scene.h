@@ -65,7 +65,8 @@ class RayScene {
 
   /// Makes the scene ready for rays from these points: commits what moved, flattens tiles that came
   /// near.
-  void prepare(const std::vector<Eigen::Vector3d>& eyes_W);
+  /// `pictures`: from now on also for look_quickly.
+  void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures = false);
 
   /// Hits nearest to the origin within max_range_m, one a direction. Rays pass through the link
   /// (entity, link) that carries the sensor: pass kNoEntity for none. One-sided surfaces are not
@@ -84,6 +85,12 @@ class RayScene {
   /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
   /// best asked side by side. The work is the caller's thread's; many threads may call at once.
   void look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
+  /// The same, several times as quick: what is nearest is decided in floats, so that of two things
+  /// some micrometres apart the farther may be given. Needs prepare() for pictures to be quick.
+  void look_quickly(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
+  void find_shadows_quickly(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
+  /// The same without the look: range, entity, label and normal.
+  void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.
   void find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
 

@@ -7,19 +7,29 @@
 
 namespace ardee {
 
-double Camera::focal_length_px() const { return 0.5 * width / std::tan(0.5 * horizontal_fov_rad); }
+double Camera::focal_length_px() const {
+  return lens ? lens->lens().fx_px : 0.5 * width / std::tan(0.5 * horizontal_fov_rad);
+}
+
+Eigen::Vector3d Camera::direction_C(double x_px, double y_px) const {
+  if (lens) {
+    const Eigen::Vector2d plane = lens->plane(x_px, y_px);
+    return {1.0, -plane.x(), -plane.y()};
+  }
+  const double f = focal_length_px();
+  return {1.0, (0.5 * width - x_px) / f, (0.5 * height - y_px) / f};
+}
 
 Eigen::Vector3d Camera::direction_W(double x_px, double y_px) const {
-  const double f = focal_length_px();
-  const Eigen::Vector3d direction_C(f, 0.5 * width - x_px, 0.5 * height - y_px);
-  return X_WC.q * direction_C.normalized();
+  return X_WC.q * direction_C(x_px, y_px).normalized();
 }
 
 std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& point_W) const {
   const Eigen::Vector3d point_C = X_WC.q.conjugate() * (point_W - X_WC.p);
   if (!(point_C.x() > 0.0)) return std::nullopt;
-  const double scale = focal_length_px() / point_C.x();
-  return Eigen::Vector2d(0.5 * width - scale * point_C.y(), 0.5 * height - scale * point_C.z());
+  const Eigen::Vector2d plane = -point_C.tail<2>() / point_C.x();
+  if (lens) return lens->lens().to_pixel(plane) + Eigen::Vector2d(0.5, 0.5);
+  return focal_length_px() * plane + 0.5 * Eigen::Vector2d(width, height);
 }
 
 Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W) {

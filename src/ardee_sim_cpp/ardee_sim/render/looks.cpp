@@ -48,6 +48,12 @@ void Looks::add(const std::shared_ptr<const Model>& model) {
   }
 }
 
+void Looks::clear() {
+  of_material_.clear();
+  of_ground_.clear();
+  models_.clear();
+}
+
 Color Looks::ground(const Heightmap& map, const SurfacePoint& point, double footprint_m) const {
   const auto found = of_ground_.find(&map);
   if (found == of_ground_.end()) return kBareSoil;

@@ -29,6 +29,9 @@ class Looks {
   /// Loads the textures of the model's visuals. One that cannot be read is a warning, and white.
   void add(const std::shared_ptr<const Model>& model);
 
+  /// Forgets all models, but keeps textures for those that come back.
+  void clear();
+
   /// The look of a point, seen so that a pixel covers `footprint_m` of it.
   Look at(const SurfacePoint& point, double footprint_m) const;
 

@@ -19,41 +19,68 @@ int tiles_along(int pixels) { return (pixels + kTileSide_px - 1) / kTileSide_px;
 
 }  // namespace
 
+void Renderer::for_each_tile(const Camera& camera, int threads,
+                             const std::function<void(const TileArea&)>& work) {
+  if (camera.width < 1 || camera.height < 1) {
+    throw Error("found a picture without pixels, expected at least one");
+  }
+  const int columns = tiles_along(camera.width);
+  const int count = columns * tiles_along(camera.height);
+  // TBB has no more workers than cores unless it is told.
+  std::unique_ptr<tbb::global_control> workers;
+  if (threads > tbb::info::default_concurrency()) {
+    workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                    static_cast<std::size_t>(threads));
+  }
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(0, count, [&](int tile) {
+      const int left = tile % columns * kTileSide_px;
+      const int upper = tile / columns * kTileSide_px;
+      work({left, upper, std::min(kTileSide_px, camera.width - left),
+            std::min(kTileSide_px, camera.height - upper)});
+    });
+  });
+}
+
 Image Renderer::render(const Camera& camera, const RenderOptions& options,
                        const Progress& progress) const {
-  if (camera.width < 1 || camera.height < 1 || options.samples < 1) {
-    throw Error("found a picture without pixels or samples, expected at least one of each");
-  }
+  if (options.samples < 1) throw Error("found no samples a pixel, expected at least one");
   Image image;
   image.width = camera.width;
   image.height = camera.height;
-  image.samples8.resize(4 * static_cast<std::size_t>(image.width) *
-                        static_cast<std::size_t>(image.height));
+  image.samples8.resize(4 * static_cast<std::size_t>(std::max(image.width, 0)) *
+                        static_cast<std::size_t>(std::max(image.height, 0)));
   const TileShading shading{rays_, looks_, scene_, lights_, camera, options};
-  const int columns = tiles_along(camera.width);
-  const int count = columns * tiles_along(camera.height);
-  std::atomic<int> done{0};
+  const double pixels = static_cast<double>(camera.width) * camera.height;
+  std::atomic<int> done_px{0};
   std::atomic<bool> stopped{false};
-  // TBB has no more workers than cores unless it is told.
-  std::unique_ptr<tbb::global_control> workers;
-  if (options.threads > tbb::info::default_concurrency()) {
-    workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                    static_cast<std::size_t>(options.threads));
-  }
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(0, count, [&](int tile) {
-      if (stopped) return;
-      const int left = tile % columns * kTileSide_px;
-      const int upper = tile / columns * kTileSide_px;
-      shade_tile(shading,
-                 {left, upper, std::min(kTileSide_px, camera.width - left),
-                  std::min(kTileSide_px, camera.height - upper)},
-                 image);
-      if (progress && !progress(static_cast<double>(++done) / count)) stopped = true;
-    });
+  for_each_tile(camera, options.threads, [&](const TileArea& area) {
+    if (stopped) return;
+    shade_tile(shading, area, image);
+    const int done = done_px += area.width * area.height;
+    if (progress && !progress(done / pixels)) stopped = true;
   });
   return stopped ? Image{} : image;
+}
+
+Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
+                      const RenderOptions& options) const {
+  Frame frame;
+  frame.width = camera.width;
+  frame.height = camera.height;
+  const std::size_t count = static_cast<std::size_t>(std::max(frame.width, 0)) *
+                            static_cast<std::size_t>(std::max(frame.height, 0));
+  if (parts.light) frame.light.resize(count);
+  if (parts.depth) frame.depth_m.resize(count);
+  if (parts.ids) frame.entities.resize(count);
+  if (parts.ids) frame.labels.resize(count);
+  RenderOptions once = options;
+  once.samples = 1;
+  const TileShading shading{rays_, looks_, scene_, lights_, camera, once};
+  for_each_tile(camera, options.threads,
+                [&](const TileArea& area) { shoot_tile(shading, area, parts, frame); });
+  return frame;
 }
 
 }  // namespace ardee

@@ -8,16 +8,11 @@
 #include "ardee_sim/raycast/ray_scene.h"
 #include "ardee_sim/readers/image.h"
 #include "ardee_sim/render/camera.h"
+#include "ardee_sim/render/frame.h"
 #include "ardee_sim/render/looks.h"
+#include "ardee_sim/render/tile.h"
 
 namespace ardee {
-
-struct RenderOptions {
-  int samples = 4;  // rays a pixel, in a fixed pattern
-  bool shadows = true;
-  int threads = 0;  // 0: all cores
-  double max_range_m = 1e5;
-};
 
 /// Pictures of a scene: the same world and camera give the same bytes, whatever the threads.
 class Renderer {
@@ -33,7 +28,15 @@ class Renderer {
   Image render(const Camera& camera, const RenderOptions& options,
                const Progress& progress = nullptr) const;
 
+  /// What a sensor behind that lens receives, a ray through the middle of each pixel;
+  /// `options.samples` is not looked at.
+  Frame shoot(const Camera& camera, const FrameParts& parts, const RenderOptions& options) const;
+
  private:
+  /// Calls `work(tile)` for each tile of the picture, in parallel.
+  static void for_each_tile(const Camera& camera, int threads,
+                            const std::function<void(const TileArea&)>& work);
+
   const RayScene& rays_;
   const Looks& looks_;
   const Scene scene_;

@@ -56,7 +56,8 @@ Color Texture::Level::bilinear(const Eigen::Vector2d& uv) const {
   const double y = (1.0 - (uv.y() - std::floor(uv.y()))) * height - 0.5;
   const double left = std::floor(x);
   const double upper = std::floor(y);
-  const auto wrap = [](int k, int count) { return (k % count + count) % count; };
+  // Within one of the range [0, count): no division.
+  const auto wrap = [](int k, int count) { return k < 0 ? k + count : k >= count ? k - count : k; };
   const int c0 = wrap(static_cast<int>(left), width), c1 = wrap(static_cast<int>(left) + 1, width);
   const int r0 = wrap(static_cast<int>(upper), height);
   const int r1 = wrap(static_cast<int>(upper) + 1, height);

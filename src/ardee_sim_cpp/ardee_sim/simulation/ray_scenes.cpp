@@ -64,6 +64,13 @@ void SceneSet::invalidate() {
   for (View& each : views_) each.current = false;
 }
 
+const RayScene& SceneSet::for_pictures() {
+  View& visual = view(SceneKind::kVisual);
+  if (!visual.pictures) visual.current = false;
+  visual.pictures = true;
+  return now(SceneKind::kVisual);
+}
+
 const RayScene& SceneSet::now(SceneKind kind) {
   View& wanted = view(kind);
   if (!wanted.scene) {
@@ -83,7 +90,7 @@ const RayScene& SceneSet::now(SceneKind kind) {
         std::remove_if(eyes.begin(), eyes.end(), [](const auto& eye) { return eye.expired(); }),
         eyes.end());
     for (const auto& eye : eyes) eyes_W.push_back((*eye.lock())());
-    wanted.scene->prepare(eyes_W);
+    wanted.scene->prepare(eyes_W, wanted.pictures);
     wanted.current = true;
   }
   return *wanted.scene;

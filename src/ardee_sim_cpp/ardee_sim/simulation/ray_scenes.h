@@ -18,6 +18,7 @@ class SceneSet : public RayScenes {
 
   std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) override;
   const RayScene& now(SceneKind kind) override;
+  const RayScene& for_pictures() override;
 
   void add(const Entity& entity);
   void remove(const Entity& entity);
@@ -29,6 +30,7 @@ class SceneSet : public RayScenes {
     std::unique_ptr<RayScene> scene;
     std::vector<std::weak_ptr<Eye>> eyes;
     bool current = false;
+    bool pictures = false;
   };
   static void add_to(RayScene& scene, const Entity& entity);
   View& view(SceneKind kind) { return views_[static_cast<std::size_t>(kind)]; }

@@ -53,6 +53,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       registry_(builtin_registry()),
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
+      pictures_(world_, options.rays.threads, entities_, scenes_, log_),
       step_ns_(nanoseconds(world.physics.step_s)) {
   physics_.reset_random(options_.seed);
   world_.models.clear();  // from here on they live in entities_
@@ -112,6 +113,7 @@ Entity& Simulation::spawn(const SpawnRequest& request) {
   }
   next_entity_ += std::max<std::uint32_t>(1, static_cast<std::uint32_t>(entity->placements.size()));
   entities_.push_back(std::move(entity));
+  pictures_.forget();
   return *entities_.back();
 }
 
@@ -127,6 +129,7 @@ void Simulation::restore(Entity& entity) {
 void Simulation::build_devices(Entity& entity) {
   DeviceContext context{*entity.robot,
                         scenes_,
+                        pictures_,
                         log_,
                         stream_key(options_.seed, entity.name()),
                         entity.robot_namespace,
@@ -159,6 +162,7 @@ void Simulation::remove(const std::string& name) {
   entity.devices.clear();
   wrenches_.clear(*entity.robot);
   scenes_.remove(entity);
+  pictures_.forget();
   if (entity.is_static()) {
     physics_.remove_scenery(entity.scenery);
   } else {

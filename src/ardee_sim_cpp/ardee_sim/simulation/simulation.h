@@ -11,6 +11,7 @@
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/registry.h"
 #include "ardee_sim/simulation/entity.h"
+#include "ardee_sim/simulation/picture_maker.h"
 #include "ardee_sim/simulation/ray_scenes.h"
 #include "ardee_sim/simulation/wrenches.h"
 
@@ -113,6 +114,7 @@ class Simulation {
   PhysicsWorld physics_;
   std::vector<std::unique_ptr<Entity>> entities_;
   SceneSet scenes_;
+  PictureMaker pictures_;
   Wrenches wrenches_;
   ReadingSink* sink_ = nullptr;
   TimeNs now_ns_ = 0;

@@ -225,5 +225,41 @@ TEST(Truth, TwoScenesInOneProcess) {
   EXPECT_FLOAT_EQ(b.one({0, 0, 0}, {1, 0, 0}).range_m, 8.0f);
 }
 
+TEST(QuickLooks, MeetWhatExactOnesMeet) {
+  TestScene test(SceneKind::kVisual, options(true, 4.0, 1), 0, field(18, 0.8, {100, 50, 0}));
+  const Eigen::Vector3d eye_W(107, 57, 0.7);
+  test.scene.prepare({eye_W}, true);
+  std::vector<SceneRay> rays, shadow_rays;
+  for (const Eigen::Vector3f& direction : random_pattern(4000, 5).directions_S) {
+    rays.push_back({eye_W, direction.cast<double>().normalized(), 30.0});
+  }
+  std::vector<SurfacePoint> exact(rays.size()), quick(rays.size());
+  test.scene.look(rays.data(), rays.size(), exact.data());
+  test.scene.look_quickly(rays.data(), rays.size(), quick.data());
+  const Eigen::Vector3d sun = Eigen::Vector3d(0.3, -0.4, 1.0).normalized();
+  int same_points = 0, hits = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool met = exact[i].met();
+    same_points += met == quick[i].met() && (!met || exact[i].range_m == quick[i].range_m) ? 1 : 0;
+    if (!met) continue;
+    ++hits;
+    const Eigen::Vector3d at = eye_W + exact[i].range_m * rays[i].direction_W;
+    shadow_rays.push_back({at + 1e-4 * exact[i].normal_W, sun, 30.0});
+  }
+  EXPECT_GT(hits, 2000);
+  EXPECT_GE(same_points, 3996);  // floats may decide between two things micrometres apart
+  const auto exact_shadows = std::make_unique<bool[]>(shadow_rays.size());
+  const auto quick_shadows = std::make_unique<bool[]>(shadow_rays.size());
+  test.scene.find_shadows(shadow_rays.data(), shadow_rays.size(), exact_shadows.get());
+  test.scene.find_shadows_quickly(shadow_rays.data(), shadow_rays.size(), quick_shadows.get());
+  int same_shadows = 0, dark = 0;
+  for (std::size_t i = 0; i < shadow_rays.size(); ++i) {
+    same_shadows += exact_shadows[i] == quick_shadows[i] ? 1 : 0;
+    dark += exact_shadows[i] ? 1 : 0;
+  }
+  EXPECT_GT(dark, 200);
+  EXPECT_GE(same_shadows, static_cast<int>(shadow_rays.size()) - 4);
+}
+
 }  // namespace
 }  // namespace ardee::test

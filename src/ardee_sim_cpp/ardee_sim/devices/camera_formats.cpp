@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/camera_formats.h"
+
+namespace ardee {
+namespace {
+
+struct Format {
+  PixelFormat format;
+  const char* encoding;
+  std::initializer_list<const char*> names;  // in SDF; Gazebo takes the longer ones too
+};
+
+const Format kFormats[] = {
+    {PixelFormat::kRgb8, "rgb8", {"R8G8B8", "RGB_INT8"}},
+    {PixelFormat::kBgr8, "bgr8", {"B8G8R8", "BGR_INT8"}},
+    {PixelFormat::kMono8, "mono8", {"L8", "L_INT8"}},
+    {PixelFormat::kMono16, "mono16", {"L16", "L_INT16", "L_UINT16"}},
+    {PixelFormat::kBayerRggb8, "bayer_rggb8", {"BAYER_RGGB8"}},
+    {PixelFormat::kBayerBggr8, "bayer_bggr8", {"BAYER_BGGR8"}},
+    {PixelFormat::kBayerGbrg8, "bayer_gbrg8", {"BAYER_GBRG8"}},
+    {PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
+};
+
+}  // namespace
+
+PixelFormat read_pixel_format(const std::string& name, const Source& source) {
+  std::string known;
+  for (const Format& each : kFormats) {
+    for (const char* text : each.names) {
+      if (name == text) return each.format;
+    }
+    known += std::string(known.empty() ? "" : ", ") + *each.names.begin();
+  }
+  throw Error(source, "found format '" + name + "', expected one of: " + known);
+}
+
+const char* encoding_of(PixelFormat format) {
+  for (const Format& each : kFormats) {
+    if (each.format == format) return each.encoding;
+  }
+  return "";
+}
+
+}  // namespace ardee

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "ardee_sim/description/element.h"
+#include "ardee_sim/render/develop.h"
+
+namespace ardee {
+
+/// The format that SDF's <format> names. Throws Error for one that is not known.
+PixelFormat read_pixel_format(const std::string& name, const Source& source);
+
+/// Its name in sensor_msgs/image_encodings.
+const char* encoding_of(PixelFormat format);
+
+}  // namespace ardee

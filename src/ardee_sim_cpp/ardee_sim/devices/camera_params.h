@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/render/develop.h"
+
+namespace ardee {
+
+/// Which of Gazebo's camera plugins is meant.
+enum class CameraKind { kColor, kDepth, kOpenni };
+
+/// The error and the limits of measured depths.
+struct DepthParams {
+  double noise_constant_m = 0.0;  // standard deviation: constant + linear * z + quadratic * z^2
+  double noise_linear = 0.0;
+  double noise_quadratic_per_m = 0.0;
+  double nearest_m = 0.0;    // nearer is not a number
+  double farthest_m = 0.0;   // likewise
+  bool millimetres = false;  // 16UC1 instead of 32FC1
+
+  bool has_noise() const {
+    return noise_constant_m > 0.0 || noise_linear > 0.0 || noise_quadratic_per_m > 0.0;
+  }
+};
+
+/// The topics of one camera; an empty one is not there.
+struct CameraTopics {
+  std::string image;
+  std::string info;
+  std::string depth;
+  std::string depth_info;
+  std::string points;
+  std::string labels;
+  std::string instances;
+};
+
+/// One camera: SDF's <camera> block and the plugin's keys.
+struct CameraParams {
+  Pose X_SC;  // in the sensor's frame; axes as SDF's, not optical
+  int width = 320;
+  int height = 240;
+  Lens lens;  // what the picture is taken with
+  double near_m = 0.1;
+  double far_m = 100.0;
+  Development development;
+  DepthParams depth;
+  CameraTopics topics;
+  CameraInfoReading info;  // but for the stamp
+};
+
+/// A sensor's cameras: one, or several of a multicamera.
+struct CamerasParams {
+  std::vector<CameraParams> cameras;
+  double rate_hz = 0.0;  // 0: at each step
+  bool triggered = false;
+  std::string trigger_topic;
+};
+
+/// Reads and checks all cameras of a sensor. Throws Error.
+CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
+                           CameraKind kind, bool several, bool triggered, DeviceContext& context);
+
+}  // namespace ardee

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/camera_sensor.h"
+
+#include "ardee_sim/devices/camera_readings.h"
+
+namespace ardee {
+namespace {
+
+CameraSensor::Made make(const SensorDescription& sensor, const PluginDescription& plugin,
+                        std::size_t link, CameraKind kind, bool several, bool triggered,
+                        DeviceContext& context) {
+  const CamerasParams params = read_cameras(sensor, plugin, kind, several, triggered, context);
+  const Sensor::Mount mount{context.robot, link, sensor.X_LS, params.rate_hz, context.seed};
+  return std::make_unique<CameraSensor>(sensor.name, mount, params, context);
+}
+
+bool asked_for(const Output* output) { return output != nullptr && output->demanded; }
+
+}  // namespace
+
+CameraSensor::Made CameraSensor::make_color(const SensorDescription& sensor,
+                                            const PluginDescription& plugin, std::size_t link,
+                                            DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kColor, false, false, context);
+}
+
+CameraSensor::Made CameraSensor::make_triggered(const SensorDescription& sensor,
+                                                const PluginDescription& plugin, std::size_t link,
+                                                DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kColor, false, true, context);
+}
+
+CameraSensor::Made CameraSensor::make_several(const SensorDescription& sensor,
+                                              const PluginDescription& plugin, std::size_t link,
+                                              DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kColor, true, false, context);
+}
+
+CameraSensor::Made CameraSensor::make_several_triggered(const SensorDescription& sensor,
+                                                        const PluginDescription& plugin,
+                                                        std::size_t link, DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kColor, true, true, context);
+}
+
+CameraSensor::Made CameraSensor::make_depth(const SensorDescription& sensor,
+                                            const PluginDescription& plugin, std::size_t link,
+                                            DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kDepth, false, false, context);
+}
+
+CameraSensor::Made CameraSensor::make_openni(const SensorDescription& sensor,
+                                             const PluginDescription& plugin, std::size_t link,
+                                             DeviceContext& context) {
+  return make(sensor, plugin, link, CameraKind::kOpenni, false, false, context);
+}
+
+CameraSensor::CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
+                           DeviceContext& context)
+    : Sensor(name, mount), pictures_(context.pictures), triggered_(params.triggered) {
+  for (const CameraParams& camera : params.cameras) add_eye(camera, context);
+  if (triggered_) add_trigger(params.trigger_topic, [this] { asked_ = true; });
+}
+
+void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
+  Eye eye;
+  eye.params = params;
+  eye.camera.width = params.width;
+  eye.camera.height = params.height;
+  eye.camera.near_m = params.near_m;
+  eye.camera.far_m = params.far_m;
+  eye.camera.lens = std::make_shared<LensTable>(params.lens, params.width, params.height);
+  eye.view = context.scenes.register_eye(SceneKind::kVisual,
+                                         [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
+  const auto output = [this](const std::string& topic, std::size_t kind) {
+    return topic.empty() ? nullptr : &add_output(topic, kind);
+  };
+  const std::size_t image = reading_kind<ImageReading>();
+  const std::size_t info = reading_kind<CameraInfoReading>();
+  const CameraTopics& topics = params.topics;
+  eye.image = output(topics.image, image);
+  eye.info = output(topics.info, info);
+  eye.depth = output(topics.depth, image);
+  eye.depth_info = output(topics.depth_info, info);
+  eye.points = output(topics.points, reading_kind<PointCloudReading>());
+  eye.labels = output(topics.labels, image);
+  eye.instances = output(topics.instances, image);
+  eyes_.push_back(std::move(eye));
+}
+
+void CameraSensor::reset(TimeNs now_ns) {
+  Sensor::reset(now_ns);
+  asked_ = false;
+}
+
+bool CameraSensor::wanted() const {
+  if (triggered_ && !asked_) return false;
+  for (const Eye& eye : eyes_) {
+    for (const Output* output :
+         {eye.image, eye.info, eye.depth, eye.depth_info, eye.points, eye.labels, eye.instances}) {
+      if (asked_for(output)) return true;
+    }
+  }
+  return false;
+}
+
+void CameraSensor::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
+  asked_ = false;
+  std::size_t number = 0;
+  for (Eye& eye : eyes_) sample(eye, now_ns, noise.frame(number++), sink);
+}
+
+void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
+  FrameParts parts;
+  parts.light = asked_for(eye.image) || asked_for(eye.points);
+  parts.depth = asked_for(eye.depth) || asked_for(eye.points);
+  parts.ids = asked_for(eye.labels) || asked_for(eye.instances);
+  eye.params.info.header.stamp_ns = now_ns;
+  const Header& header = eye.params.info.header;
+  const auto give = [&](const Output* output, auto reading) {
+    reading.header = header;
+    sink.on_reading(*output, reading);
+  };
+  if (parts.any()) {
+    eye.camera.X_WC = pose() * eye.params.X_SC;
+    const Frame frame = pictures_.take(eye.camera, parts);
+    ImageReading image;
+    if (parts.light) image = color_image(frame, eye.params, noise.frame(0));
+    if (parts.depth) {
+      const auto depths_m = measured_depths(frame, eye.params.depth, noise.frame(1));
+      if (asked_for(eye.depth)) give(eye.depth, depth_image(frame, depths_m, eye.params.depth));
+      if (asked_for(eye.points)) {
+        give(eye.points, point_cloud(eye.camera, depths_m, image, eye.params.development.format));
+      }
+    }
+    if (asked_for(eye.image)) give(eye.image, std::move(image));
+    if (asked_for(eye.labels)) give(eye.labels, label_image(frame));
+    if (asked_for(eye.instances)) give(eye.instances, instance_image(frame));
+  }
+  if (asked_for(eye.info)) give(eye.info, eye.params.info);
+  if (asked_for(eye.depth_info)) give(eye.depth_info, eye.params.info);
+}
+
+}  // namespace ardee

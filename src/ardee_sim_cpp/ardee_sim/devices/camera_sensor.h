@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/camera_params.h"
+#include "ardee_sim/devices/sensor.h"
+
+namespace ardee {
+
+/// Colour and depth cameras, one or several in a sensor. What nobody listens to is not worked out:
+/// depth costs no shading, camera_info no picture.
+class CameraSensor : public Sensor {
+ public:
+  using Made = std::unique_ptr<Device>;
+
+  /// libgazebo_ros_camera.so
+  static Made make_color(const SensorDescription& sensor, const PluginDescription& plugin,
+                         std::size_t link, DeviceContext& context);
+  /// libgazebo_ros_triggered_camera.so: a picture for each message on the trigger's topic
+  static Made make_triggered(const SensorDescription& sensor, const PluginDescription& plugin,
+                             std::size_t link, DeviceContext& context);
+  /// libgazebo_ros_multicamera.so
+  static Made make_several(const SensorDescription& sensor, const PluginDescription& plugin,
+                           std::size_t link, DeviceContext& context);
+  /// libgazebo_ros_triggered_multicamera.so
+  static Made make_several_triggered(const SensorDescription& sensor,
+                                     const PluginDescription& plugin, std::size_t link,
+                                     DeviceContext& context);
+  /// libgazebo_ros_depth_camera.so
+  static Made make_depth(const SensorDescription& sensor, const PluginDescription& plugin,
+                         std::size_t link, DeviceContext& context);
+  /// libgazebo_ros_openni_kinect.so
+  static Made make_openni(const SensorDescription& sensor, const PluginDescription& plugin,
+                          std::size_t link, DeviceContext& context);
+
+  CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
+               DeviceContext& context);
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+  bool wanted() const override;
+
+ private:
+  struct Eye {
+    CameraParams params;
+    Camera camera;               // but for its pose
+    std::shared_ptr<void> view;  // tells the scenes where rays start
+    Output* image = nullptr;     // null: there is no such topic
+    Output* info = nullptr;
+    Output* depth = nullptr;
+    Output* depth_info = nullptr;
+    Output* points = nullptr;
+    Output* labels = nullptr;
+    Output* instances = nullptr;
+  };
+  void add_eye(const CameraParams& params, DeviceContext& context);
+  void sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, ReadingSink& sink);
+
+  Pictures& pictures_;
+  std::vector<Eye> eyes_;
+  bool triggered_ = false;
+  bool asked_ = false;  // a trigger has come since the last picture
+};
+
+}  // namespace ardee

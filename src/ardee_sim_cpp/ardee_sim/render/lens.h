@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace ardee {
+
+/// A calibrated lens in the terms of sensor_msgs/CameraInfo: axes x right, y down, z forward; whole
+/// pixel coordinates are centres of pixels; points of the picture plane are (x/z, y/z).
+struct Lens {
+  double fx_px = 1.0;
+  double fy_px = 1.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  std::array<double, 5> D{};  // plumb_bob: k1, k2, t1, t2, k3 (Brown 1966, as OpenCV has it)
+
+  /// Straight, its axis through the middle of the picture.
+  static Lens pinhole(int width, int height, double horizontal_fov_rad);
+
+  bool is_straight() const { return D == std::array<double, 5>{}; }
+  /// Where the distortion moves a point of the picture plane to.
+  Eigen::Vector2d bend(const Eigen::Vector2d& plane) const;
+  /// The inverse of bend; none where no light comes from (beyond the fold of a barrel distortion).
+  std::optional<Eigen::Vector2d> straighten(const Eigen::Vector2d& bent) const;
+  /// Pixel coordinates of a point of the picture plane before distortion.
+  Eigen::Vector2d to_pixel(const Eigen::Vector2d& plane) const;
+  /// The inverse of to_pixel.
+  std::optional<Eigen::Vector2d> to_plane(const Eigen::Vector2d& pixel) const;
+};
+
+/// A lens and the ways of light through a whole picture, worked out once.
+class LensTable {
+ public:
+  LensTable(const Lens& lens, int width, int height);
+
+  const Lens& lens() const { return lens_; }
+  /// The point of the picture plane at (x, y) in pixels, (0, 0) being the upper left corner of the
+  /// picture; not finite where no light comes from.
+  Eigen::Vector2d plane(double x_px, double y_px) const;
+
+ private:
+  Lens lens_;
+  int width_;
+  int height_;
+  std::vector<Eigen::Vector2d> corners_;  // of pixels, row by row; empty if the lens is straight
+};
+
+}  // namespace ardee
