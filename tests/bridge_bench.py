@@ -205,6 +205,12 @@ def start_client(command: List[Any]) -> subprocess.Popen:
     )
 
 
+def interrupt(client: subprocess.Popen) -> Dict[str, Tuple[int, str]]:
+    """End a client by Ctrl-C: what it reports then."""
+    client.send_signal(signal.SIGINT)
+    return finish(client)
+
+
 def finish(client: subprocess.Popen, timeout_s: float = 60.0) -> Dict[str, Tuple[int, str]]:
     """Sensor and component -> how many messages, what the last one said; once the client has ended."""
     output, _ = client.communicate(timeout=timeout_s)

@@ -16,6 +16,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -293,18 +294,26 @@ static int open_socket(const Options *options) {
   return fd;
 }
 
+static volatile sig_atomic_t has_to_end = 0;
+
+static void end(int number) {
+  (void)number;
+  has_to_end = 1;
+}
+
 int main(int argc, char **argv) {
   const Options options = parse(argc, argv);
   const struct sockaddr_in controls = address_of(options.simulator, options.controls_port);
   const struct sockaddr_in server = address_of(options.simulator, options.server_port);
   const int fd = open_socket(&options);
+  signal(SIGINT, end);
   Ardee_Msg_Data_Header header;
   memset(&header, 0, sizeof header);
   Seen seen[MAX_SEEN];
   int has_header = 0, count = 0;
   const double end_s = now_s() + options.seconds;
   double command_s = 0.0, ask_s = 0.0;
-  for (double t = now_s(); t < end_s; t = now_s()) {
+  for (double t = now_s(); t < end_s && !has_to_end; t = now_s()) {
     if (options.drives && t >= command_s) {
       send_motion(fd, &controls, options.speed, options.yaw_rate);
       command_s = t + 1.0 / COMMAND_HZ;
