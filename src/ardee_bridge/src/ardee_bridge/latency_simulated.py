@@ -11,6 +11,8 @@ import subprocess
 import time
 from typing import Any, Dict, Iterator, List, Tuple
 
+import rosgraph
+
 from ardee_bridge import codec, latency, witness
 from ardee_bridge.pairing import Pairer
 from ardee_bridge.settings import KINDS, Source
@@ -41,6 +43,19 @@ def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
                 os.killpg(process.pid, number)
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     process.wait(20.0)
+
+
+def _wait_for(env: Dict[str, str], name: str) -> None:
+    """Until this node is there."""
+    master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
+    deadline = time.monotonic() + START_LIMIT_S
+    while True:
+        with contextlib.suppress(rosgraph.MasterError):
+            master.lookupNode(name)
+            return
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"{name} does not start")
+        time.sleep(0.2)
 
 
 def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[latency.Key, Stamps]:
@@ -91,6 +106,7 @@ def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, l
         wanted = "[all, time]" if cameras else "[imu, gps, lidar, encoder, battery, time]"
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
         stack.enter_context(_launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true"))
+        _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
         stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
         server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")
         stack.enter_context(latency.node(env, *server))
