@@ -2,7 +2,8 @@
 """ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
 import io
 import math
-from typing import Any, Callable, Dict, List, NamedTuple, Optional
+import struct
+from typing import Any, Callable, Dict, NamedTuple, Optional
 
 import numpy as np
 from PIL import Image
@@ -101,7 +102,7 @@ def gps(message: Any, velocity: Any = None) -> Reading:
 
 
 def lidar(message: Any) -> Reading:
-    """sensor_msgs/LaserScan of at most 1081 beams."""
+    """sensor_msgs/LaserScan of at most 1081 beams; its arrays are laid out by numpy, for speed."""
     count = len(message.ranges)
     if count > codec.LIDAR_SLOTS:
         raise ConvertError(f"a scan of {count} beams, expected at most {codec.LIDAR_SLOTS}")
@@ -113,14 +114,16 @@ def lidar(message: Any) -> Reading:
         dTime=message.time_increment,
         range_min=message.range_min,
         range_max=message.range_max,
-    ).to_raw()
-    data.ranges = _range_counts(message)
+    ).to_raw().as_dict().values()
     intensities = np.asarray(message.intensities[:count], dtype=np.float64)
-    data.intensities = _counts(intensities * _LIDAR_SCALES["intensities"]).tolist()
-    return Reading(data.pack(), count)
+    slots = np.zeros((2, codec.LIDAR_SLOTS), dtype="<i4")
+    slots[0, :count] = _range_counts(message)
+    slots[1, : len(intensities)] = _counts(intensities * _LIDAR_SCALES["intensities"])
+    numbers = [value for value in data if isinstance(value, int)]
+    return Reading(struct.pack(f"<{len(numbers)}i", *numbers) + slots.tobytes(), count)
 
 
-def _range_counts(message: Any) -> List[int]:
+def _range_counts(message: Any) -> np.ndarray:
     """codec.range_counts, twenty times as fast."""
     ranges = np.asarray(message.ranges, dtype=np.float64)
     per_m = _LIDAR_SCALES["ranges"]
@@ -129,7 +132,7 @@ def _range_counts(message: Any) -> List[int]:
     counts = _counts(np.where(is_far | is_near, 0.0, ranges) * per_m)
     counts[is_far] = codec.RANGE_TOO_FAR
     counts[is_near] = codec.RANGE_TOO_NEAR
-    return counts.tolist()
+    return counts
 
 
 def _counts(values: np.ndarray) -> np.ndarray:
