@@ -183,6 +183,16 @@ class Bench:
         self._watcher.terminate()
         self._watcher.join()
 
+    def interrupt_once_it_gets_scans(self, client: subprocess.Popen) -> None:
+        """A client that has asked already, as one that drives has; fails unless it got some."""
+        before = self.counters("sensor_server_node").get("sent lidar", 0)
+        wait_until(
+            lambda: self.counters("sensor_server_node").get("sent lidar", 0) > before + 5,
+            "scans leave",
+            60.0,
+        )
+        assert interrupt(client)["lidar 0"][0] > 0
+
     def alive(self) -> bool:
         """Do both nodes still run?"""
         return self.server.exit_code() is None and self.controls.exit_code() is None

@@ -110,7 +110,7 @@ def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
 def drives(bench: Bench, client: subprocess.Popen) -> None:
     """The robot obeys this client, and the client gets scans."""
     wait_until(lambda: abs(bench.state().speed_m_s) > 0.2, "it drives", 60.0)
-    assert interrupt(client)["lidar 0"][0] > 0
+    bench.interrupt_once_it_gets_scans(client)
 
 
 def test_the_simulator_dies_and_comes_back_while_the_client_goes_on(bench: Bench) -> None:

@@ -6,7 +6,7 @@ import time
 from typing import Callable, Iterator, List, Tuple
 
 import pytest
-from bridge_bench import Bench, interrupt, resident_mb
+from bridge_bench import Bench, resident_mb
 from ros_graph import RosGraph, wait_until
 
 from ardee_bridge import codec, latency
@@ -90,7 +90,7 @@ def drives_by_command(bench: Bench) -> None:
     """The bridge still does its work."""
     client = bench.c_client("-v", "-0.3", "-t", "120")
     wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives", 60.0)
-    assert interrupt(client)["lidar 0"][0] > 0
+    bench.interrupt_once_it_gets_scans(client)
     bench.standing_within(20.0)
 
 
@@ -134,7 +134,7 @@ def test_wrong_peers_do_not_move_it_nor_hinder_the_right_one(bench: Bench) -> No
 
 
 def wait_for_answer(port: int) -> None:
-    """Until a controls client has read all that was sent to it before; from a port of its own, whose pairs are its own."""
+    """Until a controls client has read all that was sent to it before; from a port, and with pairs, of its own."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.settimeout(30.0)
         for datagram in codec.encode_control(codec.ControlCode.START):

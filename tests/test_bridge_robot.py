@@ -133,9 +133,9 @@ def assert_stands(robots: Robots, space: str, found: Dict[str, Tuple[int, str]])
     beams, unit_m = said["lidar 0"]["beams"], 1e-3 if " mm" in found["lidar 0"][1] else 1.0
     nearest_m = said["lidar 0"]["nearest"] * unit_m
     assert (beams, nearest_m) == (1081, pytest.approx(WALL_X_M - LIDAR_AHEAD_M, abs=0.15))
-    battery = robots.graph.call(
-        probes.collect, f"{space}/ardee/battery", "ardee_msgs/Battery", 1
-    )[0]
+    battery = robots.graph.call(probes.collect, f"{space}/ardee/battery", "ardee_msgs/Battery", 1)[
+        0
+    ]
     assert said["battery 0"]["voltage"] == pytest.approx(battery.voltage, abs=0.02)
     assert battery.vmin < battery.voltage < battery.vmax
     joints = robots.graph.call(probes.joint_positions, f"{space}/joint_states")

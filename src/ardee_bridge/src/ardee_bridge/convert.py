@@ -114,12 +114,12 @@ def lidar(message: Any) -> Reading:
         dTime=message.time_increment,
         range_min=message.range_min,
         range_max=message.range_max,
-    ).to_raw().as_dict().values()
+    )
     intensities = np.asarray(message.intensities[:count], dtype=np.float64)
     slots = np.zeros((2, codec.LIDAR_SLOTS), dtype="<i4")
     slots[0, :count] = _range_counts(message)
     slots[1, : len(intensities)] = _counts(intensities * _LIDAR_SCALES["intensities"])
-    numbers = [value for value in data if isinstance(value, int)]
+    numbers = [value for value in data.to_raw().as_dict().values() if isinstance(value, int)]
     return Reading(struct.pack(f"<{len(numbers)}i", *numbers) + slots.tobytes(), count)
 
 

@@ -62,7 +62,10 @@ class FrameProcess:
         words = [sys.executable, "-m", "ardee_bridge.frames", *map(str, files), *_remappings()]
         space = rospy.get_namespace()
         self._process = subprocess.Popen(
-            words, stdin=subprocess.DEVNULL, pass_fds=files, env=dict(os.environ, ROS_NAMESPACE=space)
+            words,
+            stdin=subprocess.DEVNULL,
+            pass_fds=files,
+            env=dict(os.environ, ROS_NAMESPACE=space),
         )
         theirs.close()
         self._pipe.send((rospy.get_name().rpartition("/")[2], self._values))

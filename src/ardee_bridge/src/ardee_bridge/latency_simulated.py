@@ -105,7 +105,9 @@ def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, l
         receiver, from_receiver = latency.in_process(env, receive)
         wanted = "[all, time]" if cameras else "[imu, gps, lidar, encoder, battery, time]"
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
-        stack.enter_context(_launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true"))
+        stack.enter_context(
+            _launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true")
+        )
         _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
         stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
         server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")

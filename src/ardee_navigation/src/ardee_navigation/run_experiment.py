@@ -77,7 +77,9 @@ def _one_run(
     log = work / "simulator.log"
     with Simulation(trial.world, seed, trial.models, log, realtime=args.hil) as simulation:
         simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
-        with tqdm(total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False, disable=None) as bar:
+        with tqdm(
+            total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False, disable=None
+        ) as bar:
 
             def progress(along_m: float) -> None:
                 bar.n = round(min(max(along_m, 0.0), length_m), 1)
