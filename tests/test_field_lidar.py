@@ -102,7 +102,9 @@ def scanned(
             make_configured(
                 {**options(), "name": name, "output": str(fields), "seed": seed, "format": "sdf"}
             )
-            include = f"<include><uri>model://{name}</uri><pose>0 {y_m} 0 0 0 -1.5707963</pose></include>"
+            include = (
+                f"<include><uri>model://{name}</uri><pose>0 {y_m} 0 0 0 -1.5707963</pose></include>"
+            )
             world.append(include)
             for number, along_m in enumerate(posts_m):
                 post = f"{name}_{number}"

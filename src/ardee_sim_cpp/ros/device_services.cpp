@@ -23,9 +23,8 @@ GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
 void DeviceServices::add(const Device& device) {
   for (const Service& service : device.services()) add(service);
   for (const Trigger& trigger : device.triggers()) {
-    servers_.listen<std_msgs::Empty>(
-        trigger.topic, trigger.topic,
-        [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
+    servers_.listen<std_msgs::Empty>(trigger.topic, trigger.topic,
+                                     [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
   }
   for (const Tuning& tuning : device.tunings()) {
     tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
@@ -33,17 +32,17 @@ void DeviceServices::add(const Device& device) {
 }
 
 void DeviceServices::add(const Service& service) {
-  using std_srvs::Empty;
   using hector_gazebo_plugins::SetBias;
   using hector_gazebo_plugins::SetReferenceGeoPose;
+  using std_srvs::Empty;
   if (const auto* act = std::get_if<std::function<void()>>(&service.act)) {
     servers_.add<Empty>(service.name, service.name,
                         [act = *act](const Empty::Request&, Empty::Response&) {
                           act();
                           return std::string();
                         });
-  } else if (const auto* set = std::get_if<std::function<void(const Eigen::Vector3d&)>>(
-                 &service.act)) {
+  } else if (const auto* set =
+                 std::get_if<std::function<void(const Eigen::Vector3d&)>>(&service.act)) {
     servers_.add<SetBias>(service.name, service.name,
                           [set = *set](const SetBias::Request& request, SetBias::Response&) {
                             set(from_ros(request.bias));

@@ -30,8 +30,8 @@ visualization_msgs::Marker name_marker(const RegionsReading::Region& region) {
   marker.ns = "names";
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
   marker.text = region.name;
-  marker.pose.position = to_point(
-      region.pose.p + Eigen::Vector3d(0, 0, region.size_m.z() / 2.0 + kTextHeight_m));
+  marker.pose.position =
+      to_point(region.pose.p + Eigen::Vector3d(0, 0, region.size_m.z() / 2.0 + kTextHeight_m));
   marker.pose.orientation.w = 1.0;
   marker.scale.z = kTextHeight_m;
   marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1.0f;

@@ -124,8 +124,7 @@ void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArra
 }
 
 void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& placement,
-                                  const MarkerId& id,
-                                  visualization_msgs::MarkerArray& message) {
+                                  const MarkerId& id, visualization_msgs::MarkerArray& message) {
   double distance_m = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& eye : eyes_) {
     distance_m = std::min(distance_m, (eye - placement.X_WM.p).head<2>().norm());

@@ -48,9 +48,8 @@ sensor_msgs::BatteryState to_message(const BatteryStateReading& reading) {
   message.capacity = static_cast<float>(reading.capacity_Ah);
   message.design_capacity = static_cast<float>(reading.design_capacity_Ah);
   message.percentage = static_cast<float>(reading.percentage);
-  message.power_supply_status = reading.current_A > 0.0
-                                    ? Message::POWER_SUPPLY_STATUS_CHARGING
-                                    : Message::POWER_SUPPLY_STATUS_DISCHARGING;
+  message.power_supply_status = reading.current_A > 0.0 ? Message::POWER_SUPPLY_STATUS_CHARGING
+                                                        : Message::POWER_SUPPLY_STATUS_DISCHARGING;
   message.power_supply_health = Message::POWER_SUPPLY_HEALTH_GOOD;
   message.power_supply_technology = Message::POWER_SUPPLY_TECHNOLOGY_LIPO;
   message.present = true;

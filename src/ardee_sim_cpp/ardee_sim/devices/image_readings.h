@@ -10,7 +10,8 @@
 
 namespace ardee {
 
-/// A picture; `encoding` is one of sensor_msgs/image_encodings, rows are `step` bytes, little-endian.
+/// A picture; `encoding` is one of sensor_msgs/image_encodings, rows are `step` bytes,
+/// little-endian.
 struct ImageReading {
   Header header;
   std::uint32_t height = 0;

@@ -65,8 +65,8 @@ struct RayScene::Impl {
 
   /// Rays of any origins, up to kPacketRays.
   void cast_packet(const SceneRay* rays, int count, RayQuery::Purpose purpose,
-                   std::uint32_t own_entity, std::uint32_t own_link,
-                   RayQuery queries[kPacketRays], bool quickly = false) const {
+                   std::uint32_t own_entity, std::uint32_t own_link, RayQuery queries[kPacketRays],
+                   bool quickly = false) const {
     const NearRegion* region = regions.find(rays[0].origin_W);
     for (int k = 0; k < count; ++k) {
       const SceneRay& ray = rays[k];
