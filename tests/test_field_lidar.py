@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What a lidar sees between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
 
-Each claim is a statistic over fields that differ in nothing but their seed: a field is one sample, and two kinds of field are compared in
-pairs of the same seed by Student's t-test, one-sided, at CONFIDENCE.
+Each claim is a statistic over fields that differ in nothing but their seed: a field is one sample, and two kinds of
+field are compared in pairs of the same seed by Student's t-test, one-sided, at CONFIDENCE.
 """
 import json
 import os
@@ -42,7 +42,8 @@ POST = """
   </sensor></link></model>
 """
 GROUND = """
-<model name="ground"><static>true</static><link name="link"><collision name="c"><geometry><plane/></geometry></collision></link></model>
+<model name="ground"><static>true</static><link name="link">
+  <collision name="c"><geometry><plane/></geometry></collision></link></model>
 """
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A lidar's macro with several rays a beam sees, at the edges of slats before a wall, what no thin ray sees: the space between."""
+"""With several rays a beam a lidar's macro sees between slats and the wall behind what no thin ray sees."""
 from typing import List
 
 import probes
