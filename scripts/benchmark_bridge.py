@@ -8,8 +8,15 @@ P99_BUDGET_MS = 2.0
 
 
 def measure(seconds: float) -> Dict[str, Any]:
-    """What ardee_bridge's own benchmark measures in so many seconds."""
+    """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's."""
+    simulated = _run(seconds, "--simulator")
+    simulated.pop("datagram to cmd_vel")  # the same measurement again
+    return {**_run(seconds), **{f"simulated {name}": f for name, f in simulated.items()}}
+
+
+def _run(seconds: float, *options: str) -> Dict[str, Any]:
     command = ["rosrun", "ardee_bridge", "latency_benchmark", "--json", "--seconds", str(seconds)]
+    command += options
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as process:
         try:

@@ -10,7 +10,7 @@ from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
 MASTER = (
-    "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
+    "import sys, rosmaster.master as m; x = m.Master(int(sys.argv[1])); x.start();"
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
 )
 Probe = Callable[..., Any]
@@ -106,18 +106,27 @@ class RosGraph:
         )
         for name in ("ROS_HOSTNAME", "ROS_NAMESPACE", "DISPLAY"):
             self.env.pop(name, None)
+        self.uri = ""
+        self.start_master()
+        self.env["ROS_MASTER_URI"] = self.uri
+
+    def start_master(self) -> None:
+        """Start the master: on a port that the kernel picks, a later one on the port of the first."""
+        port = self.uri.rstrip("/").rpartition(":")[2] or "0"
+        # alive() finds what speaks to a master by this variable; the first master has none of this graph either
+        env = {name: value for name, value in self.env.items() if name != "ROS_MASTER_URI"}
         # The master complains of each node that goes without a word, as probes and killed nodes do: into a file.
-        with (folder / "master.log").open("wb") as complaints:
+        with (self.folder / "master.log").open("ab") as complaints:
             self._master = subprocess.Popen(
-                ["/usr/bin/python3", "-c", MASTER],
-                env=self.env,
+                ["/usr/bin/python3", "-c", MASTER, port],
+                env=env,
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=complaints,
                 text=True,
                 start_new_session=True,
             )
-        self.env["ROS_MASTER_URI"] = self.uri = self._master.stdout.readline().strip()
+        self.uri = self._master.stdout.readline().strip()
 
     def spawn(self, *command: str, **env: str) -> Process:
         """Start a command, with more environment if wanted."""
@@ -188,6 +197,11 @@ class RosGraph:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
+        self.end_master()
+        return left
+
+    def end_master(self) -> None:
+        """End the master alone."""
         self._master.stdin.close()
         try:
             self._master.wait(5)
@@ -195,4 +209,3 @@ class RosGraph:
             self._master.kill()
             self._master.wait()
         self._master.stdout.close()
-        return left

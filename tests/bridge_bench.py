@@ -114,7 +114,7 @@ class Bench:
         )
         self.controls = self._node("controls_client_node", self.controls_port)
         self.simulator = self.start_simulator()
-        self._c_client = self._compile()
+        self._c_client = compile_client(graph.folder)
         self._urdf = graph.folder / "robot.urdf"
         source = "$(rospack find terrasentia_description)/robots/tsv1_default.urdf.xacro"
         self._urdf.write_text(graph.run("bash", "-c", f'rosrun xacro xacro "{source}"'))
@@ -122,23 +122,6 @@ class Bench:
 
     def _node(self, name: str, port: int, *parameters: str) -> Process:
         return self.graph.spawn("rosrun", "ardee_bridge", name, f"_port:={port}", *parameters)
-
-    def _compile(self) -> pathlib.Path:
-        program = self.graph.folder / "ardee_client"
-        source, include = PACKAGE / "examples" / "ardee_client.c", PACKAGE / "include"
-        warnings = ["-Wall", "-Wextra", "-Werror"]
-        command = [
-            "gcc",
-            "-std=c11",
-            "-O2",
-            *warnings,
-            f"-I{include}",
-            "-o",
-            str(program),
-            str(source),
-        ]
-        subprocess.run(command, check=True)
-        return program
 
     def start_simulator(self) -> Process:
         """The simulator on level ground."""
@@ -160,7 +143,7 @@ class Bench:
     def c_client(self, *arguments: str) -> subprocess.Popen:
         """The client in C, driving if told so."""
         command = [str(self._c_client), "-p", "0", "-a", self.server_port, "-c", self.controls_port]
-        return _start([*command, *arguments])
+        return start_client([*command, *arguments])
 
     def python_client(self, *arguments: str) -> subprocess.Popen:
         """The client in Python."""
@@ -172,7 +155,7 @@ class Bench:
             "0",
         ]
         ports = ["--ask", self.server_port, "--controls", self.controls_port]
-        return _start([*command, *ports, *arguments])
+        return start_client([*command, *ports, *arguments])
 
     def control(self, code: str) -> None:
         """Send a control code; it has to be answered."""
@@ -200,16 +183,42 @@ class Bench:
         self._watcher.terminate()
         self._watcher.join()
 
+    def interrupt_once_it_gets_scans(self, client: subprocess.Popen) -> None:
+        """A client that has asked already, as one that drives has; fails unless it got some."""
+        before = self.counters("sensor_server_node").get("sent lidar", 0)
+        wait_until(
+            lambda: self.counters("sensor_server_node").get("sent lidar", 0) > before + 5,
+            "scans leave",
+            60.0,
+        )
+        assert interrupt(client)["lidar 0"][0] > 0
+
     def alive(self) -> bool:
         """Do both nodes still run?"""
         return self.server.exit_code() is None and self.controls.exit_code() is None
 
 
-def _start(command: List[Any]) -> subprocess.Popen:
+def compile_client(folder: pathlib.Path) -> pathlib.Path:
+    """The client in C, compiled into a folder."""
+    program = folder / "ardee_client"
+    source, include = PACKAGE / "examples" / "ardee_client.c", PACKAGE / "include"
+    command = ["gcc", "-std=c11", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{include}"]
+    subprocess.run([*command, "-o", str(program), str(source)], check=True)
+    return program
+
+
+def start_client(command: List[Any]) -> subprocess.Popen:
+    """Start a client as on a computer without ROS."""
     words = [str(word) for word in command]
     return subprocess.Popen(
         words, env=BARE_ENV, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )
+
+
+def interrupt(client: subprocess.Popen) -> Dict[str, Tuple[int, str]]:
+    """End a client by Ctrl-C: what it reports then."""
+    client.send_signal(signal.SIGINT)
+    return finish(client)
 
 
 def finish(client: subprocess.Popen, timeout_s: float = 60.0) -> Dict[str, Tuple[int, str]]:
@@ -228,7 +237,7 @@ def feed_until_killed(pipe: Any) -> None:
     import rospy
 
     from ardee_bridge import latency_messages
-    from ardee_bridge.sensor_server_node import TYPES
+    from ardee_bridge.subscriptions import TYPES
 
     rospy.init_node("feeder", anonymous=True, disable_signals=True, disable_rostime=True)
     rates_hz = {"imu": 100, "gps": 20, "battery": 5, "fr": 100, "fl": 100, "camera": 5, "depth": 5}

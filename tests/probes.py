@@ -32,6 +32,14 @@ def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[
     return messages[:count]
 
 
+def joint_positions(topic: str, count: int = 20) -> Dict[str, float]:
+    """Latest angles [rad] by joint, of several publishers' messages on one topic."""
+    found = {}  # type: Dict[str, float]
+    for message in collect(topic, "sensor_msgs/JointState", count):
+        found.update(zip(message.name, message.position))
+    return found
+
+
 def call_service(name: str, kind: str, fields: Dict[str, Any], timeout_s: float = 30.0) -> Any:
     """The answer of a service."""
     return call_services([(name, kind, fields)], timeout_s)[0]

@@ -5,7 +5,7 @@ from typing import Iterator
 
 import probes
 import pytest
-from bridge_bench import SENSORS, Bench, feed_until_killed, finish, start_in
+from bridge_bench import SENSORS, Bench, feed_until_killed, finish, interrupt, start_in
 from ros_graph import RosGraph, wait_until
 
 from ardee_bridge import codec
@@ -31,7 +31,7 @@ def fed(bench: Bench) -> Iterator[Bench]:
 
 
 def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
-    found = finish(fed.c_client("-t", "8"))
+    found = finish(fed.c_client("-t", "12"))
     assert SENSORS <= set(found)
     assert found["lidar 0"][1].startswith("beams 1081 nearest")
     assert found["imu 0"][1] == "accel_z 9.810 m/s2 gyro_z 0.0000 rad/s"
@@ -44,7 +44,7 @@ def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
 
 
 def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
-    found = finish(fed.python_client("--seconds", "8"))
+    found = finish(fed.python_client("--seconds", "12"))
     assert SENSORS <= set(found)
     assert "accel.z=9.81" in found["imu 0"][1]
     assert "position=-2.5" in found["encoder 1"][1]
@@ -55,20 +55,22 @@ def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
 
 def test_the_c_client_drives_the_robot(bench: Bench) -> None:
     before = bench.state().x_m
-    finish(bench.c_client("-v", "0.5", "-t", "4"))
-    bench.standing_within(2.0)
-    assert 0.3 < bench.state().x_m - before < 0.6 * 4.5
+    client = bench.c_client("-v", "0.5", "-t", "120")
+    wait_until(lambda: bench.state().x_m - before > 0.3, "it has come a way", 60.0)
+    assert abs(bench.state().speed_m_s - 0.5 * codec.MAX_SPEED_M_S) < 0.1
+    interrupt(client)
+    bench.standing_within(20.0)
 
 
 def test_the_python_client_turns_the_robot(bench: Bench) -> None:
     before = bench.state().turn
-    turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "10")
+    turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "120")
     # skidding wheels turn it less than asked for
     least = 0.3 * 0.3 * codec.MAX_YAW_RATE_RAD_S
-    wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns")
-    finish(turning)
-    bench.standing_within(2.0)
-    assert abs(bench.state().turn - before) > 0.1
+    wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns", 60.0)
+    wait_until(lambda: abs(bench.state().turn - before) > 0.1, "it has turned", 60.0)
+    interrupt(turning)
+    bench.standing_within(20.0)
 
 
 def test_a_client_that_dies_leaves_a_robot_that_stands(bench: Bench) -> None:
@@ -76,13 +78,13 @@ def test_a_client_that_dies_leaves_a_robot_that_stands(bench: Bench) -> None:
     wait_until(lambda: bench.state().speed_m_s < -0.4, "it drives")
     client.kill()
     client.communicate()
-    bench.standing_within(10.0)
+    bench.standing_within(20.0)
     assert bench.counters("controls_client_node")["watchdog stops"] >= 1
     again = bench.c_client("-v", "-0.5", "-t", "60")
     wait_until(lambda: bench.state().speed_m_s < -0.4, "another client drives it")
     again.kill()
     again.communicate()
-    bench.standing_within(10.0)
+    bench.standing_within(20.0)
 
 
 def test_pause_and_resume(bench: Bench) -> None:
@@ -96,23 +98,23 @@ def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
     client = bench.c_client("-v", "-0.4", "-t", "120")
     wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives")
     bench.control("STOP")
-    bench.standing_within(10.0)
+    bench.standing_within(20.0)
     assert client.poll() is None
     bench.control("START")
     wait_until(lambda: bench.state().speed_m_s < -0.3, "it drives again")
     client.kill()
     client.communicate()
-    bench.standing_within(10.0)
+    bench.standing_within(20.0)
 
 
 def drives(bench: Bench, client: subprocess.Popen) -> None:
     """The robot obeys this client, and the client gets scans."""
     wait_until(lambda: abs(bench.state().speed_m_s) > 0.2, "it drives", 60.0)
-    assert finish(client)["lidar 0"][0] > 0
+    bench.interrupt_once_it_gets_scans(client)
 
 
 def test_the_simulator_dies_and_comes_back_while_the_client_goes_on(bench: Bench) -> None:
-    client = bench.c_client("-v", "-0.3", "-t", "25")
+    client = bench.c_client("-v", "-0.3", "-t", "180")
     wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives")
     bench.kill_simulator()
     assert bench.alive()
@@ -128,7 +130,7 @@ def test_both_die_and_the_client_comes_back_first(bench: Bench) -> None:
     first.kill()
     first.communicate()
     bench.kill_simulator()
-    client = bench.python_client("--speed", "-0.3", "--seconds", "30")
+    client = bench.python_client("--speed", "-0.3", "--seconds", "180")
     bench.start_simulator()
     bench.spawn_robot()
     drives(bench, client)

@@ -2,10 +2,10 @@
 """The row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
 import csv
 import pathlib
-import subprocess
 from typing import Dict, List, Tuple
 
 import pytest
+from bridge_bench import free_port
 from ros_graph import RosGraph, wait_until
 
 LARGEST_RMS_M = 0.05
@@ -109,12 +109,9 @@ def test_launch_file_drives_the_row(graph: RosGraph) -> None:
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
 
 
-BRIDGE = subprocess.run(["rospack", "find", "ardee_bridge"], capture_output=True).returncode == 0
-
-
-@pytest.mark.skipif(not BRIDGE, reason="the UDP bridge is not in this workspace")
 def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
-    arguments = ("scenario:=artificial", "rviz:=false", "hil:=true")
+    ports = (f"sensors_port:={free_port()}", f"controls_port:={free_port()}")
+    arguments = ("scenario:=artificial", "rviz:=false", "hil:=true", *ports)
     launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
     wait_until(
         lambda: "hil_row_follower: finished" in launched.output(), "the end of the row", 90.0

@@ -16,6 +16,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,6 +154,20 @@ static int32_t nearest_mm(const Ardee_Msg_LidarData *scan, int32_t beams) {
   return nearest;
 }
 
+static void describe_gps(const Ardee_Msg_GPSData *gps, char *text, size_t size) {
+  if (gps->status < 0) {
+    snprintf(text, size, "no fix");
+    return;
+  }
+  snprintf(text, size,
+           "latitude %.7f deg longitude %.7f deg altitude %.3f m north %.3f west %.3f m/s",
+           (double)gps->latitude / ARDEE_SCALE_GPS_LATITUDE,
+           (double)gps->longitude / ARDEE_SCALE_GPS_LONGITUDE,
+           (double)gps->altitude / ARDEE_SCALE_GPS_ALTITUDE,
+           (double)gps->velocity.x / ARDEE_SCALE_GPS_VELOCITY,
+           (double)gps->velocity.y / ARDEE_SCALE_GPS_VELOCITY);
+}
+
 static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes, char *text,
                      size_t size) {
   union {
@@ -169,9 +184,7 @@ static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes,
   memcpy(&data, bytes, length < sizeof data ? length : sizeof data);
   switch (h->data_type) {
     case ARDEE_DATA_GPS:
-      snprintf(text, size, "latitude %.7f deg longitude %.7f deg",
-               (double)data.gps.latitude / ARDEE_SCALE_GPS_LATITUDE,
-               (double)data.gps.longitude / ARDEE_SCALE_GPS_LONGITUDE);
+      describe_gps(&data.gps, text, size);
       break;
     case ARDEE_DATA_IMU:
       snprintf(text, size, "accel_z %.3f m/s2 gyro_z %.4f rad/s",
@@ -281,18 +294,26 @@ static int open_socket(const Options *options) {
   return fd;
 }
 
+static volatile sig_atomic_t has_to_end = 0;
+
+static void end(int number) {
+  (void)number;
+  has_to_end = 1;
+}
+
 int main(int argc, char **argv) {
   const Options options = parse(argc, argv);
   const struct sockaddr_in controls = address_of(options.simulator, options.controls_port);
   const struct sockaddr_in server = address_of(options.simulator, options.server_port);
   const int fd = open_socket(&options);
+  signal(SIGINT, end);
   Ardee_Msg_Data_Header header;
   memset(&header, 0, sizeof header);
   Seen seen[MAX_SEEN];
   int has_header = 0, count = 0;
   const double end_s = now_s() + options.seconds;
   double command_s = 0.0, ask_s = 0.0;
-  for (double t = now_s(); t < end_s; t = now_s()) {
+  for (double t = now_s(); t < end_s && !has_to_end; t = now_s()) {
     if (options.drives && t >= command_s) {
       send_motion(fd, &controls, options.speed, options.yaw_rate);
       command_s = t + 1.0 / COMMAND_HZ;

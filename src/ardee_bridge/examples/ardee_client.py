@@ -7,11 +7,12 @@ Needs Python's standard library and the folder ardee_bridge of this package's sr
 import argparse
 import math
 import select
+import signal
 import socket
 import sys
 import time
 from pathlib import Path
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, List, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "src"))
 
@@ -117,8 +118,10 @@ def main() -> int:
         if found.control:
             client.send(codec.encode_control(codec.ControlCode[found.control]), controls)
         end_s = time.monotonic() + found.seconds
+        has_to_end = []  # type: List[int]
+        signal.signal(signal.SIGINT, lambda number, frame: has_to_end.append(number))
         command_s = ask_s = 0.0
-        while time.monotonic() < end_s:
+        while time.monotonic() < end_s and not has_to_end:
             now = time.monotonic()
             if drives and now >= command_s:
                 command = codec.encode_motion(found.speed or 0.0, found.yaw_rate or 0.0)

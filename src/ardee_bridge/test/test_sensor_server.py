@@ -6,9 +6,8 @@ import socket
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import Vector3
 from PIL import Image as Picture
-from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2, PointField
+from sensor_msgs.msg import Image, Imu, LaserScan, PointCloud2, PointField
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
@@ -247,25 +246,6 @@ def test_imu():
     assert (si.accel.z, si.gyro.y, si.orientation.w) == (9.81, -0.5, 1.0)
     assert (si.gyro.covariance.x, si.gyro.covariance.z) == (1e-6, 3e-6)
     assert si.orientation.covariance.roll == -1.0
-
-
-def test_gps():
-    message = NavSatFix(latitude=40.1234567, longitude=-88.7654321, altitude=222.333)
-    message.header.stamp.secs, message.header.stamp.nsecs = 12, 345_678_901
-    message.status.status, message.status.service = -1, 0xFFFF
-    message.position_covariance, message.position_covariance_type = [0.01] * 9, 2
-    raw = codec.GPSData.unpack(convert.gps(message, Vector3(0.5, -0.25, 0.0)).data)
-    si = raw.to_si()
-    assert (si.latitude, si.longitude, si.altitude) == (40.1234567, -88.7654321, 222.333)
-    assert (si.time, si.velocity.y, si.covariance.x) == (12.345, -0.25, 0.01)
-    assert (raw.status, raw.service, raw.covariance_type) == (-1, 0xFFFF, 2)
-
-
-def test_gps_time_wraps():
-    message = NavSatFix()
-    message.header.stamp.secs = 2**31 // 1000 + 1
-    raw = codec.GPSData.unpack(convert.gps(message).data)
-    assert raw.time == (2**31 // 1000 + 1) * 1000 - 2**31
 
 
 def test_lidar_as_the_codec_has_it():

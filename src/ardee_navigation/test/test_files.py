@@ -46,7 +46,7 @@ def roslaunch(option: str, *arguments: str) -> str:
 def test_launch_file_starts_what_is_asked_for() -> None:
     usual = {"/gazebo", "/robot_state_publisher", "/spawn_terrasentia", "/row_follower"}
     assert set(roslaunch("--nodes").split()) == usual
-    udp = {"/sensor_server_node", "/controls_client_node", "/hil_row_follower"}
+    udp = {"/sim_sensor_node", "/udp_control_node", "/hil_row_follower"}
     assert set(roslaunch("--nodes", "hil:=true", "rviz:=true").split()) == usual | udp | {"/rviz"}
 
 

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
-codec = pytest.importorskip("ardee_bridge.codec")
-
-from ardee_navigation.hil_row_follower import Clock, Target  # noqa: E402
-from ardee_navigation.lbirnt import Parameters  # noqa: E402
+from ardee_bridge import codec
+from ardee_navigation.hil_row_follower import Clock, Target
+from ardee_navigation.lbirnt import Parameters
 
 LOOPBACK = ("127.0.0.1", 0)
 

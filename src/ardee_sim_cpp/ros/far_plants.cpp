@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -42,9 +43,16 @@ class Paint {
     texture_.emplace(read_color_image(material.texture_path, source));
   }
 
-  Color at(std::uint32_t vertex) const {
+  /// At a corner of a triangle, or rather half-way to its middle: coarse leaves have corners at
+  /// their edges only, whose colour is not the leaf's.
+  Color at(const std::array<std::uint32_t, 3>& corners, std::uint32_t corner) const {
     constexpr double kFootprint = 0.05;  // of the texture's width: no veins from afar
-    return texture_ ? texture_->color(part_.texcoords[vertex].cast<double>(), kFootprint) : diffuse_;
+    if (!texture_) return diffuse_;
+    const auto texcoord = [&](std::uint32_t vertex) -> Eigen::Vector2d {
+      return part_.texcoords[vertex].cast<double>();
+    };
+    const Eigen::Vector2d sum = texcoord(corners[0]) + texcoord(corners[1]) + texcoord(corners[2]);
+    return texture_->color(0.5 * texcoord(corner) + sum / 6.0, kFootprint);
   }
 
  private:
@@ -69,7 +77,7 @@ const FarPlants::Triangles& FarPlants::triangles_of(const std::string& path) {
         const Eigen::Vector3f normal = edge.cross(part.vertices[corners[2]] - a).normalized();
         for (const std::uint32_t corner : corners) {
           triangles.corners.push_back(part.vertices[corner].cast<double>());
-          triangles.colors.push_back(shaded(paint.at(corner), brightness(normal)));
+          triangles.colors.push_back(shaded(paint.at(corners, corner), brightness(normal)));
         }
       }
     }

@@ -33,6 +33,7 @@ class ShapeMaker {
     shape_.marker.color =
         color_of(visual.material ? *visual.material : Material{}, visual.transparency);
     has_material_ = visual.material.has_value();
+    has_plain_color_ = has_material_ && visual.material->texture_path.empty();
   }
 
   void operator()(const Box& box) { set(Marker::CUBE, box.size_m, box.size_m.norm() / 2.0); }
@@ -74,8 +75,9 @@ class ShapeMaker {
     }
     if (!bounds.isEmpty()) reach(mesh.scale, bounds);
   }
-  /// The file as it is, with its own materials where it has some.
-  void whole_file(const Mesh& mesh) {
+  /// The file as it is, with its own materials where it has some. A plain colour that its `only`
+  /// visual gives covers them: STL files come with a grey that is nobody's.
+  void whole_file(const Mesh& mesh, bool only) {
     set(Marker::MESH_RESOURCE, mesh.scale, 0.0);
     Eigen::AlignedBox3f bounds;
     for (const SubMesh& part : mesh.file->parts) {
@@ -89,7 +91,8 @@ class ShapeMaker {
         path.parent_path() / (path.stem().string() + "_lod1" + path.extension().string());
     std::error_code absent;
     if (std::filesystem::exists(coarse, absent)) shape_.coarse_path = coarse.string();
-    shape_.marker.mesh_use_embedded_materials = !mesh.file->materials.empty();
+    shape_.marker.mesh_use_embedded_materials =
+        !(only && has_plain_color_) && !mesh.file->materials.empty();
     // rviz tints embedded materials with any colour but all zeros.
     if (shape_.marker.mesh_use_embedded_materials) shape_.marker.color = std_msgs::ColorRGBA();
   }
@@ -119,6 +122,7 @@ class ShapeMaker {
 
   MarkerShape shape_;
   bool has_material_ = false;
+  bool has_plain_color_ = false;
 };
 
 bool same_place(const Visual& a, const Visual& b) {
@@ -177,7 +181,7 @@ std::vector<MarkerShape> marker_shapes(const Model& model) {
       if (group.empty()) {
         std::visit(maker, visual.geometry);
       } else {
-        maker.whole_file(std::get<Mesh>(visual.geometry));
+        maker.whole_file(std::get<Mesh>(visual.geometry), group.size() == 1);
         done.insert(group.begin(), group.end());
       }
       shapes.push_back(maker.take());

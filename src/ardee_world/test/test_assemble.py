@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A field and a terrain put together into a world."""
 
+import shutil
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -69,6 +70,16 @@ def test_the_world_includes_both_at_its_origin(put_together, tmp_path):
     assert (
         tmp_path / "out/ardee_geofence/custom_gps_behavior.geofence"
     ).read_text() == "<robot/>\n"
+
+
+def test_a_terrain_of_no_model_path_is_found_by_its_copy(put_together, tmp_path, models):
+    shutil.copytree(models / "ground", tmp_path / "elsewhere" / "ground")
+    assert put_together(terrain="elsewhere/ground") == (0, "")
+    copy = tmp_path / "out/models/custom_heightmap"
+    sdf = ElementTree.parse(copy / "model.sdf").getroot()
+    images = {uri.text for uri in sdf.findall(".//heightmap/uri")}
+    assert images and all(i.startswith("file://custom_heightmap/") for i in images)
+    assert all((copy.parent / image[len("file://") :]).is_file() for image in images)
 
 
 def test_plants_of_a_generated_field_stand_on_the_terrain(put_together, tmp_path, models):

@@ -104,7 +104,7 @@ def test_rows_of_a_users_own_plan(generate_field, tmp_path):
         ("noise_covariance_m2: 3", "field.yaml:4: noise_covariance_m2: found 3, expected a list"),
         ("centers: [[1, 2], [3]]", "centers: expected a list of 1 to"),
         ("world_pose: [0, 0]", "field.yaml:4: world_pose: found [0, 0], expected 3 values"),
-        ("a: [", "field.yaml: not valid YAML"),
+        ("a: [", "field.yaml:5: not valid YAML"),
         ("seed: -1", "field.yaml:4: seed: found -1"),
     ],
 )

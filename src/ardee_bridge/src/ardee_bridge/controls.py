@@ -73,6 +73,12 @@ class ControlsClient:
             self._counters.did("watchdog stops")
             self._move(STANDSTILL)
 
+    def stop(self) -> None:
+        """Stop the robot if it has been told to move; for the end of the node."""
+        if self._stop_at_s is not None:
+            self._stop_at_s = None
+            self._move(STANDSTILL)
+
     def _count_drops(self) -> None:
         for reason, count in self._pairer.dropped.items():
             self._counters.drop(reason, count=count)

@@ -13,6 +13,9 @@ from ardee_bridge.counters import Counters
 from ardee_bridge.settings import ControlSettings, read_controls
 from ardee_bridge.udp import open_socket
 
+# Time for a last command to leave before the topic is closed.
+FAREWELL_S = 0.1
+
 
 class SimulationPauser:
     """Pauses and unpauses the simulation from a thread of its own: a simulation that hangs must not hold up motion."""
@@ -59,6 +62,12 @@ def _make() -> Callable[[float], None]:
 
     pauser = SimulationPauser(settings, counters)
     client = ControlsClient(settings, opened, counters, move, pauser.want)
+
+    def stop() -> None:
+        client.stop()
+        rospy.rostime.wallsleep(FAREWELL_S)
+
+    rospy.on_shutdown(stop)
     ros_node.start_diagnostics(rospy.get_name(), counters)
     rospy.loginfo("controls arrive at %s:%d", *opened.getsockname())
     return client.receive

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
 import io
-from typing import Any, Callable, Dict, List, NamedTuple, Optional
+import math
+import struct
+from typing import Any, Callable, Dict, NamedTuple, Optional
 
 import numpy as np
 from PIL import Image
@@ -77,13 +79,19 @@ def orientation(message: Any) -> Reading:
 
 
 def gps(message: Any, velocity: Any = None) -> Reading:
-    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one."""
+    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one.
+
+    Without a fix the receiver says nothing new of its velocity: position and velocity have no value then.
+    """
+    has_fix = message.status.status >= 0
+    has_velocity = velocity is not None and has_fix
+    nothing = Vector(x=math.nan, y=math.nan, z=math.nan)
     stamp_ms = message.header.stamp.secs * 1000 + message.header.stamp.nsecs // 1_000_000
     data = codec.GPSData(
-        latitude=message.latitude,
-        longitude=message.longitude,
-        altitude=message.altitude,
-        velocity=Vector() if velocity is None else _vector(velocity),
+        latitude=message.latitude if has_fix else math.nan,
+        longitude=message.longitude if has_fix else math.nan,
+        altitude=message.altitude if has_fix else math.nan,
+        velocity=_vector(velocity) if has_velocity else nothing,
         covariance=_diagonal(message.position_covariance),
         covariance_type=message.position_covariance_type,
         service=message.status.service,
@@ -94,7 +102,7 @@ def gps(message: Any, velocity: Any = None) -> Reading:
 
 
 def lidar(message: Any) -> Reading:
-    """sensor_msgs/LaserScan of at most 1081 beams."""
+    """sensor_msgs/LaserScan of at most 1081 beams; its arrays are laid out by numpy, for speed."""
     count = len(message.ranges)
     if count > codec.LIDAR_SLOTS:
         raise ConvertError(f"a scan of {count} beams, expected at most {codec.LIDAR_SLOTS}")
@@ -106,14 +114,16 @@ def lidar(message: Any) -> Reading:
         dTime=message.time_increment,
         range_min=message.range_min,
         range_max=message.range_max,
-    ).to_raw()
-    data.ranges = _range_counts(message)
+    )
     intensities = np.asarray(message.intensities[:count], dtype=np.float64)
-    data.intensities = _counts(intensities * _LIDAR_SCALES["intensities"]).tolist()
-    return Reading(data.pack(), count)
+    slots = np.zeros((2, codec.LIDAR_SLOTS), dtype="<i4")
+    slots[0, :count] = _range_counts(message)
+    slots[1, : len(intensities)] = _counts(intensities * _LIDAR_SCALES["intensities"])
+    numbers = [value for value in data.to_raw().as_dict().values() if isinstance(value, int)]
+    return Reading(struct.pack(f"<{len(numbers)}i", *numbers) + slots.tobytes(), count)
 
 
-def _range_counts(message: Any) -> List[int]:
+def _range_counts(message: Any) -> np.ndarray:
     """codec.range_counts, twenty times as fast."""
     ranges = np.asarray(message.ranges, dtype=np.float64)
     per_m = _LIDAR_SCALES["ranges"]
@@ -122,7 +132,7 @@ def _range_counts(message: Any) -> List[int]:
     counts = _counts(np.where(is_far | is_near, 0.0, ranges) * per_m)
     counts[is_far] = codec.RANGE_TOO_FAR
     counts[is_near] = codec.RANGE_TOO_NEAR
-    return counts.tolist()
+    return counts
 
 
 def _counts(values: np.ndarray) -> np.ndarray:

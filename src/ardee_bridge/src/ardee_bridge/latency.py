@@ -11,7 +11,6 @@ import os
 import select
 import signal
 import socket
-import struct
 import subprocess
 import time
 from multiprocessing import get_context
@@ -20,8 +19,8 @@ from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tu
 from ardee_bridge import codec
 from ardee_bridge.pairing import Pairer
 from ardee_bridge.udp import open_socket
+from ardee_bridge.witness import SO_TIMESTAMPNS, timestamp_ns
 
-SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
 MASTER = (
     "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
@@ -132,7 +131,7 @@ def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subproces
             print(complaints)
 
 
-def _in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tuple[Any, Any]:
+def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tuple[Any, Any]:
     """Start body(pipe, *args) in a process of its own: the process and our end of the pipe."""
     context = get_context("spawn")
     ours, theirs = context.Pipe()
@@ -148,7 +147,7 @@ def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple
     body(pipe, *args)
 
 
-def _answer(process: Any, pipe: Any, limit_s: float) -> Any:
+def answer(process: Any, pipe: Any, limit_s: float) -> Any:
     if not pipe.poll(limit_s):
         raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
     answer = pipe.recv()
@@ -172,8 +171,8 @@ def serial_of(header: codec.Header, data: bytes) -> int:
     return raw.as_dict()[paths[kind]]
 
 
-def receive_sensors(pipe: Any) -> None:
-    """Body of the receiver: says its port, receives until told to end, then says when each message came."""
+def receive_datagrams(pipe: Any) -> List[Tuple[bytes, int]]:
+    """Say one's port, receive until told to end: what came, and when [ns]."""
     opened = open_socket("127.0.0.1", 0)
     opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
     pipe.send(opened.getsockname()[1])
@@ -186,10 +185,13 @@ def receive_sensors(pipe: Any) -> None:
                 data, extras, _, _ = opened.recvmsg(65535, 256, socket.MSG_DONTWAIT)
             except BlockingIOError:
                 break
-            stamps = [value for _, kind, value in extras if kind == SO_TIMESTAMPNS]
-            seconds, nanoseconds = struct.unpack("=qq", stamps[0])
-            kept.append((data, seconds * 10**9 + nanoseconds))
-    pipe.send(_arrivals(kept))
+            kept.append((data, timestamp_ns(extras) or 0))
+    return kept
+
+
+def receive_sensors(pipe: Any) -> None:
+    """Body of the receiver, which then says when each message came."""
+    pipe.send(_arrivals(receive_datagrams(pipe)))
 
 
 def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[Key, Dict[int, int]]:
@@ -211,7 +213,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     import rospy
 
     from ardee_bridge import latency_messages
-    from ardee_bridge.sensor_server_node import TYPES
+    from ardee_bridge.subscriptions import TYPES
 
     rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
     publishers = [
@@ -253,15 +255,15 @@ def measure_sensors(seconds: float, cameras: bool) -> Dict[str, Spread]:
     groups = [SENSORS] + ([CAMERAS] if cameras else [])
     streams = [stream for group in groups for stream in group]
     with own_master() as env:
-        receiver, from_receiver = _in_process(env, receive_sensors)
+        receiver, from_receiver = in_process(env, receive_sensors)
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: [all]}}"
         with node(env, "sensor_server_node", "_port:=0", f"_peers:=[{peer}]", _sources(streams)):
-            running = [_in_process(env, publish_sensors, group, seconds) for group in groups]
+            running = [in_process(env, publish_sensors, group, seconds) for group in groups]
             times = {}  # type: Times
             for process, pipe in running:
-                times.update(_answer(process, pipe, seconds + 2 * START_LIMIT_S))
+                times.update(answer(process, pipe, seconds + 2 * START_LIMIT_S))
         from_receiver.send("end")
-        arrivals = _answer(receiver, from_receiver, START_LIMIT_S + seconds)
+        arrivals = answer(receiver, from_receiver, START_LIMIT_S + seconds)
     return _by_kind(streams, times, arrivals)
 
 
@@ -305,7 +307,7 @@ def measure_controls(seconds: float) -> Spread:
     with own_master() as env, open_socket("127.0.0.1", 0) as probe:
         port = probe.getsockname()[1]
         probe.close()
-        robot, from_robot = _in_process(env, receive_commands, "/cmd_vel")
+        robot, from_robot = in_process(env, receive_commands, "/cmd_vel")
         with node(env, "controls_client_node", f"_port:={port}", "_max_speed_m_s:=1.0"):
             if not from_robot.poll(START_LIMIT_S):
                 raise TimeoutError("the controls client does not publish")
@@ -314,7 +316,7 @@ def measure_controls(seconds: float) -> Spread:
             sent = _send_commands(port, round(seconds * COMMAND_RATE_HZ))
             time.sleep(SETTLE_S)
             from_robot.send("end")
-            arrivals = _answer(robot, from_robot, START_LIMIT_S)
+            arrivals = answer(robot, from_robot, START_LIMIT_S)
     found = [arrivals[serial] - at_ns for serial, at_ns in sent.items() if serial in arrivals]
     return spread(found, len(sent))
 

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
+import http.client
 import sys
 import threading
+import xmlrpc.client
 from pathlib import Path
 from typing import Any, Callable, Dict
 
+import rosgraph
 import rospkg
 import rospy
 import yaml
@@ -15,6 +18,7 @@ from ardee_bridge.settings import SettingError
 
 DIAGNOSTICS_PERIOD_S = 1.0
 POLL_S = 0.2
+MASTER_PERIOD_S = 2.0
 # A thread that computes lets another one run after this time, not after Python's 5 ms.
 SWITCH_INTERVAL_S = 0.0005
 
@@ -57,6 +61,38 @@ def _diagnostics(
     return array
 
 
+class MasterWatch:
+    """Goes on while the ROS master is away, for topics need none; ends the node once another one is there instead.
+
+    rospy never registers anew: the new master and its nodes would not know of this node.
+    """
+
+    def __init__(self) -> None:
+        self.is_forgotten = False
+        threading.Thread(target=self._repeat, daemon=True).start()
+
+    def _repeat(self) -> None:
+        name, is_away = rospy.get_name(), False
+        while not rospy.is_shutdown():
+            rospy.rostime.wallsleep(MASTER_PERIOD_S)
+            try:
+                rosgraph.Master(name).lookupNode(name)
+                is_away = False
+            except rosgraph.MasterError:
+                self._end(name)
+            except (OSError, xmlrpc.client.Error, http.client.HTTPException):
+                if not is_away:
+                    print(f"{name}: the ROS master is away", file=sys.stderr, flush=True)
+                is_away = True
+
+    def _end(self, name: str) -> None:
+        if rospy.is_shutdown():
+            return
+        self.is_forgotten = True
+        print(f"{name}: the ROS master knows this node no more", file=sys.stderr, flush=True)
+        rospy.signal_shutdown("forgotten by the master")
+
+
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
@@ -69,6 +105,7 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     except (SettingError, OSError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 2
+    watch = MasterWatch()
     while not rospy.is_shutdown():
         step(POLL_S)
-    return 0
+    return 3 if watch.is_forgotten else 0

@@ -47,7 +47,7 @@ SCALES: Tuple[Scale, ...] = (
     _row(_GPS, "latitude", 10**7, "deg", "GPS_LATITUDE", "WGS-84, north positive"),
     _row(_GPS, "longitude", 10**7, "deg", "GPS_LONGITUDE", "WGS-84, east positive"),
     _row(_GPS, "altitude", 10**3, "m", "GPS_ALTITUDE", "above the WGS-84 ellipsoid"),
-    _row(_GPS, "velocity", 10**3, "m/s", "GPS_VELOCITY", "axes as on the ROS topic"),
+    _row(_GPS, "velocity", 10**3, "m/s", "GPS_VELOCITY", "north, west, up as on the ROS topic"),
     _row(_GPS, "covariance", 10**6, "m²", "GPS_COVARIANCE", "variances east, north, up"),
     _row(_GPS, "covariance_type", None, "", "", "as in sensor_msgs/NavSatFix"),
     _row(_GPS, "service", None, "", "", "as in sensor_msgs/NavSatStatus"),

@@ -2,15 +2,14 @@
 """Sends sensor messages to whom they are for, and answers SET_PORT messages; without rospy."""
 import select
 import socket
-import threading
 import time
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
 from ardee_bridge.pairing import Message, Pairer
 from ardee_bridge.settings import ServerSettings, Source
-from ardee_bridge.udp import Inbox, Sender
+from ardee_bridge.udp import Inbox, PairLock, Sender
 
 _ALL_BIT = 1 << codec.DataType.ALL
 _TIME_BIT = 1 << codec.DataType.TIME
@@ -61,10 +60,11 @@ class SensorServer:
         counters: Counters,
         on_targets: Callable[[], None] = lambda: None,
         clock: Callable[[], float] = time.monotonic,
+        lock: Optional[PairLock] = None,
     ) -> None:
         self._settings, self._socket, self._counters = settings, opened, counters
         self._on_targets, self._clock = on_targets, clock
-        self._lock = threading.Lock()
+        self._lock = lock or PairLock.make()
         self._pairer = Pairer()
         self._inbox = Inbox(opened)
         self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
@@ -78,12 +78,7 @@ class SensorServer:
 
     def wanted(self) -> Set[str]:
         """Names of the sources that somebody wants."""
-        targets = list(self._targets.values())
-        return {
-            source.name
-            for source in self._settings.sources
-            if any(target.wants(source.data_type, source.component_id) for target in targets)
-        }
+        return {source.name for source in self._settings.sources if self._targets_of(source)}
 
     def publish(self, source: Source, message: Any, velocity: Any = None) -> None:
         """Send a ROS message to all that want it."""
@@ -91,7 +86,7 @@ class SensorServer:
         if not targets or not self._limits[source.name].admits(convert.stamp_s(message)):
             return
         try:
-            if source.kind in ("image", "point_cloud"):
+            if source.is_frame:
                 self._publish_frame(source, message, targets)
                 return
             is_gps = source.kind == "gps"
@@ -226,6 +221,10 @@ class SensorServer:
     def clients(self) -> Tuple[Target, ...]:
         """Everybody who gets messages."""
         return tuple(self._targets.values())
+
+    def set_clients(self, targets: Iterable[Target]) -> None:
+        """Send to these from now on; for a server whose clients another process keeps."""
+        self._targets = {target.address: target for target in targets}
 
 
 def _stamp(source: Source, message: Any) -> codec.Datagrams:

@@ -19,6 +19,8 @@ KINDS = {
     "image": codec.DataType.IMAGE,
     "point_cloud": codec.DataType.POINT_CLOUD,
 }
+# Too large for a datagram, and slow to convert.
+FRAME_KINDS = ("image", "point_cloud")
 SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
 _UNSET = object()
 
@@ -158,6 +160,11 @@ class Source(NamedTuple):
     def data_type(self) -> codec.DataType:
         return KINDS[self.kind]
 
+    @property
+    def is_frame(self) -> bool:
+        """Does it send images or clouds?"""
+        return self.kind in FRAME_KINDS
+
 
 class ServerSettings(NamedTuple):
     """Of the sensor server."""
@@ -219,9 +226,7 @@ def _read_source(reader: Reader) -> Source:
         image_format=reader.choice("format", ("jpeg", "raw"), "jpeg") if kind == "image" else "",
         jpeg_quality=reader.whole("jpeg_quality", 1, 95, 80) if kind == "image" else 0,
         chunk_bytes=(
-            reader.whole("chunk_bytes", 256, MAX_PAYLOAD, 32768)
-            if kind in ("image", "point_cloud")
-            else 0
+            reader.whole("chunk_bytes", 256, MAX_PAYLOAD, 32768) if kind in FRAME_KINDS else 0
         ),
     )
     reader.finish()

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Sockets of the bridge."""
+import fcntl
+import os
 import socket
 import struct
+import threading
 from typing import Iterator, List, Tuple
 
 Sender = Tuple[str, int]
@@ -28,6 +31,30 @@ def open_socket(address: str, port: int, multicast_ttl: int = 1) -> socket.socke
         opened.close()
         raise OSError(error.errno, f"UDP {address}:{port}: {error.strerror}") from None
     return opened
+
+
+class PairLock:
+    """Held while the two datagrams of a message are sent, among threads and among the processes that share the file.
+
+    The system takes it back from a process that dies with it.
+    """
+
+    def __init__(self, file: int) -> None:
+        self.file = file
+        self._threads = threading.Lock()
+
+    @classmethod
+    def make(cls) -> "PairLock":
+        """On a file in memory of its own."""
+        return cls(os.memfd_create("ardee_bridge_pairs"))
+
+    def __enter__(self) -> None:
+        self._threads.acquire()
+        fcntl.lockf(self.file, fcntl.LOCK_EX)
+
+    def __exit__(self, *_: object) -> None:
+        fcntl.lockf(self.file, fcntl.LOCK_UN)
+        self._threads.release()
 
 
 class Inbox:

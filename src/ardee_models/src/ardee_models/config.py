@@ -9,7 +9,7 @@ from typing import Any, Optional
 
 import yaml
 
-from ardee_models.errors import GeneratorError
+from ardee_models.errors import GeneratorError, not_yaml
 
 
 def bounded(low: float, high: float, default: Any = dataclasses.MISSING) -> Any:
@@ -36,7 +36,7 @@ def read_yaml(path: Path) -> dict:
     except OSError as error:
         raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise GeneratorError(f"{path}: not valid YAML: {error}") from error
+        raise not_yaml(path, error) from error
     if not isinstance(data, dict):
         raise GeneratorError(
             f"{path}: found {type(data).__name__}, expected a mapping of keys to values"

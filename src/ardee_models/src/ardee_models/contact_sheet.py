@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A picture of crop models side by side, read back from their meshes and textures: look before you use them."""
 
-import argparse
 import json
 from pathlib import Path
 from typing import List, Optional, Sequence
@@ -10,6 +9,7 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ardee_models.cli import Parser
 from ardee_models.errors import GeneratorError
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.splat import Part, draw, read_dae
@@ -104,7 +104,7 @@ def draw_contact_sheet(
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Command `crop_contact_sheet`."""
-    parser = argparse.ArgumentParser(prog="crop_contact_sheet", description=__doc__)
+    parser = Parser(prog="crop_contact_sheet", description=__doc__)
     parser.add_argument("models", nargs="+", type=Path, help="crop model directories")
     parser.add_argument("--output", type=Path, required=True, help="PNG to write")
     parser.add_argument("--columns", type=int, default=8, help="models a row (default 8)")

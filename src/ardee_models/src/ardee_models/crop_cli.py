@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import Optional, Sequence
 
-from ardee_models.cli import seed_number
+from ardee_models.cli import Parser, seed_number
 from ardee_models.crops import make_crop
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import search_path
@@ -32,7 +32,7 @@ def default_output() -> Path:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="generate_crop",
         description="Write a crop plant as a Gazebo model directory.",
         epilog=stages_help(),
@@ -64,5 +64,5 @@ def generate_crop_main(arguments: Optional[Sequence[str]] = None) -> int:
         output = args.output or default_output()
         print(make_crop(args.species, args.stage, args.seed, args.name, output, args.params))
     except GeneratorError as error:
-        argparse.ArgumentParser(prog="generate_crop").exit(2, f"generate_crop: {error}\n")
+        Parser(prog="generate_crop").exit(2, f"generate_crop: {error}\n")
     return 0

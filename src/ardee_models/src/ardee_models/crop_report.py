@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Command `crop_report`: a picture of all crop models, and their metrics beside the literature's ranges."""
 
-import argparse
 import csv
 import io
 import json
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
+from ardee_models.cli import Parser
 from ardee_models.contact_sheet import draw_contact_sheet
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
@@ -143,7 +143,7 @@ def report(models: Sequence[Path], output: Path) -> int:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """0 when every metric lies in its range, 1 when one does not, 2 for bad input."""
-    parser = argparse.ArgumentParser(prog="crop_report", description=__doc__)
+    parser = Parser(prog="crop_report", description=__doc__)
     parser.add_argument("--output", type=Path, required=True, help="folder to write the report in")
     parser.add_argument(
         "--model-path",

@@ -8,7 +8,7 @@ from typing import Any, Dict
 
 import yaml
 
-from ardee_models.errors import GeneratorError
+from ardee_models.errors import GeneratorError, not_yaml
 from ardee_models.options import kind_of, problem
 
 _MAX_BYTES = 64 << 20
@@ -64,8 +64,7 @@ def read_yaml_lines(path: Path) -> Mapping:
     except OSError as error:
         raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError, ValueError, RecursionError) as error:
-        text = " ".join(str(error).split())
-        raise GeneratorError(f"{path}: not valid YAML: {text}") from error
+        raise not_yaml(path, error) from error
     if not isinstance(data, Mapping):
         found = "nothing" if data is None else type(data).__name__
         raise GeneratorError(f"{path}: found {found}, expected a mapping of keys to values")

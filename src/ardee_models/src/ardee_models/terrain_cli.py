@@ -5,11 +5,11 @@ import argparse
 import dataclasses
 import sys
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 
-from ardee_models.cli import run, seed_number
+from ardee_models.cli import Parser, run, seed_number
 from ardee_models.errors import GeneratorError
 from ardee_models.options import check
 from ardee_models.terrain import Terrain, TerrainParams, generate_terrain
@@ -27,14 +27,6 @@ _PLAIN = (
     ("--bump-sd", "bump_sd_m", "standard deviation of bumps [m], 0 for none"),
     ("--bump-length", "bump_length_m", "size of bumps [m]"),
 )
-
-
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        """Exit 2."""
-        self.exit(2, f"{self.prog}: {message} (--help lists all arguments)\n")
 
 
 def _warn(text: str) -> None:
@@ -63,7 +55,7 @@ def _source_arguments(parser: argparse.ArgumentParser) -> None:
 def make_parser() -> argparse.ArgumentParser:
     """Arguments of the command."""
     usual, felt = TerrainParams(), Surface()
-    parser = _Parser(
+    parser = Parser(
         prog="generate_terrain",
         description="Write a field terrain as a Gazebo model directory. Rows run along x.",
     )

@@ -59,7 +59,9 @@ def read_asc(path: Path) -> Elevation:
     """An ESRI ASCII grid."""
     try:
         lines = path.read_text(encoding="ascii").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+    except OSError as error:
+        raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
+    except UnicodeDecodeError as error:
         raise GeneratorError(f"{path}: cannot be read as text: {error}") from error
     header = _read_asc_header(lines, path)
     columns, rows, cell = int(header["ncols"]), int(header["nrows"]), header["cellsize"]

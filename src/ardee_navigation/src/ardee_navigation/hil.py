@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: MIT
 """A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge."""
+import contextlib
 import dataclasses
 import json
 import os
 import signal
+import socket
 import subprocess
 import tempfile
 import threading
 import time
 from collections import deque
 from pathlib import Path
-from typing import Callable, Deque, Dict, List, Optional
+from typing import Callable, Deque, Dict, List, Optional, Union
 
 import rospy
 import yaml
@@ -26,8 +28,34 @@ from ardee_navigation.trial import Judge, Seen
 SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 ANSWER_WITHIN_S = 5.0  # of a scan; the first one waits for the bridge to start
 START_WITHIN_S = 30.0
-BRIDGE_NODES = ("sensor_server_node", "controls_client_node")
 _ENDING = ((signal.SIGINT, 10.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
+
+
+def _free_ports(count: int) -> List[int]:
+    """UDP ports of loopback that nobody has just now, so that experiments can run side by side."""
+    with contextlib.ExitStack() as stack:
+        sockets = [
+            stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            for _ in range(count)
+        ]
+        for opened in sockets:
+            opened.bind(("127.0.0.1", 0))
+        return [opened.getsockname()[1] for opened in sockets]
+
+
+class Bridge:
+    """Both nodes of ardee_bridge, which send nothing that nobody asks for."""
+
+    def __init__(self) -> None:
+        self.sensors_port, self.controls_port = _free_ports(2)
+        server = ["sensor_server_node", f"_port:={self.sensors_port}", "_peers:=[]"]
+        client = ["controls_client_node", f"_port:={self.controls_port}"]
+        self._nodes = [Process(["rosrun", "ardee_bridge", *node]) for node in (server, client)]
+
+    def stop(self) -> None:
+        """End them."""
+        for node in self._nodes:
+            node.stop()
 
 
 class Process:
@@ -64,8 +92,10 @@ class Process:
 class Follower(Process):
     """The process without ROS: its environment knows no master; it says on its standard output what it did."""
 
-    def __init__(self, parameters: Path) -> None:
+    def __init__(self, parameters: Path, bridge: Bridge) -> None:
         command = ["rosrun", "ardee_navigation", "hil_row_follower", "--log", "-"]
+        command += ["--sensors", f"127.0.0.1:{bridge.sensors_port}"]
+        command += ["--controls", f"127.0.0.1:{bridge.controls_port}"]
         environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
         super().__init__([*command, f"--parameters={parameters}"], subprocess.PIPE, environment)
         self.answers: Dict[float, dict] = {}
@@ -158,13 +188,14 @@ def _drive(
     judge: Judge,
     progress: Callable[[float], None],
 ) -> Record:
-    processes = [Process(["rosrun", "ardee_bridge", node]) for node in BRIDGE_NODES]
+    bridge = Bridge()
+    processes = [bridge]  # type: List[Union[Bridge, Process]]
     latency = Latency()
     simulation.on_scan = latency.on_scan
     try:
         simulation.step(SETTLE_STEPS)
         simulation.call("/gazebo/unpause_physics", Empty)
-        follower = Follower(parameters)
+        follower = Follower(parameters, bridge)
         processes.append(follower)
         _wait_for_first_answer(simulation, follower)
         began = time.monotonic()
@@ -175,7 +206,7 @@ def _drive(
             if back is not None:
                 follower.stop()
                 simulation.set_pose(back, trial.height_m(back))
-                follower = Follower(parameters)
+                follower = Follower(parameters, bridge)
                 processes.append(follower)
                 _wait_for_first_answer(simulation, follower)
     finally:

@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import IO, Any, Dict, List, NoReturn, Optional, Tuple
 
 import numpy as np
+
 from ardee_bridge import codec
 from ardee_bridge.pairing import Message, Pairer
-
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.scenario_files import read_parameters, read_scenarios

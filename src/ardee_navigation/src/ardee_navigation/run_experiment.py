@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `run_experiment`: runs of a scenario in lockstep, headless, and a report of them."""
+"""Command `run_experiment`: runs of a scenario, headless, in lockstep or with hardware in the loop, and a report."""
 import argparse
 import shutil
 import signal
@@ -77,7 +77,9 @@ def _one_run(
     log = work / "simulator.log"
     with Simulation(trial.world, seed, trial.models, log, realtime=args.hil) as simulation:
         simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
-        with tqdm(total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False) as bar:
+        with tqdm(
+            total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False, disable=None
+        ) as bar:
 
             def progress(along_m: float) -> None:
                 bar.n = round(min(max(along_m, 0.0), length_m), 1)
@@ -98,7 +100,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
     master, records = Master(), []  # type: Any, List[Record]
     try:
         urdf = robot_urdf(args.bot_model)
-        for number in tqdm(range(args.runs), unit="run", desc=args.scenario):
+        for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
             folder = work / f"run_{number}"
             folder.mkdir()
             records.append(_one_run(scenario, args, number, urdf, folder))

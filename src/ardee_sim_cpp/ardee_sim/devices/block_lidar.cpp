@@ -13,7 +13,7 @@ std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor,
   Parameters keys(plugin.element);
   const LidarParams params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
   const double coordinate_std = read_gaussian_noise(keys);
-  const double rate_hz = read_rate_hz(sensor, keys, 0.0, 0.0);
+  const double rate_hz = read_rate_hz(sensor, keys, 0.0);
   keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads it and does nothing with it
   keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};

@@ -26,10 +26,9 @@ SceneKind scene_of(const SensorDescription& sensor) {
   return sensor.type.rfind("gpu_", 0) == 0 ? SceneKind::kVisual : SceneKind::kCollision;
 }
 
-double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz,
-                    double least_hz) {
+double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz) {
   constexpr double kMost_hz = 1e6;
-  const double own_hz = plugin.number("updateRate", fallback_hz, least_hz, kMost_hz);
+  const double own_hz = plugin.number("updateRate", fallback_hz, 0.0, kMost_hz);
   if (own_hz <= 0.0 || sensor.update_rate_hz <= 0.0) {
     return std::max(own_hz, sensor.update_rate_hz);
   }

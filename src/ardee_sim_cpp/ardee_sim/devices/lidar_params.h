@@ -30,8 +30,7 @@ SceneKind scene_of(const SensorDescription& sensor);
 
 /// The rate of a plugin with an <updateRate> of its own: the slower of it and the sensor's. A rate
 /// of 0 is no limit.
-double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz,
-                    double least_hz);
+double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz);
 
 /// The plugin's <gaussianNoise>: a standard deviation.
 double read_gaussian_noise(Parameters& plugin);

@@ -12,7 +12,6 @@ namespace ardee {
 namespace {
 
 constexpr double kSonarRate_hz = 10.0;  // hector_gazebo_ros_sonar's
-constexpr double kLeastRate_hz = 1e-3;
 
 RangeReading::Radiation read_radiation(Parameters& keys) {
   const std::string text = keys.text("radiation", "ultrasound");
@@ -53,7 +52,7 @@ std::unique_ptr<Device> RangeFinder::make_range(const SensorDescription& sensor,
   params.radiation = read_radiation(keys);
   params.field_of_view_rad = keys.number("fov", 0.05, 0.0, 2.0 * M_PI);
   params.errors.gaussian_noise.setConstant(keys.number("gaussianNoise", 0.0, 0.0));
-  const double rate_hz = read_rate_hz(sensor, keys, 0.0, 0.0);
+  const double rate_hz = read_rate_hz(sensor, keys, 0.0);
   keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);
@@ -67,7 +66,7 @@ std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor,
   params.field_of_view_rad = smaller_span_rad(params.rays);
   params.errors = read_sensor_errors(keys, "", read_noise_mode(keys));
   params.is_tunable = true;
-  const double rate_hz = read_rate_hz(sensor, keys, kSonarRate_hz, kLeastRate_hz);
+  const double rate_hz = read_rate_hz(sensor, keys, kSonarRate_hz);
   keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);

@@ -52,7 +52,7 @@ struct RayBlock {
   }
 };
 
-/// Reads and checks it; an <update_rate> that is written must be more than 0.
+/// Reads and checks it, and that the sensor has no <update_rate> below 0.
 RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
 
 }  // namespace ardee

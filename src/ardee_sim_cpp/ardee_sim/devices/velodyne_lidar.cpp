@@ -40,9 +40,6 @@ std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescri
   RangeNoise& noise = params.lidar.rays.noise;
   noise.std_m = std::hypot(noise.std_m, read_gaussian_noise(keys));
   keys.finish(context.log);
-  if (sensor.update_rate_hz <= 0.0) {
-    throw Error(sensor.element.source, "found no <update_rate>, expected one of more than 0 Hz");
-  }
   const Sensor::Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};
   return std::make_unique<VelodyneLidar>(sensor.name, mount, params, context.scenes);
 }
@@ -70,7 +67,7 @@ VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const 
       beams_(params.lidar.rays, params.lidar.optics, params.lidar.look_through_near,
              {mount.robot.entity(), static_cast<std::uint32_t>(mount.link)}),
       eye_(scenes.register_eye(params.lidar.scene, [this] { return pose().p; })),
-      track_(nanoseconds(1.0 / mount.rate_hz)),
+      track_(mount.rate_hz > 0.0 ? nanoseconds(1.0 / mount.rate_hz) : 0),
       output_(add_output(params.lidar.topic, reading_kind<PointCloudReading>())) {}
 
 void VelodyneLidar::before_step(TimeNs now_ns) {
@@ -91,7 +88,8 @@ void VelodyneLidar::measure(TimeNs now_ns) {
   track_.add(now_ns, pose());
   const RayBlock& rays = params_.lidar.rays;
   const double turn = std::abs(rays.angle_max_rad - rays.angle_min_rad) / (2.0 * M_PI);
-  const double sweep_ns = std::min(turn, 1.0) * kNsPerSecond / mount().rate_hz;
+  const double turn_s = mount().rate_hz > 0.0 ? 1.0 / mount().rate_hz : elapsed_s();
+  const double sweep_ns = std::min(turn, 1.0) * turn_s * kNsPerSecond;
   std::vector<Pose> X_WS;
   X_WS.reserve(static_cast<std::size_t>(rays.columns));
   for (int column = 1; column <= rays.columns; ++column) {

@@ -26,6 +26,10 @@ class Recorder : public ReadingSink {
     for (const Reading& reading : found->second) of_kind.push_back(std::get<T>(reading));
     return of_kind;
   }
+  std::size_t count(const std::string& topic) const {
+    const auto found = readings_.find(topic);
+    return found == readings_.end() ? 0 : found->second.size();
+  }
   void clear() { readings_.clear(); }
 
  private:

@@ -184,6 +184,31 @@ TEST(BlockLaser, NoiseIsOnEachCoordinate) {
   }
 }
 
+// Gazebo reads 0, and none, as "as fast as can be".
+class RateOfZero : public testing::TestWithParam<const char*> {};
+
+TEST_P(RateOfZero, MeasuresAtEachStep) {
+  constexpr double kStep_s = 0.005;
+  constexpr std::size_t kSteps = 20;
+  for (const char* rate : {"", "<update_rate>0</update_rate>"}) {
+    RayPost post = cone(GetParam(), "<updateRate>0</updateRate>");
+    post.vertical.clear();
+    post.rate = rate;
+    TestWorld world(room(), kStep_s);
+    const Entity& robot = world.spawn(post.xml(), "post");
+    ASSERT_EQ(robot.devices.size(), 1u) << rate;
+    world.run(kStep_s * kSteps);
+    EXPECT_EQ(world.recorder().count("/seen"), kSteps) << rate;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, RateOfZero,
+                         testing::Values(kRange, kSonar, kBlock, "libgazebo_ros_laser.so",
+                                         "libgazebo_ros_gpu_laser.so",
+                                         "libgazebo_ros_velodyne_laser.so",
+                                         "libgazebo_ros_velodyne_gpu_laser.so"),
+                         [](const auto& each) { return std::string(each.param); });
+
 // A sensor with a bad value is left out with one message; the robot stays.
 struct BadSensor {
   const char* what;
@@ -217,14 +242,12 @@ const BadSensor kBadSensors[] = {
      "expected no number below zero"},
     {"negative_sdf_noise", "libgazebo_ros_laser.so",
      [](RayPost& p) { p.noise = "<type>gaussian</type><stddev>-0.1</stddev>"; }, "found -0.1"},
-    {"zero_rate", "libgazebo_ros_laser.so",
-     [](RayPost& p) { p.rate = "<update_rate>0</update_rate>"; }, "expected more than 0 Hz"},
     {"negative_rate", kRange, [](RayPost& p) { p.rate = "<update_rate>-5</update_rate>"; },
-     "expected more than 0 Hz"},
-    {"no_velodyne_rate", "libgazebo_ros_velodyne_laser.so", [](RayPost& p) { p.rate = ""; },
-     "found no <update_rate>"},
-    {"zero_sonar_rate", kSonar, [](RayPost& p) { p.keys = "<updateRate>0</updateRate>"; },
-     "found 0"},
+     "found -5, expected a number in [0"},
+    {"negative_velodyne_rate", "libgazebo_ros_velodyne_laser.so",
+     [](RayPost& p) { p.rate = "<update_rate>-5</update_rate>"; }, "found -5"},
+    {"negative_sonar_rate", kSonar, [](RayPost& p) { p.keys = "<updateRate>-1</updateRate>"; },
+     "found -1"},
     {"radiation", kRange, [](RayPost& p) { p.keys = "<radiation>sound</radiation>"; },
      "expected ultrasound or infrared"},
     {"intensity_model", "libgazebo_ros_gpu_laser.so",

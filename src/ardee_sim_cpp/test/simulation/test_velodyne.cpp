@@ -172,6 +172,25 @@ TEST(Velodyne, MotionTowardsAWallBendsIt) {
   EXPECT_GT(met, 60);
 }
 
+TEST(Velodyne, WithoutARateATurnTakesAStep) {
+  // A step is as long as a turn elsewhere: the wall is bent in the same way.
+  const double speed = 2.0;
+  TestWorld world(board("wall", 4.0, 0.0, 40.0), kSpin_s);
+  RayPost post{kGpu, "gpu_ray"};
+  post.horizontal = angles(181, -M_PI, M_PI);
+  post.keys = kDistorted;
+  post.rate = "";
+  post.is_static = false;
+  world.spawn(post.xml(), "post").robot->dynamics().set_twist({{speed, 0, 0}, {}});
+  world.run(2.0 * kSpin_s);
+  const PointCloudReading cloud = world.recorder().on<PointCloudReading>("/seen").at(1);
+  for (std::size_t column = 60; column <= 120; ++column) {
+    const double azimuth = -M_PI + 2.0 * M_PI * double(column) / 180.0;
+    const double to_go_s = kSpin_s * (M_PI - azimuth) / (2.0 * M_PI);
+    EXPECT_NEAR(place(cloud, column).x(), 4.0 - speed * (2.0 * kSpin_s - to_go_s), 1e-4) << column;
+  }
+}
+
 TEST(Velodyne, TurningShiftsWhatStandsBesideIt) {
   // It turns at 2 rad/s: what stands at bearing b is met by the beam at azimuth a with a + yaw(a) =
   // b, where yaw(a) = yaw_now - spin * (pi - a) / 2 pi.

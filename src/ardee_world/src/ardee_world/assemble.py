@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_models.cli import run
+from ardee_models.cli import Parser, run
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.output import model_directory, write_file
@@ -65,6 +65,13 @@ def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> 
             (folder / name).write_text(rows)
 
 
+def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
+    """Let a copied model's URIs name the copy: the folder of the old one need not be on any path."""
+    old, new = (f"://{name}/".encode() for name in (old_name, new_name))
+    for sdf in sorted(folder.glob("*.sdf")):
+        sdf.write_bytes(sdf.read_bytes().replace(old, new))
+
+
 def assemble(args: argparse.Namespace) -> Path:
     """Arguments to a folder with models/, worlds/custom.world and ardee_geofence/; returns the world's path."""
     models: List[Path] = search_path(args.model_path)
@@ -82,6 +89,7 @@ def assemble(args: argparse.Namespace) -> Path:
     _write_field(model, plots, table, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
         shutil.copytree(terrain, folder, dirs_exist_ok=True)
+        _refer_to_itself(folder, terrain.name, HEIGHTMAP)
     write_file(out / GEOFENCE, geofence.read_bytes())
     world = out / "worlds" / "custom.world"
     write_file(world, world_text([HEIGHTMAP, FIELD]).encode())
@@ -90,7 +98,7 @@ def assemble(args: argparse.Namespace) -> Path:
 
 def make_parser() -> argparse.ArgumentParser:
     """Arguments of `python3 -m ardee_world.assemble`."""
-    parser = argparse.ArgumentParser(prog="assemble_world", description=__doc__)
+    parser = Parser(prog="assemble_world", description=__doc__)
     parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
     parser.add_argument("terrain", help="model directory of a terrain, or its name")
     parser.add_argument("geofence", help="geofence file")

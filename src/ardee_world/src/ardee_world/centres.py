@@ -45,11 +45,19 @@ def read_centres(path: Path) -> Plan:
     try:
         with path.open(newline="", encoding="utf-8") as file:
             reader = csv.DictReader(file)
+            header = reader.fieldnames or []
+            if not {"x_m", "y_m"} <= set(header):
+                found = ",".join(header) or "nothing"
+                raise GeneratorError(
+                    f"{path}: line 1: found {found[:80]}, expected columns x_m,y_m"
+                )
             for entry in reader:
                 lines.append(_line(path, reader.line_num, entry))
                 if len(lines) > MAX_PLANTS:
                     break
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
+    except OSError as error:
+        raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, csv.Error) as error:
         raise GeneratorError(f"{path}: cannot be read: {error}") from error
     if not 1 <= len(lines) <= MAX_PLANTS:
         raise GeneratorError(

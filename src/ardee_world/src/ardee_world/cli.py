@@ -7,7 +7,7 @@ import typing
 from pathlib import Path
 from typing import Any, Dict, Optional
 
-from ardee_models.cli import run, seed_number
+from ardee_models.cli import Parser, run, seed_number
 from ardee_models.errors import GeneratorError
 from ardee_models.lookup import crop_model, search_path
 from ardee_models.options import kind_of, plain_name, scalar_fields, unit_of
@@ -100,17 +100,9 @@ def _add_special(group: Any) -> None:
     )
 
 
-class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line: with so many arguments the usage would bury it."""
-
-    def error(self, message: str) -> typing.NoReturn:
-        """Exit 2."""
-        self.exit(2, f"{self.prog}: {message} (--help lists all arguments)\n")
-
-
 def make_parser() -> argparse.ArgumentParser:
     """Arguments of thesis Figure 4.4, and more."""
-    parser = _Parser(
+    parser = Parser(
         prog="generate_field",
         description="Write a random crop field as a Gazebo model directory with its ground truth.",
         epilog="A YAML file has the same options as keys with their unit: row_spacing_m, emergence_min, ...; "
@@ -169,6 +161,10 @@ def make_configured(values: Values) -> Path:
     }
     terrain = ground_model(sources.terrain, folders) if sources.terrain else None
     layout = generate(config, pool, sources.seed, terrain, _plan(sources), pools)
+    if layout.count() == 0:
+        raise GeneratorError(
+            f"emergence: found no plant that emerged of {len(layout.planned.centres_m)} planned, expected some"
+        )
     return write_field(layout, sources.name, Path(sources.output), sources.format)
 
 

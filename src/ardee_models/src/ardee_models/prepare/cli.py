@@ -2,22 +2,20 @@
 """Command `prepare_crop`: a mesh that a user brings becomes crop models."""
 
 import argparse
+import json
+import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
 
+from ardee_models.cli import Parser, positive_number
 from ardee_models.crop_cli import default_output
 from ardee_models.errors import GeneratorError
+from ardee_models.metrics import METRICS_FILE
 from ardee_models.params import known_species, load_species
 from ardee_models.prepare.read import read_mesh
 from ardee_models.prepare.write import split_plants, write_plants
 
-
-def positive(text: str) -> float:
-    """argparse type: a number above 0."""
-    value = float(text)
-    if not 0.0 < value < float("inf"):
-        raise ValueError(text)
-    return value
+_FLAT = 2.0  # reach to the side beside height, above which a plant is suspected to lie
 
 
 def prepare(args: argparse.Namespace) -> List[Path]:
@@ -37,8 +35,20 @@ def prepare(args: argparse.Namespace) -> List[Path]:
     return write_plants(plants, args.name, args.output or default_output(), args.stem, facts)
 
 
+def warn_if_lying(model: Path, given: str) -> None:
+    """A plant much wider than high has most likely been read with another axis up."""
+    metrics = json.loads((model / METRICS_FILE).read_text(encoding="utf-8"))
+    height_m, extent_m = metrics["height_m"], metrics["lateral_extent_m"]
+    if extent_m > _FLAT * height_m:
+        print(
+            f"prepare_crop: warning: {model.name} is {height_m:g} m high and reaches {extent_m:g} m to the side;"
+            f" if it lies, turn it by another --up than {given}",
+            file=sys.stderr,
+        )
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="prepare_crop",
         description="Make crop models of a mesh file: one for each stalk that stands on the ground,"
         " drawn from both sides, with a cylinder fitted to its stalk and PNG copies of its textures.",
@@ -55,11 +65,11 @@ def _parser() -> argparse.ArgumentParser:
         help="the file's up axis (default auto: as a .dae says, y for .obj and .gltf, else z)",
     )
     parser.add_argument(
-        "--scale", type=positive, help="metres a unit (default: as a .dae says, else 1)"
+        "--scale", type=positive_number, help="metres a unit (default: as a .dae says, else 1)"
     )
     parser.add_argument(
         "--gap",
-        type=positive,
+        type=positive_number,
         default=0.06,
         help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
     )
@@ -84,6 +94,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
             raise GeneratorError(f"--label: found {args.label}, expected 0 to 65535")
         for path in prepare(args):
             print(path)
+            warn_if_lying(path, args.up)
     except GeneratorError as error:
         parser.exit(2, f"{parser.prog}: {error}\n")
     return 0

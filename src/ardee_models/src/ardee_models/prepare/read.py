@@ -143,6 +143,8 @@ def read_mesh(path: Path, up: str = "auto", scale: Optional[float] = None) -> Li
     except GeneratorError:
         raise
     except Exception as error:  # a hostile file may break a reader anywhere
-        raise GeneratorError(f"{path}: cannot be read: {type(error).__name__}: {error}") from error
+        # trimesh takes what is no binary STL for a text, whose encoding it has another module guess
+        text = "neither binary nor text" if isinstance(error, ImportError) else error
+        raise GeneratorError(f"{path}: cannot be read: {type(error).__name__}: {text}") from error
     _check(path, parts)
     return parts

@@ -15,6 +15,8 @@ _TIMELESS = datetime.datetime(
     2000, 1, 1
 )  # COLLADA wants a date; the same one keeps the bytes the same
 _DECIMALS = 5  # of a metre: 0.01 mm
+# rviz has no ambient light and lights one side of a leaf: without a glow the other would be black
+_GLOW = 0.35
 
 
 def _flat(array: np.ndarray) -> np.ndarray:
@@ -36,6 +38,7 @@ def _material(doc: collada.Collada, name: str, texture_file: str) -> material.Ma
         parameters,
         "lambert",
         diffuse=diffuse,
+        emission=(_GLOW, _GLOW, _GLOW, 1.0),
         ambient=(1.0, 1.0, 1.0, 1.0),
         double_sided=True,
     )

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Measures the bridge on the sensors of a simulated robot: from a message's arrival at a ROS socket to its datagram's.
+
+Both times are the kernel's: the first is taken by a witness that is connected to the simulator as the sensor server
+is, the second at the receiver. A message is found again by its stamp, which the wire carries as a time stamp message.
+"""
+import contextlib
+import os
+import signal
+import subprocess
+import time
+from typing import Any, Dict, Iterator, List, Tuple
+
+import rosgraph
+
+from ardee_bridge import codec, latency, witness
+from ardee_bridge.pairing import Pairer
+from ardee_bridge.settings import KINDS, Source
+
+START_LIMIT_S = 120.0
+WARM_UP_S = 3.0
+WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
+ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
+
+Stamps = Dict[int, int]  # simulated time of a message [ns]: its arrival [ns]
+
+
+@contextlib.contextmanager
+def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
+    process = subprocess.Popen(
+        command,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        yield
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            if process.poll() is None:
+                os.killpg(process.pid, number)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(20.0)
+
+
+def _wait_for(env: Dict[str, str], name: str) -> None:
+    """Until this node is there."""
+    master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
+    deadline = time.monotonic() + START_LIMIT_S
+    while True:
+        with contextlib.suppress(rosgraph.MasterError):
+            master.lookupNode(name)
+            return
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"{name} does not start")
+        time.sleep(0.2)
+
+
+def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[latency.Key, Stamps]:
+    """When each sensor's message arrived, by its time stamp; of frames the first chunk."""
+    pairer, stamps = Pairer(), {}  # type: Pairer, Dict[latency.Key, int]
+    arrivals = {}  # type: Dict[latency.Key, Stamps]
+    for data, at_ns in kept:
+        message = pairer.feed("server", data, at_ns * 1e-9)
+        if message is None:
+            continue
+        key = (message.header.data_type, message.header.component_id)
+        if message.header.data_type == codec.DataType.TIME:
+            time_of = codec.TimeStamp.unpack(message.data)
+            key = (time_of.data_type, time_of.component_id)
+            stamps[key] = time_of.sec * 10**9 + time_of.nsec
+        elif key in stamps:
+            arrivals.setdefault(key, {})[stamps.pop(key)] = at_ns
+    return arrivals
+
+
+def receive(pipe: Any) -> None:
+    """Body of the receiver: says its port, receives until told to end, then says what came when."""
+    kept = latency.receive_datagrams(pipe)
+    pipe.send(_arrivals(kept))
+
+
+def _since(stamps: Stamps, at_ns: int) -> Stamps:
+    return {stamp: arrival for stamp, arrival in stamps.items() if arrival >= at_ns}
+
+
+def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
+    """Of a kind of sensor, over its components; from the first to the last message that both ends have."""
+    found, sent = [], 0
+    for before, after in zip(published, arrived):
+        both = sorted(before.keys() & after.keys())
+        if both:
+            sent += sum(both[0] <= stamp <= both[-1] for stamp in before)
+            found += [after[stamp] - before[stamp] for stamp in both]
+    return latency.spread(found, sent)
+
+
+def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, latency.Spread]:
+    """Of all small sensors of a TerraSentia v3 in corn, with its cameras on their way beside them or not."""
+    small = [source for source in sources if not source.is_frame]
+    with contextlib.ExitStack() as stack:
+        env = stack.enter_context(latency.own_master())
+        receiver, from_receiver = latency.in_process(env, receive)
+        wanted = "[all, time]" if cameras else "[imu, gps, lidar, encoder, battery, time]"
+        peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
+        stack.enter_context(
+            _launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true")
+        )
+        _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
+        stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
+        server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")
+        stack.enter_context(latency.node(env, *server))
+        topics = [f"/{source.topic}" for source in small]
+        watcher, from_watcher = latency.in_process(env, witness.watch, topics, START_LIMIT_S)
+        if not from_watcher.poll(START_LIMIT_S):
+            raise TimeoutError("the simulated robot does not publish")
+        from_watcher.recv()
+        time.sleep(WARM_UP_S)
+        since_ns = time.time_ns()
+        time.sleep(seconds)
+        from_watcher.send("end")
+        watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
+        time.sleep(latency.SETTLE_S)
+        from_receiver.send("end")
+        arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
+    found = {}
+    for kind in dict.fromkeys(source.kind for source in small):
+        like = [source for source in small if source.kind == kind]
+        published = [_since(watched[f"/{source.topic}"], since_ns) for source in like]
+        keys = [(int(KINDS[kind]), source.component_id) for source in like]
+        found[kind] = _spread(published, [arrived.get(key, {}) for key in keys])
+    return found
