@@ -55,16 +55,27 @@ BAD = {
         "hokuyo_ust10lx", 'noise_std_m="-0.01"', "ardee/bad", ("<stddev>", "found -0.01")
     ),
     "image_too_large": Bad(
-        "ueye_cp_gige", 'width_px="8000" height_px="8000"', "ardee/bad/image_raw", ("8000", "<image>")
+        "ueye_cp_gige",
+        'width_px="8000" height_px="8000"',
+        "ardee/bad/image_raw",
+        ("8000", "<image>"),
     ),
     "missing_plots": Bad(
-        "gps_with_dropout", 'plots_file="/nowhere/plots.xacro"', "ardee/bad", ("/nowhere/plots.xacro",)
+        "gps_with_dropout",
+        'plots_file="/nowhere/plots.xacro"',
+        "ardee/bad",
+        ("/nowhere/plots.xacro",),
     ),
     "broken_geofence": Bad(
-        "gps_with_dropout", 'geofence_file="{folder}/not_xml.geofence"', "ardee/bad", ("not_xml.geofence",)
+        "gps_with_dropout",
+        'geofence_file="{folder}/not_xml.geofence"',
+        "ardee/bad",
+        ("not_xml.geofence",),
     ),
     "wrong_number_in_geofence": Bad(
-        "gps_with_dropout", 'geofence_file="{folder}/crossed.geofence"', "ardee/bad",
+        "gps_with_dropout",
+        'geofence_file="{folder}/crossed.geofence"',
+        "ardee/bad",
         ("crossed.geofence", "<r1>", "tall"),
     ),
 }
@@ -75,7 +86,9 @@ def robot(name: str, folder: pathlib.Path) -> str:
     bad = BAD[name]
     arguments = bad.arguments.format(folder=folder)
     if bad.macro == "encoder":
-        call = f'<xacro:sensor_encoder parent="base_footprint" name="bad" topic="ticks" {arguments} />'
+        call = (
+            f'<xacro:sensor_encoder parent="base_footprint" name="bad" topic="ticks" {arguments} />'
+        )
     else:
         macro = f"xacro:sensor_{bad.macro}"
         call = f'<{macro} name="bad" parent="base_footprint" {arguments}><origin xyz="0 0 0.5" /></{macro}>'
@@ -107,7 +120,9 @@ def complaints(
         }
         calls.append(("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields))
     answers = shared_graph.call(probes.call_services, calls)
-    assert [(name, a.success, a.status_message) for name, a in zip(BAD, answers) if not a.success] == []
+    assert [
+        (name, a.success, a.status_message) for name, a in zip(BAD, answers) if not a.success
+    ] == []
     yield [line for line in simulator.output().splitlines() if "WARN" in line or "ERROR" in line]
 
 
