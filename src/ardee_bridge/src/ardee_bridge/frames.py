@@ -57,6 +57,7 @@ class FrameProcess:
 
     def _start(self) -> None:
         self.stop()
+        self._lock.is_shared = True
         self._pipe, theirs = Pipe()
         files = (theirs.fileno(), self._socket.fileno(), self._lock.file)
         words = [sys.executable, "-m", "ardee_bridge.frames", *map(str, files), *_remappings()]
@@ -92,7 +93,7 @@ def main() -> None:
     try:
         name, values = pipe.recv()
         rospy.init_node(f"{name}_frames", disable_rostime=True, disable_signals=True)
-        _serve(pipe, values, socket.socket(fileno=socket_file), PairLock(lock_file))
+        _serve(pipe, values, socket.socket(fileno=socket_file), PairLock(lock_file, is_shared=True))
     except EOFError:
         pass
     rospy.signal_shutdown("the sensor server has ended")

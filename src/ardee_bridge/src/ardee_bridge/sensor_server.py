@@ -130,17 +130,19 @@ class SensorServer:
         for target in targets:
             if target.data_types & _TIME_BIT:
                 stamp = stamp or _stamp(source, message)
-                self._send(target.address, stamp)
-        for pair in pairs:
+                self._send(target.address, stamp + pairs[0])
+            else:
+                self._send(target.address, pairs[0])
+        for pair in pairs[1:]:
             for target in targets:
                 self._send(target.address, pair)
         self._counters.did(f"sent {source.name}")
 
-    def _send(self, address: Sender, pair: codec.Datagrams) -> None:
-        """Header and data back to back, whatever other threads send."""
+    def _send(self, address: Sender, datagrams: Tuple[bytes, ...]) -> None:
+        """Headers and data back to back, whatever other threads send."""
         try:
             with self._lock:
-                for datagram in pair:
+                for datagram in datagrams:
                     self._socket.sendto(datagram, socket.MSG_DONTWAIT, address)
         except BlockingIOError:
             self._counters.drop("messages to a full send buffer", f"{address[0]}:{address[1]}")

@@ -36,24 +36,27 @@ def open_socket(address: str, port: int, multicast_ttl: int = 1) -> socket.socke
 class PairLock:
     """Held while the two datagrams of a message are sent, among threads and among the processes that share the file.
 
-    The system takes it back from a process that dies with it.
+    The system takes it back from a process that dies with it. Taking the file lets another thread run each time, which
+    a burst of messages feels: without another process there is no need for it.
     """
 
-    def __init__(self, file: int) -> None:
-        self.file = file
+    def __init__(self, file: int, is_shared: bool) -> None:
+        self.file, self.is_shared = file, is_shared
         self._threads = threading.Lock()
 
     @classmethod
     def make(cls) -> "PairLock":
-        """On a file in memory of its own."""
-        return cls(os.memfd_create("ardee_bridge_pairs"))
+        """On a file in memory of its own; set is_shared before another process gets it."""
+        return cls(os.memfd_create("ardee_bridge_pairs"), is_shared=False)
 
     def __enter__(self) -> None:
         self._threads.acquire()
-        fcntl.lockf(self.file, fcntl.LOCK_EX)
+        if self.is_shared:
+            fcntl.lockf(self.file, fcntl.LOCK_EX)
 
     def __exit__(self, *_: object) -> None:
-        fcntl.lockf(self.file, fcntl.LOCK_UN)
+        if self.is_shared:
+            fcntl.lockf(self.file, fcntl.LOCK_UN)
         self._threads.release()
 
 

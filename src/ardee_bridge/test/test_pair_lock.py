@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""The lock that keeps header and data together among processes."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+
+from ardee_bridge.udp import PairLock
+
+HOLDER = """
+import sys, time
+from ardee_bridge.udp import PairLock
+with PairLock(int(sys.argv[1]), is_shared=True):
+    print("held", flush=True)
+    time.sleep(600)
+"""
+
+
+def test_another_process_is_waited_for_until_it_dies():
+    lock = PairLock.make()
+    lock.is_shared = True
+    with subprocess.Popen(
+        [sys.executable, "-c", HOLDER, str(lock.file)],
+        pass_fds=(lock.file,),
+        stdout=subprocess.PIPE,
+        text=True,
+        env=dict(os.environ, PYTHONPATH=os.pathsep.join(sys.path)),
+    ) as holder:
+        assert holder.stdout.readline() == "held\n"
+        taken = threading.Event()
+
+        def take():
+            with lock:
+                taken.set()
+
+        thread = threading.Thread(target=take)
+        thread.start()
+        assert not taken.wait(0.3)
+        holder.send_signal(signal.SIGKILL)
+        assert taken.wait(30.0)
+        thread.join()
+    os.close(lock.file)
