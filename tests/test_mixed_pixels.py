@@ -7,11 +7,8 @@ import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_graph import RosGraph
 
-SLATS_M, WALL_M, HEIGHT_M = (
-    2.0,
-    2.2,
-    0.5,
-)  # their difference is less than a pulse is long: one return
+# slats and wall are less than a pulse is long apart: one return
+SLATS_M, WALL_M, HEIGHT_M = 2.0, 2.2, 0.5
 HALF_WIDTH_M = 1.0  # of the fence
 MARGIN_M = 0.02  # off the slats and the wall, on each side; lidars here have no noise
 RAYS = {"thin": 1, "wide": 25}
