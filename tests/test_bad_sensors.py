@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robots whose sensors cannot be: over the spawn service each is there, without that sensor, and the simulator says why once."""
+"""Robots with a sensor that cannot be: each is spawned without it, and the simulator says why once."""
 import pathlib
 from typing import Iterator, List, NamedTuple, Tuple
 
@@ -14,9 +14,15 @@ WORLD = f"""<sdf version="1.5"><world name="default"><physics type="ode">
 ROBOT = """<robot name="{name}" xmlns:xacro="http://ros.org/wiki/xacro">
   <xacro:property name="robot_namespace" value="/{name}" />
   <xacro:include filename="$(find ardee_sensors)/urdf/all_sensors.urdf.xacro" />
-  <link name="base_footprint"><xacro:inertial_box mass="1" x="0.4" y="0.4" z="0.1"><origin xyz="0 0 0" /></xacro:inertial_box></link>
-  <link name="wheel"><xacro:inertial_box mass="1" x="0.1" y="0.1" z="0.1"><origin xyz="0 0 0" /></xacro:inertial_box></link>
-  <joint name="axle" type="continuous"><parent link="base_footprint" /><child link="wheel" /><axis xyz="0 1 0" /></joint>
+  <link name="base_footprint">
+    <xacro:inertial_box mass="1" x="0.4" y="0.4" z="0.1"><origin xyz="0 0 0" /></xacro:inertial_box>
+  </link>
+  <link name="wheel">
+    <xacro:inertial_box mass="1" x="0.1" y="0.1" z="0.1"><origin xyz="0 0 0" /></xacro:inertial_box>
+  </link>
+  <joint name="axle" type="continuous">
+    <parent link="base_footprint" /><child link="wheel" /><axis xyz="0 1 0" />
+  </joint>
   <xacro:sensor_sonar name="good" parent="base_footprint"><origin xyz="0.5 0 0" /></xacro:sensor_sonar>
   {call}
 </robot>"""

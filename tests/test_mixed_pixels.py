@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A lidar's macro with several rays a beam sees, at the edges of slats before a wall, what no thin ray sees: the space between."""
+"""At the edges of slats before a wall a lidar's macro with several rays a beam sees the space between."""
 from typing import List
 
 import probes

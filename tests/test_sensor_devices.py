@@ -63,7 +63,10 @@ def place(index: int) -> str:
 
 def call(device: str, index: int) -> str:
     if device == "encoder":
-        return '<xacro:sensor_encoder parent="base_footprint" name="encoder" joint="axle" topic="ardee/encoder" xyz="0 0 0.05" />'
+        return (
+            '<xacro:sensor_encoder parent="base_footprint" name="encoder" joint="axle" '
+            'topic="ardee/encoder" xyz="0 0 0.05" />'
+        )
     macro = f"xacro:sensor_{device}"
     return f'<{macro} name="{device}" parent="base_footprint">{place(index)}</{macro}>'
 
