@@ -17,6 +17,7 @@ from ros_graph import Process, RosGraph, wait_until
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 OUTPUT = ROOT / "demo_output"
+ENDED = []  # type: List[int]  # exit codes that signals asked for
 RVIZ_CONFIG = "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
 SCAN = "/ardee/hokuyo"
 RECORDED = ["/clock", "/tf", "/tf_static", "/odom", "/joint_states", "/cmd_vel", SCAN]
@@ -43,6 +44,8 @@ class Demo:
         """The first true value of the condition; an error if a process that it needs ends before."""
 
         def checked() -> Any:
+            if ENDED:  # Python drops an exception that a signal raises at a bad moment, such as a fork
+                raise SystemExit(ENDED[0])
             for process in self.needed:
                 if process.exit_code() is not None:
                     raise RuntimeError(f"{' '.join(process.command[:3])} has ended")
@@ -119,6 +122,8 @@ class Demo:
         factor = (rospy.get_time() - sim_s) / (time.monotonic() - wall_s)
         self.needed.remove(bag)
         bag.stop()
+        # rosbag may end before the recorder behind it has given the file its name
+        self.wait((self.work / "drive.bag").exists, "the bag")
         if driver.exit_code() != 0 or photographer is None:
             raise RuntimeError("the driver did not drive")
         if photographer.wait(90.0) != 0:
@@ -172,6 +177,7 @@ def options() -> argparse.Namespace:
 
 def stop_here(number: int, _frame: Any) -> None:
     """Any signal that ends the demo leaves through the clean-up."""
+    ENDED.append(128 + number)
     raise SystemExit(128 + number)
 
 
