@@ -242,7 +242,8 @@ def test_every_stream_comes_at_its_rate_from_its_own_frame(
     surveyed: Dict[str, Any], name: str
 ) -> None:
     expected = {topic: rate for topic, (_, rate) in streams(name).items()}
-    assert surveyed["rates"][name] == pytest.approx(expected, abs=1)
+    # a stream of n publishers may have n stamps more: both ends of the second count
+    assert surveyed["rates"][name] == pytest.approx(expected, rel=0.025, abs=1)
     frames = surveyed["frames"][name]
     frames.pop("joint_states")  # has none
     assert [t for t, frame in frames.items() if not frame.startswith(f"{name}/")] == []
