@@ -44,7 +44,9 @@ class Demo:
         """The first true value of the condition; an error if a process that it needs ends before."""
 
         def checked() -> Any:
-            if ENDED:  # Python drops an exception that a signal raises at a bad moment, such as a fork
+            if (
+                ENDED
+            ):  # Python drops an exception that a signal raises at a bad moment, such as a fork
                 raise SystemExit(ENDED[0])
             for process in self.needed:
                 if process.exit_code() is not None:
