@@ -32,7 +32,7 @@ class Battery : public Device {
     double linear_V = -100.1424;
     double resistance_ohm = 0.061523;
     double smoothing_s = 1.9499;
-    double idle_current_A = 1.0;
+    double idle_current_A = 1.0;        // nominal, as the two below
     double current_per_speed = 4.0;     // A per m/s
     double current_per_yaw_rate = 2.0;  // A per rad/s
     std::string command_topic;
