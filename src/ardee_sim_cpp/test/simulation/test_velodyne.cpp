@@ -155,10 +155,10 @@ TEST(Velodyne, MotionTowardsAWallBendsIt) {
   const double speed = 2.0;
   const std::string wall = board("wall", 4.0, 0.0, 40.0);
   TestWorld world(wall);
-  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, {}, {{speed, 0, 0}, {}});
+  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, {}, {{speed, 0, 0}, {0, 0, 0}});
   TestWorld still_world(wall);
   const PointCloudReading frozen =
-      cloud_in_motion(still_world, "<organised>true</organised>", {}, {{speed, 0, 0}, {}});
+      cloud_in_motion(still_world, "<organised>true</organised>", {}, {{speed, 0, 0}, {0, 0, 0}});
   const double now_m = 4.0 - speed * 2.0 * kSpin_s;
   int met = 0;
   for (std::size_t column = 0; column < 181; ++column) {
@@ -181,7 +181,7 @@ TEST(Velodyne, WithoutARateATurnTakesAStep) {
   post.keys = kDistorted;
   post.rate = "";
   post.is_static = false;
-  world.spawn(post.xml(), "post").robot->dynamics().set_twist({{speed, 0, 0}, {}});
+  world.spawn(post.xml(), "post").robot->dynamics().set_twist({{speed, 0, 0}, {0, 0, 0}});
   world.run(2.0 * kSpin_s);
   const PointCloudReading cloud = world.recorder().on<PointCloudReading>("/seen").at(1);
   for (std::size_t column = 60; column <= 120; ++column) {
@@ -203,7 +203,7 @@ TEST(Velodyne, TurningShiftsWhatStandsBesideIt) {
       " 0 0 0 0</pose><link name='l'><visual name='v'><geometry><cylinder><radius>0.15</radius>"
       "<length>2</length></cylinder></geometry></visual></link></model>";
   TestWorld world(post);
-  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, {}, {{}, {0, 0, rate}});
+  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, {}, {{0, 0, 0}, {0, 0, rate}});
   Eigen::Vector3d sum(0, 0, 0);
   int met = 0;
   for (std::size_t column = 0; column < 181; ++column) {
@@ -265,7 +265,7 @@ TEST(Velodyne, MeetsItsOwnRobotWhereItIsAndLooksOutOfItsHousing) {
                  part("deck", "0 0 -0.55 0 0 0", "<box><size>2 2 0.1</size></box>"));
   TestWorld world("");
   Entity& robot = world.spawn(xml, "post");
-  robot.robot->dynamics().set_twist({{3, 0, 0}, {}});
+  robot.robot->dynamics().set_twist({{3, 0, 0}, {0, 0, 0}});
   world.run(2.0 * kSpin_s);
   const PointCloudReading cloud = world.recorder().on<PointCloudReading>("/seen").at(1);
   for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(place(cloud, k).z(), -0.5, 1e-4) << k;
