@@ -5,12 +5,14 @@
 #include <vector>
 
 namespace ardee {
-namespace {
 
-constexpr int kHalf = 1 << 15;
+const NormalTable& NormalTable::get() {
+  static const NormalTable table;
+  return table;
+}
 
 /// The upper half, ascending; by Newton's method on the error function, each from its neighbour.
-std::vector<float> make_upper_half() {
+NormalTable::NormalTable() {
   std::vector<double> exact(kHalf);
   double z = 0.0;
   double squares = 0.0;
@@ -26,18 +28,8 @@ std::vector<float> make_upper_half() {
     squares += z * z;
   }
   const double scale = 1.0 / std::sqrt(squares / kHalf);
-  std::vector<float> table;
-  table.reserve(exact.size());
-  for (const double each : exact) table.push_back(static_cast<float>(scale * each));
-  return table;
-}
-
-}  // namespace
-
-float normal_of_bits(std::uint16_t bits) {
-  static const std::vector<float> kUpperHalf = make_upper_half();
-  const float size = kUpperHalf[bits & (kHalf - 1)];
-  return (bits & kHalf) != 0 ? size : -size;
+  upper_half_.reserve(exact.size());
+  for (const double each : exact) upper_half_.push_back(static_cast<float>(scale * each));
 }
 
 }  // namespace ardee

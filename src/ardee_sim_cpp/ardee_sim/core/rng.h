@@ -7,7 +7,14 @@
 namespace ardee {
 
 /// Mixes 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
-std::uint64_t mix_bits(std::uint64_t bits);
+inline std::uint64_t mix_bits(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EBULL;
+  return bits ^ (bits >> 31);
+}
+
+/// 2^64 over the golden ratio.
+constexpr std::uint64_t kGoldenGamma = 0x9E3779B97F4A7C15ULL;
 
 /// The key of the random stream `name` under a root seed: the same names give the same streams on
 /// every machine.
@@ -23,7 +30,9 @@ class CounterRng {
   CounterRng frame(std::uint64_t index) const {
     return CounterRng(mix_bits(key_ ^ mix_bits(index)));
   }
-  std::uint64_t bits(std::uint64_t counter) const;
+  std::uint64_t bits(std::uint64_t counter) const {
+    return mix_bits(key_ + (counter + 1) * kGoldenGamma);
+  }
   /// Uniform in the open interval (0, 1).
   double uniform(std::uint64_t counter) const;
   /// Standard normal (Box and Muller 1958), two uniforms a value.

@@ -46,12 +46,13 @@ std::vector<float> measured_depths(const Frame& frame, const DepthParams& params
                                    const CounterRng& noise) {
   std::vector<float> depths_m(frame.depth_m.size());
   const bool noisy = params.has_noise();
+  const NormalTable& normals = NormalTable::get();
   for (std::size_t i = 0; i < depths_m.size(); ++i) {
     auto z = static_cast<double>(frame.depth_m[i]);
     if (noisy && std::isfinite(z)) {
       const double std_m =
           params.noise_constant_m + z * (params.noise_linear + z * params.noise_quadratic_per_m);
-      z += std_m * static_cast<double>(normal_of_bits(static_cast<std::uint16_t>(noise.bits(i))));
+      z += std_m * static_cast<double>(normals[static_cast<std::uint16_t>(noise.bits(i))]);
     }
     depths_m[i] = z >= params.nearest_m && z <= params.farthest_m ? static_cast<float>(z) : kNan;
   }

@@ -40,7 +40,12 @@ bool AlphaMask::is_hole(const Eigen::Vector2d& uv) const {
                 static_cast<std::size_t>(column)];
 }
 
+bool AlphaMask::has_holes() const {
+  return std::find(holes_.begin(), holes_.end(), true) != holes_.end();
+}
+
 std::shared_ptr<const AlphaMask> AlphaMasks::get(const std::string& path, float rejection) {
+  if (without_holes_.count({path, rejection}) != 0) return nullptr;
   std::weak_ptr<const AlphaMask>& entry = masks_[{path, rejection}];
   std::shared_ptr<const AlphaMask> mask = entry.lock();
   if (mask != nullptr) return mask;
@@ -48,6 +53,10 @@ std::shared_ptr<const AlphaMask> AlphaMasks::get(const std::string& path, float 
     mask = std::make_shared<const AlphaMask>(path, rejection);
   } catch (const Error& error) {
     log_.warn_once(std::string(error.what()) + "; rays take the texture as opaque");
+    return nullptr;
+  }
+  if (!mask->has_holes()) {
+    without_holes_.insert({path, rejection});
     return nullptr;
   }
   entry = mask;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@ class AlphaMask {
 
   /// The texel under (u, v), v upwards from the lower edge; the texture repeats.
   bool is_hole(const Eigen::Vector2d& uv) const;
+  bool has_holes() const;
 
  private:
   int width_ = 0;
@@ -34,12 +36,13 @@ class AlphaMasks {
  public:
   explicit AlphaMasks(Log log) : log_(std::move(log)) {}
 
-  /// A texture that cannot be read is a warning, and has no holes: nullptr.
+  /// Nullptr if the texture has no holes; one that cannot be read has none, with a warning.
   std::shared_ptr<const AlphaMask> get(const std::string& path, float rejection);
 
  private:
   Log log_;
   std::map<std::pair<std::string, float>, std::weak_ptr<const AlphaMask>> masks_;
+  std::set<std::pair<std::string, float>> without_holes_;
 };
 
 }  // namespace ardee

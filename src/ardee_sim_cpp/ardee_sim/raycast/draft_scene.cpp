@@ -2,6 +2,7 @@
 #include "ardee_sim/raycast/draft_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ardee {
 namespace {
@@ -12,12 +13,37 @@ bool is_careful(const BodySurface& surface) {
   return surface.mask != nullptr || !surface.two_sided || !surface.casts_shadows;
 }
 
+float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool has_texcoords(const BodySurface& surface) {
+  return surface.part != nullptr && surface.part->texcoords.size() == surface.part->vertices.size();
+}
+
+/// In the body; zero where the mesh has none.
+Eigen::Vector3d normal_of(const BodySurface& surface, std::uint32_t vertex) {
+  if (surface.part == nullptr || surface.part->normals.size() != surface.part->vertices.size()) {
+    return Eigen::Vector3d::Zero();
+  }
+  const Eigen::Vector3f& of_part = surface.part->normals[vertex - surface.first_vertex];
+  const Eigen::Vector3d normal = surface.normals_to_body * of_part.cast<double>();
+  const double length = normal.norm();
+  if (!(length > 0.0) || !std::isfinite(length)) return Eigen::Vector3d::Zero();
+  return normal / length;
+}
+
 }  // namespace
 
-DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<const PlacedBody*>& bodies,
+DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
                        const Eigen::Vector3d& origin_W)
-    : bodies_(bodies), scene_(rtcNewScene(device.get())) {
-  for (std::uint32_t k = 0; k < bodies_.size(); ++k) add(k, origin_W);
+    : bodies_(bodies), origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
+  for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
+    add_triangles(k, origin_W);
+    for (const std::uint32_t patch : bodies_[k].patches) {
+      add_patch(k, bodies_[k].placed->body->patches[patch], origin_W);
+    }
+  }
   for (const bool careful : {false, true}) attach(device, parts_[careful ? 1 : 0], careful);
   rtcCommitScene(scene_);
   try {
@@ -30,40 +56,88 @@ DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<const Place
 
 DraftScene::~DraftScene() { rtcReleaseScene(scene_); }
 
-void DraftScene::add(std::uint32_t body_index, const Eigen::Vector3d& origin_W) {
-  const PlacedBody& placed = *bodies_[body_index];
+void DraftScene::add_triangles(std::uint32_t body_index, const Eigen::Vector3d& origin_W) {
+  const PlacedBody& placed = *bodies_[body_index].placed;
   const Body& body = *placed.body;
-  const Eigen::Matrix3d turn = placed.q.toRotationMatrix() * placed.scale;
+  const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const Eigen::Vector3d shift = placed.p - origin_W;
   std::vector<std::uint32_t> numbers[2];  // of the body's vertices in each part
   for (auto& each : numbers) each.assign(body.vertices.size(), kNotUsed);
-  for (std::uint32_t t = 0; t < body.triangles.size(); ++t) {
-    const BodyTriangle& triangle = body.triangles[t];
-    const std::size_t kind = is_careful(body.surfaces[triangle.surface]) ? 1 : 0;
+  for (const BodyTriangle& from : body.triangles) {
+    const BodySurface& surface = body.surfaces[from.surface];
+    const std::size_t kind = is_careful(surface) ? 1 : 0;
     Part& part = parts_[kind];
-    part.owners.push_back({body_index, t});
-    for (const std::uint32_t vertex : triangle.vertices) {
+    Triangle triangle{{}, body_index, from.surface, kNoTerrain, 0.0f};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = from.vertices[k];
       std::uint32_t& number = numbers[kind][vertex];
       if (number == kNotUsed) {
-        number = static_cast<std::uint32_t>(part.vertices.size());
-        part.vertices.push_back(
-            (shift + turn * body.vertices[vertex].cast<double>()).cast<float>());
+        number = static_cast<std::uint32_t>(part.places.size());
+        const Eigen::Vector3d place_B = body.vertices[vertex].cast<double>();
+        part.places.push_back((shift + R_WB * (placed.scale * place_B)).cast<float>());
+        Vertex made;
+        made.normal = (R_WB * normal_of(surface, vertex)).cast<float>();
+        if (has_texcoords(surface)) {
+          made.uv = surface.part->texcoords[vertex - surface.first_vertex];
+        }
+        part.vertices.push_back(made);
       }
-      part.corners.push_back(number);
+      triangle.corners[k] = number;
+    }
+    if (has_texcoords(surface)) {
+      const std::uint32_t* corners = triangle.corners;
+      const Eigen::Vector3f& a = part.places[corners[0]];
+      const Eigen::Vector2f& uv = part.vertices[corners[0]].uv;
+      const float area = (part.places[corners[1]] - a).cross(part.places[corners[2]] - a).norm();
+      const float on_texture =
+          cross(part.vertices[corners[1]].uv - uv, part.vertices[corners[2]].uv - uv);
+      triangle.uv_per_m = std::max(std::sqrt(std::abs(on_texture) / area), 1e-12f);
+    }
+    part.triangles.push_back(triangle);
+  }
+}
+
+void DraftScene::add_patch(std::uint32_t body_index, const TerrainPatch& patch,
+                           const Eigen::Vector3d& origin_W) {
+  const PlacedBody& placed = *bodies_[body_index].placed;
+  const Terrain& terrain = placed.body->terrains[patch.terrain];
+  const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
+  Part& part = parts_[is_careful(placed.body->surfaces[terrain.surface]) ? 1 : 0];
+  const auto first = static_cast<std::uint32_t>(part.places.size());
+  const HeightPatch& cells = patch.cells;
+  for (int row = cells.row; row <= cells.row + cells.rows; ++row) {
+    for (int column = cells.column; column <= cells.column + cells.columns; ++column) {
+      const Eigen::Vector3d place_S = terrain.heights.vertex(column, row);
+      const Eigen::Vector3d place_B = terrain.p_BS + terrain.R_BS * place_S;
+      const Eigen::Vector3d normal_S = terrain.heights.smooth_normal(place_S.head<2>());
+      part.places.push_back((placed.p - origin_W + R_WB * (placed.scale * place_B)).cast<float>());
+      part.vertices.push_back({(R_WB * (terrain.R_BS * normal_S)).cast<float>(), {0, 0}});
+    }
+  }
+  const auto columns = static_cast<std::uint32_t>(cells.columns);
+  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(cells.rows); ++row) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const std::uint32_t v00 = first + row * (columns + 1) + column;
+      const std::uint32_t v01 = v00 + columns + 1;
+      const Triangle lower{
+          {v00, v00 + 1, v01 + 1}, body_index, terrain.surface, patch.terrain, 0.0f};
+      const Triangle upper{{v00, v01 + 1, v01}, body_index, terrain.surface, patch.terrain, 0.0f};
+      part.triangles.push_back(lower);
+      part.triangles.push_back(upper);
     }
   }
 }
 
 void DraftScene::attach(const EmbreeDevice& device, Part& part, bool careful) {
   part.scene = this;
-  if (part.owners.empty()) return;
-  part.vertices.emplace_back(0, 0, 0);  // Embree reads sixteen bytes of the last one, too
+  if (part.triangles.empty()) return;
+  part.places.emplace_back(0, 0, 0);  // Embree reads sixteen bytes of the last one, too
   RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                             part.vertices.data(), 0, sizeof(Eigen::Vector3f),
-                             part.vertices.size() - 1);
+                             part.places.data(), 0, sizeof(Eigen::Vector3f),
+                             part.places.size() - 1);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             part.corners.data(), 0, 3 * sizeof(std::uint32_t), part.owners.size());
+                             part.triangles.data(), 0, sizeof(Triangle), part.triangles.size());
   if (careful) {
     rtcSetGeometryUserData(geometry, &part);
     rtcSetGeometryIntersectFilterFunction(geometry, &DraftScene::sort_out_hits);
@@ -80,18 +154,16 @@ void DraftScene::filter(const RTCFilterFunctionNArguments* args, const Keep& kee
   const unsigned n = args->N;
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] == 0) continue;
-    const unsigned number = RTCHitN_primID(args->hit, n, i);
-    const Owner& owner = part.owners[number];
-    const Body& body = *part.scene->bodies_[owner.body]->body;
-    const BodyTriangle& triangle = body.triangles[owner.triangle];
+    const Triangle& triangle = part.triangles[RTCHitN_primID(args->hit, n, i)];
+    const Body& body = *part.scene->bodies_[triangle.body].placed->body;
     const BodySurface& surface = body.surfaces[triangle.surface];
-    bool kept = keep(part, surface, number, i);
+    bool kept = keep(part, surface, triangle, i);
     if (kept && surface.mask != nullptr) {
       const float u = RTCHitN_u(args->hit, n, i);
       const float v = RTCHitN_v(args->hit, n, i);
-      const Eigen::Vector2f uv = (1.0f - u - v) * body.texcoords[triangle.vertices[0]] +
-                                 u * body.texcoords[triangle.vertices[1]] +
-                                 v * body.texcoords[triangle.vertices[2]];
+      const Eigen::Vector2f uv = (1.0f - u - v) * part.vertices[triangle.corners[0]].uv +
+                                 u * part.vertices[triangle.corners[1]].uv +
+                                 v * part.vertices[triangle.corners[2]].uv;
       kept = !surface.mask->is_hole(uv.cast<double>());
     }
     if (!kept) args->valid[i] = 0;
@@ -99,12 +171,12 @@ void DraftScene::filter(const RTCFilterFunctionNArguments* args, const Keep& kee
 }
 
 void DraftScene::sort_out_hits(const RTCFilterFunctionNArguments* args) {
-  filter(args, [args](const Part& part, const BodySurface& surface, unsigned number, unsigned i) {
+  filter(args, [args](const Part& part, const BodySurface& surface, const Triangle& triangle,
+                      unsigned i) {
     if (surface.two_sided) return true;
-    const std::uint32_t* corner = &part.corners[3 * static_cast<std::size_t>(number)];
-    const Eigen::Vector3f& a = part.vertices[corner[0]];
+    const Eigen::Vector3f& a = part.places[triangle.corners[0]];
     const Eigen::Vector3f normal =
-        (part.vertices[corner[1]] - a).cross(part.vertices[corner[2]] - a);
+        (part.places[triangle.corners[1]] - a).cross(part.places[triangle.corners[2]] - a);
     const unsigned n = args->N;
     return normal.x() * RTCRayN_dir_x(args->ray, n, i) +
                normal.y() * RTCRayN_dir_y(args->ray, n, i) +
@@ -114,47 +186,100 @@ void DraftScene::sort_out_hits(const RTCFilterFunctionNArguments* args) {
 }
 
 void DraftScene::sort_out_shadows(const RTCFilterFunctionNArguments* args) {
-  filter(args, [](const Part&, const BodySurface& surface, unsigned, unsigned) {
+  filter(args, [](const Part&, const BodySurface& surface, const Triangle&, unsigned) {
     return surface.casts_shadows;
   });
 }
 
-void DraftScene::meet(RayQuery queries[kPacketRays], const Passage passages[kPacketRays],
-                      bool undecided[kPacketRays]) const {
-  RayPacket packet;
-  std::fill_n(undecided, kPacketRays, false);
-  if (!packet.load(passages)) return;
+void DraftScene::meet(RayPacket& packet) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(packet.valid, scene_, &context, &packet.rays);
-  for (int i = 0; i < kPacketRays; ++i) {
-    if (packet.valid[i] == 0 || packet.rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-    const Owner& owner = parts_[packet.rays.hit.geomID[i]].owners[packet.rays.hit.primID[i]];
-    undecided[i] = !queries[i].meet_triangle_of(*bodies_[owner.body], owner.triangle);
-  }
 }
 
-void DraftScene::meet_shadows(RayQuery queries[kPacketRays],
-                              const Passage passages[kPacketRays]) const {
-  RayPacket packet;
-  if (!packet.load(passages)) return;
+void DraftScene::find_shadows(RayPacket& packet) const {
+  // From points on leaves near and far: not coherent.
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcOccluded8(packet.valid, scene_, &context, &packet.rays.ray);
-  for (int i = 0; i < kPacketRays; ++i) {
-    if (packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0.0f)
-      queries[i].end_in_shadow(*bodies_[0]);
-  }
+}
+
+const DraftScene::Triangle& DraftScene::triangle(const RayPacket& packet, int i) const {
+  return parts_[packet.rays.hit.geomID[i]].triangles[packet.rays.hit.primID[i]];
+}
+
+DraftScene::Meeting DraftScene::meeting(const RayPacket& packet, int i) const {
+  // Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
+  const Part& part = parts_[packet.rays.hit.geomID[i]];
+  const Triangle& met = triangle(packet, i);
+  const Eigen::Vector3f& a = part.places[met.corners[0]];
+  const Eigen::Vector3f ab = part.places[met.corners[1]] - a;
+  const Eigen::Vector3f ac = part.places[met.corners[2]] - a;
+  const RTCRay8& ray = packet.rays.ray;
+  const Eigen::Vector3f direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
+  const Eigen::Vector3f from_a = Eigen::Vector3f(ray.org_x[i], ray.org_y[i], ray.org_z[i]) - a;
+  Meeting result;
+  result.normal = ab.cross(ac);
+  const float share = -1.0f / direction.dot(result.normal);
+  const Eigen::Vector3f across = from_a.cross(direction);
+  result.t = share * from_a.dot(result.normal);
+  result.u = share * ac.dot(across);
+  result.v = -share * ab.dot(across);
+  if (!std::isfinite(share)) result = {ray.tfar[i], 1.0f / 3, 1.0f / 3, result.normal};
+  return result;
+}
+
+float DraftScene::range_m(const RayPacket& packet, int i) const { return meeting(packet, i).t; }
+
+void DraftScene::fill(const RayPacket& packet, int i, SurfacePoint& point) const {
+  const Part& part = parts_[packet.rays.hit.geomID[i]];
+  const Triangle& met = triangle(packet, i);
+  const PlacedBody& placed = *bodies_[met.body].placed;
+  const BodySurface& surface = placed.body->surfaces[met.surface];
+  const Meeting meets = meeting(packet, i);
+  const Vertex* corners[3];
+  for (int k = 0; k < 3; ++k) corners[k] = &part.vertices[met.corners[k]];
+  const float w = 1.0f - meets.u - meets.v;
+  const RTCRay8& ray = packet.rays.ray;
+  const Eigen::Vector3f direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
+  Eigen::Vector3f normal = meets.normal.normalized();
+  if (normal.dot(direction) > 0.0f) normal = -normal;
+  Eigen::Vector3f smooth =
+      w * corners[0]->normal + meets.u * corners[1]->normal + meets.v * corners[2]->normal;
+  const float length = smooth.norm();
+  smooth = length > 1e-3f ? Eigen::Vector3f(smooth / length) : normal;
+  if (smooth.dot(normal) < 0.0f) smooth = -smooth;
+  point.range_m = meets.t;
+  point.entity = placed.entity;
+  point.link = surface.link;
+  point.shape = surface.shape;
+  point.label = placed.label;
+  point.visual = surface.visual;
+  point.material = surface.material;
+  point.two_sided = surface.two_sided;
+  point.normal_W = normal.cast<double>();
+  point.smooth_normal_W = smooth.cast<double>();
+  point.uv =
+      (w * corners[0]->uv + meets.u * corners[1]->uv + meets.v * corners[2]->uv).cast<double>();
+  point.uv_per_m = met.uv_per_m;
+  point.point_S.setZero();
+  if (met.terrain == kNoTerrain) return;
+  const Terrain& terrain = placed.body->terrains[met.terrain];
+  const Eigen::Vector3f at(ray.org_x[i] + meets.t * direction.x(),
+                           ray.org_y[i] + meets.t * direction.y(),
+                           ray.org_z[i] + meets.t * direction.z());
+  const Eigen::Vector3d at_B =
+      placed.q.conjugate() * (at.cast<double>() + origin_W_ - placed.p) / placed.scale;
+  point.point_S = terrain.R_BS.transpose() * (at_B - terrain.p_BS);
 }
 
 std::size_t DraftScene::bytes() const {
   std::size_t sum = 0;
   for (const Part& part : parts_) {
-    sum += part.owners.capacity() * sizeof(Owner) +
-           part.vertices.capacity() * sizeof(Eigen::Vector3f) +
-           part.corners.capacity() * sizeof(std::uint32_t);
+    sum += part.triangles.capacity() * sizeof(Triangle) +
+           part.places.capacity() * sizeof(Eigen::Vector3f) +
+           part.vertices.capacity() * sizeof(Vertex);
   }
   return sum;
 }

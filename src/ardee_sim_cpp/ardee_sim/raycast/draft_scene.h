@@ -8,47 +8,75 @@
 
 namespace ardee {
 
-/// The triangles of placed bodies as Embree takes them, in floats: several times as quick as exact
-/// tests, for pictures. Which triangle is the nearest is decided in floats; the hit itself is the
-/// exact one of that triangle.
+/// A placed body's part in a draft: its triangles, and those patches of its terrains.
+struct DraftBody {
+  const PlacedBody* placed = nullptr;
+  std::vector<std::uint32_t> patches;
+};
+
+/// The triangles of placed bodies as Embree takes them, in floats, with what a picture needs of
+/// them: several times as quick as exact tests.
 class DraftScene {
  public:
   /// Coordinates are relative to `origin_W`. The bodies must outlive the scene.
-  DraftScene(const EmbreeDevice& device, const std::vector<const PlacedBody*>& bodies,
+  DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
              const Eigen::Vector3d& origin_W);
   ~DraftScene();
 
-  /// Nearest hits. True for each query, in `undecided`, that the floats have led to a triangle that
-  /// it does not meet.
-  void meet(RayQuery queries[kPacketRays], const Passage passages[kPacketRays],
-            bool undecided[kPacketRays]) const;
-  /// Queries of shadows end where something is in the way.
-  void meet_shadows(RayQuery queries[kPacketRays], const Passage passages[kPacketRays]) const;
+  /// Finds the triangle that each ray of the packet meets first.
+  void meet(RayPacket& packet) const;
+  /// Makes tfar negative for rays with something in their way.
+  void find_shadows(RayPacket& packet) const;
+  /// How far ray `i` of the packet, which has met a triangle, has gone; computed from the triangle
+  /// alone, so that it does not depend on the processor's instructions.
+  float range_m(const RayPacket& packet, int i) const;
+  /// What that ray has met. A mesh's point_S is left out.
+  void fill(const RayPacket& packet, int i, SurfacePoint& point) const;
 
   std::size_t bytes() const;
 
  private:
-  struct Owner {
+  static constexpr std::uint32_t kNoTerrain = 0xFFFFFFFFu;
+
+  struct Triangle {
+    std::uint32_t corners[3];
     std::uint32_t body;
-    std::uint32_t triangle;  // of the body
+    std::uint32_t surface;  // of the body
+    std::uint32_t terrain;  // of the body, or kNoTerrain
+    float uv_per_m;
+  };
+  struct Vertex {
+    Eigen::Vector3f normal{0, 0, 0};  // in the world; zero: that of the triangle
+    Eigen::Vector2f uv{0, 0};
   };
   /// Triangles that each ray meets, and those that must be looked at: with holes, without a back,
   /// without a shadow.
   struct Part {
     const DraftScene* scene = nullptr;
-    std::vector<Owner> owners;
-    std::vector<Eigen::Vector3f> vertices;
-    std::vector<std::uint32_t> corners;  // three a triangle
+    std::vector<Triangle> triangles;
+    std::vector<Eigen::Vector3f> places;  // of the vertices
+    std::vector<Vertex> vertices;
+  };
+  /// Where the line of a ray meets a triangle.
+  struct Meeting {
+    float t;
+    float u;
+    float v;
+    Eigen::Vector3f normal;  // not of length 1
   };
 
-  void add(std::uint32_t body, const Eigen::Vector3d& origin_W);
+  void add_triangles(std::uint32_t body, const Eigen::Vector3d& origin_W);
+  void add_patch(std::uint32_t body, const TerrainPatch& patch, const Eigen::Vector3d& origin_W);
   void attach(const EmbreeDevice& device, Part& part, bool careful);
+  const Triangle& triangle(const RayPacket& packet, int i) const;
+  Meeting meeting(const RayPacket& packet, int i) const;
   static void sort_out_hits(const RTCFilterFunctionNArguments* args);
   static void sort_out_shadows(const RTCFilterFunctionNArguments* args);
   template <typename Keep>
   static void filter(const RTCFilterFunctionNArguments* args, const Keep& keep);
 
-  std::vector<const PlacedBody*> bodies_;
+  const std::vector<DraftBody> bodies_;
+  const Eigen::Vector3d origin_W_;
   Part parts_[2];  // met by all; to be looked at
   RTCSceneTy* scene_;
 };

@@ -28,6 +28,7 @@ class HeightSurface {
   HeightSurface(std::shared_ptr<const HeightGrid> grid, const Eigen::Vector3d& position_m);
 
   std::vector<HeightPatch> patches() const;
+  Eigen::Vector3d vertex(int column, int row) const;
   /// The unit normal at a point, as it would be if the heights were joined smoothly.
   Eigen::Vector3d smooth_normal(const Eigen::Vector2d& point) const;
   Bounds bounds(const HeightPatch& patch) const;
@@ -37,8 +38,6 @@ class HeightSurface {
             const std::function<void(const TriangleHit&, std::uint32_t)>& found) const;
 
  private:
-  Eigen::Vector3d vertex(int column, int row) const;
-
   std::shared_ptr<const HeightGrid> grid_;
   Eigen::Vector3d corner_m_;  // of column 0, row 0
   Eigen::Vector2d cell_m_;

@@ -84,6 +84,15 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
   }
 }
 
+bool MovingModels::touches_any(const Ray& ray_W, double reach_m) const {
+  if (entries_.empty()) return false;
+  const Eigen::Vector3d inverse = ray_W.direction.cwiseInverse();
+  for (const auto& [entity, entry] : entries_) {
+    if (!entry.boxes_W.empty() && touches(entry.box_W, ray_W.origin, inverse, reach_m)) return true;
+  }
+  return false;
+}
+
 void MovingModels::meet(RayQuery& query) const {
   for (const auto& [entity, entry] : entries_) meet(query, entity, entry);
 }

@@ -10,7 +10,7 @@ namespace {
 /// Of one entry with its share of Embree's tree (measured: README).
 constexpr std::size_t kBytesPerEntry = 120;
 /// Of a triangle of the draft with its share of Embree's tree (nominal).
-constexpr std::size_t kBytesPerDraftTriangle = 110;
+constexpr std::size_t kBytesPerDraftTriangle = 130;
 /// Bodies wider than this are taken in piece by piece.
 constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
@@ -131,25 +131,37 @@ double NearRegion::exit_t(const Ray& ray_W) const {
 void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes) {
   tried_draft_ = true;
   if (scene_ == nullptr) return;
-  std::vector<const PlacedBody*> bodies;
+  std::vector<DraftBody> bodies(frames_.size());
   std::size_t triangles = 0;
-  for (const Frame& frame : frames_) {
-    if (frame.placed->body->triangles.empty()) continue;
-    bodies.push_back(frame.placed);
-    triangles += frame.placed->body->triangle_count();
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    bodies[k].placed = frames_[k].placed;
+    triangles += frames_[k].placed->body->triangle_count();
   }
-  if (bodies.empty() || triangles * kBytesPerDraftTriangle > budget_bytes) return;
+  if (triangles * kBytesPerDraftTriangle > budget_bytes) return;
   rest_.region = this;
   for (std::uint32_t k = 0; k < entries_.size(); ++k) {
-    if (entries_[k].block == nullptr) rest_.entries.push_back(k);
+    if (entries_[k].block != nullptr) continue;
+    const Body& body = *bodies[entries_[k].frame].placed->body;
+    const Piece& piece = body.pieces[entries_[k].piece];
+    if (piece.kind == Piece::Kind::kPatch) {
+      const HeightPatch& cells = body.patches[piece.index].cells;
+      const auto more = static_cast<std::size_t>(2 * cells.rows * cells.columns);
+      if ((triangles + more) * kBytesPerDraftTriangle <= budget_bytes) {
+        triangles += more;
+        bodies[entries_[k].frame].patches.push_back(piece.index);
+        continue;
+      }
+    }
+    rest_.entries.push_back(k);
   }
+  if (triangles == 0) return;
   if (!rest_.entries.empty()) {
     rest_scene_ = std::make_unique<EmbreeScene>(
         device, rest_.entries.size(),
         [this](std::size_t k, float* lower, float* upper) {
           entry_bounds(rest_.entries[k], lower, upper);
         },
-        &meet_rest, &rest_, BuildQuality::kMedium);
+        &meet_rest_entry, &rest_, BuildQuality::kMedium);
   }
   draft_ = std::make_unique<DraftScene>(device, bodies, origin_W_);
 }
@@ -179,28 +191,13 @@ void NearRegion::meet(RayQuery queries[kPacketRays], const double t_high[kPacket
   traverse_packet(scene_->get(), queries, passages);
 }
 
-void NearRegion::meet_draft(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
-  if (draft_ == nullptr) return meet(queries, t_high);
+void NearRegion::meet_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const {
   Passage passages[kPacketRays];
-  if (!find_passages(queries, t_high, passages)) return;
-  bool undecided[kPacketRays] = {};
-  if (queries[0].is_shadow()) {
-    draft_->meet_shadows(queries, passages);
-  } else {
-    draft_->meet(queries, passages, undecided);
-  }
-  bool doubts = false;
-  double again[kPacketRays];
-  for (int i = 0; i < kPacketRays; ++i) {
-    again[i] = undecided[i] ? t_high[i] : -1.0;
-    doubts |= undecided[i];
-    passages[i].t_high = std::min(passages[i].t_high, queries[i].reach());
-  }
-  if (rest_scene_ != nullptr) traverse_packet(rest_scene_->get(), queries, passages);
-  if (doubts) meet(queries, again);
+  if (rest_scene_ == nullptr || !find_passages(queries, t_high, passages)) return;
+  traverse_packet(rest_scene_->get(), queries, passages);
 }
 
-void NearRegion::meet_rest(const RTCIntersectFunctionNArguments* args) {
+void NearRegion::meet_rest_entry(const RTCIntersectFunctionNArguments* args) {
   const auto& rest = *static_cast<const Rest*>(args->geometryUserPtr);
   const Entry& entry = rest.region->entries_[rest.entries[args->primID]];
   const PlacedBody& placed = *rest.region->frames_[entry.frame].placed;

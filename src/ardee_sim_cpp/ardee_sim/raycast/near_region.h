@@ -32,11 +32,15 @@ class NearRegion {
   /// All hits, each query up to its t_high (negative: not at all).
   void meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
-  /// Makes meet_draft quick; without it, or if it would take more than `budget_bytes`, it is exact.
+  /// Makes the draft for pictures, unless it would take more than `budget_bytes`.
   void add_draft(const EmbreeDevice& device, std::size_t budget_bytes);
   bool has_tried_draft() const { return tried_draft_; }
-  /// For pictures: as meet, but what is nearest is decided in floats among triangles.
-  void meet_draft(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
+  /// The triangles, as seen from origin_W(); or nullptr.
+  const DraftScene* draft() const { return draft_.get(); }
+  const Eigen::Vector3d& origin_W() const { return origin_W_; }
+  /// What the draft leaves out, as `meet` would.
+  bool has_rest() const { return rest_scene_ != nullptr; }
+  void meet_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
   std::size_t bytes() const;
   std::size_t triangles() const { return triangles_; }
@@ -53,7 +57,7 @@ class NearRegion {
     std::uint32_t piece;
   };
 
-  /// The entries that are no triangles.
+  /// The entries that are not in the draft.
   struct Rest {
     const NearRegion* region;
     std::vector<std::uint32_t> entries;
@@ -62,7 +66,7 @@ class NearRegion {
   /// False if no query has to be asked.
   bool find_passages(const RayQuery queries[kPacketRays], const double t_high[kPacketRays],
                      Passage passages[kPacketRays]) const;
-  static void meet_rest(const RTCIntersectFunctionNArguments* args);
+  static void meet_rest_entry(const RTCIntersectFunctionNArguments* args);
   static void meet_entry(const RTCIntersectFunctionNArguments* args);
   void choose_size(const SceneryStore& store, std::size_t budget_bytes);
   void add(const PlacedBody& placed);

@@ -125,26 +125,6 @@ void RayQuery::meet_solid(const Solid& solid) {
   }
 }
 
-bool RayQuery::meet_triangle_of(const PlacedBody& placed, std::uint32_t number) {
-  enter(placed);
-  const Body& body = *placed.body;
-  const BodyTriangle& triangle = body.triangles[number];
-  TriangleHit hit;
-  if (!meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
-                     body.vertices[triangle.vertices[1]].cast<double>(),
-                     body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
-    return false;
-  }
-  const double before = best_t_;
-  offer({hit.t, triangle.surface, triangle.primitive, number, hit.normal});
-  return hit.t >= before || best_t_ == hit.t;
-}
-
-void RayQuery::end_in_shadow(const PlacedBody& placed) {
-  best_t_ = kNothingMatters;
-  placed_ = &placed;
-}
-
 void RayQuery::meet_patch(const TerrainPatch& patch) {
   const Terrain& terrain = entered_->body->terrains[patch.terrain];
   const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
@@ -228,26 +208,39 @@ void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage) {
   rtcIntersect1(scene, &context.embree, &rayhit);
 }
 
+RayPacket::RayPacket() {
+  for (int i = 0; i < kPacketRays; ++i) {
+    valid[i] = 0;
+    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+void RayPacket::add(int i, const Ray& ray, double reach) {
+  const Eigen::Vector3f origin = ray.origin.cast<float>();
+  const Eigen::Vector3f direction = ray.direction.cast<float>();
+  valid[i] = -1;
+  rays.ray.org_x[i] = origin.x();
+  rays.ray.org_y[i] = origin.y();
+  rays.ray.org_z[i] = origin.z();
+  rays.ray.dir_x[i] = direction.x();
+  rays.ray.dir_y[i] = direction.y();
+  rays.ray.dir_z[i] = direction.z();
+  rays.ray.tnear[i] = 0.0f;
+  rays.ray.time[i] = 0.0f;
+  rays.ray.tfar[i] = float_above(reach);
+  rays.ray.mask[i] = 0xFFFFFFFFu;
+  rays.ray.id[i] = static_cast<unsigned>(i);
+  rays.ray.flags[i] = 0;
+}
+
 bool RayPacket::load(const Passage* passages) {
   bool any = false;
   for (int i = 0; i < kPacketRays; ++i) {
     const Passage& passage = passages[i];
-    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-    valid[i] = passage.empty() ? 0 : -1;
     if (passage.empty()) continue;
     any = true;
-    const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
-    const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
-    rays.ray.org_x[i] = origin.x();
-    rays.ray.org_y[i] = origin.y();
-    rays.ray.org_z[i] = origin.z();
-    rays.ray.dir_x[i] = direction.x();
-    rays.ray.dir_y[i] = direction.y();
-    rays.ray.dir_z[i] = direction.z();
-    rays.ray.tfar[i] = float_above(passage.t_high - passage.t_low);
-    rays.ray.mask[i] = 0xFFFFFFFFu;
-    rays.ray.id[i] = static_cast<unsigned>(i);
+    add(i, {passage.ray.at(passage.t_low), passage.ray.direction}, passage.t_high - passage.t_low);
   }
   return any;
 }

@@ -53,10 +53,6 @@ class RayQuery {
   void meet_block(const TriangleBlock& block);
   void meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]);
   void meet_solid(const Solid& solid);
-  /// One triangle of a body; false if the ray misses it or may not meet it.
-  bool meet_triangle_of(const PlacedBody& placed, std::uint32_t triangle);
-  /// What a shadow ray has found is in its way.
-  void end_in_shadow(const PlacedBody& placed);
 
   void fill(RayHit& hit) const;
   void fill(SurfacePoint& point) const;
@@ -113,11 +109,15 @@ struct Passage {
   bool empty() const { return !(t_low <= t_high); }
 };
 
-/// Passages as Embree takes them.
+/// Rays as Embree takes them: none at first.
 struct RayPacket {
-  alignas(32) int valid[kPacketRays];
-  RTCRayHit8 rays{};
+  RayPacket();
 
+  alignas(32) int valid[kPacketRays];
+  RTCRayHit8 rays;
+
+  /// Ray `i` of the packet, in the scene's frame.
+  void add(int i, const Ray& ray, double reach);
   /// False if all stay out.
   bool load(const Passage* passages);
 };

@@ -11,6 +11,7 @@
 
 #include "ardee_sim/raycast/moving_models.h"
 #include "ardee_sim/raycast/near_regions.h"
+#include "ardee_sim/raycast/quick_look.h"
 
 namespace ardee {
 namespace {
@@ -37,8 +38,7 @@ struct RayScene::Impl {
 
   /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
   /// leave it unhindered.
-  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region,
-            bool quickly = false) const {
+  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region) const {
     double t_leave[kPacketRays];
     double t_high[kPacketRays];
     double t_low[kPacketRays];
@@ -51,9 +51,7 @@ struct RayScene::Impl {
       t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
       t_high[i] = std::min(queries[i].reach(), t_leave[i]);
     }
-    if (region != nullptr) {
-      quickly ? region->meet_draft(queries, t_high) : region->meet(queries, t_high);
-    }
+    if (region != nullptr) region->meet(queries, t_high);
     bool onwards = false;
     for (int i = 0; i < count; ++i) {
       if (region != nullptr && queries[i].reach() <= t_leave[i]) continue;
@@ -65,28 +63,34 @@ struct RayScene::Impl {
 
   /// Rays of any origins, up to kPacketRays.
   void cast_packet(const SceneRay* rays, int count, RayQuery::Purpose purpose,
-                   std::uint32_t own_entity, std::uint32_t own_link, RayQuery queries[kPacketRays],
-                   bool quickly = false) const {
+                   std::uint32_t own_entity, std::uint32_t own_link,
+                   RayQuery queries[kPacketRays]) const {
     const NearRegion* region = regions.find(rays[0].origin_W);
     for (int k = 0; k < count; ++k) {
       const SceneRay& ray = rays[k];
       queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, own_entity, own_link, purpose);
       if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
     }
-    cast(queries, count, region, quickly);
+    cast(queries, count, region);
   }
 
-  /// The same for any number of them, by the caller's thread.
-  template <typename Take>
-  void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, bool quickly,
+  /// The same for any number of them, by the caller's thread. `quickly(first, count)` says whether
+  /// it has done a packet itself.
+  template <typename Quickly, typename Take>
+  void cast(const SceneRay* rays, std::size_t count, RayQuery::Purpose purpose, Quickly quickly,
             Take take) const {
     require_committed();
     for (std::size_t first = 0; first < count; first += kPacketRays) {
       const int packet = static_cast<int>(std::min<std::size_t>(kPacketRays, count - first));
+      if (quickly(first, packet)) continue;
       RayQuery queries[kPacketRays];
-      cast_packet(rays + first, packet, purpose, kNoEntity, 0, queries, quickly);
+      cast_packet(rays + first, packet, purpose, kNoEntity, 0, queries);
       for (int k = 0; k < packet; ++k) take(queries[k], first + static_cast<std::size_t>(k));
     }
+  }
+
+  QuickLook quick_look(const SceneRay* rays, std::size_t count) const {
+    return {count > 0 ? regions.find(rays[0].origin_W) : nullptr, scenery, moving};
   }
 
   /// Calls cast_some(first, count, queries) for packets of rays by all threads, and keeps what they
@@ -219,31 +223,46 @@ void RayScene::cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t en
   });
 }
 
+namespace {
+
+constexpr auto kNeverQuickly = [](std::size_t, int) { return false; };
+
+}  // namespace
+
 void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
-  impl_->cast(rays, count, RayQuery::Purpose::kNearest, false,
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest, kNeverQuickly,
               [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
 }
 
 void RayScene::meet(const SceneRay* rays, std::size_t count, RayHit* hits) const {
-  impl_->cast(rays, count, RayQuery::Purpose::kNearest, false,
+  impl_->cast(rays, count, RayQuery::Purpose::kNearest, kNeverQuickly,
               [hits](const RayQuery& query, std::size_t i) { query.fill(hits[i]); });
 }
 
 void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const {
   impl_->cast(
-      rays, count, RayQuery::Purpose::kShadow, false,
+      rays, count, RayQuery::Purpose::kShadow, kNeverQuickly,
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 
 void RayScene::look_quickly(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
-  impl_->cast(rays, count, RayQuery::Purpose::kNearest, true,
-              [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
+  const QuickLook quick = impl_->quick_look(rays, count);
+  impl_->cast(
+      rays, count, RayQuery::Purpose::kNearest,
+      [&](std::size_t first, int packet) {
+        return quick.look(rays + first, packet, points + first);
+      },
+      [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
 }
 
 void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
                                     bool* in_shadow) const {
+  const QuickLook quick = impl_->quick_look(rays, count);
   impl_->cast(
-      rays, count, RayQuery::Purpose::kShadow, true,
+      rays, count, RayQuery::Purpose::kShadow,
+      [&](std::size_t first, int packet) {
+        return quick.find_shadows(rays + first, packet, in_shadow + first);
+      },
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 

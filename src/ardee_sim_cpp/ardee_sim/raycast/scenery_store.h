@@ -23,6 +23,7 @@ class SceneryStore {
   void commit();
   bool committed() const { return committed_; }
 
+  bool has_everywhere() const { return !everywhere_.empty(); }
   /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
   void meet_everywhere(RayQuery& query) const;
   /// The places, each query from its t_low on (infinity: not at all).

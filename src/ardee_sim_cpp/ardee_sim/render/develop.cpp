@@ -55,17 +55,22 @@ class Writer {
     const std::uint64_t bits = std_ > 0.0f ? noise_.bits(pixel) : 0;
     const auto value = [&](float brightness, int draw) {
       if (std_ <= 0.0f) return brightness + mean_;
-      return brightness + mean_ +
-             std_ * normal_of_bits(static_cast<std::uint16_t>(bits >> (16 * draw)));
+      return brightness + mean_ + std_ * normals_[static_cast<std::uint16_t>(bits >> (16 * draw))];
     };
     const auto channel = [&](int c) { return value(tone(gain_ * light[c]), c); };
     switch (how_.format) {
       case PixelFormat::kRgb8:
-        for (int c = 0; c < 3; ++c) out[c] = to_byte(channel(c));
+      case PixelFormat::kBgr8: {
+        // All three before the first is written: bytes could be a part of anything.
+        const std::uint8_t red = to_byte(channel(0));
+        const std::uint8_t green = to_byte(channel(1));
+        const std::uint8_t blue = to_byte(channel(2));
+        const bool red_first = how_.format == PixelFormat::kRgb8;
+        out[0] = red_first ? red : blue;
+        out[1] = green;
+        out[2] = red_first ? blue : red;
         return;
-      case PixelFormat::kBgr8:
-        for (int c = 0; c < 3; ++c) out[2 - c] = to_byte(channel(c));
-        return;
+      }
       case PixelFormat::kMono8:
         out[0] = to_byte(value(tone(gain_ * kLuma.dot(light)), 0));
         return;
@@ -89,6 +94,7 @@ class Writer {
   const float mean_;
   const float std_;
   const Colors* bayer_;
+  const NormalTable& normals_ = NormalTable::get();
 };
 
 }  // namespace

@@ -84,10 +84,7 @@ LensTable::LensTable(const Lens& lens, int width, int height)
   }
 }
 
-Eigen::Vector2d LensTable::plane(double x_px, double y_px) const {
-  if (corners_.empty()) {
-    return {(x_px - 0.5 - lens_.cx_px) / lens_.fx_px, (y_px - 0.5 - lens_.cy_px) / lens_.fy_px};
-  }
+Eigen::Vector2d LensTable::bent_plane(double x_px, double y_px) const {
   // Linear between the corners of a pixel: the bend within one is below a thousandth of it.
   const int column = std::clamp(static_cast<int>(x_px), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(y_px), 0, height_ - 1);

@@ -39,9 +39,14 @@ class LensTable {
   const Lens& lens() const { return lens_; }
   /// The point of the picture plane at (x, y) in pixels, (0, 0) being the upper left corner of the
   /// picture; not finite where no light comes from.
-  Eigen::Vector2d plane(double x_px, double y_px) const;
+  Eigen::Vector2d plane(double x_px, double y_px) const {
+    if (!corners_.empty()) return bent_plane(x_px, y_px);
+    return {(x_px - 0.5 - lens_.cx_px) / lens_.fx_px, (y_px - 0.5 - lens_.cy_px) / lens_.fy_px};
+  }
 
  private:
+  Eigen::Vector2d bent_plane(double x_px, double y_px) const;
+
   Lens lens_;
   int width_;
   int height_;

@@ -54,13 +54,18 @@ void Looks::clear() {
   models_.clear();
 }
 
-Color Looks::ground(const Heightmap& map, const SurfacePoint& point, double footprint_m) const {
-  const auto found = of_ground_.find(&map);
-  if (found == of_ground_.end()) return kBareSoil;
+Color Looks::ground(const Heightmap& map, const SurfacePoint& point, double footprint_m,
+                    Memo& memo) const {
+  if (memo.map != &map) {
+    const auto found = of_ground_.find(&map);
+    memo.map = &map;
+    memo.layers = found == of_ground_.end() ? nullptr : &found->second;
+  }
+  if (memo.layers == nullptr) return kBareSoil;
   const double height_m = point.point_S.z() - map.position_m.z();
   const Eigen::Vector2d place = (point.point_S - map.position_m).head<2>();
   Color color = kBareSoil;
-  for (std::size_t k = 0; k < found->second.size(); ++k) {
+  for (std::size_t k = 0; k < memo.layers->size(); ++k) {
     double share = 1.0;
     if (k > 0) {
       if (k > map.blends.size()) break;
@@ -69,7 +74,7 @@ Color Looks::ground(const Heightmap& map, const SurfacePoint& point, double foot
       share = blend.fade_m > 0.0 ? std::clamp(above_m / blend.fade_m, 0.0, 1.0)
                                  : (above_m >= 0.0 ? 1.0 : 0.0);
     }
-    const Texture* texture = found->second[k];
+    const Texture* texture = (*memo.layers)[k];
     if (texture == nullptr || share == 0.0) continue;
     const double size_m = std::max(map.textures[k].size_m, 1e-6);
     const Color layer = texture->color(place / size_m, footprint_m / size_m);
@@ -78,7 +83,7 @@ Color Looks::ground(const Heightmap& map, const SurfacePoint& point, double foot
   return color;
 }
 
-Look Looks::at(const SurfacePoint& point, double footprint_m) const {
+Look Looks::at(const SurfacePoint& point, double footprint_m, Memo& memo) const {
   static const Material kPlain;
   const Heightmap* map =
       point.visual != nullptr ? std::get_if<Heightmap>(&point.visual->geometry) : nullptr;
@@ -90,13 +95,19 @@ Look Looks::at(const SurfacePoint& point, double footprint_m) const {
   look.emissive = material.emissive.head<3>();
   look.opacity = material.diffuse[3];
   if (textured_ground || (map != nullptr && !map->textures.empty())) {
-    look.ambient = look.diffuse = ground(*map, point, footprint_m).head<3>();
+    look.ambient = look.diffuse = ground(*map, point, footprint_m, memo).head<3>();
     look.opacity = 1.0f;
-  } else if (const auto texture = of_material_.find(point.material);
-             texture != of_material_.end() && point.uv_per_m > 0.0) {
-    const Color color = texture->second->color(point.uv, footprint_m * point.uv_per_m);
-    look.ambient.array() *= color.head<3>().array();
-    look.diffuse.array() *= color.head<3>().array();
+  } else if (point.material != nullptr && point.uv_per_m > 0.0) {
+    if (memo.material != point.material) {
+      const auto found = of_material_.find(point.material);
+      memo.material = point.material;
+      memo.texture = found == of_material_.end() ? nullptr : found->second;
+    }
+    if (memo.texture != nullptr) {
+      const Color color = memo.texture->color(point.uv, footprint_m * point.uv_per_m);
+      look.ambient.array() *= color.head<3>().array();
+      look.diffuse.array() *= color.head<3>().array();
+    }
   }
   if (point.visual != nullptr) {
     look.opacity *= static_cast<float>(std::clamp(1.0 - point.visual->transparency, 0.0, 1.0));

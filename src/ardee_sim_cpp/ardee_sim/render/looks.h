@@ -32,14 +32,23 @@ class Looks {
   /// Forgets all models, but keeps textures for those that come back.
   void clear();
 
+  /// What was found last: neighbours in a picture are mostly of one surface.
+  struct Memo {
+    const Material* material = nullptr;
+    const Texture* texture = nullptr;
+    const Heightmap* map = nullptr;
+    const std::vector<const Texture*>* layers = nullptr;
+  };
+
   /// The look of a point, seen so that a pixel covers `footprint_m` of it.
-  Look at(const SurfacePoint& point, double footprint_m) const;
+  Look at(const SurfacePoint& point, double footprint_m, Memo& memo) const;
 
  private:
   void add(const Material& material);
   void add(const Heightmap& map);
   const Texture* load(const std::string& path);
-  Color ground(const Heightmap& map, const SurfacePoint& point, double footprint_m) const;
+  Color ground(const Heightmap& map, const SurfacePoint& point, double footprint_m,
+               Memo& memo) const;
 
   Log log_;
   std::map<const Model*, std::shared_ptr<const Model>> models_;  // held: keys below point into them

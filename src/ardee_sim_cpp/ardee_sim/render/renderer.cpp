@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/render/renderer.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -13,14 +14,14 @@
 namespace ardee {
 namespace {
 
-constexpr int kTileSide_px = 16;
+constexpr int kTileSide_px = 32;
 
 int tiles_along(int pixels) { return (pixels + kTileSide_px - 1) / kTileSide_px; }
 
 }  // namespace
 
 void Renderer::for_each_tile(const Camera& camera, int threads,
-                             const std::function<void(const TileArea&)>& work) {
+                             const std::function<void(const TileArea&, Shader&)>& work) {
   if (camera.width < 1 || camera.height < 1) {
     throw Error("found a picture without pixels, expected at least one");
   }
@@ -32,13 +33,15 @@ void Renderer::for_each_tile(const Camera& camera, int threads,
     workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(threads));
   }
+  tbb::enumerable_thread_specific<Shader> shaders;
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(0, count, [&](int tile) {
       const int left = tile % columns * kTileSide_px;
       const int upper = tile / columns * kTileSide_px;
       work({left, upper, std::min(kTileSide_px, camera.width - left),
-            std::min(kTileSide_px, camera.height - upper)});
+            std::min(kTileSide_px, camera.height - upper)},
+           shaders.local());
     });
   });
 }
@@ -55,9 +58,9 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   const double pixels = static_cast<double>(camera.width) * camera.height;
   std::atomic<int> done_px{0};
   std::atomic<bool> stopped{false};
-  for_each_tile(camera, options.threads, [&](const TileArea& area) {
+  for_each_tile(camera, options.threads, [&](const TileArea& area, Shader& shader) {
     if (stopped) return;
-    shade_tile(shading, area, image);
+    shade_tile(shading, area, shader, image);
     const int done = done_px += area.width * area.height;
     if (progress && !progress(done / pixels)) stopped = true;
   });
@@ -78,8 +81,9 @@ Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
   RenderOptions once = options;
   once.samples = 1;
   const TileShading shading{rays_, looks_, scene_, lights_, camera, once};
-  for_each_tile(camera, options.threads,
-                [&](const TileArea& area) { shoot_tile(shading, area, parts, frame); });
+  for_each_tile(camera, options.threads, [&](const TileArea& area, Shader& shader) {
+    shoot_tile(shading, area, parts, shader, frame);
+  });
   return frame;
 }
 

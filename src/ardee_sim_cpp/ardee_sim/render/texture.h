@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,12 +23,17 @@ class Texture {
   Color color(const Eigen::Vector2d& uv, double footprint) const;
 
  private:
+  using Texel = std::array<std::uint8_t, 4>;  // red, green, blue, opacity
+
   struct Level {
     int width = 0;
     int height = 0;
-    std::vector<Eigen::Vector4f> texels;  // row 0 is the upper edge
+    std::vector<Texel> texels;  // row 0 is the upper edge
 
-    const Eigen::Vector4f& at(int column, int row) const;
+    const Texel& at(int column, int row) const {
+      return texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(column)];
+    }
     Color bilinear(const Eigen::Vector2d& uv) const;
   };
 

@@ -18,7 +18,8 @@ inline float tone(float light) {
 }
 
 inline std::uint8_t to_byte(float brightness) {
-  return static_cast<std::uint8_t>(255.0f * std::fmin(std::fmax(brightness, 0.0f), 1.0f) + 0.5f);
+  if (!(brightness > 0.0f)) return 0;
+  return brightness < 1.0f ? static_cast<std::uint8_t>(255.0f * brightness + 0.5f) : 255;
 }
 
 }  // namespace ardee

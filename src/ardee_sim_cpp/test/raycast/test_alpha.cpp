@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "ardee_sim/raycast/alpha_mask.h"
 #include "scenes.h"
 
 namespace ardee::test {
@@ -59,6 +60,13 @@ TEST_P(Alpha, TexelsBelowTheRejectionAreHoles) {
   EXPECT_TRUE(met(SceneKind::kCollision, 0.5, 0.6));
   material.alpha_rejection = -1.0f;
   EXPECT_TRUE(met(SceneKind::kVisual, 0.5, 0.6));
+}
+
+TEST(AlphaMasks, WithoutAHoleThereIsNoMask) {
+  AlphaMasks masks{Log()};
+  const std::string path = write_texture({255, 0, 128, 127});
+  EXPECT_NE(masks.get(path, 0.0f), nullptr);
+  EXPECT_EQ(masks.get(write_texture({255, 1, 128, 127}), 0.001f), nullptr);
 }
 
 TEST_P(Alpha, TextureThatCannotBeReadIsOpaqueAndSaid) {

@@ -13,6 +13,14 @@ SurfacePoint look(const RayScene& scene, const Eigen::Vector3d& from, const Eige
   return point;
 }
 
+SurfacePoint look_quickly(const RayScene& scene, const Eigen::Vector3d& from,
+                          const Eigen::Vector3d& way) {
+  const SceneRay ray{from, way.normalized(), 100.0};
+  SurfacePoint point;
+  scene.look_quickly(&ray, 1, &point);
+  return point;
+}
+
 bool shadow(const RayScene& scene, const Eigen::Vector3d& from, const Eigen::Vector3d& way,
             double reach_m = 100.0) {
   const SceneRay ray{from, way.normalized(), reach_m};
@@ -55,6 +63,18 @@ TEST(SurfacePoint, KnowsPlaceOnTheTextureNormalAndMaterial) {
   EXPECT_NEAR(point.normal_W.x(), -1.0, 1e-9);
   EXPECT_NEAR(point.smooth_normal_W.x(), -std::sqrt(0.5), 1e-6);
   EXPECT_NEAR(point.smooth_normal_W.z(), -std::sqrt(0.5), 1e-6);
+  scene.scene.prepare({{0, 0, 0}}, true);
+  const SurfacePoint quick = look_quickly(scene.scene, {0, 1, 0.5}, {1, 0, 0});
+  EXPECT_NEAR(quick.range_m, 5.0, 1e-5);
+  EXPECT_EQ(quick.entity, 7u);
+  EXPECT_EQ(quick.label, 3u);
+  EXPECT_EQ(quick.material, point.material);
+  EXPECT_EQ(quick.visual, point.visual);
+  EXPECT_TRUE(quick.two_sided);
+  EXPECT_NEAR((quick.uv - point.uv).norm(), 0.0, 1e-6);
+  EXPECT_NEAR(quick.uv_per_m, point.uv_per_m, 1e-6);
+  EXPECT_NEAR((quick.normal_W - point.normal_W).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((quick.smooth_normal_W - point.smooth_normal_W).norm(), 0.0, 1e-6);
 }
 
 TEST(SurfacePoint, TerrainIsSmooth) {
@@ -74,6 +94,11 @@ TEST(SurfacePoint, TerrainIsSmooth) {
   const SurfacePoint point = look(scene.scene, {1.5, 0.3, 5}, {0, 0, -1});
   EXPECT_NEAR(-point.smooth_normal_W.x() / point.smooth_normal_W.z(), 0.3, 1e-6);
   EXPECT_NEAR(point.point_S.x(), 1.5, 1e-9);
+  scene.scene.prepare({{0, 0, 5}}, true);
+  const SurfacePoint quick = look_quickly(scene.scene, {1.5, 0.3, 5}, {0, 0, -1});
+  EXPECT_NEAR(-quick.smooth_normal_W.x() / quick.smooth_normal_W.z(), 0.3, 1e-3);
+  EXPECT_NEAR((quick.point_S - point.point_S).norm(), 0.0, 1e-5);
+  EXPECT_EQ(quick.visual, point.visual);
 }
 
 TEST(SurfacePoint, ShadowsAreCastFromBothSidesWithinReach) {

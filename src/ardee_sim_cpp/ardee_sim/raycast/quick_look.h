@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/raycast/moving_models.h"
+#include "ardee_sim/raycast/near_regions.h"
+
+namespace ardee {
+
+/// Looks for pictures by the draft of the near region that the rays start in: what is nearest among
+/// its triangles is decided in floats. All else on a ray's way is met exactly.
+class QuickLook {
+ public:
+  QuickLook(const NearRegion* region, const SceneryStore& scenery, const MovingModels& moving)
+      : region_(region), scenery_(scenery), moving_(moving) {}
+
+  /// Up to kPacketRays rays. False if they have to be met exactly: they do not start in a draft.
+  bool look(const SceneRay* rays, int count, SurfacePoint* points) const;
+  bool find_shadows(const SceneRay* rays, int count, bool* in_shadow) const;
+
+ private:
+  /// False if a ray starts outside.
+  bool load(const SceneRay* rays, int count, RayPacket& packet) const;
+  /// What is not in the draft, for rays that have gone `reach_m` (infinite: as far as they may) in
+  /// it. False if nothing is near any of them; then the queries are not started.
+  bool meet_others(const SceneRay* rays, int count, const double reach_m[kPacketRays],
+                   RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const;
+
+  const NearRegion* region_;
+  const SceneryStore& scenery_;
+  const MovingModels& moving_;
+};
+
+}  // namespace ardee

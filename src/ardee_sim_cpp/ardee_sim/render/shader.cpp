@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/render/shader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ardee_sim/render/sky.h"
+
+namespace ardee {
+namespace {
+
+/// A new ray starts this far off the surface that it leaves.
+constexpr double kOffset_m = 1e-4;
+/// So many transparent surfaces one behind the other are looked through.
+constexpr int kMaxLayers = 8;
+constexpr float kOpaque = 0.999f;
+
+/// Share of the light on the far side of a two-sided sheet that comes through, beside what it
+/// would reflect on the near side: leaves pass less visible light than they reflect.
+constexpr double kSheetTransmission = 0.4;
+
+/// Two-sided meshes are sheets, as leaves are. Where one encloses something, its own far wall keeps
+/// the light out.
+bool is_sheet(const SurfacePoint& point) {
+  return point.two_sided && point.visual != nullptr &&
+         std::holds_alternative<Mesh>(point.visual->geometry);
+}
+
+/// Looks that meet a surface within this cosine between normals, and this share of the range, meet
+/// it where it is smooth.
+constexpr float kSmooth = 0.85f;
+constexpr float kSameRange = 0.02f;
+
+Seen seen_of(const SurfacePoint& point) {
+  Seen seen;
+  seen.entity = point.entity;
+  seen.link = point.link;
+  seen.shape = point.shape;
+  seen.material = point.material;
+  seen.range_m = static_cast<float>(point.range_m);
+  seen.normal_W = point.smooth_normal_W.cast<float>();
+  return seen;
+}
+
+/// Of the first lamps only: 0 for others.
+std::uint32_t bit_of(std::size_t lamp) { return lamp < 32 ? 1u << lamp : 0u; }
+
+}  // namespace
+
+bool same_surface(const Seen& a, const Seen& b) {
+  if (a.entity != b.entity || a.link != b.link || a.shape != b.shape || a.material != b.material) {
+    return false;
+  }
+  return a.entity == kNoEntity || a.normal_W.dot(b.normal_W) >= kSmooth;
+}
+
+void Shader::begin(const TileShading& shading) {
+  s_ = &shading;
+  R_WC_ = shading.camera.X_WC.q.toRotationMatrix();
+  pixel_rad_ = 1.0 / (shading.camera.focal_length_px() *
+                      std::sqrt(static_cast<double>(shading.options.samples)));
+  distant_.clear();
+  for (const Light& light : shading.lights) {
+    const bool distant = light.type == Light::Type::kDirectional;
+    distant_.push_back(distant ? illuminate(light, Eigen::Vector3d::Zero()) : std::nullopt);
+  }
+  memo_ = {};
+  clear();
+}
+
+void Shader::clear() {
+  samples_.clear();
+  rays_.clear();
+  owners_.clear();
+  seen_.clear();
+  neighbours_.clear();
+}
+
+void Shader::send(double x_px, double y_px, const Neighbours& neighbours) {
+  Sample& sample = samples_.emplace_back();
+  seen_.emplace_back();
+  neighbours_.push_back(neighbours);
+  const Eigen::Vector3d way_C = s_->camera.direction_C(x_px, y_px);
+  const double stretch = way_C.norm();
+  if (!(stretch < std::numeric_limits<double>::infinity())) return;
+  const Eigen::Vector3d direction_W = R_WC_ * (way_C * (1.0 / stretch));
+  sample.travelled_m = s_->camera.near_m * stretch;
+  sample.stretch = stretch;
+  const double end_m = std::min(s_->camera.far_m * stretch, s_->options.max_range_m);
+  rays_.push_back({s_->camera.X_WC.p + sample.travelled_m * direction_W, direction_W,
+                   end_m - sample.travelled_m});
+  owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
+}
+
+void Shader::gather() {
+  for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
+    if (points_.size() < rays_.size()) points_.resize(rays_.size());
+    if (s_->options.quickly) {
+      s_->rays.look_quickly(rays_.data(), rays_.size(), points_.data());
+    } else {
+      s_->rays.look(rays_.data(), rays_.size(), points_.data());
+    }
+    shade_layer(layer == 0, layer + 1 == kMaxLayers);
+    add_unshadowed();
+    rays_.swap(next_rays_);
+    owners_.swap(next_owners_);
+    next_rays_.clear();
+    next_owners_.clear();
+  }
+}
+
+void Shader::shade_layer(bool first, bool last) {
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    Sample& sample = samples_[owners_[i]];
+    const SurfacePoint& point = points_[i];
+    if (!point.met()) {
+      sample.light += sample.rest * sky_color(s_->scene, rays_[i].direction_W);
+      continue;
+    }
+    if (first) seen_[owners_[i]] = seen_of(point);
+    sample.travelled_m += point.range_m;
+    const double slant = std::max(std::abs(point.smooth_normal_W.dot(rays_[i].direction_W)), 0.05);
+    const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
+    const Look look = s_->looks.at(point, footprint_m, memo_);
+    const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
+    const Eigen::Vector3d at_W = rays_[i].origin_W + point.range_m * rays_[i].direction_W;
+    const float share = sample.rest * opacity;
+    Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
+    if (is_sheet(point)) {
+      ambient +=
+          static_cast<float>(kSheetTransmission) * ambient_light(s_->scene, -point.smooth_normal_W);
+    }
+    sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
+    for (std::size_t k = 0; k < s_->lights.size(); ++k) {
+      send_to_lamp(k, at_W, point, share * look.diffuse, i, first);
+    }
+    sample.rest *= 1.0f - opacity;
+    if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, i);
+  }
+}
+
+Shader::Opinion Shader::opinion(std::size_t sample, std::uint32_t lamp_bit) const {
+  Opinion found = Opinion::kNone;
+  const Seen& seen = seen_[sample];
+  for (const std::uint32_t each : neighbours_[sample].samples) {
+    if (each == Neighbours::kNone) break;
+    const Seen& other = seen_[each];
+    if (!same_surface(seen, other)) continue;
+    if (std::abs(seen.range_m - other.range_m) > kSameRange * seen.range_m) continue;
+    if ((other.asked & lamp_bit) == 0) return Opinion::kNone;
+    const bool dark = (other.in_shadow & lamp_bit) != 0;
+    const Opinion theirs = dark ? Opinion::kInShadow : Opinion::kLit;
+    if (found != Opinion::kNone && found != theirs) return Opinion::kNone;
+    found = theirs;
+  }
+  return found;
+}
+
+void Shader::look_on(const Eigen::Vector3d& from_W, std::size_t i) {
+  const SceneRay& ray = rays_[i];
+  next_rays_.push_back({from_W, ray.direction_W, ray.reach_m - points_[i].range_m});
+  next_owners_.push_back(owners_[i]);
+}
+
+void Shader::send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const SurfacePoint& point,
+                          const Eigen::Vector3f& diffuse, std::size_t i, bool first) {
+  const Light& light = s_->lights[lamp];
+  const bool distant = light.type == Light::Type::kDirectional;
+  const std::optional<Illumination> of_place = distant ? std::nullopt : illuminate(light, at_W);
+  const std::optional<Illumination>& found = distant ? distant_[lamp] : of_place;
+  if (!found) return;
+  double cosine = point.smooth_normal_W.dot(found->to_light_W);
+  Eigen::Vector3d lit_side_W = point.normal_W;
+  const bool lit_from_behind = cosine <= 0.0;
+  if (lit_from_behind) {
+    if (!is_sheet(point)) return;
+    cosine *= -kSheetTransmission;
+    lit_side_W = -lit_side_W;
+  }
+  if (lit_side_W.dot(found->to_light_W) <= 0.0) return;
+  const Eigen::Vector3f arriving = static_cast<float>(cosine) * diffuse.cwiseProduct(found->color);
+  const bool shadows = s_->options.shadows && s_->scene.shadows && light.cast_shadows;
+  const std::uint32_t lamp_bit = first ? bit_of(lamp) : 0u;
+  const Opinion known = shadows ? opinion(owners_[i], lamp_bit) : Opinion::kNone;
+  if (!shadows || known == Opinion::kLit) samples_[owners_[i]].light += arriving;
+  if (!shadows || known != Opinion::kNone) return;
+  const double reach_m = std::min(found->distance_m, s_->options.max_range_m);
+  shadow_rays_.push_back({at_W + kOffset_m * lit_side_W, found->to_light_W, reach_m - kOffset_m});
+  waiting_.push_back({owners_[i], arriving, lamp_bit});
+}
+
+void Shader::add_unshadowed() {
+  if (room_for_shadows_ < shadow_rays_.size()) {
+    room_for_shadows_ = shadow_rays_.size();
+    in_shadow_ = std::make_unique<bool[]>(room_for_shadows_);
+  }
+  if (s_->options.quickly) {
+    s_->rays.find_shadows_quickly(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
+  } else {
+    s_->rays.find_shadows(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
+  }
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const Waiting& each = waiting_[i];
+    if (!in_shadow_[i]) samples_[each.sample].light += each.light;
+    seen_[each.sample].asked |= each.lamp_bit;
+    if (in_shadow_[i]) seen_[each.sample].in_shadow |= each.lamp_bit;
+  }
+  shadow_rays_.clear();
+  waiting_.clear();
+}
+
+}  // namespace ardee
