@@ -19,7 +19,7 @@ from ardee_bridge import ros_node
 from ardee_bridge.counters import Counters
 from ardee_bridge.sensor_server import SensorServer, Target
 from ardee_bridge.settings import read_server
-from ardee_bridge.subscriptions import Subscriptions
+from ardee_bridge.subscriptions import Subscriptions, by_rospy
 from ardee_bridge.udp import PairLock
 
 PATIENCE_S = 5.0
@@ -104,7 +104,7 @@ def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock
     settings = read_server(values)
     server = SensorServer(settings, opened, counters, lock=lock)
     server.set_clients(())
-    subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server)
+    subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server, by_rospy)
     ros_node.start_diagnostics(rospy.get_name(), counters)
     while not rospy.is_shutdown():
         if pipe.poll(ros_node.POLL_S):

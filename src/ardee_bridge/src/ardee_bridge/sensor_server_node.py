@@ -7,9 +7,10 @@ import rospy
 from ardee_bridge import ros_node
 from ardee_bridge.counters import Counters
 from ardee_bridge.frames import FrameProcess
+from ardee_bridge.reader import Reader
 from ardee_bridge.sensor_server import SensorServer
 from ardee_bridge.settings import read_server
-from ardee_bridge.subscriptions import Subscriptions
+from ardee_bridge.subscriptions import Subscriptions, by_reader
 from ardee_bridge.udp import PairLock, open_socket
 
 
@@ -21,7 +22,9 @@ def _make() -> Callable[[float], None]:
     lock = PairLock.make()
     server = SensorServer(settings, opened, counters, lambda: on_targets(), lock=lock)
     small = [source for source in settings.sources if not source.is_frame]
-    subscriptions = Subscriptions(small, server)
+    reader = Reader(f"{rospy.get_name()}_small", rospy.logwarn, rospy.signal_shutdown)
+    rospy.on_shutdown(reader.close)
+    subscriptions = Subscriptions(small, server, by_reader(reader))
     frames = FrameProcess(values, opened, lock)
     rospy.on_shutdown(frames.stop)
 
