@@ -37,6 +37,8 @@ def _make() -> Callable[[float], None]:
     peers = ", ".join(f"{peer.address}:{peer.port}" for peer in settings.destinations)
     here = "%s:%d" % opened.getsockname()
     rospy.loginfo("sensors leave %s for %s", here, peers or "whoever asks by SET_PORT")
+    if settings.realtime_priority and not ros_node.go_first(settings.realtime_priority):
+        rospy.loginfo("no real-time priority is granted: where all cores are busy, messages wait")
     return server.receive
 
 
