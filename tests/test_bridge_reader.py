@@ -126,6 +126,19 @@ def test_whoever_unsubscribes_is_called_no_more_and_the_master_knows(
     wait_until(lambda: again, "subscribed again")
 
 
+def test_a_topic_left_and_subscribed_to_at_once(make: Callable[[], Bench]) -> None:
+    bench = make()
+    bench.publish("/number", 6)
+    kept: List[int] = []
+    for _ in range(20):
+        subscription = bench.reader.subscribe("/number", INT, kept.append)
+        subscription.unregister()
+    before = len(kept)
+    last = bench.keep("/number")
+    wait_until(lambda: len(last) > 5, "messages of the last subscription")
+    assert len(kept) <= before + 1 and bench.subscribed() == ["/number"]
+
+
 def test_without_a_master_nobody_waits_and_with_one_it_registers(
     make: Callable[[], Bench], graph: RosGraph
 ) -> None:

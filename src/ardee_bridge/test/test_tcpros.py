@@ -34,7 +34,7 @@ def test_a_length_that_no_message_has_is_refused():
 
 
 class Publisher:
-    """A node that is asked for a topic, answers `place`, and says these bytes to whoever connects."""
+    """A node that says these bytes to whoever connects."""
 
     def __init__(self, said: bytes) -> None:
         self._listening = socket.create_server(("127.0.0.1", 0))
@@ -90,6 +90,8 @@ def header(**fields: str) -> bytes:
         (b"\x05\x00\x00\x00ab", ConnectionError, "has ended"),
         (b"", ConnectionError, "has ended"),
         (b"\x04\x00\x00\x00\xff\xff\xff\x7f", tcpros.AWAY, ""),
+        (b"\x06\x00\x00\x00\x02\x00\x00\x00=\xff", tcpros.Refused, "cannot be read"),
+        (b"\x02\x00\x00\x00ab", tcpros.Refused, "cannot be read"),
     ],
 )
 def test_what_a_publisher_should_not_say(say, said, error, message):
@@ -106,6 +108,27 @@ def test_a_connection_gives_its_messages(say):
         while not found:
             splitter.feed(connected.recv(100))
     assert found == [b"hi"]
+
+
+@pytest.mark.parametrize(
+    "answer, error, message",
+    [
+        ((0, "not mine", 0), ConnectionError, "not mine"),
+        ((1, "", ["TCPROS", "127.0.0.1", 70_000]), tcpros.Refused, "expected protocol, host and"),
+        ((1, "", ["TCPROS", "127.0.0.1", "x"]), tcpros.Refused, "expected protocol, host and port"),
+        ((1, "", 7), tcpros.Refused, "found .1, '', 7. as its place"),
+        ("maybe", tcpros.Refused, "found .maybe. as its place"),
+    ],
+)
+def test_places_that_are_none(answer, error, message):
+    with SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False) as server:
+        server.register_function(lambda *_: answer, "requestTopic")
+        answering = threading.Thread(target=server.handle_request)
+        answering.start()
+        with pytest.raises(error, match=message):
+            uri = "http://%s:%d/" % server.server_address
+            tcpros.connect(uri, "/topic", "/test", "a/B", "1234")
+        answering.join()
 
 
 def test_a_publisher_that_is_not_there():

@@ -49,20 +49,23 @@ class Stream(NamedTuple):
         return (int(KINDS[self.kind]), self.component_id)
 
 
-# The full rates of the TerraSentia's sensors.
+# The full rates of the TerraSentia v3's sensors.
 SENSORS = (
     Stream("imu", "/bench/imu", 0, 100.0),
     Stream("gps", "/bench/gps", 0, 20.0),
     Stream("lidar", "/bench/lidar", 0, 40.0),
-    Stream("battery", "/bench/battery", 0, 10.0),
+    Stream("battery", "/bench/battery", 0, 100.0),
     Stream("encoder", "/bench/encoder/fr", 0, 100.0),
     Stream("encoder", "/bench/encoder/fl", 1, 100.0),
     Stream("encoder", "/bench/encoder/rr", 2, 100.0),
     Stream("encoder", "/bench/encoder/rl", 3, 100.0),
 )
+# Its three cameras, and what it may carry besides.
 CAMERAS = (
-    Stream("image", "/bench/image", 0, 30.0),
-    Stream("image", "/bench/depth", 1, 10.0),
+    Stream("image", "/bench/camera/front", 0, 30.0),
+    Stream("image", "/bench/camera/left", 1, 30.0),
+    Stream("image", "/bench/camera/right", 2, 30.0),
+    Stream("image", "/bench/depth", 3, 10.0),
     Stream("point_cloud", "/bench/points", 0, 10.0),
 )
 

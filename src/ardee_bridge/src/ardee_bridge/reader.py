@@ -5,6 +5,7 @@ With a thread for each topic, as rospy has it, they would stand in each other's 
 publishers only where that node calls itself at home, so the reader is a node of its own beside rospy's.
 """
 import contextlib
+import itertools
 import select
 import socket
 import threading
@@ -32,8 +33,8 @@ class Kind(NamedTuple):
 class _Topic:
     """A topic of one type, who wants its messages, and the links to its publishers."""
 
-    def __init__(self, name: str, kind: Kind, warn: Warn) -> None:
-        self.name, self.kind, self._warn = name, kind, warn
+    def __init__(self, name: str, kind: Kind, number: int, warn: Warn) -> None:
+        self.name, self.kind, self.number, self._warn = name, kind, number, warn
         self.callbacks: List[Callable[[Any], None]] = []
         self.links: Dict[str, _Link] = {}
 
@@ -114,8 +115,10 @@ class Reader:
 
     def __init__(self, name: str, warn: Warn, on_shutdown: Callable[[str], None]) -> None:
         self.name, self.warn = name, warn
-        self._lock = threading.RLock()  # a signal that closes it may come in the midst of subscribe()
+        # a signal that closes it may come in the midst of subscribe()
+        self._lock = threading.RLock()
         self._topics: Dict[Tuple[str, str], _Topic] = {}
+        self._numbers = itertools.count()
         self._poll = select.epoll()
         self._watched: Dict[int, _Link] = {}
         self._is_closed = threading.Event()
@@ -128,9 +131,10 @@ class Reader:
         """Call back with every message of a topic, given by its full name."""
         key = (name, kind.name)
         with self._lock:
-            topic = self._topics.setdefault(key, _Topic(name, kind, self.warn))
-            topic.callbacks.append(callback)
-            self._registrar.want(self._topics)
+            if key not in self._topics:
+                self._topics[key] = _Topic(name, kind, next(self._numbers), self.warn)
+            self._topics[key].callbacks.append(callback)
+            self._register()
         return Subscription(lambda: self._end(key, callback))
 
     def _end(self, key: Tuple[str, str], callback: Callable[[Any], None]) -> None:
@@ -142,7 +146,12 @@ class Reader:
             for link in topic.links.values():
                 link.drop()
             del self._topics[key]
-            self._registrar.want(self._topics)
+            self._register()
+
+    def _register(self) -> None:
+        self._registrar.want(
+            (topic.name, topic.kind.name, topic.number) for topic in self._topics.values()
+        )
 
     def _on_publishers(self, name: str, uris: List[str], are_all: bool) -> None:
         with self._lock:

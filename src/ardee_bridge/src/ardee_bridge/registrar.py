@@ -14,7 +14,8 @@ RETRY_S = 1.0
 START_S = 10.0
 MASTER_AWAY = AWAY + (rosgraph.MasterException,)
 
-Topic = Tuple[str, str]  # name, type
+# Name, type, and a number, for a topic that is subscribed to anew wants its publishers anew.
+Topic = Tuple[str, str, int]
 Answer = Tuple[int, str, Any]  # of the slave API: 1 and a value, or 0 and why there is none
 
 
@@ -82,11 +83,11 @@ class Registrar:
     def _reconcile(self) -> None:
         wanted, uri = self._wanted, self._server.uri
         for topic in self._registered - wanted:
-            if topic[0] not in {name for name, _ in wanted}:
+            if topic[0] not in {name for name, _, _ in wanted}:
                 self._master.unregisterSubscriber(topic[0], uri)
             self._registered.remove(topic)
         for topic in wanted - self._registered:
-            publishers = self._master.registerSubscriber(*topic, uri)
+            publishers = self._master.registerSubscriber(topic[0], topic[1], uri)
             self._registered.add(topic)
             # another publisher may have come since, of which the slave API was told first
             self._owner.on_publishers(topic[0], publishers, False)
@@ -124,14 +125,18 @@ class _SlaveApi(XmlRpcHandler):
         return 1, "", []
 
     def getSubscriptions(self, _caller: str) -> Answer:
-        return 1, "", [list(topic) for topic in self._registrar.wanted()]
+        return 1, "", [[name, kind] for name, kind, _ in self._registrar.wanted()]
 
     def getBusStats(self, _caller: str) -> Answer:
         return 1, "", [[], [], []]
 
     def getBusInfo(self, _caller: str) -> Answer:
         connections = self._owner.connections()
-        return 1, "", [[n, uri, "i", "TCPROS", topic, 1] for n, (topic, uri) in enumerate(connections)]
+        return (
+            1,
+            "",
+            [[n, uri, "i", "TCPROS", topic, 1] for n, (topic, uri) in enumerate(connections)],
+        )
 
     def shutdown(self, _caller: str, reason: str = "") -> Answer:
         self._owner.on_shutdown(reason)

@@ -4,7 +4,8 @@ import http.client
 import socket
 import struct
 import xmlrpc.client
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, Tuple
+from xml.parsers.expat import ExpatError
 
 from rosgraph.network import (
     ROSHandshakeException,
@@ -20,7 +21,7 @@ MAX_MESSAGE_BYTES = 64 << 20
 KEEPALIVE = {socket.TCP_KEEPIDLE: 60, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 9}
 _LENGTH = struct.Struct("<I")
 # What goes wrong when the other side has ended, or has not started yet.
-AWAY = (OSError, xmlrpc.client.Error, http.client.HTTPException, ROSHandshakeException)
+AWAY = (OSError, xmlrpc.client.Error, ExpatError, http.client.HTTPException, ROSHandshakeException)
 
 
 class Refused(Exception):
@@ -41,11 +42,7 @@ def connect(uri: str, topic: str, caller_id: str, kind: str, md5sum: str) -> soc
 
     Raises Refused, or one of AWAY.
     """
-    with xmlrpc.client.ServerProxy(uri, _PatientTransport()) as publisher:
-        code, status, place = publisher.requestTopic(caller_id, topic, [["TCPROS"]])
-    if code != 1 or len(place) != 3:
-        raise ConnectionError(f"{uri}: {status}")
-    opened = socket.create_connection((place[1], place[2]), PATIENCE_S)
+    opened = socket.create_connection(_place(uri, topic, caller_id), PATIENCE_S)
     try:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for option, value in KEEPALIVE.items():
@@ -60,12 +57,31 @@ def connect(uri: str, topic: str, caller_id: str, kind: str, md5sum: str) -> soc
     return opened
 
 
+def _place(uri: str, topic: str, caller_id: str) -> Tuple[str, int]:
+    """Where the node says that it publishes the topic."""
+    with xmlrpc.client.ServerProxy(uri, _PatientTransport()) as publisher:
+        answer = publisher.requestTopic(caller_id, topic, [["TCPROS"]])
+    try:
+        code, status, place = answer
+        if code != 1:
+            raise ConnectionError(f"{uri}: {status}")
+        _, host, port = place
+        if isinstance(host, str) and 0 < port < 65536:
+            return host, port
+    except (TypeError, ValueError):
+        pass
+    raise Refused(f"found {answer!r} as its place, expected protocol, host and port")
+
+
 def _read_header(opened: socket.socket) -> Dict[str, str]:
     length = _exactly(opened, _LENGTH.size)
     (size,) = _LENGTH.unpack(length)
     if size > MAX_HEADER_BYTES:
         raise Refused(f"a connection header of {size} bytes, expected at most {MAX_HEADER_BYTES}")
-    return decode_ros_handshake_header(length + _exactly(opened, size))
+    try:
+        return decode_ros_handshake_header(length + _exactly(opened, size))
+    except (ValueError, struct.error) as error:
+        raise Refused(f"a connection header that cannot be read: {error}") from None
 
 
 def _exactly(opened: socket.socket, count: int) -> bytes:
