@@ -124,7 +124,7 @@ def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, l
         from_watcher.send("end")
         watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
         time.sleep(latency.SETTLE_S)
-        from_receiver.send("end")
+        from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
     found = {}
     for kind in dict.fromkeys(source.kind for source in small):
