@@ -93,15 +93,16 @@ def main() -> None:
     try:
         name, values = pipe.recv()
         rospy.init_node(f"{name}_frames", disable_rostime=True, disable_signals=True)
-        _serve(pipe, values, socket.socket(fileno=socket_file), PairLock(lock_file, is_shared=True))
+        _serve(pipe, values, socket.socket(fileno=socket_file), lock_file)
     except EOFError:
         pass
     rospy.signal_shutdown("the sensor server has ended")
 
 
-def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock: PairLock) -> None:
+def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock_file: int) -> None:
     counters = Counters(rospy.logwarn)
     settings = read_server(values)
+    lock = PairLock(lock_file, is_shared=True, priority=settings.realtime_priority)
     server = SensorServer(settings, opened, counters, lock=lock)
     server.set_clients(())
     subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server, by_rospy)
