@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A node of ROS that subscribes to topics, without rospy: it tells the master, and the master tells it of publishers."""
+"""A node of ROS that subscribes to topics, without rospy: it tells the master, which tells it of publishers."""
 import contextlib
 import os
 import threading

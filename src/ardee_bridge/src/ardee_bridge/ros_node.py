@@ -95,7 +95,7 @@ class MasterWatch:
 
 
 def go_first(priority: int) -> bool:
-    """Have all threads but this one run before all programs without real-time priority; False where that is not granted.
+    """Have all threads but this one run before programs without real-time priority; False where that is not granted.
 
     All, for any of them may hold Python's lock; but this one, which strangers' datagrams can keep busy. What the
     threads start is like any other again.

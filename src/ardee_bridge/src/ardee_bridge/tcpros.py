@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connections to the publishers of ROS topics, as a node makes them (https://wiki.ros.org/ROS/TCPROS); without rospy."""
+"""Connections to the publishers of ROS topics, as a node makes them (wiki.ros.org/ROS/TCPROS); without rospy."""
 import http.client
 import socket
 import struct
