@@ -7,11 +7,20 @@ from typing import Any, Dict, List
 P99_BUDGET_MS = 2.0
 
 
-def measure(seconds: float) -> Dict[str, Any]:
-    """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's."""
-    simulated = _run(seconds, "--simulator")
-    simulated.pop("datagram to cmd_vel")  # the same measurement again
-    return {**_run(seconds), **{f"simulated {name}": f for name, f in simulated.items()}}
+def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
+    """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's.
+
+    And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them: is a message lost?
+    """
+    simulated = _without_controls(_run(seconds, "--simulator"))
+    figures = {**_run(seconds), **{f"simulated {name}": f for name, f in simulated.items()}}
+    everything = _without_controls(_run(loss_s, "--cameras"))
+    return {**figures, **{f"beside cameras, {name}": f for name, f in everything.items()}}
+
+
+def _without_controls(figures: Dict[str, Any]) -> Dict[str, Any]:
+    """They are the same measurement each time."""
+    return {name: f for name, f in figures.items() if name != "datagram to cmd_vel"}
 
 
 def _run(seconds: float, *options: str) -> Dict[str, Any]:

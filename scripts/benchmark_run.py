@@ -52,9 +52,12 @@ def options() -> argparse.Namespace:
     parser.add_argument("--repeat", type=positive, default=3)
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--window-s", type=float, default=8.0, help="wall time of a drive with ROS")
+    parser.add_argument("--loss-s", type=float, default=60.0, help="of the bridge at all rates")
     found = parser.parse_args()
     if not 0.5 <= found.window_s <= 100.0:
         parser.error(f"--window-s: found {found.window_s}, expected 0.5 to 100")
+    if not 0.5 <= found.loss_s <= 86400.0:
+        parser.error(f"--loss-s: found {found.loss_s}, expected 0.5 to 86400")
     if found.json and not found.json.resolve().parent.is_dir():
         parser.error(f"--json: the folder of {found.json} does not exist")
     return found
@@ -99,7 +102,10 @@ def main() -> int:
     try:
         about = benchmark_table.machine()
         results = measure_all(found, work) if found.only != ["bridge"] else {}
-        bridge = benchmark_bridge.measure(found.window_s) if "bridge" in found.only else {}
+        bridge = {}  # type: Dict[str, Any]
+        if "bridge" in found.only:
+            say("bridge")
+            bridge = benchmark_bridge.measure(found.window_s, found.loss_s)
         print(benchmark_table.header(about, found.repeat))
         if results:
             print(benchmark_table.table(results))

@@ -19,7 +19,8 @@ def run(*arguments: str) -> subprocess.CompletedProcess:
 
 def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "figures.json"
-    done = run("--plants", "200", "--repeat", "1", "--window-s", "0.5", "--json", str(path))
+    brief = ("--repeat", "1", "--window-s", "0.5", "--loss-s", "0.5")
+    done = run("--plants", "200", *brief, "--json", str(path))
     assert done.returncode == 0, done.stderr
     figures = json.loads(path.read_text())["plants"]["200"]
     for row in benchmark_table.ROWS:
@@ -35,6 +36,8 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     for name, spread in json.loads(path.read_text())["bridge"].items():
         assert 0.0 < spread["p50_ms"] <= spread["p99_ms"] <= spread["max_ms"], name
         assert name in done.stdout
+        assert spread["sent"] > 0 and f"{spread['lost']} of {spread['sent']} lost" in done.stdout
+    assert "beside cameras, point_cloud message to datagram" in done.stdout
 
 
 def test_bad_arguments_are_named() -> None:

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The bridge's nodes by all their names, alone and from the launch file, and what they say to bad settings."""
 import json
+import os
+import pathlib
 import re
+import time
+from typing import List
 
 import pytest
 from bridge_bench import free_port
@@ -24,6 +28,29 @@ def test_each_name_starts_alone_on_loopback_and_ends_by_ctrl_c(
     assert f"/{name}" in shared_graph.run("rosnode", "list").split()
     node.interrupt()
     assert node.wait(20.0) == 0, node.output()
+
+
+def policies(pid: int) -> List[int]:
+    """Of the threads of a process: how they are scheduled, the first thread's first."""
+    threads = sorted(int(path.name) for path in pathlib.Path(f"/proc/{pid}/task").iterdir())
+    return [os.sched_getscheduler(thread) & ~os.SCHED_RESET_ON_FORK for thread in threads]
+
+
+@pytest.mark.parametrize("priority", [0, 1])
+def test_what_sends_the_small_sensors_goes_first_where_that_is_granted(
+    shared_graph: RosGraph, priority: int
+) -> None:
+    parameters = ("_port:=0", f"_realtime_priority:={priority}")
+    node = shared_graph.spawn("rosrun", "ardee_bridge", "sensor_server_node", *parameters)
+    wait_until(lambda: "sensors leave" in node.output(), "it sends")
+    time.sleep(1.0)
+    is_granted = priority and "no real-time priority is granted" not in node.output()
+    found = policies(node.pid)
+    assert found[0] == os.SCHED_OTHER  # strangers' datagrams keep this one busy
+    assert (os.SCHED_RR in found) == bool(is_granted)
+    node.interrupt()
+    assert node.wait(20.0) == 0, node.output()
+    shared_graph.run("rosparam", "delete", "/sensor_server_node")
 
 
 @pytest.mark.parametrize(

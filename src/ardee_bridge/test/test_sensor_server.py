@@ -26,6 +26,7 @@ VALUES = dict(
     max_clients=2,
     client_lease_s=30.0,
     multicast_ttl=1,
+    realtime_priority=0,
 )
 SOURCES = [
     dict(name="imu", kind="imu", topic="imu"),

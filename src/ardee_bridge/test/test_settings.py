@@ -28,6 +28,7 @@ def test_shipped_defaults_are_those_of_the_thesis(package):
     [
         (dict(port=70000), "port: found 70000, expected a whole number from 0 to 65535"),
         (dict(port=True), "port: found True, expected a whole number"),
+        (dict(realtime_priority=100), "realtime_priority: found 100, expected a whole number"),
         (dict(prot=1), "prot: unknown; known here are"),
         (
             dict(bind_address="localhost"),

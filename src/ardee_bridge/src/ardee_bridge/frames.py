@@ -19,7 +19,7 @@ from ardee_bridge import ros_node
 from ardee_bridge.counters import Counters
 from ardee_bridge.sensor_server import SensorServer, Target
 from ardee_bridge.settings import read_server
-from ardee_bridge.subscriptions import Subscriptions
+from ardee_bridge.subscriptions import Subscriptions, by_rospy
 from ardee_bridge.udp import PairLock
 
 PATIENCE_S = 5.0
@@ -93,18 +93,19 @@ def main() -> None:
     try:
         name, values = pipe.recv()
         rospy.init_node(f"{name}_frames", disable_rostime=True, disable_signals=True)
-        _serve(pipe, values, socket.socket(fileno=socket_file), PairLock(lock_file, is_shared=True))
+        _serve(pipe, values, socket.socket(fileno=socket_file), lock_file)
     except EOFError:
         pass
     rospy.signal_shutdown("the sensor server has ended")
 
 
-def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock: PairLock) -> None:
+def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock_file: int) -> None:
     counters = Counters(rospy.logwarn)
     settings = read_server(values)
+    lock = PairLock(lock_file, is_shared=True, priority=settings.realtime_priority)
     server = SensorServer(settings, opened, counters, lock=lock)
     server.set_clients(())
-    subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server)
+    subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server, by_rospy)
     ros_node.start_diagnostics(rospy.get_name(), counters)
     while not rospy.is_shutdown():
         if pipe.poll(ros_node.POLL_S):

@@ -28,6 +28,8 @@ MASTER = (
 START_LIMIT_S = 30.0
 # Time for the last messages to arrive.
 SETTLE_S = 0.5
+# Nothing for so long: no message is on its way any more, however busy the machine.
+SILENCE_S = 3.0
 COMMAND_RATE_HZ = 100.0
 
 Key = Tuple[int, int]  # data type, component id
@@ -49,20 +51,23 @@ class Stream(NamedTuple):
         return (int(KINDS[self.kind]), self.component_id)
 
 
-# The full rates of the TerraSentia's sensors.
+# The full rates of the TerraSentia v3's sensors.
 SENSORS = (
     Stream("imu", "/bench/imu", 0, 100.0),
     Stream("gps", "/bench/gps", 0, 20.0),
     Stream("lidar", "/bench/lidar", 0, 40.0),
-    Stream("battery", "/bench/battery", 0, 10.0),
+    Stream("battery", "/bench/battery", 0, 100.0),
     Stream("encoder", "/bench/encoder/fr", 0, 100.0),
     Stream("encoder", "/bench/encoder/fl", 1, 100.0),
     Stream("encoder", "/bench/encoder/rr", 2, 100.0),
     Stream("encoder", "/bench/encoder/rl", 3, 100.0),
 )
+# Its three cameras, and what it may carry besides.
 CAMERAS = (
-    Stream("image", "/bench/image", 0, 30.0),
-    Stream("image", "/bench/depth", 1, 10.0),
+    Stream("image", "/bench/camera/front", 0, 30.0),
+    Stream("image", "/bench/camera/left", 1, 30.0),
+    Stream("image", "/bench/camera/right", 2, 30.0),
+    Stream("image", "/bench/depth", 3, 10.0),
     Stream("point_cloud", "/bench/points", 0, 10.0),
 )
 
@@ -147,12 +152,18 @@ def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple
     body(pipe, *args)
 
 
-def answer(process: Any, pipe: Any, limit_s: float) -> Any:
+def hear(pipe: Any, limit_s: float) -> Any:
+    """What a process says."""
     if not pipe.poll(limit_s):
         raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
-    answer = pipe.recv()
+    return pipe.recv()
+
+
+def answer(process: Any, pipe: Any, limit_s: float) -> Any:
+    """What a process says at its end."""
+    said = hear(pipe, limit_s)
     process.join(START_LIMIT_S)
-    return answer
+    return said
 
 
 def serial_of(header: codec.Header, data: bytes) -> int:
@@ -172,13 +183,22 @@ def serial_of(header: codec.Header, data: bytes) -> int:
 
 
 def receive_datagrams(pipe: Any) -> List[Tuple[bytes, int]]:
-    """Say one's port, receive until told to end: what came, and when [ns]."""
+    """Say one's port, receive until told to end, "at once" or when nothing comes any more: what came, and when [ns].
+
+    The receiver is to be another computer, which has nothing else to do: it goes first here, where that is granted.
+    """
+    with contextlib.suppress(PermissionError):
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))
     opened = open_socket("127.0.0.1", 0)
     opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
     pipe.send(opened.getsockname()[1])
-    kept = []
-    while not pipe.poll():
-        if not select.select([opened], [], [], 0.05)[0]:
+    kept, word = [], ""
+    while word != "at once":
+        if pipe.poll():
+            word = pipe.recv()
+        if not select.select([opened], [], [], SILENCE_S if word else 0.05)[0]:
+            if word:
+                break
             continue
         while True:
             try:
@@ -209,7 +229,7 @@ def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[Key, Dict[int, int]]:
 
 
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, then says when each message was published."""
+    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told."""
     import rospy
 
     from ardee_bridge import latency_messages
@@ -237,8 +257,8 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
         times[stream.key].append(time.time_ns())
         publishers[index].publish(messages[index])
         due[index] += 1.0 / stream.rate_hz
-    time.sleep(SETTLE_S)
     pipe.send(times)
+    pipe.recv()
 
 
 def _sources(streams: Sequence[Stream]) -> str:
@@ -260,10 +280,13 @@ def measure_sensors(seconds: float, cameras: bool) -> Dict[str, Spread]:
         with node(env, "sensor_server_node", "_port:=0", f"_peers:=[{peer}]", _sources(streams)):
             running = [in_process(env, publish_sensors, group, seconds) for group in groups]
             times = {}  # type: Times
+            for _, pipe in running:
+                times.update(hear(pipe, seconds + 2 * START_LIMIT_S))
+            from_receiver.send("when nothing comes any more")
+            arrivals = answer(receiver, from_receiver, 2 * START_LIMIT_S + seconds)
             for process, pipe in running:
-                times.update(answer(process, pipe, seconds + 2 * START_LIMIT_S))
-        from_receiver.send("end")
-        arrivals = answer(receiver, from_receiver, START_LIMIT_S + seconds)
+                pipe.send("end")
+                process.join(START_LIMIT_S)
     return _by_kind(streams, times, arrivals)
 
 

@@ -110,20 +110,21 @@ def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, l
         )
         _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
         stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
-        server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")
-        stack.enter_context(latency.node(env, *server))
         topics = [f"/{source.topic}" for source in small]
         watcher, from_watcher = latency.in_process(env, witness.watch, topics, START_LIMIT_S)
         if not from_watcher.poll(START_LIMIT_S):
             raise TimeoutError("the simulated robot does not publish")
         from_watcher.recv()
+        # publishers write to their subscribers in the order of their coming: the witness's before the server's
+        server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")
+        stack.enter_context(latency.node(env, *server))
         time.sleep(WARM_UP_S)
         since_ns = time.time_ns()
         time.sleep(seconds)
         from_watcher.send("end")
         watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
         time.sleep(latency.SETTLE_S)
-        from_receiver.send("end")
+        from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
     found = {}
     for kind in dict.fromkeys(source.kind for source in small):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
 import http.client
+import os
 import sys
 import threading
 import xmlrpc.client
@@ -93,6 +94,24 @@ class MasterWatch:
         rospy.signal_shutdown("forgotten by the master")
 
 
+def go_first(priority: int) -> bool:
+    """Have all threads but this one run before programs without real-time priority; False where that is not granted.
+
+    All, for any of them may hold Python's lock; but this one, which strangers' datagrams can keep busy. What the
+    threads start is like any other again.
+    """
+    policy, parameter = os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(priority)
+    for thread in map(int, os.listdir("/proc/self/task")):
+        try:
+            if thread != threading.get_native_id():
+                os.sched_setscheduler(thread, policy, parameter)
+        except ProcessLookupError:
+            pass  # it has ended
+        except PermissionError:
+            return False
+    return True
+
+
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
@@ -100,12 +119,12 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """
     sys.setswitchinterval(SWITCH_INTERVAL_S)
     rospy.init_node(name, disable_rostime=True)
+    watch = MasterWatch()
     try:
         step = body()
     except (SettingError, OSError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 2
-    watch = MasterWatch()
     while not rospy.is_shutdown():
         step(POLL_S)
     return 3 if watch.is_forgotten else 0

@@ -176,6 +176,7 @@ class ServerSettings(NamedTuple):
     max_clients: int
     client_lease_s: float
     multicast_ttl: int
+    realtime_priority: int
     sources: Tuple[Source, ...]
 
 
@@ -250,6 +251,7 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
         max_clients=reader.whole("max_clients", 0, 1024),
         client_lease_s=reader.number("client_lease_s", 0.1, 86400.0),
         multicast_ttl=reader.whole("multicast_ttl", 0, 255),
+        realtime_priority=reader.whole("realtime_priority", 0, 99),
         sources=sources,
     )
     reader.finish()

@@ -37,11 +37,12 @@ class PairLock:
     """Held while the two datagrams of a message are sent, among threads and among the processes that share the file.
 
     The system takes it back from a process that dies with it. Taking the file lets another thread run each time, which
-    a burst of messages feels: without another process there is no need for it.
+    a burst of messages feels: without another process there is no need for it. With a real-time priority, whoever holds
+    the lock has it: a thread that other programs keep from its processor would keep everybody waiting.
     """
 
-    def __init__(self, file: int, is_shared: bool) -> None:
-        self.file, self.is_shared = file, is_shared
+    def __init__(self, file: int, is_shared: bool, priority: int = 0) -> None:
+        self.file, self.is_shared, self._priority = file, is_shared, priority
         self._threads = threading.Lock()
 
     @classmethod
@@ -51,13 +52,23 @@ class PairLock:
 
     def __enter__(self) -> None:
         self._threads.acquire()
+        self._hurry(os.SCHED_RR, self._priority)
         if self.is_shared:
             fcntl.lockf(self.file, fcntl.LOCK_EX)
 
     def __exit__(self, *_: object) -> None:
         if self.is_shared:
             fcntl.lockf(self.file, fcntl.LOCK_UN)
+        self._hurry(os.SCHED_OTHER, 0)
         self._threads.release()
+
+    def _hurry(self, policy: int, priority: int) -> None:
+        if not self._priority:
+            return
+        try:
+            os.sched_setscheduler(0, policy, os.sched_param(priority))
+        except PermissionError:
+            self._priority = 0
 
 
 class Inbox:

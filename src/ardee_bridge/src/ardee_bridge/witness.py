@@ -8,10 +8,11 @@ import select
 import socket
 import struct
 import time
-import xmlrpc.client
 from typing import Any, Dict, List, Optional, Sequence
 
 import rosgraph
+
+from ardee_bridge import tcpros
 
 SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
 CALLER = "/latency_witness"
@@ -32,45 +33,33 @@ class Connection:
 
     def __init__(self, topic: str, patience_s: float) -> None:
         self.times: Dict[int, int] = {}  # stamp of the message [ns]: arrival [ns]
-        self._buffer = bytearray()
-        address = _publisher(topic, time.monotonic() + patience_s)
-        self.socket = socket.create_connection(address, patience_s)
+        self._splitter = tcpros.Splitter(self._keep)
+        self._at_ns: Optional[int] = None
+        uri = _publisher(topic, time.monotonic() + patience_s)
+        self.socket = tcpros.connect(uri, topic, CALLER, "*", "*")
         self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
-        header = dict(topic=topic, md5sum="*", type="*", callerid=CALLER, tcp_nodelay="1")
-        rosgraph.network.write_ros_handshake_header(self.socket, header)
-        self._expect_header = True
 
     def read(self) -> None:
         """Take what has arrived."""
         data, extras, _, _ = self.socket.recvmsg(1 << 16, 256)
         if not data:
             raise ConnectionError("the publisher has ended")
-        at_ns = timestamp_ns(extras)
-        self._buffer += data
-        while len(self._buffer) >= 4:
-            size = 4 + int.from_bytes(self._buffer[:4], "little")
-            if len(self._buffer) < size:
-                return
-            message = bytes(self._buffer[4:size])
-            del self._buffer[:size]
-            if self._expect_header:
-                self._expect_header = False
-            elif at_ns is not None:
-                seconds, nanoseconds = struct.unpack_from("<II", message, STAMP_AT)
-                self.times[seconds * 10**9 + nanoseconds] = at_ns
+        self._at_ns = timestamp_ns(extras)
+        self._splitter.feed(data)
+
+    def _keep(self, message: bytes) -> None:
+        if self._at_ns is not None:
+            seconds, nanoseconds = struct.unpack_from("<II", message, STAMP_AT)
+            self.times[seconds * 10**9 + nanoseconds] = self._at_ns
 
 
-def _publisher(topic: str, deadline_s: float) -> Any:
-    """Address of the first publisher that the master knows."""
+def _publisher(topic: str, deadline_s: float) -> str:
+    """URI of the first publisher that the master knows."""
     master = rosgraph.Master(CALLER)
     while True:
         publishers = [nodes for name, nodes in master.getSystemState()[0] if name == topic]
         if publishers:
-            slave = xmlrpc.client.ServerProxy(master.lookupNode(publishers[0][0]))
-            code, status, answer = slave.requestTopic(CALLER, topic, [["TCPROS"]])
-            if code != 1:
-                raise ConnectionError(f"{topic}: {status}")
-            return answer[1], answer[2]
+            return master.lookupNode(publishers[0][0])
         if time.monotonic() > deadline_s:
             raise TimeoutError(f"nobody publishes {topic}")
         time.sleep(0.1)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""Connections to the publishers of ROS topics, as a node makes them (wiki.ros.org/ROS/TCPROS); without rospy."""
+import http.client
+import socket
+import struct
+import xmlrpc.client
+from typing import Any, Callable, Dict, Tuple
+from xml.parsers.expat import ExpatError
+
+from rosgraph.network import (
+    ROSHandshakeException,
+    decode_ros_handshake_header,
+    encode_ros_handshake_header,
+)
+
+# How long a publisher may take to answer.
+PATIENCE_S = 10.0
+MAX_HEADER_BYTES = 1 << 20
+MAX_MESSAGE_BYTES = 64 << 20
+# As rospy has them: a publisher that vanishes without a word is noticed after two and a half minutes.
+KEEPALIVE = {socket.TCP_KEEPIDLE: 60, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 9}
+_LENGTH = struct.Struct("<I")
+# What goes wrong when the other side has ended, or has not started yet.
+AWAY = (OSError, xmlrpc.client.Error, ExpatError, http.client.HTTPException, ROSHandshakeException)
+
+
+class Refused(Exception):
+    """The publisher and we do not agree on what is published: what it says, or what was found and expected."""
+
+
+class _PatientTransport(xmlrpc.client.Transport):
+    """XML-RPC that does not wait for ever."""
+
+    def make_connection(self, host: Any) -> Any:
+        connection = super().make_connection(host)
+        connection.timeout = PATIENCE_S
+        return connection
+
+
+def connect(uri: str, topic: str, caller_id: str, kind: str, md5sum: str) -> socket.socket:
+    """A connection to the node at `uri` that does not block, on which messages come at once; "*" is any type or md5sum.
+
+    Raises Refused, or one of AWAY.
+    """
+    opened = socket.create_connection(_place(uri, topic, caller_id), PATIENCE_S)
+    try:
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+        for option, value in KEEPALIVE.items():
+            opened.setsockopt(socket.IPPROTO_TCP, option, value)
+        wanted = dict(topic=topic, type=kind, md5sum=md5sum, callerid=caller_id, tcp_nodelay="1")
+        opened.sendall(encode_ros_handshake_header(wanted))
+        _check(_read_header(opened), md5sum)
+        opened.setblocking(False)
+    except BaseException:
+        opened.close()
+        raise
+    return opened
+
+
+def _place(uri: str, topic: str, caller_id: str) -> Tuple[str, int]:
+    """Where the node says that it publishes the topic."""
+    with xmlrpc.client.ServerProxy(uri, _PatientTransport()) as publisher:
+        answer = publisher.requestTopic(caller_id, topic, [["TCPROS"]])
+    try:
+        code, status, place = answer
+        if code != 1:
+            raise ConnectionError(f"{uri}: {status}")
+        _, host, port = place
+        if isinstance(host, str) and 0 < port < 65536:
+            return host, port
+    except (TypeError, ValueError):
+        pass
+    raise Refused(f"found {answer!r} as its place, expected protocol, host and port")
+
+
+def _read_header(opened: socket.socket) -> Dict[str, str]:
+    length = _exactly(opened, _LENGTH.size)
+    (size,) = _LENGTH.unpack(length)
+    if size > MAX_HEADER_BYTES:
+        raise Refused(f"a connection header of {size} bytes, expected at most {MAX_HEADER_BYTES}")
+    try:
+        return decode_ros_handshake_header(length + _exactly(opened, size))
+    except (ValueError, struct.error) as error:
+        raise Refused(f"a connection header that cannot be read: {error}") from None
+
+
+def _exactly(opened: socket.socket, count: int) -> bytes:
+    read = b""
+    while len(read) < count:
+        part = opened.recv(count - len(read))
+        if not part:
+            raise ConnectionError("the publisher has ended")
+        read += part
+    return read
+
+
+def _check(header: Dict[str, str], md5sum: str) -> None:
+    if "error" in header:
+        raise Refused(header["error"])
+    found = header.get("md5sum", "")
+    if md5sum != "*" and found not in (md5sum, "*"):
+        raise Refused(
+            f"messages of type {header.get('type')}, md5sum {found}; expected md5sum {md5sum}"
+        )
+
+
+class Splitter:
+    """Makes messages of a connection's bytes."""
+
+    def __init__(self, take: Callable[[bytes], None]) -> None:
+        self._take = take
+        self._rest = bytearray()
+
+    def feed(self, data: bytes) -> None:
+        """Hand on every message that is complete with these bytes."""
+        rest = self._rest
+        rest += data
+        at, end = 0, len(rest)
+        while end - at >= 4:
+            (size,) = _LENGTH.unpack_from(rest, at)
+            if size > MAX_MESSAGE_BYTES:
+                raise Refused(f"a message of {size} bytes, expected at most {MAX_MESSAGE_BYTES}")
+            if end - at - 4 < size:
+                break
+            at += 4 + size
+            self._take(bytes(rest[at - size : at]))
+        del rest[:at]

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""Messages from the bytes of a connection, and handshakes with publishers that say what they should not."""
+import random
+import socket
+import struct
+import threading
+from typing import Callable, List
+from xmlrpc.server import SimpleXMLRPCServer
+
+import pytest
+from rosgraph.network import encode_ros_handshake_header
+
+from ardee_bridge import tcpros
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_messages_are_the_same_however_their_bytes_arrive(seed):
+    rng = random.Random(seed)
+    sent = [rng.randbytes(rng.choice((0, 1, 3, 4, 5, 100, 70_000))) for _ in range(30)]
+    stream = b"".join(struct.pack("<I", len(message)) + message for message in sent)
+    found: List[bytes] = []
+    splitter = tcpros.Splitter(found.append)
+    while stream:
+        count = rng.choice((1, 2, 3, 4, 5, 50, 65536))
+        splitter.feed(stream[:count])
+        stream = stream[count:]
+    assert found == sent
+
+
+def test_a_length_that_no_message_has_is_refused():
+    splitter = tcpros.Splitter(lambda message: None)
+    with pytest.raises(tcpros.Refused, match="a message of 4294967295 bytes, expected at most"):
+        splitter.feed(b"\xff\xff\xff\xff")
+
+
+class Publisher:
+    """A node that says these bytes to whoever connects."""
+
+    def __init__(self, said: bytes) -> None:
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self._said = said
+        self._server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+        place = ["TCPROS", *self._listening.getsockname()]
+        self._server.register_function(lambda *_: (1, "", place), "requestTopic")
+        self._threads = [threading.Thread(target=body) for body in (self._answer, self._say)]
+        for thread in self._threads:
+            thread.start()
+        self.uri = "http://%s:%d/" % self._server.server_address
+
+    def _answer(self) -> None:
+        self._server.handle_request()
+
+    def _say(self) -> None:
+        connected, _ = self._listening.accept()
+        with connected:
+            connected.recv(4096)
+            connected.sendall(self._said)
+
+    def close(self) -> None:
+        for thread in self._threads:
+            thread.join()
+        self._server.server_close()
+        self._listening.close()
+
+
+@pytest.fixture
+def say():
+    made: List[Publisher] = []
+
+    def make(said: bytes) -> Callable[[], socket.socket]:
+        made.append(Publisher(said))
+        return lambda: tcpros.connect(made[-1].uri, "/topic", "/test", "a/B", "1234")
+
+    yield make
+    for publisher in made:
+        publisher.close()
+
+
+def header(**fields: str) -> bytes:
+    return encode_ros_handshake_header(fields)
+
+
+@pytest.mark.parametrize(
+    "said, error, message",
+    [
+        (header(error="no such topic"), tcpros.Refused, "no such topic"),
+        (header(type="c/D", md5sum="99"), tcpros.Refused, "of type c/D, md5sum 99; expected"),
+        (header(type="c/D"), tcpros.Refused, "md5sum ; expected md5sum 1234"),
+        (b"\xff\xff\xff\x7f", tcpros.Refused, "a connection header of 2147483647 bytes"),
+        (b"\x05\x00\x00\x00ab", ConnectionError, "has ended"),
+        (b"", ConnectionError, "has ended"),
+        (b"\x04\x00\x00\x00\xff\xff\xff\x7f", tcpros.AWAY, ""),
+        (b"\x06\x00\x00\x00\x02\x00\x00\x00=\xff", tcpros.Refused, "cannot be read"),
+        (b"\x02\x00\x00\x00ab", tcpros.Refused, "cannot be read"),
+    ],
+)
+def test_what_a_publisher_should_not_say(say, said, error, message):
+    with pytest.raises(error, match=message):
+        say(said)()
+
+
+def test_a_connection_gives_its_messages(say):
+    connect = say(header(type="a/B", md5sum="1234") + b"\x02\x00\x00\x00hi")
+    found: List[bytes] = []
+    with connect() as connected:
+        connected.settimeout(10.0)
+        splitter = tcpros.Splitter(found.append)
+        while not found:
+            splitter.feed(connected.recv(100))
+    assert found == [b"hi"]
+
+
+@pytest.mark.parametrize(
+    "answer, error, message",
+    [
+        ((0, "not mine", 0), ConnectionError, "not mine"),
+        ((1, "", ["TCPROS", "127.0.0.1", 70_000]), tcpros.Refused, "expected protocol, host and"),
+        ((1, "", ["TCPROS", "127.0.0.1", "x"]), tcpros.Refused, "expected protocol, host and port"),
+        ((1, "", 7), tcpros.Refused, "found .1, '', 7. as its place"),
+        ("maybe", tcpros.Refused, "found .maybe. as its place"),
+    ],
+)
+def test_places_that_are_none(answer, error, message):
+    with SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False) as server:
+        server.register_function(lambda *_: answer, "requestTopic")
+        answering = threading.Thread(target=server.handle_request)
+        answering.start()
+        with pytest.raises(error, match=message):
+            uri = "http://%s:%d/" % server.server_address
+            tcpros.connect(uri, "/topic", "/test", "a/B", "1234")
+        answering.join()
+
+
+def test_a_publisher_that_is_not_there():
+    with socket.create_server(("127.0.0.1", 0)) as closed:
+        port = closed.getsockname()[1]
+    with pytest.raises(tcpros.AWAY):
+        tcpros.connect(f"http://127.0.0.1:{port}/", "/topic", "/test", "a/B", "1234")

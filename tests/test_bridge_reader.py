@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""The sensor server's reader of topics: publishers that come, die, return, and publish something else; its node."""
+import os
+import signal
+from typing import Any, Callable, Iterator, List
+
+import pytest
+import rosgraph
+from ros_graph import Process, RosGraph, wait_until
+from std_msgs.msg import Float64, Int32
+
+from ardee_bridge.reader import Kind, Reader
+
+NAME = "/reader_of_the_test"
+INT = Kind(Int32._type, Int32._md5sum, lambda data: Int32().deserialize(data).data)
+
+
+class Bench:
+    """A reader in this process, what it has said, and publishers in processes of their own."""
+
+    def __init__(self, graph: RosGraph) -> None:
+        self.graph = graph
+        self.said: List[str] = []
+        self.ended: List[str] = []
+        self.reader = Reader(NAME, self.said.append, self.ended.append)
+
+    def keep(self, topic: str) -> List[int]:
+        """Subscribe; the list of what comes."""
+        kept: List[int] = []
+        self.reader.subscribe(topic, INT, kept.append)
+        return kept
+
+    def publish(self, topic: str, value: int, kind: Any = Int32) -> Process:
+        """Somebody who publishes this value again and again."""
+        return self.graph.spawn("rostopic", "pub", "-r", "20", topic, kind._type, str(value))
+
+    def subscribed(self) -> List[str]:
+        """Topics that the master has the reader down for."""
+        topics = rosgraph.Master("/test").getSystemState()[1]
+        return [topic for topic, nodes in topics if NAME in nodes]
+
+
+@pytest.fixture
+def make(graph: RosGraph, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[], Bench]]:
+    """Makes a bench in a graph of its own, and takes it away."""
+    monkeypatch.setenv("ROS_MASTER_URI", graph.uri)
+    monkeypatch.setenv("ROS_IP", "127.0.0.1")
+    made: List[Bench] = []
+
+    def make_one() -> Bench:
+        made.append(Bench(graph))
+        return made[-1]
+
+    yield make_one
+    for each in made:
+        each.reader.close()
+
+
+def test_a_publisher_dies_without_a_word_and_another_comes(make: Callable[[], Bench]) -> None:
+    bench = make()
+    kept = bench.keep("/number")
+    first = bench.publish("/number", 1)
+    wait_until(lambda: 1 in kept, "the first one's")
+    os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    bench.publish("/number", 2)
+    wait_until(lambda: 2 in kept, "the second one's")
+    assert set(kept) == {1, 2} and bench.said == []
+
+
+def test_all_publishers_of_a_topic_are_read_and_every_callback_is_called(
+    make: Callable[[], Bench],
+) -> None:
+    bench = make()
+    bench.publish("/number", 1)
+    kept, also_kept = bench.keep("/number"), bench.keep("/number")
+    bench.publish("/number", 2)
+    wait_until(lambda: {1, 2} == set(kept) == set(also_kept), "both")
+
+
+def test_an_error_of_a_callback_is_said_and_the_next_messages_come(
+    make: Callable[[], Bench],
+) -> None:
+    bench = make()
+    tried: List[int] = []
+
+    def fail(value: int) -> None:
+        tried.append(value)
+        raise KeyError("of the test")
+
+    bench.reader.subscribe("/number", INT, fail)
+    kept = bench.keep("/number")
+    bench.publish("/number", 3)
+    wait_until(lambda: len(kept) > 2, "messages after the error")
+    assert len(tried) > 2 and "KeyError: 'of the test'" in bench.said[0]
+
+
+def test_another_type_is_refused_once_and_the_right_one_read(make: Callable[[], Bench]) -> None:
+    bench = make()
+    kept = bench.keep("/number")
+    wrong = bench.publish("/number", 1, Float64)
+    wait_until(lambda: bench.said, "it says so")
+    bench.publish("/number", 2)
+    wait_until(lambda: len(kept) > 40, "messages of the other publisher, for two seconds")
+    assert len(bench.said) == 1 and "/number of http" in bench.said[0]
+    assert set(kept) == {2} and wrong.exit_code() is None
+
+
+def test_whoever_unsubscribes_is_called_no_more_and_the_master_knows(
+    make: Callable[[], Bench],
+) -> None:
+    bench = make()
+    kept: List[int] = []
+    subscription = bench.reader.subscribe("/number", INT, kept.append)
+    others = bench.keep("/other")
+    bench.publish("/number", 1)
+    bench.publish("/other", 2)
+    wait_until(lambda: kept and others, "messages")
+    assert sorted(bench.subscribed()) == ["/number", "/other"]
+    subscription.unregister()
+    wait_until(lambda: bench.subscribed() == ["/other"], "the master knows")
+    before, other = len(kept), len(others)
+    wait_until(lambda: len(others) > other + 20, "the other topic goes on")
+    assert len(kept) <= before + 1
+    again = bench.keep("/number")
+    wait_until(lambda: again, "subscribed again")
+
+
+def test_a_topic_left_and_subscribed_to_at_once(make: Callable[[], Bench]) -> None:
+    bench = make()
+    bench.publish("/number", 6)
+    kept: List[int] = []
+    for _ in range(20):
+        subscription = bench.reader.subscribe("/number", INT, kept.append)
+        subscription.unregister()
+    before = len(kept)
+    last = bench.keep("/number")
+    wait_until(lambda: len(last) > 5, "messages of the last subscription")
+    assert len(kept) <= before + 1 and bench.subscribed() == ["/number"]
+
+
+def test_without_a_master_nobody_waits_and_with_one_it_registers(
+    make: Callable[[], Bench], graph: RosGraph
+) -> None:
+    graph.end_master()
+    bench = make()
+    kept = bench.keep("/number")
+    graph.start_master()
+    bench.publish("/number", 4)
+    wait_until(lambda: kept, "messages")
+    bench.reader.close()
+    assert bench.subscribed() == []
+
+
+def test_tools_find_a_node_like_any_other(make: Callable[[], Bench], graph: RosGraph) -> None:
+    bench = make()
+    kept = bench.keep("/number")
+    bench.publish("/number", 5)
+    wait_until(lambda: kept, "messages")
+    about = graph.run("rosnode", "info", NAME)
+    assert " * /number [std_msgs/Int32]" in about and "direction: inbound" in about
+    assert "xmlrpc reply" in graph.run("rosnode", "ping", "-c", "1", NAME)
+    graph.run("rosnode", "kill", NAME)
+    wait_until(lambda: bench.ended, "it is told")
