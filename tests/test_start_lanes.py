@@ -8,7 +8,10 @@ from ros_graph import RosGraph
 WORLDS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "worlds"
 STARTS = sorted(path.name.replace(".start.yaml", ".world") for path in WORLDS.glob("*.start.yaml"))
 STEPS_A_COMMAND, STEP_S, SPEED_M_S = 10, 0.005, 0.5
-SETTLE_STEPS, COMMANDS = 200, 320  # 1 s to come to rest, 16 s of driving: 1 m of headland, 7 m of lane
+SETTLE_STEPS, COMMANDS = (
+    200,
+    320,
+)  # 1 s to come to rest, 16 s of driving: 1 m of headland, 7 m of lane
 HEADING_GAIN_PER_S, OFFSET_GAIN_RAD_PER_M_S = 1.0, 0.8
 
 
@@ -41,9 +44,7 @@ def way_driven_m(world: str, folder: str) -> float:
 
 
 @pytest.mark.parametrize("world", STARTS)
-def test_a_robot_can_drive_off(
-    world: str, shared_graph: RosGraph, tmp_path: pathlib.Path
-) -> None:
+def test_a_robot_can_drive_off(world: str, shared_graph: RosGraph, tmp_path: pathlib.Path) -> None:
     commanded_m = COMMANDS * STEPS_A_COMMAND * STEP_S * SPEED_M_S
     driven_m = shared_graph.call(way_driven_m, world, str(tmp_path))
     assert driven_m == pytest.approx(commanded_m, rel=0.05)
