@@ -10,7 +10,7 @@ import math
 import pathlib
 import threading
 import time
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Sequence
 
 import rospy
 from geometry_msgs.msg import Pose, Twist
@@ -38,15 +38,15 @@ def yaw_of(q: Any) -> float:
 
 
 class Driver:
-    """Counts messages, and keeps the robot on the straight line that it started on."""
+    """Counts messages, and keeps the robot on its lane: the straight line from the start, wherever it came to rest."""
 
-    def __init__(self, lane_m: float, speed_m_s: float) -> None:
-        self.lane_m, self.speed_m_s = lane_m, speed_m_s
+    def __init__(self, start: Sequence[float], lane_m: float, speed_m_s: float) -> None:
+        self.start, self.lane_m, self.speed_m_s = start, lane_m, speed_m_s
         self.counts = {SCAN: 0, ODOM: 0, JOINTS: 0}
         self.bytes, self.distance_m, self.farthest_off_m = 0, 0.0, 0.0
         self.first_scan_s = None  # type: Optional[float]
         self.got_scan = threading.Event()
-        self._start, self._last_m, self._direction = None, None, 1.0
+        self._last_m, self._direction = None, 1.0
         self._commands = rospy.Publisher(COMMAND, Twist, queue_size=1, tcp_nodelay=True)
         for topic, callback in (
             (SCAN, self._on_scan),
@@ -74,10 +74,8 @@ class Driver:
             self._steer(Odometry().deserialize(message._buff).pose.pose)
 
     def _steer(self, here: Pose) -> None:
-        """Along the line at the wanted speed, by the odometry; back at its ends."""
-        if self._start is None:
-            self._start = (here.position.x, here.position.y, yaw_of(here.orientation))
-        x0, y0, yaw0 = self._start
+        """Along the lane at the wanted speed, by the odometry, whose frame is the world's; back at its ends."""
+        x0, y0, _, yaw0 = self.start
         dx, dy = here.position.x - x0, here.position.y - y0
         ahead = math.cos(yaw0) * dx + math.sin(yaw0) * dy
         aside = -math.sin(yaw0) * dx + math.cos(yaw0) * dy
@@ -150,7 +148,7 @@ def main() -> None:
     parser.add_argument("--pid-file", type=pathlib.Path, required=True)
     found = parser.parse_args()
     rospy.init_node("benchmark", anonymous=True)
-    driver = Driver(found.lane_m, found.speed_m_s)
+    driver = Driver(found.start, found.lane_m, found.speed_m_s)
     say(ready=True)
     spawn(found.urdf, found.start)
     while not driver.got_scan.wait(0.1):

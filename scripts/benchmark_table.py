@@ -14,6 +14,7 @@ REAL_TIME_BUDGET = 30.0
 LARGE_FIELD_SHARE = 0.8  # of the real-time factor with 200 plants; asked for at 100,000
 CAMERA_REAL_TIME_BUDGET = 1.0
 OF_EMBREE_BUDGET, OF_FLAT_BUDGET = 0.8, 0.6
+LEAST_SPEED_M_S = 0.45  # of 0.5 commanded; a robot that is held would be timed at rest
 
 Figures = Dict[str, Any]
 Budget = Callable[[int, Figures], Optional[float]]
@@ -111,7 +112,7 @@ ROWS = [
     ),
     Row("processor time a simulated second, with ROS [ms]", "node.cpu_ms", "{:.1f}"),
     Row("scans received a simulated second", "node.scans_per_simulated_s", "{:.1f}"),
-    Row("speed driven [m/s]", "node.speed_m_s", "{:.2f}"),
+    Row("speed driven [m/s]", "node.speed_m_s", "{:.2f}", least=fixed(LEAST_SPEED_M_S)),
 ]
 
 

@@ -2,7 +2,7 @@
 """The row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
 import csv
 import pathlib
-from typing import Dict, List, Tuple
+from typing import Dict, List, Set, Tuple
 
 import pytest
 from bridge_bench import free_port
@@ -49,26 +49,40 @@ def test_a_bad_scenario_is_one_line(graph: RosGraph) -> None:
     assert process.output().count("\n") == 1 and "'rice'" in process.output()
 
 
-def test_ctrl_c_ends_an_experiment_and_its_simulator(graph: RosGraph) -> None:
-    command = ("rosrun", "ardee_navigation", "run_experiment", "--scenario", "corn", "--runs", "50")
-    process = graph.spawn(*command)
-    wait_until(lambda: simulators(process.pid), "a simulator", 60.0)
+@pytest.mark.parametrize("how, last_started", [((), "simulator"), (("--hil",), "hil_row_follower")])
+def test_ctrl_c_ends_an_experiment_and_leaves_nothing(
+    how: Tuple[str, ...], last_started: str, graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    work = tmp_path / "work"
+    work.mkdir()
+    words = ("--scenario", "corn", "--runs", "50", "--output", str(tmp_path / "report"), *how)
+    command = ("rosrun", "ardee_navigation", "run_experiment", *words)
+    process = graph.spawn(*command, TMPDIR=str(work))
+    wait_until(lambda: last_started in children(process.pid).values(), last_started, 60.0)
+    started = set(children(process.pid))
+    assert list(work.iterdir())
     process.interrupt()
     assert process.wait() != 0 and "Traceback" not in process.output()
-    assert simulators(process.pid) == []
+    assert not started & running() and not list(work.iterdir())
 
 
-def simulators(pid: int) -> List[int]:
-    """Simulators that descend from a process, or that it has left behind with its own work folder."""
-    found = []
-    for folder in pathlib.Path("/proc").glob("[0-9]*"):
+def running() -> Set[int]:
+    return {int(folder.name) for folder in pathlib.Path("/proc").glob("[0-9]*")}
+
+
+def children(pid: int) -> Dict[int, str]:
+    """Processes whose parent a process is: the last part of what they run, a program or a script."""
+    found = {}
+    for number in running():
+        folder = pathlib.Path("/proc", str(number))
         try:
-            words = (folder / "cmdline").read_bytes().split(b"\0")
+            words = (folder / "cmdline").read_bytes().decode().split("\0")
             parent = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
         except (OSError, IndexError):
             continue
-        if words[0].endswith(b"/simulator") and parent == pid:
-            found.append(int(folder.name))
+        if parent == pid:
+            script = words[1] if "python" in words[0] and len(words) > 1 else words[0]
+            found[number] = pathlib.Path(script).name
     return found
 
 

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Scenarios, parameters, launch file and rviz configuration are whole and say the same."""
+import math
 import os
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ import yaml
 
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.node_settings import Settings, read_settings
 from ardee_navigation.scenario_files import Start, read_parameters, read_scenarios
 from ardee_navigation.scenarios import START_SD_M, START_SD_RAD, start_near
 
@@ -67,10 +70,18 @@ def test_rviz_shows_scan_lines_and_path() -> None:
     "text, message",
     [
         ("speed: 1\n", r"p.yaml:1: unknown key 'speed'"),
+        ("kp: 25\nspeed_m_s: 3\n", r"p.yaml:2: speed_m_s: found 3, expected 0 to 1.2"),
+        ("kp: 25\nkp: 26\n", r"p.yaml:2: found key 'kp' a second time"),
+        ("kp: '25'\n", r"p.yaml:1: kp: found '25', expected 0 to 10000"),
+        ("kp: {p: 25}\n", r"p.yaml:1: kp: found .*, expected 0 to 10000"),
+        ("- kp\n", r"p.yaml: found list, expected a mapping"),
+        ("kp: [\n", r"p.yaml:2: not valid YAML"),
         (
-            "kp: 25\nspeed_m_s: 3\n",
-            r"p.yaml:2: speed_m_s: found 3, expected 0 to 1.2 m/s|p.yaml:2: ",
+            "lateral_max_m: 0.3\n",
+            r"p.yaml:1: lateral_min_m, lateral_max_m: found 0.15 and 0.3, expected half the lane_width_m",
         ),
+        ("lane_width_m: 1.4\n", r"p.yaml:1: beside_min_m, beside_max_m: .* between them, 0.7$"),
+        ("max_speed_m_s: 0.4\n", r"p.yaml:1: speed_m_s: found 0.5, expected at most .*, 0.4$"),
         ("min_points: 2.5\n", r"p.yaml:1: min_points: found 2.5, expected a whole number"),
         ("kp: .nan\n", r"p.yaml:1: kp: found nan"),
     ],
@@ -80,6 +91,52 @@ def test_bad_parameters_are_named_with_their_line(tmp_path: Path, text: str, mes
     path.write_text(text)
     with pytest.raises(GeneratorError, match=message):
         read_parameters(path)
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("rice:\n  wrold: rice.world\n", r"s.yaml:2: unknown key 'wrold', known: world, plan, par"),
+        ("rice:\n  parameters:\n    kq: 1\n", r"s.yaml:3: unknown key 'kq', known: lidar_ahead_m"),
+        ("rice:\n  parameters:\n    kp: -1\n", r"s.yaml:3: kp: found -1, expected 0 to 10000"),
+        ("rice:\n  parameters:\n    lane_width_m: 2.9\n", r"s.yaml:2: rice: beside_min_m, "),
+        ("rice: 5\n", r"s.yaml:1: rice: found 5, expected a mapping"),
+    ],
+)
+def test_bad_scenarios_are_named_with_their_line(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "s.yaml"
+    path.write_text(text)
+    with pytest.raises(GeneratorError, match=message):
+        read_scenarios(path)
+
+
+@pytest.mark.parametrize(
+    "values, message",
+    [
+        ({"scna": "/scan"}, "~scna: unknown parameter, known: scan, odom, cmd, "),
+        ({"drive": "no"}, "~drive: found 'no', expected true or false"),
+        ({"drive": 1}, "~drive: found 1, expected true or false"),
+        ({"parameters": 7}, "~parameters: found 7, expected a text"),
+        ({"scan": ""}, "~scan: found '', expected the name of a topic"),
+        ({"cmd": "cmd vel"}, "~cmd: found 'cmd vel', expected the name of a topic"),
+        (5, "~: found 5, expected parameters by name"),
+    ],
+)
+def test_bad_parameters_of_the_node_are_named(values: Any, message: str) -> None:
+    with pytest.raises(GeneratorError, match=message):
+        read_settings(values)
+
+
+def test_parameters_of_the_node_default_to_the_listed_ones() -> None:
+    assert read_settings({"scan": "/a/scan", "drive": False}) == Settings(
+        scan="/a/scan", drive=False
+    )
+
+
+@pytest.mark.parametrize("name, value", [("kp", -1.0), ("speed_m_s", math.nan), ("bin_m", 0.0)])
+def test_parameters_beyond_their_limits_are_refused_in_python_too(name: str, value: float) -> None:
+    with pytest.raises(ValueError, match=f"{name}: found {value}, expected "):
+        Parameters(**{name: value})
 
 
 def test_parameters_default_to_the_listed_ones(tmp_path: Path) -> None:

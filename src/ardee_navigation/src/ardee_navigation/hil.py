@@ -19,6 +19,7 @@ import yaml
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
+from ardee_navigation.answers import Answers
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.record import Record
 from ardee_navigation.scenarios import Trial
@@ -98,27 +99,20 @@ class Follower(Process):
         command += ["--controls", f"127.0.0.1:{bridge.controls_port}"]
         environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
         super().__init__([*command, f"--parameters={parameters}"], subprocess.PIPE, environment)
-        self.answers: Dict[float, dict] = {}
-        self._lock = threading.Lock()
+        self._answers = Answers()
         threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self) -> None:
         for line in self.popen.stdout:
-            answer = json.loads(line)
-            with self._lock:
-                self.answers[round(answer["time_s"], 3)] = answer
+            self._answers.put(json.loads(line))
+
+    def _check(self) -> None:
+        if self.popen.poll() is not None:
+            raise SimulationError("hil_row_follower has ended")
 
     def answer(self, time_s: float, patience_s: float) -> Optional[dict]:
-        """What it made of the scan of this simulated time; None where it has not, for all patience."""
-        deadline = time.monotonic() + patience_s
-        while True:
-            with self._lock:
-                found = self.answers.pop(round(time_s, 3), None)
-            if found or time.monotonic() > deadline:
-                return found
-            if self.popen.poll() is not None:
-                raise SimulationError("hil_row_follower has ended")
-            time.sleep(0.001)
+        """What it made of the scan of this simulated time; None where it has none, for all patience."""
+        return self._answers.take(time_s, patience_s, self._check)
 
 
 class Latency:
@@ -148,11 +142,12 @@ def _seen(answer: dict) -> Seen:
 
 
 def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: float) -> object:
-    """Judge the next scan that the follower has answered."""
+    """Judge the next scan, if the follower answered it."""
     scan = simulation.scan()
     now_s = scan.header.stamp.to_sec()
     answer = follower.answer(now_s, patience_s)
     if answer is None:
+        judge.record.unanswered += 1
         return None
     command = (answer["speed_m_s"], answer["turn_rad_s"])
     back = judge.look(now_s, simulation.pose(), command, _seen(answer))

@@ -61,7 +61,8 @@ class Record:
     knocked: int = 0  # stalks pushed over, had they not been rigid
     end: str = ""
     wall_s: float = 0.0
-    latency_ms: Tuple[float, ...] = ()
+    latency_ms: Tuple[float, ...] = ()  # with hardware in the loop
+    unanswered: int = 0  # scans to which it sent no command
 
     def column(self, name: str) -> np.ndarray:
         """One value of all samples."""

@@ -51,10 +51,11 @@ def _latency(records: Sequence[Record]) -> str:
     times = sorted(ms for record in records for ms in record.latency_ms)
     if not times:
         return ""
+    unanswered = sum(record.unanswered for record in records)
     p50, p99 = (times[min(int(q * len(times)), len(times) - 1)] for q in (0.5, 0.99))
     return (
         f"\nHardware in the loop: from scan message to `cmd_vel` message {p50:.1f} ms median, {p99:.1f} ms p99,"
-        f" {times[-1]:.1f} ms at most, over {len(times)} commands.\n"
+        f" {times[-1]:.1f} ms at most, over {len(times)} commands; {unanswered} scans got no answer.\n"
     )
 
 

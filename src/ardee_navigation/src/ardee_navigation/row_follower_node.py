@@ -15,6 +15,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
+from ardee_navigation.node_settings import Settings, read_settings
 from ardee_navigation.scenario_files import read_parameters
 from ardee_navigation.scenarios import known_scenarios
 
@@ -65,17 +66,16 @@ def markers(header: Header, output: Output, parameters: Parameters) -> MarkerArr
 class Node:
     """Answers every scan."""
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, settings: Settings, parameters: Parameters) -> None:
         self._parameters, self._follower = parameters, RowFollower(parameters)
         self._last_s, self._state = None, ""  # type: Optional[float], str
-        self._path, self._drive = Path(), rospy.get_param("~drive", True)
-        self._commands = rospy.Publisher(rospy.get_param("~cmd", "cmd_vel"), Twist, queue_size=1)
+        self._path, self._drive = Path(), settings.drive
+        self._commands = rospy.Publisher(settings.cmd, Twist, queue_size=1)
         self._markers = rospy.Publisher("~markers", MarkerArray, queue_size=1)
         self._paths = rospy.Publisher("~path", Path, queue_size=1, latch=True)
         self._status = rospy.Publisher("~status", String, queue_size=1, latch=True)
-        odom, scan = rospy.get_param("~odom", "odom"), rospy.get_param("~scan", "ardee/hokuyo")
-        rospy.Subscriber(odom, Odometry, self._on_odometry, queue_size=10)
-        rospy.Subscriber(scan, LaserScan, self._on_scan, queue_size=1, buff_size=1 << 20)
+        rospy.Subscriber(settings.odom, Odometry, self._on_odometry, queue_size=10)
+        rospy.Subscriber(settings.scan, LaserScan, self._on_scan, queue_size=1, buff_size=1 << 20)
 
     def _on_scan(self, scan: LaserScan) -> None:
         now_s = scan.header.stamp.to_sec()
@@ -115,24 +115,24 @@ class Node:
             self._send(0.0, 0.0)
 
 
-def _parameters() -> Parameters:
+def _parameters(settings: Settings) -> Parameters:
     """Those of the file ~parameters, else those of the scenario ~scenario, else the defaults."""
-    file, scenario = rospy.get_param("~parameters", ""), rospy.get_param("~scenario", "")
-    if file:
-        return read_parameters(FilePath(file))
-    if not scenario:
+    if settings.parameters:
+        return read_parameters(FilePath(settings.parameters))
+    if not settings.scenario:
         return Parameters()
-    known = known_scenarios()
-    if scenario not in known:
-        raise GeneratorError(f"~scenario: found {scenario!r}, expected one of {', '.join(known)}")
-    return known[scenario].parameters
+    known, name = known_scenarios(), settings.scenario
+    if name not in known:
+        raise GeneratorError(f"~scenario: found {name!r}, expected one of {', '.join(known)}")
+    return known[name].parameters
 
 
 def main() -> int:
     """Exit code: 2 for bad parameters."""
     rospy.init_node("row_follower")
     try:
-        node = Node(_parameters())
+        settings = read_settings(rospy.get_param("~", {}))
+        node = Node(settings, _parameters(settings))
     except GeneratorError as error:
         print(f"row_follower: {error}", file=sys.stderr)
         return 2

@@ -5,7 +5,8 @@
 0.1 m bins, PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as straight ahead, about 0.5 m/s. [robot] limits of the
 TerraSentia. [own] chosen here; the thesis (5.1) names the check but no number.
 """
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 
@@ -56,6 +57,24 @@ class Parameters:
     # Start and end (5.2.1)
     end_points: int = _value(8, 1, 1081)  # fewer returns ahead: no row there [own]
     end_after_s: float = _value(1.0, 0.0, 60.0)  # both rows gone for so long: the end [own]
+
+    def __post_init__(self) -> None:
+        """Raise ValueError for a value beyond its limits, or values with which no row would ever be followed."""
+        for one in fields(self):
+            value, (low, high) = getattr(self, one.name), one.metadata["limits"]
+            if not (math.isfinite(value) and low <= value <= high):
+                raise ValueError(f"{one.name}: found {value}, expected {low:g} to {high:g}")
+        half_m = self.lane_width_m / 2.0
+        for low, high in (("beside_min_m", "beside_max_m"), ("lateral_min_m", "lateral_max_m")):
+            if not getattr(self, low) < half_m <= getattr(self, high):
+                raise ValueError(
+                    f"{low}, {high}: found {getattr(self, low)} and {getattr(self, high)}, expected half the"
+                    f" lane_width_m between them, {half_m:g}"
+                )
+        if self.speed_m_s > self.max_speed_m_s:
+            raise ValueError(
+                f"speed_m_s: found {self.speed_m_s}, expected at most max_speed_m_s, {self.max_speed_m_s}"
+            )
 
     @property
     def max_turn_rad_s(self) -> float:

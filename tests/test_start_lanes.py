@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""In every shipped world a robot can drive off down the lane before which the world's start file sets it down."""
+import pathlib
+
+import pytest
+from ros_graph import RosGraph
+
+WORLDS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "worlds"
+STARTS = sorted(path.name.replace(".start.yaml", ".world") for path in WORLDS.glob("*.start.yaml"))
+STEPS_A_COMMAND, STEP_S, SPEED_M_S = 10, 0.005, 0.5
+SETTLE_STEPS, COMMANDS = (
+    200,
+    320,
+)  # 1 s to come to rest, 16 s of driving: 1 m of headland, 7 m of lane
+HEADING_GAIN_PER_S, OFFSET_GAIN_RAD_PER_M_S = 1.0, 0.8
+
+
+def way_driven_m(world: str, folder: str) -> float:
+    """Along its lane, by a robot that its true pose keeps in the middle."""
+    import rospy
+
+    from ardee_models.strict_yaml import build, read_yaml_lines
+    from ardee_navigation.scenario_files import Scenario, Start
+    from ardee_navigation.scenarios import prepare
+    from ardee_navigation.simulation import Simulation, robot_urdf
+    from ardee_navigation.truth import Pose, lane_of
+
+    rospy.init_node("driver", disable_signals=True)
+    trial = prepare(Scenario(world=world), 0, pathlib.Path(folder))
+    start = build(Start, read_yaml_lines(trial.world.with_suffix(".start.yaml")))
+    pose = Pose(start.x_m, start.y_m, start.yaw_rad)
+    lane = lane_of(trial.field, pose)
+    with Simulation(trial.world, 0, [], pathlib.Path(folder) / "simulator.log") as simulation:
+        simulation.spawn(robot_urdf(), pose, start.z_m)
+        simulation.command(0.0, 0.0)
+        simulation.step(SETTLE_STEPS)
+        first = lane.deviation(simulation.pose())
+        for _ in range(COMMANDS):
+            here = lane.deviation(simulation.pose())
+            turn = -HEADING_GAIN_PER_S * here.heading_rad - OFFSET_GAIN_RAD_PER_M_S * here.lateral_m
+            simulation.command(SPEED_M_S, turn)
+            simulation.step(STEPS_A_COMMAND)
+        return lane.deviation(simulation.pose()).along_m - first.along_m
+
+
+@pytest.mark.parametrize("world", STARTS)
+def test_a_robot_can_drive_off(world: str, shared_graph: RosGraph, tmp_path: pathlib.Path) -> None:
+    commanded_m = COMMANDS * STEPS_A_COMMAND * STEP_S * SPEED_M_S
+    driven_m = shared_graph.call(way_driven_m, world, str(tmp_path))
+    assert driven_m == pytest.approx(commanded_m, rel=0.05)
