@@ -75,8 +75,16 @@ std::string Registry::known_names() const {
   return names;
 }
 
-std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& context) const {
+std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext& robot) const {
   std::vector<std::unique_ptr<Device>> devices;
+  DeviceContext context = robot;
+  std::map<std::string, int> namesakes;
+  // A device's errors follow from seed and name: of two with one name each gets a seed of its own.
+  const auto seed_for = [&](const std::string& name) {
+    const int before = namesakes[name]++;
+    context.seed = before == 0 ? robot.seed
+                               : stream_key(robot.seed, "namesake " + std::to_string(before));
+  };
   const auto unknown = [&](const PluginDescription& plugin) {
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
                      "', expected one of:" + known_names() + "; it is left out");
@@ -93,6 +101,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
     }
     const ModelMaker& maker = found->second;
     const auto make = [&] { return maker.make(plugin, context); };
+    seed_for(plugin.name);
     // A static model keeps those of its devices that do without motion.
     const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
     keep(may_fail ? made_or_left_out(make, plugin, context.log) : make());
@@ -105,6 +114,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
           unknown(plugin);
         } else {
           const auto make = [&] { return found->second(sensor, plugin, link, context); };
+          seed_for(sensor.name);
           keep(made_or_left_out(make, plugin, context.log));
         }
       }
