@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../temp_folder.h"
 #include "ardee_sim/render/lens.h"
 #include "cameras.h"
 
@@ -214,8 +215,13 @@ TEST(CameraPlugin, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(CameraPlugin, SegmentationNamesWhatIsSeen) {
-  const std::string plain = static_box("ignored", "9 9 9 0 0 0", "1 1 1");
-  TestWorld world(plain + static_box("wall", "3.5 2 0 0 0 0", "1 4 9"));
+  const TempFolder folder;
+  folder.write_model("wall",
+                     "<static>true</static><link name='l'><visual name='v'><geometry><box><size>1 4 "
+                     "9</size></box></geometry></visual></link>");
+  const std::string plain = static_box("ignored", "3.5 -9 0 0 0 0", "1 4 9");
+  TestWorld world(plain + "<include><uri>file://" + folder.path() +
+                  "/wall</uri><pose>3.5 2 0 0 0 0</pose><ardee:label>7</ardee:label></include>");
   world.spawn(camera_post("camera", camera_block(65, 49, 1.0), "<segmentation>true</segmentation>"),
               "post");
   world.run(0.1);
@@ -228,6 +234,11 @@ TEST(CameraPlugin, SegmentationNamesWhatIsSeen) {
   EXPECT_EQ(id(4), static_cast<int>(world->find("wall")->robot->entity()) + 1);
   const auto labels = world.recorder().on<ImageReading>("/cam/segmentation/label").at(0);
   EXPECT_EQ(labels.encoding, "16UC1");
+  const auto label = [&](std::size_t column) {
+    return value_at<std::uint16_t>(labels.data, 24 * labels.step + 2 * column);
+  };
+  EXPECT_EQ(label(60), 0);
+  EXPECT_EQ(label(4), 7);
 }
 
 class BadCamera : public testing::TestWithParam<std::array<const char*, 3>> {};
