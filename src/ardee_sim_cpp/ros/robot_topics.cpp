@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 #include <ros/names.h>
+#include <std_msgs/Float64.h>
 
 #include <utility>
 
@@ -47,6 +48,16 @@ void require_valid(const std::string& topic) {
   }
 }
 
+template <typename Message, typename OnMessage>
+ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
+                             const OnMessage& on_message) {
+  require_valid(topic);
+  ros::Subscriber subscriber = node.subscribe<Message>(
+      topic, kCommandQueue, on_message, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  if (!subscriber) throw Error("topic " + topic + " is already subscribed to with another type");
+  return subscriber;
+}
+
 }  // namespace
 
 bool RobotTopics::Route::has_listeners() const {
@@ -69,7 +80,6 @@ RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
 }
 
 ros::Subscriber RobotTopics::subscribe(const Input& input) {
-  require_valid(input.topic);
   const auto on_message = [on_command = input.on_command,
                            topic = input.topic](const geometry_msgs::Twist::ConstPtr& message) {
     const Twist command = from_ros(*message);
@@ -80,13 +90,20 @@ ros::Subscriber RobotTopics::subscribe(const Input& input) {
                                topic << ": found a command that is not finite; it is ignored");
     }
   };
-  ros::Subscriber subscriber = node_.subscribe<geometry_msgs::Twist>(
-      input.topic, kCommandQueue, on_message, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
-  if (!subscriber) {
-    throw Error("topic " + input.topic + " is already subscribed to with another type");
-  }
-  return subscriber;
+  return subscribe_to<geometry_msgs::Twist>(node_, input.topic, on_message);
+}
+
+ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
+  const auto on_message = [input](const std_msgs::Float64::ConstPtr& message) {
+    if (message->data >= input.low && message->data <= input.high) {
+      input.on_number(message->data);
+    } else {
+      ROS_WARN_STREAM_THROTTLE(
+          kWarningPeriod_s, input.topic << ": found " << message->data << ", expected a number in ["
+                                        << input.low << ", " << input.high << "]; it is ignored");
+    }
+  };
+  return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
 }
 
 void RobotTopics::add(Entity& entity) {
@@ -97,6 +114,9 @@ void RobotTopics::add(Entity& entity) {
       topics.routes.push_back(advertise(output, *entity.robot));
     }
     for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
+    for (const NumberInput& input : device->number_inputs()) {
+      topics.subscribers.push_back(subscribe(input));
+    }
     topics.services->add(*device);
   }
   const Topics& kept = topics_[entity.name()] = std::move(topics);

@@ -13,6 +13,7 @@
 #include "ardee_sim/devices/gps_with_dropout.h"
 #include "ardee_sim/devices/ground_truth.h"
 #include "ardee_sim/devices/hector_imu.h"
+#include "ardee_sim/devices/joint_position.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/magnetometer.h"
@@ -82,8 +83,8 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
   // A device's errors follow from seed and name: of two with one name each gets a seed of its own.
   const auto seed_for = [&](const std::string& name) {
     const int before = namesakes[name]++;
-    context.seed = before == 0 ? robot.seed
-                               : stream_key(robot.seed, "namesake " + std::to_string(before));
+    context.seed =
+        before == 0 ? robot.seed : stream_key(robot.seed, "namesake " + std::to_string(before));
   };
   const auto unknown = [&](const PluginDescription& plugin) {
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
@@ -125,6 +126,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
 
 Registry builtin_registry() {
   Registry registry;
+  registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);

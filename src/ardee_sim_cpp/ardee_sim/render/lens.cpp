@@ -64,11 +64,16 @@ std::optional<Eigen::Vector2d> Lens::straighten(const Eigen::Vector2d& bent) con
 
 Eigen::Vector2d Lens::to_pixel(const Eigen::Vector2d& plane) const {
   const Eigen::Vector2d bent = bend(plane);
-  return {fx_px * bent.x() + cx_px, fy_px * bent.y() + cy_px};
+  return {fx_px * bent.x() + skew_px * bent.y() + cx_px, fy_px * bent.y() + cy_px};
+}
+
+Eigen::Vector2d Lens::bent_plane(const Eigen::Vector2d& pixel) const {
+  const double y = (pixel.y() - cy_px) / fy_px;
+  return {(pixel.x() - cx_px - skew_px * y) / fx_px, y};
 }
 
 std::optional<Eigen::Vector2d> Lens::to_plane(const Eigen::Vector2d& pixel) const {
-  return straighten({(pixel.x() - cx_px) / fx_px, (pixel.y() - cy_px) / fy_px});
+  return straighten(bent_plane(pixel));
 }
 
 LensTable::LensTable(const Lens& lens, int width, int height)
@@ -85,9 +90,7 @@ LensTable::LensTable(const Lens& lens, int width, int height)
 }
 
 Eigen::Vector2d LensTable::plane(double x_px, double y_px) const {
-  if (corners_.empty()) {
-    return {(x_px - 0.5 - lens_.cx_px) / lens_.fx_px, (y_px - 0.5 - lens_.cy_px) / lens_.fy_px};
-  }
+  if (corners_.empty()) return lens_.bent_plane({x_px - 0.5, y_px - 0.5});
   // Linear between the corners of a pixel: the bend within one is below a thousandth of it.
   const int column = std::clamp(static_cast<int>(x_px), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(y_px), 0, height_ - 1);

@@ -15,6 +15,7 @@ struct Lens {
   double fy_px = 1.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
+  double skew_px = 0.0;       // that a row is shifted right by, for each unit of y / z
   std::array<double, 5> D{};  // plumb_bob: k1, k2, t1, t2, k3 (Brown 1966, as OpenCV has it)
 
   /// Straight, its axis through the middle of the picture.
@@ -27,6 +28,8 @@ struct Lens {
   std::optional<Eigen::Vector2d> straighten(const Eigen::Vector2d& bent) const;
   /// Pixel coordinates of a point of the picture plane before distortion.
   Eigen::Vector2d to_pixel(const Eigen::Vector2d& plane) const;
+  /// The point of the picture plane after distortion that a pixel shows.
+  Eigen::Vector2d bent_plane(const Eigen::Vector2d& pixel) const;
   /// The inverse of to_pixel.
   std::optional<Eigen::Vector2d> to_plane(const Eigen::Vector2d& pixel) const;
 };
