@@ -227,8 +227,9 @@ TEST(Magnetometer, field_in_the_body) {
 TEST(Gps, receivers_of_one_name_err_independently) {
   const std::size_t count = 2000;
   const auto receiver = [](const std::string& topic) {
-    return gps(kReference + std::string("<updateRate>10</updateRate><gaussianNoise>1</gaussianNoise>"
-                                        "<topicName>") +
+    return gps(kReference +
+               std::string("<updateRate>10</updateRate><gaussianNoise>1</gaussianNoise>"
+                           "<topicName>") +
                topic + "</topicName>");
   };
   TestWorld world(free_space(0.0), 0.1);

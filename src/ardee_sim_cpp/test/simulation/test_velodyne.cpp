@@ -155,7 +155,8 @@ TEST(Velodyne, MotionTowardsAWallBendsIt) {
   const double speed = 2.0;
   const std::string wall = board("wall", 4.0, 0.0, 40.0);
   TestWorld world(wall);
-  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, {}, {{speed, 0, 0}, {0, 0, 0}});
+  const PointCloudReading cloud =
+      cloud_in_motion(world, kDistorted, {}, {{speed, 0, 0}, {0, 0, 0}});
   TestWorld still_world(wall);
   const PointCloudReading frozen =
       cloud_in_motion(still_world, "<organised>true</organised>", {}, {{speed, 0, 0}, {0, 0, 0}});
