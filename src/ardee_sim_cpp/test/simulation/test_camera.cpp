@@ -135,11 +135,11 @@ TEST(CameraPlugin, TakesThePictureWithTheIntrinsicsOfThePlugin) {
 }
 
 TEST(CameraPlugin, TakesThePictureWithTheIntrinsicsOfItsLens) {
-  const std::string intrinsics =
-      "<fx>480</fx><fy>505.5</fy><cx>331.25</cx><cy>221</cy><s>30</s>";
+  const std::string intrinsics = "<fx>480</fx><fy>505.5</fy><cx>331.25</cx><cy>221</cy><s>30</s>";
   expect_corners_in_place(camera_block(640, 480, 1.1, lens_block(intrinsics)));
   expect_corners_in_place(camera_block(
-      640, 480, 1.1, lens_block(intrinsics) + "<distortion><k1>-0.2</k1><p1>0.002</p1></distortion>"));
+      640, 480, 1.1,
+      lens_block(intrinsics) + "<distortion><k1>-0.2</k1><p1>0.002</p1></distortion>"));
   const auto info = info_of(camera_block(640, 480, 1.1, lens_block(intrinsics)), "");
   EXPECT_EQ(info.K, (std::array<double, 9>{480, 30, 331.25, 0, 505.5, 221, 0, 0, 1}));
   EXPECT_EQ(info.P, (std::array<double, 12>{480, 30, 331.25, 0, 0, 505.5, 221, 0, 0, 0, 1, 0}));
@@ -167,13 +167,13 @@ TEST(CameraPlugin, APluginThatContradictsTheLensIsWarned) {
 
 TEST(CameraPlugin, OtherProjectionsAreSaidOnce) {
   std::vector<std::string> messages;
-  const auto info = info_of(
-      camera_block(640, 480, 1.1,
-                   lens_block("<fx>480</fx>",
-                              "<type>custom</type><scale_to_hfov>true</scale_to_hfov>"
-                              "<custom_function><c1>1</c1></custom_function>"
-                              "<projection><p_fx>9</p_fx></projection>")),
-      "", &messages);
+  const auto info =
+      info_of(camera_block(640, 480, 1.1,
+                           lens_block("<fx>480</fx>",
+                                      "<type>custom</type><scale_to_hfov>true</scale_to_hfov>"
+                                      "<custom_function><c1>1</c1></custom_function>"
+                                      "<projection><p_fx>9</p_fx></projection>")),
+              "", &messages);
   EXPECT_EQ(info.K[0], 480.0);
   EXPECT_EQ(info.P[0], 480.0);
   ASSERT_EQ(messages.size(), 1u);
@@ -184,13 +184,12 @@ TEST(CameraPlugin, OtherProjectionsAreSaidOnce) {
 
 TEST(CameraPlugin, ZoomsToTheFieldOfViewThatItIsTold) {
   TestWorld world(checkerboard());
-  Entity& post = world.spawn(
-      camera_post("camera",
-                  camera_block(640, 480, 1.5,
-                               "<distortion><k1>-0.1</k1></distortion>" +
-                                   lens_block("<cx>330</cx>")),
-                  "<horizontalFovMin>0.5</horizontalFovMin>"),
-      "post", kOneMetreUp);
+  Entity& post = world.spawn(camera_post("camera",
+                                         camera_block(640, 480, 1.5,
+                                                      "<distortion><k1>-0.1</k1></distortion>" +
+                                                          lens_block("<cx>330</cx>")),
+                                         "<horizontalFovMin>0.5</horizontalFovMin>"),
+                             "post", kOneMetreUp);
   ASSERT_EQ(post.devices.at(0)->number_inputs().size(), 1u);
   const NumberInput& zoom = post.devices[0]->number_inputs()[0];
   EXPECT_EQ(zoom.topic, "/cam/set_hfov");

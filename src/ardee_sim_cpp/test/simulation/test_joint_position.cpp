@@ -15,8 +15,7 @@ constexpr double kFar_m = 5.0;  // to the mark
 /// Blocks of a link's inertia, a mass in its middle.
 std::string inertial(const std::string& mass_kg, const std::string& moment) {
   return "<inertial><mass>" + mass_kg + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment +
-         "</iyy><izz>" + moment +
-         "</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>";
+         "</iyy><izz>" + moment + "</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>";
 }
 
 /// A head on a joint about `axis`, held by the world at the origin; `in_head` goes into its link.
@@ -53,9 +52,8 @@ double angle(const Entity& robot) {
 TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
   TestWorld world(free_space(0.0), kStep_s);
   Entity& robot = world.spawn(
-      head("0 0 1",
-           servo("<maxVelocity>2</maxVelocity><maxAcceleration>10</maxAcceleration>"
-                 "<maxEffort>5</maxEffort>")),
+      head("0 0 1", servo("<maxVelocity>2</maxVelocity><maxAcceleration>10</maxAcceleration>"
+                          "<maxEffort>5</maxEffort>")),
       "head");
   ASSERT_EQ(command(robot).topic, "/neck_position_controller/command");
   command(robot).on_number(1.2);
@@ -137,11 +135,11 @@ Eigen::Vector2d mark_in(const ImageReading& image) {
 
 /// Where a mark straight ahead is seen by a camera on a head that was told to turn.
 Eigen::Vector2d mark_after_turn(const std::string& axis, double turn_rad) {
-  TestWorld world("<scene><ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>" +
-                      free_space(0.0) +
-                      glowing_box("mark", std::to_string(kFar_m + 0.005) + " 0 0 0 0 0",
-                                  "0.01 0.1 0.1", 1.0),
-                  kStep_s);
+  TestWorld world(
+      "<scene><ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>" +
+          free_space(0.0) +
+          glowing_box("mark", std::to_string(kFar_m + 0.005) + " 0 0 0 0 0", "0.01 0.1 0.1", 1.0),
+      kStep_s);
   const std::string camera =
       "<sensor name='eye' type='camera'><update_rate>10</update_rate>" +
       camera_block(320, 240, 1.2) +
