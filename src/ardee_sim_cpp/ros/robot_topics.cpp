@@ -5,6 +5,7 @@
 #include <ros/names.h>
 #include <std_msgs/Float64.h>
 
+#include <sstream>
 #include <utility>
 
 #include "ardee_sim/core/error.h"
@@ -48,6 +49,21 @@ void require_valid(const std::string& topic) {
   }
 }
 
+/// Warns at once, and then not again for a while of wall time. ROS's own throttle counts simulated
+/// time, and says nothing in its first seconds.
+class Complaint {
+ public:
+  void say(const std::string& text) {
+    const ros::WallTime now = ros::WallTime::now();
+    if (!last_.isZero() && (now - last_).toSec() < kWarningPeriod_s) return;
+    last_ = now;
+    ROS_WARN_STREAM(text);
+  }
+
+ private:
+  ros::WallTime last_;
+};
+
 template <typename Message, typename OnMessage>
 ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
                              const OnMessage& on_message) {
@@ -80,29 +96,30 @@ RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
 }
 
 ros::Subscriber RobotTopics::subscribe(const Input& input) {
-  const auto on_message = [on_command = input.on_command,
-                           topic = input.topic](const geometry_msgs::Twist::ConstPtr& message) {
-    const Twist command = from_ros(*message);
-    if (is_finite(command)) {
-      on_command(command);
-    } else {
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s,
-                               topic << ": found a command that is not finite; it is ignored");
-    }
-  };
+  const auto on_message =
+      [input, complaint = Complaint()](const geometry_msgs::Twist::ConstPtr& message) mutable {
+        const Twist command = from_ros(*message);
+        if (is_finite(command)) {
+          input.on_command(command);
+        } else {
+          complaint.say(input.topic + ": found a command that is not finite; it is ignored");
+        }
+      };
   return subscribe_to<geometry_msgs::Twist>(node_, input.topic, on_message);
 }
 
 ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
-  const auto on_message = [input](const std_msgs::Float64::ConstPtr& message) {
-    if (message->data >= input.low && message->data <= input.high) {
-      input.on_number(message->data);
-    } else {
-      ROS_WARN_STREAM_THROTTLE(
-          kWarningPeriod_s, input.topic << ": found " << message->data << ", expected a number in ["
-                                        << input.low << ", " << input.high << "]; it is ignored");
-    }
-  };
+  const auto on_message =
+      [input, complaint = Complaint()](const std_msgs::Float64::ConstPtr& message) mutable {
+        if (message->data >= input.low && message->data <= input.high) {
+          input.on_number(message->data);
+        } else {
+          std::ostringstream text;
+          text << input.topic << ": found " << message->data << ", expected a number in ["
+               << input.low << ", " << input.high << "]; it is ignored";
+          complaint.say(text.str());
+        }
+      };
   return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
 }
 
