@@ -182,6 +182,25 @@ def test_a_lens_bends_image_and_camera_info_alike(tmp_path: pathlib.Path):
     assert float(straight.findtext("plugin/distortionK1")) == 0
 
 
+@pytest.mark.parametrize("device", ["axis", "axis_m5013"])
+def test_servos_lead_pan_and_tilt_unless_told_not_to(tmp_path: pathlib.Path, device: str):
+    root = robot(tmp_path, call(device, "a") + call(device, "b", 'position_control="false"'))
+    servos = [p for p in root.iter("plugin") if "joint_position" in p.get("filename")]
+    found = {servo.findtext("joint"): servo.findtext("commandTopic") for servo in servos}
+    assert found == {
+        f"a_{way}_joint": f"ardee/a/{way}_position_controller/command" for way in ("pan", "tilt")
+    }
+    numbers = load(device)
+    for servo in servos:
+        limit = root.find(f"joint[@name='{servo.findtext('joint')}']/limit")
+        assert float(limit.get("velocity")) == numbers["velocity_limit_rad_s"]
+        assert float(servo.findtext("maxAcceleration")) == numbers["acceleration_limit_rad_s2"]
+    camera = root.find(".//sensor[@name='a_sensor']/plugin")
+    zoom = [float(camera.findtext(f"horizontalFov{end}")) for end in ("Min", "Max")]
+    keys = ("horizontal_fov_min_deg", "horizontal_fov_deg")
+    assert zoom == pytest.approx([math.radians(numbers[key]) for key in keys])
+
+
 def test_the_stereo_baseline_is_in_poses_and_camera_info(tmp_path: pathlib.Path):
     root = robot(tmp_path, call("zed2", "a", 'baseline_m="0.2"'))
     sensor = root.find(".//sensor[@type='multicamera']")

@@ -3,7 +3,9 @@
 
 #include <ros/console.h>
 #include <ros/names.h>
+#include <std_msgs/Float64.h>
 
+#include <sstream>
 #include <utility>
 
 #include "ardee_sim/core/error.h"
@@ -47,6 +49,31 @@ void require_valid(const std::string& topic) {
   }
 }
 
+/// Warns at once, and then not again for a while of wall time. ROS's own throttle counts simulated
+/// time, and says nothing in its first seconds.
+class Complaint {
+ public:
+  void say(const std::string& text) {
+    const ros::WallTime now = ros::WallTime::now();
+    if (!last_.isZero() && (now - last_).toSec() < kWarningPeriod_s) return;
+    last_ = now;
+    ROS_WARN_STREAM(text);
+  }
+
+ private:
+  ros::WallTime last_;
+};
+
+template <typename Message, typename OnMessage>
+ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
+                             const OnMessage& on_message) {
+  require_valid(topic);
+  ros::Subscriber subscriber = node.subscribe<Message>(
+      topic, kCommandQueue, on_message, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  if (!subscriber) throw Error("topic " + topic + " is already subscribed to with another type");
+  return subscriber;
+}
+
 }  // namespace
 
 bool RobotTopics::Route::has_listeners() const {
@@ -69,24 +96,31 @@ RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
 }
 
 ros::Subscriber RobotTopics::subscribe(const Input& input) {
-  require_valid(input.topic);
-  const auto on_message = [on_command = input.on_command,
-                           topic = input.topic](const geometry_msgs::Twist::ConstPtr& message) {
-    const Twist command = from_ros(*message);
-    if (is_finite(command)) {
-      on_command(command);
-    } else {
-      ROS_WARN_STREAM_THROTTLE(kWarningPeriod_s,
-                               topic << ": found a command that is not finite; it is ignored");
-    }
-  };
-  ros::Subscriber subscriber = node_.subscribe<geometry_msgs::Twist>(
-      input.topic, kCommandQueue, on_message, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
-  if (!subscriber) {
-    throw Error("topic " + input.topic + " is already subscribed to with another type");
-  }
-  return subscriber;
+  const auto on_message =
+      [input, complaint = Complaint()](const geometry_msgs::Twist::ConstPtr& message) mutable {
+        const Twist command = from_ros(*message);
+        if (is_finite(command)) {
+          input.on_command(command);
+        } else {
+          complaint.say(input.topic + ": found a command that is not finite; it is ignored");
+        }
+      };
+  return subscribe_to<geometry_msgs::Twist>(node_, input.topic, on_message);
+}
+
+ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
+  const auto on_message =
+      [input, complaint = Complaint()](const std_msgs::Float64::ConstPtr& message) mutable {
+        if (message->data >= input.low && message->data <= input.high) {
+          input.on_number(message->data);
+        } else {
+          std::ostringstream text;
+          text << input.topic << ": found " << message->data << ", expected a number in ["
+               << input.low << ", " << input.high << "]; it is ignored";
+          complaint.say(text.str());
+        }
+      };
+  return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
 }
 
 void RobotTopics::add(Entity& entity) {
@@ -97,6 +131,9 @@ void RobotTopics::add(Entity& entity) {
       topics.routes.push_back(advertise(output, *entity.robot));
     }
     for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
+    for (const NumberInput& input : device->number_inputs()) {
+      topics.subscribers.push_back(subscribe(input));
+    }
     topics.services->add(*device);
   }
   const Topics& kept = topics_[entity.name()] = std::move(topics);

@@ -46,6 +46,7 @@ class RobotTopics : public ReadingSink {
   };
   Route advertise(Output& output, const Robot& robot);
   ros::Subscriber subscribe(const Input& input);
+  ros::Subscriber subscribe(const NumberInput& input);
 
   OdometryFrames& frames_;
   ros::NodeHandle node_;

@@ -37,6 +37,12 @@ def test_the_camera_is_balanced_and_led_slowly(v3: Robot, place: str):
     assert damping / (2 * np.sqrt(stiffness * inertia)) == pytest.approx(0.7, rel=0.05)
 
 
+@pytest.mark.parametrize("place", ["front", "left", "right"])
+def test_it_is_told_where_to_look(v3: Robot, place: str):
+    topics = [s.findtext("referenceTopic") for s in v3.plugins("libTorsionalSpringPlugin.so")]
+    assert topics.count(f"ardee/camera/{place}/tilt_position_controller/command") == 1
+
+
 def test_side_cameras_look_to_their_sides(v3: Robot):
     for place, direction in (("front", [1, 0, 0]), ("left", [0, 1, 0]), ("right", [0, -1, 0])):
         view = v3.frame(f"camera_{place}_optical_frame")[:3, 2]

@@ -15,9 +15,8 @@ namespace {
 constexpr int kLongestSide_px = 8192;
 constexpr double kMostPixels = 1 << 24;
 constexpr double kFarthest_m = 1e6;
-constexpr double kMostDistortion = 1e3;
-/// Relative: of a focal length against what the field of view says.
-constexpr double kSameFocalLength = 1e-2;
+constexpr double kLeastFov_rad = 1e-3;
+constexpr double kMostFov_rad = M_PI - 1e-3;
 
 void read_image(const Element& image, CameraParams& camera, Log& log) {
   Parameters parameters(image);
@@ -59,23 +58,6 @@ void read_noise(const Element& noise, CameraParams& camera, Log& log) {
   camera.development.noise_std = std;
 }
 
-std::array<double, 5> read_distortion(const Element& distortion, Log& log) {
-  Parameters parameters(distortion);
-  std::array<double, 5> D{};
-  std::size_t k = 0;
-  for (const char* key : {"k1", "k2", "p1", "p2", "k3"}) {
-    D[k++] = parameters.number(key, 0.0, -kMostDistortion, kMostDistortion);
-  }
-  const std::string center = parameters.text("center", "0.5 0.5");
-  std::istringstream stream(center);
-  double x = 0.0, y = 0.0;
-  if (!(stream >> x >> y) || x != 0.5 || y != 0.5) {
-    throw parameters.error("center", "expected 0.5 0.5: camera_info has no other");
-  }
-  parameters.finish(log);
-  return D;
-}
-
 Pose read_pose(const Element* pose) {
   if (pose == nullptr || pose->text.empty()) return {};
   std::istringstream stream(pose->text);
@@ -91,9 +73,8 @@ Pose read_pose(const Element* pose) {
                             {numbers[3], numbers[4], numbers[5]});
 }
 
-/// SDF's <camera>; the lens is still that of the field of view.
-CameraParams read_camera_block(const Element& block, std::optional<std::array<double, 5>>& bend,
-                               Log& log) {
+/// SDF's <camera>; the lens is still without what the plugin says.
+CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) {
   CameraParams camera;
   Parameters parameters(block);
   camera.X_SC = read_pose(parameters.block("pose"));
@@ -104,76 +85,11 @@ CameraParams read_camera_block(const Element& block, std::optional<std::array<do
   if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
   if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera, log);
   if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera, log);
-  if (const Element* distortion = parameters.block("distortion")) {
-    bend = read_distortion(*distortion, log);
-  }
+  camera.lens.taken = Lens::pinhole(camera.width, camera.height, fov_rad);
+  of_sdf = read_sdf_lens(parameters, camera.lens.taken, log);
   parameters.ignore({"save", "depth_camera", "visibility_mask"});
   parameters.finish(log);
-  camera.lens = Lens::pinhole(camera.width, camera.height, fov_rad);
   return camera;
-}
-
-/// Focal length and middle as the plugin overrides them: the picture is taken with them, too.
-/// Returns the middle of P in x.
-double read_intrinsics(Parameters& parameters, CameraParams& camera, Log& log) {
-  constexpr double kMost_px = 1e6;
-  const double focal_px = parameters.number("focalLength", 0.0, 0.0, kMost_px);
-  const double cx_px = parameters.number("Cx", 0.0, -kMost_px, kMost_px);
-  const double cy_px = parameters.number("Cy", 0.0, -kMost_px, kMost_px);
-  const double cx_prime_px = parameters.number("CxPrime", 0.0, -kMost_px, kMost_px);
-  if (focal_px > 0.0) {
-    if (std::abs(focal_px / camera.lens.fx_px - 1.0) > kSameFocalLength) {
-      std::ostringstream text;
-      text << parameters.source().to_string() << ": found <focalLength> " << focal_px
-           << ", expected " << camera.lens.fx_px
-           << " by <horizontal_fov>: the picture is taken with the former";
-      log.warn(text.str());
-    }
-    camera.lens.fx_px = camera.lens.fy_px = focal_px;
-  }
-  if (cx_px != 0.0) camera.lens.cx_px = cx_px;
-  if (cy_px != 0.0) camera.lens.cy_px = cy_px;
-  return cx_prime_px != 0.0 ? cx_prime_px : camera.lens.cx_px;
-}
-
-/// Sets what bends the picture, and returns what camera_info says.
-std::array<double, 5> read_bend(Parameters& parameters, CameraParams& camera,
-                                const std::optional<std::array<double, 5>>& of_sdf, Log& log) {
-  std::array<double, 5> of_plugin{};
-  std::size_t k = 0;
-  for (const char* key :
-       {"distortionK1", "distortionK2", "distortionT1", "distortionT2", "distortionK3"}) {
-    of_plugin[k++] = parameters.number(key, 0.0, -kMostDistortion, kMostDistortion);
-  }
-  const bool automatic = parameters.boolean("autoDistortion", false);
-  const bool given = of_plugin != std::array<double, 5>{};
-  if (of_sdf) {
-    if (given && of_plugin != *of_sdf) {
-      log.warn(parameters.source().to_string() +
-               ": found distortion other than that of <camera>, which camera_info tells");
-    }
-    return camera.lens.D = *of_sdf;
-  }
-  if (automatic) return camera.lens.D = of_plugin;
-  if (given) {
-    log.warn(parameters.source().to_string() +
-             ": found distortion without <autoDistortion>: camera_info tells it, the picture is "
-             "straight");
-  }
-  return of_plugin;
-}
-
-void fill_info(CameraParams& camera, const std::array<double, 5>& D, double cx_prime_px,
-               double baseline_m) {
-  const Lens& lens = camera.lens;
-  CameraInfoReading& info = camera.info;
-  info.width = static_cast<std::uint32_t>(camera.width);
-  info.height = static_cast<std::uint32_t>(camera.height);
-  info.D = D;
-  info.K = {lens.fx_px, 0, lens.cx_px, 0, lens.fy_px, lens.cy_px, 0, 0, 1};
-  info.P = {lens.fx_px, 0,          cx_prime_px, -lens.fx_px * baseline_m,
-            0,          lens.fy_px, lens.cy_px,  0,
-            0,          0,          1,           0};
 }
 
 std::optional<float> read_exposure(Parameters& parameters) {
@@ -201,16 +117,27 @@ DepthParams read_depth(Parameters& parameters, const CameraParams& camera, Camer
   return depth;
 }
 
+void read_zoom(Parameters& parameters, CameraParams& camera) {
+  camera.fov_min_rad =
+      parameters.number("horizontalFovMin", kLeastFov_rad, kLeastFov_rad, kMostFov_rad);
+  camera.fov_max_rad =
+      parameters.number("horizontalFovMax", kMostFov_rad, kLeastFov_rad, kMostFov_rad);
+  if (camera.fov_max_rad < camera.fov_min_rad) {
+    throw parameters.error("horizontalFovMax", "expected at least <horizontalFovMin>");
+  }
+}
+
 /// The plugin's keys for one camera. `suffix` follows the camera's name in topics.
 void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::string& suffix,
-                 bool has_baseline, const std::optional<std::array<double, 5>>& bend,
-                 CameraParams& camera, CamerasParams& all, DeviceContext& context) {
+                 bool has_baseline, const SdfLens& of_sdf, CameraParams& camera, CamerasParams& all,
+                 DeviceContext& context) {
   Parameters parameters(plugin.element);
   const std::string robot = plugin_namespace(parameters, context);
   const std::string space = resolve_topic(parameters.text("cameraName", "") + suffix, robot);
   const auto topic = [&](const char* key, const char* fallback) {
     return resolve_topic(parameters.text(key, fallback), space);
   };
+  camera.topics.fov = resolve_topic("set_hfov", space);
   const bool depth = kind != CameraKind::kColor;
   CameraTopics& topics = camera.topics;
   topics.image = topic("imageTopicName", depth ? "ir/image_raw" : "image_raw");
@@ -226,12 +153,10 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
     topics.labels = base + "/segmentation/label";
     topics.instances = base + "/segmentation/instance";
   }
-  const double cx_prime_px = read_intrinsics(parameters, camera, context.log);
-  const std::array<double, 5> D = read_bend(parameters, camera, bend, context.log);
-  const double baseline_m = parameters.number("hackBaseline", 0.0);
-  fill_info(camera, D, cx_prime_px, has_baseline ? baseline_m : 0.0);
-  camera.info.header.frame_id =
-      resolve_frame(parameters.text("frameName", "/world"), robot, context);
+  camera.lens = read_camera_lens(parameters, camera.lens.taken, of_sdf, context.log);
+  if (!has_baseline) camera.lens.baseline_m = 0.0;
+  read_zoom(parameters, camera);
+  camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context);
   camera.development.exposure = read_exposure(parameters);
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");
@@ -245,6 +170,28 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
 
 }  // namespace
 
+CameraInfoReading CameraParams::info() const {
+  const Lens& taken = lens.taken;
+  CameraInfoReading info;
+  info.width = static_cast<std::uint32_t>(width);
+  info.height = static_cast<std::uint32_t>(height);
+  info.D = lens.told;
+  info.K = {taken.fx_px, taken.skew_px, taken.cx_px, 0, taken.fy_px, taken.cy_px, 0, 0, 1};
+  info.P = {taken.fx_px,
+            taken.skew_px,
+            lens.cx_prime_px.value_or(taken.cx_px),
+            -taken.fx_px * lens.baseline_m,
+            0,
+            taken.fy_px,
+            taken.cy_px,
+            0,
+            0,
+            0,
+            1,
+            0};
+  return info;
+}
+
 CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
                            CameraKind kind, bool several, bool triggered, DeviceContext& context) {
   CamerasParams all;
@@ -252,15 +199,15 @@ CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescript
   all.triggered = triggered;
   for (const Element& block : sensor.element.children) {
     if (block.name != "camera") continue;
-    std::optional<std::array<double, 5>> bend;
-    CameraParams camera = read_camera_block(block, bend, context.log);
+    SdfLens of_sdf;
+    CameraParams camera = read_camera_block(block, of_sdf, context.log);
     const auto name = block.attributes.find("name");
     const std::string own = name == block.attributes.end() ? "" : name->second;
     if (several && own.empty()) throw Error(block.source, "found no name, expected one");
     const bool is_left = several && own.find("left") != std::string::npos;
     const bool is_right = several && own.find("right") != std::string::npos;
     const std::string suffix = !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
-    read_plugin(plugin, kind, suffix, !is_left, bend, camera, all, context);
+    read_plugin(plugin, kind, suffix, !is_left, of_sdf, camera, all, context);
     all.cameras.push_back(std::move(camera));
     if (!several) break;
   }

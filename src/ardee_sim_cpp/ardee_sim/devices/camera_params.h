@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/devices/camera_lens.h"
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/render/develop.h"
 
@@ -35,6 +36,7 @@ struct CameraTopics {
   std::string points;
   std::string labels;
   std::string instances;
+  std::string fov;  // that it listens to
 };
 
 /// One camera: SDF's <camera> block and the plugin's keys.
@@ -42,13 +44,18 @@ struct CameraParams {
   Pose X_SC;  // in the sensor's frame; axes as SDF's, not optical
   int width = 320;
   int height = 240;
-  Lens lens;  // what the picture is taken with
+  CameraLens lens;
+  double fov_min_rad = 0.0;  // what it may be zoomed to
+  double fov_max_rad = 0.0;
   double near_m = 0.1;
   double far_m = 100.0;
   Development development;
   DepthParams depth;
   CameraTopics topics;
-  CameraInfoReading info;  // but for the stamp
+  std::string frame;  // the optical one
+
+  /// What camera_info says, but for its header.
+  CameraInfoReading info() const;
 };
 
 /// A sensor's cameras: one, or several of a multicamera.

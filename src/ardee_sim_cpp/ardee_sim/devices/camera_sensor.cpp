@@ -68,7 +68,8 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.height = params.height;
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
-  eye.camera.lens = std::make_shared<LensTable>(params.lens, params.width, params.height);
+  eye.unzoomed = params.lens.taken;
+  set_lens(eye);
   eye.view = context.scenes.register_eye(SceneKind::kVisual,
                                          [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
   const auto output = [this](const std::string& topic, std::size_t kind) {
@@ -84,12 +85,27 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.points = output(topics.points, reading_kind<PointCloudReading>());
   eye.labels = output(topics.labels, image);
   eye.instances = output(topics.instances, image);
+  const std::size_t number = eyes_.size();
+  add_number_input({topics.fov, params.fov_min_rad, params.fov_max_rad, [this, number](double fov) {
+                      Eye& zoomed = eyes_[number];
+                      zoomed.params.lens.set_horizontal_fov(zoomed.params.width, fov);
+                      set_lens(zoomed);
+                    }});
   eyes_.push_back(std::move(eye));
+}
+
+void CameraSensor::set_lens(Eye& eye) {
+  const CameraParams& params = eye.params;
+  eye.camera.lens = std::make_shared<LensTable>(params.lens.taken, params.width, params.height);
 }
 
 void CameraSensor::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   asked_ = false;
+  for (Eye& eye : eyes_) {
+    eye.params.lens.taken = eye.unzoomed;
+    set_lens(eye);
+  }
 }
 
 bool CameraSensor::wanted() const {
@@ -114,8 +130,7 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
   parts.light = asked_for(eye.image) || asked_for(eye.points);
   parts.depth = asked_for(eye.depth) || asked_for(eye.points);
   parts.ids = asked_for(eye.labels) || asked_for(eye.instances);
-  eye.params.info.header.stamp_ns = now_ns;
-  const Header& header = eye.params.info.header;
+  const Header header{now_ns, eye.params.frame};
   const auto give = [&](const Output* output, auto reading) {
     reading.header = header;
     sink.on_reading(*output, reading);
@@ -136,8 +151,8 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
     if (asked_for(eye.labels)) give(eye.labels, label_image(frame));
     if (asked_for(eye.instances)) give(eye.instances, instance_image(frame));
   }
-  if (asked_for(eye.info)) give(eye.info, eye.params.info);
-  if (asked_for(eye.depth_info)) give(eye.depth_info, eye.params.info);
+  if (asked_for(eye.info)) give(eye.info, eye.params.info());
+  if (asked_for(eye.depth_info)) give(eye.depth_info, eye.params.info());
 }
 
 }  // namespace ardee

@@ -47,6 +47,7 @@ class CameraSensor : public Sensor {
  private:
   struct Eye {
     CameraParams params;
+    Lens unzoomed;
     Camera camera;               // but for its pose
     std::shared_ptr<void> view;  // tells the scenes where rays start
     Output* image = nullptr;     // null: there is no such topic
@@ -58,6 +59,7 @@ class CameraSensor : public Sensor {
     Output* instances = nullptr;
   };
   void add_eye(const CameraParams& params, DeviceContext& context);
+  static void set_lens(Eye& eye);
   void sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, ReadingSink& sink);
 
   Pictures& pictures_;

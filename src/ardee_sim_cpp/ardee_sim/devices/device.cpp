@@ -12,6 +12,8 @@ void Device::add_input(const std::string& topic, std::function<void(const Twist&
   inputs_.push_back({topic, std::move(on_command)});
 }
 
+void Device::add_number_input(NumberInput input) { number_inputs_.push_back(std::move(input)); }
+
 void Device::add_trigger(const std::string& topic, std::function<void()> on_trigger) {
   triggers_.push_back({topic, std::move(on_trigger)});
 }

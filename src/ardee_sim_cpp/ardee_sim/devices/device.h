@@ -34,6 +34,14 @@ struct Input {
   std::function<void(const Twist&)> on_command;
 };
 
+/// A number that a device takes on a topic: one within [low, high], others are refused.
+struct NumberInput {
+  std::string topic;
+  double low = 0.0;
+  double high = 0.0;
+  std::function<void(double)> on_number;
+};
+
 /// A request to act now, without content, on a topic.
 struct Trigger {
   std::string topic;
@@ -132,6 +140,7 @@ class Device {
   const std::string& name() const { return name_; }
   std::deque<Output>& outputs() { return outputs_; }
   std::deque<Input>& inputs() { return inputs_; }
+  const std::vector<NumberInput>& number_inputs() const { return number_inputs_; }
   const std::vector<Trigger>& triggers() const { return triggers_; }
   const std::vector<Service>& services() const { return services_; }
   const std::vector<Tuning>& tunings() const { return tunings_; }
@@ -147,6 +156,7 @@ class Device {
   /// Addresses of outputs stay valid as more are added.
   Output& add_output(const std::string& topic, std::size_t kind);
   void add_input(const std::string& topic, std::function<void(const Twist&)> on_command);
+  void add_number_input(NumberInput input);
   void add_trigger(const std::string& topic, std::function<void()> on_trigger);
   void add_service(const std::string& name, Service::Act act);
   void add_tuning(Tuning tuning);
@@ -155,6 +165,7 @@ class Device {
   std::string name_;
   std::deque<Output> outputs_;
   std::deque<Input> inputs_;
+  std::vector<NumberInput> number_inputs_;
   std::vector<Trigger> triggers_;
   std::vector<Service> services_;
   std::vector<Tuning> tunings_;

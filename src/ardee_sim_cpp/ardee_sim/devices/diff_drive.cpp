@@ -14,14 +14,6 @@ constexpr double kFastest = 1e6;  // m/s: what a command can ask of a wheel
 // As the stock plugin says them: x, y, z, roll, pitch, yaw.
 constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
 
-/// A frame without leading slash, below the tf_prefix, as the stock plugin resolves "/odom" too.
-std::string read_frame(Parameters& parameters, const char* key, const char* fallback,
-                       const std::string& space, const DeviceContext& context) {
-  std::string name = parameters.text(key, fallback);
-  name.erase(0, name.find_first_not_of('/'));
-  return resolve_frame(name, space, context);
-}
-
 void read_wheels(Parameters& parameters, const std::string& space, const DeviceContext& context,
                  DiffDrive::Params& params) {
   static constexpr std::array<const char*, DiffDrive::kWheelCount> kKeys = {"leftJoint",
@@ -70,8 +62,8 @@ DiffDrive::Params read(const PluginDescription& plugin, DeviceContext& context) 
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
   params.joints_topic = resolve_topic("joint_states", space);
-  params.odometry_frame = read_frame(parameters, "odometryFrame", "odom", space, context);
-  params.base_frame = read_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
+  params.odometry_frame = plugin_frame(parameters, "odometryFrame", "odom", space, context);
+  params.base_frame = plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
   parameters.ignore({"alwaysOn", "rosDebugLevel"});
   parameters.finish(context.log);
   return params;

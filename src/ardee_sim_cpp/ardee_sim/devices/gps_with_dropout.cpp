@@ -105,10 +105,16 @@ void GpsWithDropout::move_fix(const GpsNoise& noise) {
   has_fix_ = draw >= lost;
 }
 
+GpsNoise GpsWithDropout::noise_in(const GpsRegion& region, TimeNs now_ns) const {
+  if (!region.periodic) return region.noise;
+  const auto number = static_cast<std::uint64_t>(&region - regions_.all().data());
+  return region.periodic->at(now_ns, periods_.frame(number));  // each box draws for itself
+}
+
 Gps::Sky GpsWithDropout::sky(const Vector3d& position_W, TimeNs now_ns) {
   const GpsRegion* region = regions_.find(position_W);
   GpsNoise noise;
-  if (region) noise = region->periodic ? region->periodic->at(now_ns, periods_) : region->noise;
+  if (region) noise = noise_in(*region, now_ns);
   region_ = region ? region->name : "";
   move_error();
   move_fix(noise);

@@ -36,6 +36,7 @@ class GpsWithDropout : public Gps {
               const Eigen::Vector3d& std_m, ReadingSink& sink) override;
 
  private:
+  GpsNoise noise_in(const GpsRegion& region, TimeNs now_ns) const;
   void move_error();
   void move_fix(const GpsNoise& noise);
   RegionsReading regions_reading(TimeNs now_ns) const;

@@ -33,6 +33,11 @@ std::string resolve_frame(const std::string& frame, const std::string& robot_nam
   return prefix + "/" + without_slashes(frame);
 }
 
+std::string plugin_frame(Parameters& parameters, const char* key, const char* fallback,
+                         const std::string& robot_namespace, const DeviceContext& context) {
+  return resolve_frame(without_slashes(parameters.text(key, fallback)), robot_namespace, context);
+}
+
 std::size_t plugin_link(Parameters& parameters, const DeviceContext& context) {
   const Element* body = parameters.block("bodyName");
   if (!body || body->text.empty()) return 0;

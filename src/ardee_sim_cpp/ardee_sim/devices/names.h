@@ -21,6 +21,11 @@ std::string resolve_topic(const std::string& topic, const std::string& robot_nam
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
                           const DeviceContext& context);
 
+/// The frame that a drive's key names, below the namespace's tf_prefix with a leading slash too, as
+/// the stock plugins have it: an absolute "/odom" would be lost in tf2.
+std::string plugin_frame(Parameters& parameters, const char* key, const char* fallback,
+                         const std::string& robot_namespace, const DeviceContext& context);
+
 /// The link that a model plugin's <bodyName> names, of its own robot; the first where there is
 /// none. Throws Error if the robot has no such link.
 std::size_t plugin_link(Parameters& parameters, const DeviceContext& context);

@@ -88,7 +88,6 @@ RangeFinder::RangeFinder(const std::string& name, const Mount& mount, const Para
 void RangeFinder::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   model_.reset(now_ns);
-  last_ns_ = now_ns;
 }
 
 double RangeFinder::nearest_m(const CounterRng& noise) {
@@ -100,8 +99,7 @@ double RangeFinder::nearest_m(const CounterRng& noise) {
 }
 
 void RangeFinder::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
-  const double error_m = model_.next_error(seconds(now_ns - last_ns_)).x();
-  last_ns_ = now_ns;
+  const double error_m = model_.next_error(elapsed_s()).x();
   if (!output_.demanded) return;
   const RayBlock& rays = params_.rays;
   double range_m = nearest_m(noise);

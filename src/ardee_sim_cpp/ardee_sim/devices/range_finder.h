@@ -54,7 +54,6 @@ class RangeFinder : public Sensor {
   LidarBeams beams_;
   std::shared_ptr<void> eye_;
   SensorModel model_;
-  TimeNs last_ns_ = 0;
   std::vector<BeamEcho> echoes_;
   Output& output_;
 };

@@ -13,6 +13,7 @@
 #include "ardee_sim/devices/gps_with_dropout.h"
 #include "ardee_sim/devices/ground_truth.h"
 #include "ardee_sim/devices/hector_imu.h"
+#include "ardee_sim/devices/joint_position.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/magnetometer.h"
@@ -75,8 +76,16 @@ std::string Registry::known_names() const {
   return names;
 }
 
-std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& context) const {
+std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext& robot) const {
   std::vector<std::unique_ptr<Device>> devices;
+  DeviceContext context = robot;
+  std::map<std::string, int> namesakes;
+  // A device's errors follow from seed and name: of two with one name each gets a seed of its own.
+  const auto seed_for = [&](const std::string& name) {
+    const int before = namesakes[name]++;
+    context.seed =
+        before == 0 ? robot.seed : stream_key(robot.seed, "namesake " + std::to_string(before));
+  };
   const auto unknown = [&](const PluginDescription& plugin) {
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
                      "', expected one of:" + known_names() + "; it is left out");
@@ -93,6 +102,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
     }
     const ModelMaker& maker = found->second;
     const auto make = [&] { return maker.make(plugin, context); };
+    seed_for(plugin.name);
     // A static model keeps those of its devices that do without motion.
     const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
     keep(may_fail ? made_or_left_out(make, plugin, context.log) : make());
@@ -105,6 +115,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
           unknown(plugin);
         } else {
           const auto make = [&] { return found->second(sensor, plugin, link, context); };
+          seed_for(sensor.name);
           keep(made_or_left_out(make, plugin, context.log));
         }
       }
@@ -115,6 +126,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(DeviceContext& conte
 
 Registry builtin_registry() {
   Registry registry;
+  registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);

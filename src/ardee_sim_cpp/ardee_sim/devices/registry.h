@@ -28,7 +28,7 @@ class Registry {
   /// A device for each plugin of the robot and of its links' sensors, in the order of the
   /// description. A plugin of unknown file name is a warning that lists the known ones. A bad value
   /// inside a controller is an Error; a sensor with one is left out, and the log says why.
-  std::vector<std::unique_ptr<Device>> make_devices(DeviceContext& context) const;
+  std::vector<std::unique_ptr<Device>> make_devices(const DeviceContext& robot) const;
 
  private:
   std::string known_names() const;

@@ -69,15 +69,8 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
   params.source = read_odometry_source(parameters);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
-  const auto frame = [&](const char* key, const char* fallback) {
-    // The stock plugin resolves "/odom" below the tf_prefix too; an absolute name would be lost in
-    // tf2.
-    std::string name = parameters.text(key, fallback);
-    name.erase(0, name.find_first_not_of('/'));
-    return resolve_frame(name, space, context);
-  };
-  params.odometry_frame = frame("odometryFrame", "odom");
-  params.base_frame = frame("robotBaseFrame", "base_footprint");
+  params.odometry_frame = plugin_frame(parameters, "odometryFrame", "odom", space, context);
+  params.base_frame = plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
   read_encoders(parameters, space, with_encoders, context, params);
   parameters.ignore({"topicName", "alwaysOn"});  // in Listing A.13; the stock plugin reads neither
   parameters.finish(context.log);

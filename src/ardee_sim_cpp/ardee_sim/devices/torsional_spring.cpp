@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/torsional_spring.h"
 
+#include <algorithm>
 #include <limits>
 #include <sstream>
 
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
 
 namespace ardee {
 namespace {
 
-TorsionalSpring::Params read(const PluginDescription& plugin, Log& log) {
+TorsionalSpring::Params read(const PluginDescription& plugin, DeviceContext& context) {
   Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
   TorsionalSpring::Params params;
   params.joint = parameters.required_text("joint_handle");
   params.stiffness_n_m_per_rad =
@@ -26,8 +29,9 @@ TorsionalSpring::Params read(const PluginDescription& plugin, Log& log) {
     throw parameters.error("lower_limit", "expected at most <upper_limit>");
   }
   params.verbose = parameters.boolean("verbose", false);
-  parameters.ignore({"robotNamespace"});
-  parameters.finish(log);
+  const std::string topic = parameters.text("referenceTopic", "");
+  if (!topic.empty()) params.reference_topic = resolve_topic(topic, space);
+  parameters.finish(context.log);
   return params;
 }
 
@@ -35,7 +39,7 @@ TorsionalSpring::Params read(const PluginDescription& plugin, Log& log) {
 
 std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
                                               DeviceContext& context) {
-  const Params params = read(plugin, context.log);
+  const Params params = read(plugin, context);
   const std::size_t joint = context.robot.joint_index(params.joint, plugin.element.source);
   const JointType type = context.robot.model().joints[joint].type;
   if (type != JointType::kRevolute && type != JointType::kContinuous &&
@@ -50,13 +54,27 @@ std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
 TorsionalSpring::TorsionalSpring(const std::string& name, const Params& params, std::size_t joint,
                                  DeviceContext& context)
     : Device(name), params_(params), joint_(joint), robot_(context.robot), log_(context.log) {
+  constexpr double kFarthest = std::numeric_limits<double>::max();
+  if (!params_.reference_topic.empty()) {
+    add_number_input({params_.reference_topic, -kFarthest, kFarthest,
+                      [this](double reference_rad) { set_reference(reference_rad); }});
+  }
   reset(0);
 }
 
+void TorsionalSpring::set_reference(double reference_rad) {
+  reference_rad_ = params_.has_limits
+                       ? std::clamp(reference_rad, params_.lower_rad, params_.upper_rad)
+                       : reference_rad;
+  robot_.dynamics().set_joint_spring(
+      joint_, {params_.stiffness_n_m_per_rad, params_.damping_n_m_s_per_rad, reference_rad_});
+}
+
 void TorsionalSpring::reset(TimeNs /*now_ns*/) {
+  reference_rad_ = params_.reference_rad;
   PhysicsModel& dynamics = robot_.dynamics();
-  dynamics.set_joint_spring(joint_, {params_.stiffness_n_m_per_rad, params_.damping_n_m_s_per_rad,
-                                     params_.reference_rad});
+  dynamics.set_joint_spring(
+      joint_, {params_.stiffness_n_m_per_rad, params_.damping_n_m_s_per_rad, reference_rad_});
   if (params_.has_limits) dynamics.set_joint_limits(joint_, params_.lower_rad, params_.upper_rad);
   verbose_timer_.reset();
 }
@@ -69,7 +87,7 @@ void TorsionalSpring::after_step(TimeNs now_ns, ReadingSink& /*sink*/) {
   text << "joint " << params_.joint << ": position " << angle << " rad, velocity " << rate
        << " rad/s, spring torque "
        << -params_.damping_n_m_s_per_rad * rate -
-              params_.stiffness_n_m_per_rad * (angle - params_.reference_rad)
+              params_.stiffness_n_m_per_rad * (angle - reference_rad_)
        << " N m";
   log_.info(text.str());
 }

@@ -9,8 +9,9 @@ namespace ardee {
 
 /// libTorsionalSpringPlugin.so (thesis 4.4.3, Listings A.4, A.26, A.27): a torsional harmonic
 /// oscillator on a joint, tau = -damping * rate - stiffness * (angle - reference) (eq. 4.1), with
-/// the joint's limits enforced. Unlike the listing's explicit torque it is integrated implicitly
-/// and so is stable for any stiffness and step.
+/// the joint's limits enforced. A command on <referenceTopic> moves the reference. Unlike the
+/// listing's explicit torque it is integrated implicitly and so is stable for any stiffness and
+/// step.
 class TorsionalSpring : public Device {
  public:
   struct Params {
@@ -22,6 +23,7 @@ class TorsionalSpring : public Device {
     double upper_rad = 0.0;
     bool has_limits = false;
     bool verbose = false;
+    std::string reference_topic;  // empty: the reference stays
   };
 
   static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
@@ -32,10 +34,13 @@ class TorsionalSpring : public Device {
   void reset(TimeNs now_ns) override;
 
  private:
+  void set_reference(double reference_rad);
+
   Params params_;
   std::size_t joint_;
   Robot& robot_;
   Log& log_;
+  double reference_rad_ = 0.0;
   RateTimer verbose_timer_{1.0};
 };
 

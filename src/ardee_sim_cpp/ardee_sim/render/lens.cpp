@@ -64,11 +64,11 @@ std::optional<Eigen::Vector2d> Lens::straighten(const Eigen::Vector2d& bent) con
 
 Eigen::Vector2d Lens::to_pixel(const Eigen::Vector2d& plane) const {
   const Eigen::Vector2d bent = bend(plane);
-  return {fx_px * bent.x() + cx_px, fy_px * bent.y() + cy_px};
+  return {fx_px * bent.x() + skew_px * bent.y() + cx_px, fy_px * bent.y() + cy_px};
 }
 
 std::optional<Eigen::Vector2d> Lens::to_plane(const Eigen::Vector2d& pixel) const {
-  return straighten({(pixel.x() - cx_px) / fx_px, (pixel.y() - cy_px) / fy_px});
+  return straighten(bent_plane(pixel));
 }
 
 LensTable::LensTable(const Lens& lens, int width, int height)
@@ -84,7 +84,7 @@ LensTable::LensTable(const Lens& lens, int width, int height)
   }
 }
 
-Eigen::Vector2d LensTable::bent_plane(double x_px, double y_px) const {
+Eigen::Vector2d LensTable::between_corners(double x_px, double y_px) const {
   // Linear between the corners of a pixel: the bend within one is below a thousandth of it.
   const int column = std::clamp(static_cast<int>(x_px), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(y_px), 0, height_ - 1);

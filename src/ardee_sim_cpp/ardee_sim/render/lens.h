@@ -15,6 +15,7 @@ struct Lens {
   double fy_px = 1.0;
   double cx_px = 0.0;
   double cy_px = 0.0;
+  double skew_px = 0.0;       // that a row is shifted right by, for each unit of y / z
   std::array<double, 5> D{};  // plumb_bob: k1, k2, t1, t2, k3 (Brown 1966, as OpenCV has it)
 
   /// Straight, its axis through the middle of the picture.
@@ -27,6 +28,11 @@ struct Lens {
   std::optional<Eigen::Vector2d> straighten(const Eigen::Vector2d& bent) const;
   /// Pixel coordinates of a point of the picture plane before distortion.
   Eigen::Vector2d to_pixel(const Eigen::Vector2d& plane) const;
+  /// The point of the picture plane after distortion that a pixel shows.
+  Eigen::Vector2d bent_plane(const Eigen::Vector2d& pixel) const {
+    const double y = (pixel.y() - cy_px) / fy_px;
+    return {(pixel.x() - cx_px - skew_px * y) / fx_px, y};
+  }
   /// The inverse of to_pixel.
   std::optional<Eigen::Vector2d> to_plane(const Eigen::Vector2d& pixel) const;
 };
@@ -40,12 +46,12 @@ class LensTable {
   /// The point of the picture plane at (x, y) in pixels, (0, 0) being the upper left corner of the
   /// picture; not finite where no light comes from.
   Eigen::Vector2d plane(double x_px, double y_px) const {
-    if (!corners_.empty()) return bent_plane(x_px, y_px);
-    return {(x_px - 0.5 - lens_.cx_px) / lens_.fx_px, (y_px - 0.5 - lens_.cy_px) / lens_.fy_px};
+    return corners_.empty() ? lens_.bent_plane({x_px - 0.5, y_px - 0.5})
+                            : between_corners(x_px, y_px);
   }
 
  private:
-  Eigen::Vector2d bent_plane(double x_px, double y_px) const;
+  Eigen::Vector2d between_corners(double x_px, double y_px) const;
 
   Lens lens_;
   int width_;

@@ -39,7 +39,7 @@ TEST(Parameters, ReadsTypedValuesAndDefaults) {
   Parameters parameters(element);
   EXPECT_EQ(parameters.number("rate", 1.0), 50.0);
   EXPECT_TRUE(parameters.boolean("tf", false));
-  EXPECT_EQ(parameters.vector3("gain", {}), Eigen::Vector3d(1, -2.5, 300));
+  EXPECT_EQ(parameters.vector3("gain", Eigen::Vector3d::Zero()), Eigen::Vector3d(1, -2.5, 300));
   EXPECT_EQ(parameters.number("absent", 4.5), 4.5);
 }
 

@@ -33,6 +33,18 @@ TEST(Lens, StraighteningUndoesBending) {
   }
 }
 
+TEST(Lens, SkewShiftsRows) {
+  Lens lens = Lens::pinhole(640, 480, M_PI / 2);
+  lens.skew_px = 12.0;
+  const Eigen::Vector2d pixel = lens.to_pixel({0.25, 0.5});
+  EXPECT_NEAR(pixel.x(), 320.0 * 0.25 + 12.0 * 0.5 + 319.5, 1e-9);
+  EXPECT_NEAR(pixel.y(), 320.0 * 0.5 + 239.5, 1e-9);
+  EXPECT_NEAR((*lens.to_plane(pixel) - Eigen::Vector2d(0.25, 0.5)).norm(), 0.0, 1e-12);
+  const LensTable table(lens, 640, 480);  // whose pixels are counted from their corners
+  EXPECT_NEAR((table.plane(pixel.x() + 0.5, pixel.y() + 0.5) - Eigen::Vector2d(0.25, 0.5)).norm(),
+              0.0, 1e-12);
+}
+
 TEST(Lens, BendsAsThePlumbBobModelSays) {
   Lens lens;
   lens.D = {0.1, 0.01, 0.002, 0.003, 0.001};

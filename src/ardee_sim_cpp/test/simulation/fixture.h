@@ -54,6 +54,7 @@ class TestWorld {
   Simulation& operator*() { return *simulation_; }
   Simulation* operator->() { return simulation_.get(); }
   Recorder& recorder() { return recorder_; }
+  const Recorder& recorder() const { return recorder_; }
   const std::vector<std::string>& messages() const { return messages_; }
 
   Entity& spawn(const std::string& xml, const std::string& name, const Pose& pose = {},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "../temp_folder.h"
 #include "ardee_sim/render/lens.h"
 #include "cameras.h"
 
@@ -54,6 +55,7 @@ std::vector<double> corner_errors(const ImageReading& image, const CameraInfoRea
   lens.fy_px = info.K[4];
   lens.cx_px = info.K[2];
   lens.cy_px = info.K[5];
+  lens.skew_px = info.K[1];
   lens.D = info.D;
   std::vector<double> errors;
   for (int column = 1; column < kColumns; ++column) {
@@ -77,10 +79,8 @@ std::vector<double> corner_errors(const ImageReading& image, const CameraInfoRea
   return errors;
 }
 
-void expect_corners_in_place(const std::string& camera, const std::string& keys = "") {
-  TestWorld world(checkerboard());
-  world.spawn(camera_post("camera", camera, keys), "post", kOneMetreUp);
-  world.run(0.1);
+/// In the first pictures that have been taken.
+void expect_corners_in_place(const TestWorld& world) {
   const auto images = world.recorder().on<ImageReading>("/cam/image_raw");
   const auto infos = world.recorder().on<CameraInfoReading>("/cam/camera_info");
   ASSERT_EQ(images.size(), 1u);
@@ -93,6 +93,27 @@ void expect_corners_in_place(const std::string& camera, const std::string& keys 
     sum += error;
   }
   EXPECT_LT(std::abs(sum / static_cast<double>(errors.size())), 0.2);
+}
+
+void expect_corners_in_place(const std::string& camera, const std::string& keys = "") {
+  TestWorld world(checkerboard());
+  world.spawn(camera_post("camera", camera, keys), "post", kOneMetreUp);
+  world.run(0.1);
+  expect_corners_in_place(world);
+}
+
+/// <lens> with <intrinsics>.
+std::string lens_block(const std::string& intrinsics, const std::string& more = "") {
+  return "<lens>" + more + "<intrinsics>" + intrinsics + "</intrinsics></lens>";
+}
+
+CameraInfoReading info_of(const std::string& camera, const std::string& keys,
+                          std::vector<std::string>* messages = nullptr) {
+  TestWorld world("");
+  world.spawn(camera_post("camera", camera, keys), "post");
+  world.run(0.1);
+  if (messages) *messages = world.messages();
+  return world.recorder().on<CameraInfoReading>("/cam/camera_info").at(0);
 }
 
 TEST(CameraPlugin, SeesACheckerboardWhereCameraInfoSays) {
@@ -111,6 +132,81 @@ TEST(CameraPlugin, BendsThePictureAsItsDistortionSays) {
 TEST(CameraPlugin, TakesThePictureWithTheIntrinsicsOfThePlugin) {
   expect_corners_in_place(camera_block(640, 480, 1.1),
                           "<focalLength>500</focalLength><Cx>330.25</Cx><Cy>228.5</Cy>");
+}
+
+TEST(CameraPlugin, TakesThePictureWithTheIntrinsicsOfItsLens) {
+  const std::string intrinsics = "<fx>480</fx><fy>505.5</fy><cx>331.25</cx><cy>221</cy><s>30</s>";
+  expect_corners_in_place(camera_block(640, 480, 1.1, lens_block(intrinsics)));
+  expect_corners_in_place(camera_block(
+      640, 480, 1.1,
+      lens_block(intrinsics) + "<distortion><k1>-0.2</k1><p1>0.002</p1></distortion>"));
+  const auto info = info_of(camera_block(640, 480, 1.1, lens_block(intrinsics)), "");
+  EXPECT_EQ(info.K, (std::array<double, 9>{480, 30, 331.25, 0, 505.5, 221, 0, 0, 1}));
+  EXPECT_EQ(info.P, (std::array<double, 12>{480, 30, 331.25, 0, 0, 505.5, 221, 0, 0, 0, 1, 0}));
+}
+
+TEST(CameraPlugin, WhatIntrinsicsDoNotSayFollowsFromTheFieldOfView) {
+  std::vector<std::string> messages;
+  const auto info =
+      info_of(camera_block(640, 480, M_PI / 2, lens_block("<fx>300</fx>")), "", &messages);
+  EXPECT_TRUE(messages.empty());
+  EXPECT_EQ(info.K[0], 300.0);
+  EXPECT_NEAR(info.K[4], 320.0, 1e-3);
+  EXPECT_EQ(info.K[2], 319.5);
+  EXPECT_EQ(info.K[5], 239.5);
+}
+
+TEST(CameraPlugin, APluginThatContradictsTheLensIsWarned) {
+  std::vector<std::string> messages;
+  const auto info = info_of(camera_block(640, 480, 1.1, lens_block("<fx>480</fx><fy>480</fy>")),
+                            "<focalLength>500</focalLength>", &messages);
+  EXPECT_EQ(info.K[0], 480.0);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].find("other than the <intrinsics>"), std::string::npos) << messages[0];
+}
+
+TEST(CameraPlugin, OtherProjectionsAreSaidOnce) {
+  std::vector<std::string> messages;
+  const auto info =
+      info_of(camera_block(640, 480, 1.1,
+                           lens_block("<fx>480</fx>",
+                                      "<type>custom</type><scale_to_hfov>true</scale_to_hfov>"
+                                      "<custom_function><c1>1</c1></custom_function>"
+                                      "<projection><p_fx>9</p_fx></projection>")),
+              "", &messages);
+  EXPECT_EQ(info.K[0], 480.0);
+  EXPECT_EQ(info.P[0], 480.0);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_NE(messages[0].find("found <type> custom <custom_function> <projection>, expected"),
+            std::string::npos)
+      << messages[0];
+}
+
+TEST(CameraPlugin, ZoomsToTheFieldOfViewThatItIsTold) {
+  TestWorld world(checkerboard());
+  Entity& post = world.spawn(camera_post("camera",
+                                         camera_block(640, 480, 1.5,
+                                                      "<distortion><k1>-0.1</k1></distortion>" +
+                                                          lens_block("<cx>330</cx>")),
+                                         "<horizontalFovMin>0.5</horizontalFovMin>"),
+                             "post", kOneMetreUp);
+  ASSERT_EQ(post.devices.at(0)->number_inputs().size(), 1u);
+  const NumberInput& zoom = post.devices[0]->number_inputs()[0];
+  EXPECT_EQ(zoom.topic, "/cam/set_hfov");
+  EXPECT_EQ(zoom.low, 0.5);
+  EXPECT_GT(zoom.high, 3.0);
+  zoom.on_number(0.9);
+  world.run(0.1);
+  expect_corners_in_place(world);
+  const auto info = world.recorder().on<CameraInfoReading>("/cam/camera_info").at(0);
+  EXPECT_NEAR(info.K[0], 320.0 / std::tan(0.45), 1e-9);
+  EXPECT_NEAR(info.K[4], info.K[0], 1e-9);
+  EXPECT_EQ(info.K[2], 330.0);
+  EXPECT_EQ(info.P[0], info.K[0]);
+  post.devices[0]->reset(world->now_ns());
+  world.run(0.1);
+  EXPECT_NEAR(world.recorder().on<CameraInfoReading>("/cam/camera_info").at(1).K[0],
+              320.0 / std::tan(0.75), 1e-9);
 }
 
 TEST(CameraPlugin, TellsItsCalibration) {
@@ -214,8 +310,14 @@ TEST(CameraPlugin, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(CameraPlugin, SegmentationNamesWhatIsSeen) {
-  const std::string plain = static_box("ignored", "9 9 9 0 0 0", "1 1 1");
-  TestWorld world(plain + static_box("wall", "3.5 2 0 0 0 0", "1 4 9"));
+  const TempFolder folder;
+  folder.write_model(
+      "wall",
+      "<static>true</static><link name='l'><visual name='v'><geometry><box><size>1 4 "
+      "9</size></box></geometry></visual></link>");
+  const std::string plain = static_box("ignored", "3.5 -9 0 0 0 0", "1 4 9");
+  TestWorld world(plain + "<include><uri>file://" + folder.path() +
+                  "/wall</uri><pose>3.5 2 0 0 0 0</pose><ardee:label>7</ardee:label></include>");
   world.spawn(camera_post("camera", camera_block(65, 49, 1.0), "<segmentation>true</segmentation>"),
               "post");
   world.run(0.1);
@@ -228,6 +330,11 @@ TEST(CameraPlugin, SegmentationNamesWhatIsSeen) {
   EXPECT_EQ(id(4), static_cast<int>(world->find("wall")->robot->entity()) + 1);
   const auto labels = world.recorder().on<ImageReading>("/cam/segmentation/label").at(0);
   EXPECT_EQ(labels.encoding, "16UC1");
+  const auto label = [&](std::size_t column) {
+    return value_at<std::uint16_t>(labels.data, 24 * labels.step + 2 * column);
+  };
+  EXPECT_EQ(label(60), 0);
+  EXPECT_EQ(label(4), 7);
 }
 
 class BadCamera : public testing::TestWithParam<std::array<const char*, 3>> {};
@@ -258,6 +365,11 @@ INSTANTIATE_TEST_SUITE_P(
         std::array<const char*, 3>{"<image><width>4</width><height>4</height><format>R3</format>"
                                    "</image>",
                                    "", "found format 'R3', expected one of: R8G8B8"},
+        std::array<const char*, 3>{"<lens><intrinsics><fx>0</fx></intrinsics></lens>", "",
+                                   "found 0, expected a number in [0.001"},
+        std::array<const char*, 3>{
+            "", "<horizontalFovMin>1</horizontalFovMin><horizontalFovMax>0.9</horizontalFovMax>",
+            "expected at least <horizontalFovMin>"},
         std::array<const char*, 3>{"", "<depthNoiseLinear>-0.1</depthNoiseLinear>", "found -0.1"},
         std::array<const char*, 3>{"", "<pointCloudCutoffMax>0.1</pointCloudCutoffMax>",
                                    "expected more than <pointCloudCutoff>"},

@@ -224,6 +224,26 @@ TEST(Magnetometer, field_in_the_body) {
               {std::sqrt(0.75), 0, 0.5}, 1e-12);
 }
 
+TEST(Gps, receivers_of_one_name_err_independently) {
+  const std::size_t count = 2000;
+  const auto receiver = [](const std::string& topic) {
+    return gps(kReference +
+               std::string("<updateRate>10</updateRate><gaussianNoise>1</gaussianNoise>"
+                           "<topicName>") +
+               topic + "</topicName>");
+  };
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(still(receiver("left") + receiver("right")), "ball");
+  for (std::size_t i = 0; i < count; ++i) world->step();
+  const auto left = world.recorder().on<FixReading>("/left");
+  const auto right = world.recorder().on<FixReading>("/right");
+  ASSERT_EQ(left.size() + right.size(), 2 * count);
+  double products = 0.0;
+  for (std::size_t i = 0; i < count; ++i) products += local(left[i]).x() * local(right[i]).x();
+  EXPECT_NEAR(products / static_cast<double>(count), 0.0,
+              kFourSigma / std::sqrt(static_cast<double>(count)));
+}
+
 TEST(GroundTruth, pose_and_velocity_of_a_link) {
   const auto truth = [](const std::string& keys) {
     return plugin("gazebo_ros_p3d", "<bodyName>nose</bodyName><updateRate>10</updateRate>" + keys);

@@ -231,6 +231,26 @@ TEST(GpsRegions, periodic_box_draws_its_noise_anew_each_period) {
   EXPECT_NEAR(std_of(factors) / 2.0, 1.0, kFourSigma / std::sqrt(8000.0));
 }
 
+TEST(GpsRegions, periodic_boxes_draw_independently) {
+  const auto box = [](const std::string& cx) {
+    return "<periodic_noise_box><cx>" + cx +
+           "</cx><cy>0</cy><cz>0</cz><w>4</w><l>4</l><h>2</h><rot>0</rot><nps>0.1</nps>"
+           "<nmpm>1</nmpm><nmpv>0</nmpv><nvpm>16</nvpm><nvpv>4</nvpv></periodic_noise_box>";
+  };
+  const std::size_t count = 2000;
+  const std::string keys = box("0") + box("10") + "<gaussianNoise>0.1</gaussianNoise>";
+  const auto factors = [&](double x) {
+    std::vector<double> values;
+    for (const GpsQualityReading& each : stand(keys, at(x), count)) {
+      values.push_back((std::pow(each.position_std_m / 0.1, 2) - 16.0) / 2.0);  // standardised
+    }
+    return values;
+  };
+  const std::vector<double> one = factors(0), other = factors(10);
+  const double correlation = std::inner_product(one.begin(), one.end(), other.begin(), 0.0) / count;
+  EXPECT_NEAR(correlation, 0.0, kFourSigma / std::sqrt(static_cast<double>(count)));
+}
+
 TEST(GpsRegions, are_shown_once) {
   TestWorld world(free_space(0.0), 0.1);
   world.spawn(still(gps(kTwoPlots + kBands)), "ball");

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Markers of readings that rviz has no display for: fixes, inertial units, encoders, batteries."""
+import math
+from typing import Any, Callable, Dict, List, Sequence, Tuple
+
+from geometry_msgs.msg import Point, Quaternion
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker
+
+WORLD = "world"
+TEXT_HEIGHT_M = 0.045  # of a capital letter
+FAR_TEXT_HEIGHT_M = 0.16  # seen from where a GPS's errors fit into the view
+TEXT_ABOVE_M = 0.85  # above the foot of the post
+DOT_M = 0.08
+FORCE_SCALE_M = 0.025  # length of an arrow, for each m/s2
+RATE_SCALE_M = 0.3  # for each rad/s
+MOST_DOTS = 300
+RED, GREEN, WHITE = (0.9, 0.2, 0.1), (0.2, 0.8, 0.3), (1.0, 1.0, 1.0)
+# WGS-84: NIMA TR8350.2, third edition
+EQUATOR_M = 6378137.0
+FLATTENING = 1 / 298.257223563
+ECCENTRICITY_2 = FLATTENING * (2 - FLATTENING)
+
+
+def _marker(number: int, kind: int, frame: str, color: Tuple[float, float, float]) -> Marker:
+    marker = Marker(ns="readings", id=number, type=kind, action=Marker.ADD)
+    marker.header.frame_id = frame
+    marker.pose.orientation = Quaternion(0, 0, 0, 1)
+    marker.color = ColorRGBA(*color, 1)
+    return marker
+
+
+def text(lines: Sequence[str], height_m: float = TEXT_HEIGHT_M) -> Marker:
+    """Lines above the post."""
+    marker = _marker(0, Marker.TEXT_VIEW_FACING, WORLD, WHITE)
+    marker.pose.position.z = TEXT_ABOVE_M + height_m * len(lines) / 2
+    marker.scale.z = height_m
+    marker.text = "\n".join(lines)
+    return marker
+
+
+def arrow(
+    number: int, frame: str, vector: Any, scale: float, color: Tuple[float, float, float]
+) -> Marker:
+    """From the frame's origin along a vector of the frame."""
+    marker = _marker(number, Marker.ARROW, frame, color)
+    marker.points = [Point(), Point(scale * vector.x, scale * vector.y, scale * vector.z)]
+    marker.scale.x, marker.scale.y, marker.scale.z = 0.008, 0.02, 0.03
+    return marker
+
+
+def _three(vector: Any, digits: int) -> str:
+    return "  ".join(f"{value:.{digits}f}" for value in (vector.x, vector.y, vector.z))
+
+
+def local_m(fix: Any, numbers: Dict[str, Any]) -> Point:
+    """East, north, up of a fix from the reference in the numbers, on the ellipsoid's radii there."""
+    latitude_rad = math.radians(numbers["reference_latitude_deg"])
+    squared = 1 - ECCENTRICITY_2 * math.sin(latitude_rad) ** 2
+    across_m = EQUATOR_M / math.sqrt(squared)
+    along_m = across_m * (1 - ECCENTRICITY_2) / squared
+    return Point(
+        math.radians(fix.longitude - numbers["reference_longitude_deg"])
+        * across_m
+        * math.cos(latitude_rad),
+        math.radians(fix.latitude - numbers["reference_latitude_deg"]) * along_m,
+        fix.altitude - numbers["reference_altitude_m"],
+    )
+
+
+class FixMarks:
+    """Dots where the receiver has been told to be."""
+
+    def __init__(self, numbers: Dict[str, Any]):
+        self._numbers = numbers
+        self._points: List[Point] = []
+
+    def __call__(self, fix: Any) -> List[Marker]:
+        if fix.status.status < 0:
+            return [text(["no fix"], FAR_TEXT_HEIGHT_M)]
+        place = local_m(fix, self._numbers)
+        self._points = (self._points + [place])[-MOST_DOTS:]
+        dots = _marker(1, Marker.SPHERE_LIST, WORLD, GREEN)
+        dots.points = self._points
+        dots.scale.x = dots.scale.y = dots.scale.z = DOT_M
+        where = f"{fix.latitude:.8f}, {fix.longitude:.8f} deg, {fix.altitude:.3f} m"
+        lines = [where, f"from the post  {_three(place, 3)} m"]
+        return [text(lines, FAR_TEXT_HEIGHT_M), dots]
+
+
+def imu_marks(imu: Any) -> List[Marker]:
+    """What the accelerometers feel, red, and the rate of turn, green."""
+    force, rate = imu.linear_acceleration, imu.angular_velocity
+    lines = [f"acceleration  {_three(force, 3)} m/s2", f"rate  {_three(rate, 4)} rad/s"]
+    frame = imu.header.frame_id
+    return [
+        text(lines),
+        arrow(1, frame, force, FORCE_SCALE_M, RED),
+        arrow(2, frame, rate, RATE_SCALE_M, GREEN),
+    ]
+
+
+def encoder_marks(encoder: Any) -> List[Marker]:
+    """Angle and speed."""
+    return [text([f"{encoder.position:.3f} rad", f"{encoder.qpps:.0f} pulses a second"])]
+
+
+def battery_marks(battery: Any) -> List[Marker]:
+    """The voltage and its bounds."""
+    return [text([f"{battery.voltage:.2f} V", f"{battery.vmin:g} to {battery.vmax:g} V"])]
+
+
+def marks_for(kind: str, numbers: Dict[str, Any]) -> Callable[[Any], List[Marker]]:
+    """The function from a message of that type to markers; a KeyError where rviz shows it itself."""
+    return {
+        "sensor_msgs/NavSatFix": FixMarks(numbers),
+        "sensor_msgs/Imu": imu_marks,
+        "ardee_msgs/Encoder": encoder_marks,
+        "ardee_msgs/Battery": battery_marks,
+    }[kind]

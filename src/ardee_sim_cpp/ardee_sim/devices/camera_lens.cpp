@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/camera_lens.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace ardee {
+namespace {
+
+constexpr double kMostDistortion = 1e3;
+constexpr double kMost_px = 1e6;
+constexpr double kShortest_px = 1e-3;  // focal length
+/// Relative: of a focal length against what the field of view says.
+constexpr double kSameFocalLength = 1e-2;
+
+std::array<double, 5> read_distortion(const Element& distortion, Log& log) {
+  Parameters parameters(distortion);
+  std::array<double, 5> D{};
+  std::size_t k = 0;
+  for (const char* key : {"k1", "k2", "p1", "p2", "k3"}) {
+    D[k++] = parameters.number(key, 0.0, -kMostDistortion, kMostDistortion);
+  }
+  const std::string center = parameters.text("center", "0.5 0.5");
+  std::istringstream stream(center);
+  double x = 0.0, y = 0.0;
+  if (!(stream >> x >> y) || x != 0.5 || y != 0.5) {
+    throw parameters.error("center", "expected 0.5 0.5: camera_info has no other");
+  }
+  parameters.finish(log);
+  return D;
+}
+
+void read_intrinsics(const Element& intrinsics, Lens& lens, Log& log) {
+  Parameters parameters(intrinsics);
+  lens.fx_px = parameters.number("fx", lens.fx_px, kShortest_px, kMost_px);
+  lens.fy_px = parameters.number("fy", lens.fy_px, kShortest_px, kMost_px);
+  lens.cx_px = parameters.number("cx", lens.cx_px, -kMost_px, kMost_px);
+  lens.cy_px = parameters.number("cy", lens.cy_px, -kMost_px, kMost_px);
+  lens.skew_px = parameters.number("s", 0.0, -kMost_px, kMost_px);
+  parameters.finish(log);
+}
+
+/// Returns whether there are <intrinsics>.
+bool read_lens_block(const Element& block, Lens& lens, Log& log) {
+  Parameters parameters(block);
+  const std::string type = parameters.text("type", "gnomonical");
+  std::string passed_over = type == "gnomonical" ? "" : " <type> " + type;
+  for (const char* key : {"custom_function", "projection"}) {
+    if (parameters.has(key)) passed_over += std::string(" <") + key + ">";
+  }
+  if (!passed_over.empty()) {
+    log.warn(block.source.to_string() + ": found" + passed_over +
+             ", expected a gnomonical lens and <intrinsics>: the picture and camera_info are those "
+             "of a pinhole");
+  }
+  const Element* intrinsics = parameters.block("intrinsics");
+  if (intrinsics) read_intrinsics(*intrinsics, lens, log);
+  parameters.ignore({"scale_to_hfov", "cutoff_angle", "env_texture_size"});  // of wide angles only
+  parameters.finish(log);
+  return intrinsics != nullptr;
+}
+
+/// Focal length and middle as the plugin overrides those of the field of view.
+void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, Lens& lens, Log& log) {
+  const double focal_px = plugin.number("focalLength", 0.0, 0.0, kMost_px);
+  const double cx_px = plugin.number("Cx", 0.0, -kMost_px, kMost_px);
+  const double cy_px = plugin.number("Cy", 0.0, -kMost_px, kMost_px);
+  const auto differs = [](double given, double own) { return given != 0.0 && given != own; };
+  if (of_sdf.has_intrinsics) {
+    if (differs(focal_px, lens.fx_px) || differs(cx_px, lens.cx_px) || differs(cy_px, lens.cy_px)) {
+      log.warn(plugin.source().to_string() +
+               ": found <focalLength>, <Cx> or <Cy> other than the <intrinsics> of <camera>, which "
+               "picture and camera_info follow");
+    }
+    return;
+  }
+  if (focal_px > 0.0) {
+    if (std::abs(focal_px / lens.fx_px - 1.0) > kSameFocalLength) {
+      std::ostringstream text;
+      text << plugin.source().to_string() << ": found <focalLength> " << focal_px << ", expected "
+           << lens.fx_px << " by <horizontal_fov>: the picture is taken with the former";
+      log.warn(text.str());
+    }
+    lens.fx_px = lens.fy_px = focal_px;
+  }
+  if (cx_px != 0.0) lens.cx_px = cx_px;
+  if (cy_px != 0.0) lens.cy_px = cy_px;
+}
+
+/// Sets what bends the picture, and returns what camera_info says.
+std::array<double, 5> read_bend(Parameters& plugin, const SdfLens& of_sdf, Lens& lens, Log& log) {
+  std::array<double, 5> of_plugin{};
+  std::size_t k = 0;
+  for (const char* key :
+       {"distortionK1", "distortionK2", "distortionT1", "distortionT2", "distortionK3"}) {
+    of_plugin[k++] = plugin.number(key, 0.0, -kMostDistortion, kMostDistortion);
+  }
+  const bool automatic = plugin.boolean("autoDistortion", false);
+  const bool given = of_plugin != std::array<double, 5>{};
+  if (of_sdf.distortion) {
+    if (given && of_plugin != *of_sdf.distortion) {
+      log.warn(plugin.source().to_string() +
+               ": found distortion other than that of <camera>, which camera_info tells");
+    }
+    return lens.D = *of_sdf.distortion;
+  }
+  if (automatic) return lens.D = of_plugin;
+  if (given) {
+    log.warn(plugin.source().to_string() +
+             ": found distortion without <autoDistortion>: camera_info tells it, the picture is "
+             "straight");
+  }
+  return of_plugin;
+}
+
+}  // namespace
+
+void CameraLens::set_horizontal_fov(int width_px, double fov_rad) {
+  const double zoom = Lens::pinhole(width_px, 1, fov_rad).fx_px / taken.fx_px;
+  taken.fx_px *= zoom;
+  taken.fy_px *= zoom;
+  taken.skew_px *= zoom;
+}
+
+SdfLens read_sdf_lens(Parameters& camera, Lens& lens, Log& log) {
+  SdfLens found;
+  if (const Element* block = camera.block("distortion")) {
+    found.distortion = read_distortion(*block, log);
+  }
+  if (const Element* block = camera.block("lens")) {
+    found.has_intrinsics = read_lens_block(*block, lens, log);
+  }
+  return found;
+}
+
+CameraLens read_camera_lens(Parameters& plugin, const Lens& lens, const SdfLens& of_sdf, Log& log) {
+  CameraLens made;
+  made.taken = lens;
+  read_plugin_intrinsics(plugin, of_sdf, made.taken, log);
+  const double cx_prime_px = plugin.number("CxPrime", 0.0, -kMost_px, kMost_px);
+  if (cx_prime_px != 0.0) made.cx_prime_px = cx_prime_px;
+  made.told = read_bend(plugin, of_sdf, made.taken, log);
+  made.baseline_m = plugin.number("hackBaseline", 0.0);
+  return made;
+}
+
+}  // namespace ardee

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/joint_position.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+/// 1/s: how fast what a disturbance has moved goes back.
+constexpr double kStiffness_hz = 20.0;
+constexpr double kSmallest = 1e-6;
+constexpr double kLargest = 1e6;
+
+JointPosition::Params read(const PluginDescription& plugin, DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  const std::string name = parameters.required_text("joint");
+  const Source& source = parameters.block("joint")->source;
+  JointPosition::Params params;
+  params.joint = context.robot.joint_index(name, source);
+  const Joint& joint = context.robot.model().joints[params.joint];
+  if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous &&
+      joint.type != JointType::kPrismatic) {
+    throw Error(source, "found joint '" + name +
+                            "', which has no one position, expected a revolute, continuous or "
+                            "prismatic one");
+  }
+  const auto bound = [&](const char* key, double of_joint) {
+    return parameters.number(key, std::clamp(of_joint, kSmallest, kLargest), kSmallest, kLargest);
+  };
+  params.lower = joint.axis.lower;
+  params.upper = joint.axis.upper;
+  params.max_velocity = bound("maxVelocity", joint.axis.velocity);
+  params.max_acceleration = bound("maxAcceleration", kLargest);
+  params.max_effort = bound("maxEffort", joint.axis.effort);
+  params.topic =
+      resolve_topic(parameters.text("commandTopic", name + "_position_controller/command"), space);
+  parameters.ignore({"alwaysOn"});
+  parameters.finish(context.log);
+  return params;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin,
+                                            DeviceContext& context) {
+  return std::make_unique<JointPosition>(plugin.name, read(plugin, context), context.robot);
+}
+
+JointPosition::JointPosition(const std::string& name, const Params& params, Robot& robot)
+    : Device(name), params_(params), robot_(robot) {
+  constexpr double kFarthest = std::numeric_limits<double>::max();
+  add_number_input({params.topic, -kFarthest, kFarthest, [this](double position) {
+                      goal_ = std::clamp(position, params_.lower, params_.upper);
+                    }});
+  reset(0);
+}
+
+void JointPosition::move_setpoint(double dt_s) {
+  const double way = goal_ - setpoint_;
+  const double most_change = params_.max_acceleration * dt_s;
+  if (std::abs(way) <= most_change * dt_s && std::abs(velocity_) <= most_change) {
+    setpoint_ = goal_;
+    velocity_ = 0.0;
+    return;
+  }
+  // As fast as it can still be braked from, and not beyond the goal in this step.
+  const double fastest = std::min({params_.max_velocity, std::abs(way) / dt_s,
+                                   std::sqrt(2.0 * params_.max_acceleration * std::abs(way))});
+  velocity_ =
+      std::clamp(std::copysign(fastest, way), velocity_ - most_change, velocity_ + most_change);
+  setpoint_ += velocity_ * dt_s;
+}
+
+void JointPosition::before_step(TimeNs now_ns) {
+  const double dt_s = seconds(now_ns - last_ns_);
+  last_ns_ = now_ns;
+  if (dt_s > 0.0) move_setpoint(dt_s);
+  const double off = setpoint_ - robot_.dynamics().joint_position(params_.joint);
+  const double wanted =
+      std::clamp(velocity_ + kStiffness_hz * off, -params_.max_velocity, params_.max_velocity);
+  robot_.dynamics().set_joint_motor(params_.joint, wanted, params_.max_effort);
+}
+
+void JointPosition::reset(TimeNs now_ns) {
+  goal_ = setpoint_ = robot_.dynamics().joint_position(params_.joint);
+  velocity_ = 0.0;
+  last_ns_ = now_ns;
+}
+
+}  // namespace ardee
