@@ -26,8 +26,16 @@ JointType joint_type(const Node& joint) {
                     "', expected fixed, revolute, prismatic, ball, universal, revolute2 or screw");
 }
 
+/// SDF 1.7 says expressed_in='__model__' where older files have <use_parent_model_frame>.
 bool in_model_frame(const Node& axis, double sdf_version) {
   constexpr double kFirstInJointFrame = 1.5;
+  const Node xyz = axis.required("xyz");
+  const std::string frame = xyz.attribute("expressed_in");
+  if (frame == "__model__") return true;
+  if (!frame.empty()) {
+    throw xyz.error("found expressed_in='" + frame +
+                    "', expected __model__, or none for the joint");
+  }
   return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame);
 }
 
