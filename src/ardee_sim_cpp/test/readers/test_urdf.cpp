@@ -65,6 +65,31 @@ TEST_F(Urdf, KeepsMasslessLinksAndFixedJoints) {
   EXPECT_NO_THROW(robot(kTwoLinks + joint("fixed", "<axis xyz='0 0 0'/>")));
 }
 
+TEST_F(Urdf, HoldsTheJointOfALinkWithoutMass) {
+  const std::string heavy =
+      "<link name='a'><inertial><mass value='2'/>"
+      "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+  const auto held = robot(heavy + "<link name='b'/>" + joint("continuous", ""));
+  EXPECT_EQ(held->joints.at(0).type, JointType::kFixed);
+  EXPECT_TRUE(warned("found no mass on link 'b'"));
+  // What is fixed to a link moves with it and lends it its mass.
+  const std::string carrier =
+      "<link name='b'/><link name='c'><inertial><mass value='1'/>"
+      "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+      "<joint name='bc' type='fixed'><parent link='b'/><child link='c'/></joint>";
+  const auto turning = robot(heavy + carrier + joint("continuous", ""));
+  EXPECT_EQ(turning->joints.at(1).type, JointType::kContinuous);
+}
+
+TEST_F(Urdf, NothingHoldsTheChildOfAFloatingOrPlanarJoint) {
+  for (const char* type : {"floating", "planar"}) {
+    const auto m = robot(kTwoLinks + joint(type, "<origin xyz='0 0 1'/>"));
+    EXPECT_TRUE(m->joints.empty());
+    expect_near(m->find_link("b")->X_ML.p, {0, 0, 1});
+  }
+  EXPECT_TRUE(warned("planar joints are not supported, the child moves freely"));
+}
+
 TEST_F(Urdf, ReadsJointsAndTheSpringsOfListingA25) {
   const auto m = robot(
       kTwoLinks +
