@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "ardee_sim/readers/validate.h"
+
 namespace ardee {
 namespace {
 
@@ -105,8 +107,12 @@ SdfJoint read_sdf_joint(const Node& node, double sdf_version) {
   return made;
 }
 
-Joint finish_sdf_joint(const SdfJoint& read, const Pose& X_MC) {
+Joint finish_sdf_joint(const SdfJoint& read, const Model& model) {
   Joint joint = read.joint;
+  const std::string& held = joint.child == "world" ? joint.parent : joint.child;
+  const Link* link = model.find_link(held);
+  if (!link) throw Error(joint.source, unknown_link(held, model));
+  const Pose& X_MC = link->X_ML;
   Eigen::Quaterniond q_MJ = X_MC.q * joint.X_CJ.q;
   if (joint.child == "world") {
     // The pose of such a joint is given in the model's frame.

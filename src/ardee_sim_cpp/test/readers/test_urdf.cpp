@@ -90,6 +90,39 @@ TEST_F(Urdf, NothingHoldsTheChildOfAFloatingOrPlanarJoint) {
   EXPECT_TRUE(warned("planar joints are not supported, the child moves freely"));
 }
 
+TEST_F(Urdf, AGazeboBlockMayCloseALoopByAnSdfJoint) {
+  const std::string loop =
+      "<gazebo><joint name='loop' type='revolute'><parent>b</parent><child>a</child>"
+      "<pose>0.1 0 0 0 0 0</pose><axis><xyz>0 1 0</xyz></axis></joint>"
+      "<plugin name='p' filename='p.so'/></gazebo>";
+  const auto m = robot(kTwoLinks + joint("continuous", "") + loop);
+  ASSERT_EQ(m->joints.size(), 2u);
+  EXPECT_EQ(m->joints[1].parent, "b");
+  expect_near(m->joints[1].axis.axis, {0, 1, 0});
+  expect_near(m->joints[1].X_CJ.p, {0.1, 0, 0});
+  EXPECT_TRUE(warnings_->empty());
+  EXPECT_HAS(error_of([&] {
+               robot(kTwoLinks + joint("fixed", "") +
+                     "<gazebo><joint name='k' type='fixed'><parent>a</parent><child>x</child>"
+                     "</joint></gazebo>");
+             }),
+             "found link 'x', expected one of 'a', 'b'");
+}
+
+TEST_F(Urdf, AppliesACollisionBlockToAllCollisions) {
+  const auto m = robot(R"(<link name='a'>
+      <collision><geometry><sphere radius='1'/></geometry></collision>
+      <collision><geometry><sphere radius='2'/></geometry></collision></link>
+    <gazebo reference='a'><mu2>0.4</mu2><collision><max_contacts>4</max_contacts><surface><friction>
+      <ode><mu>0.3</mu></ode></friction></surface></collision></gazebo>)");
+  for (const Collision& c : m->links.at(0).collisions) {
+    EXPECT_EQ(c.surface.mu, 0.3);
+    EXPECT_EQ(c.surface.mu2, 0.4);
+    EXPECT_EQ(c.surface.max_contacts, 4);
+  }
+  EXPECT_TRUE(warnings_->empty());
+}
+
 TEST_F(Urdf, ReadsJointsAndTheSpringsOfListingA25) {
   const auto m = robot(
       kTwoLinks +
