@@ -189,7 +189,7 @@ TEST_F(Urdf, AppliesLinkBlocks) {
       <collision><geometry><sphere radius='1'/></geometry></collision>
       <collision><geometry><sphere radius='2'/></geometry></collision>
       <visual><geometry><sphere radius='1'/></geometry></visual></link>
-    <gazebo reference='a'><mu1>0.7</mu1><mu2>0.6</mu2><fdir1>1 0 0</fdir1><frictionCone>true</frictionCone><kp>1e6</kp><kd>100</kd>
+    <gazebo reference='a'><mu1>0.7</mu1><mu2>0.6</mu2><fdir1>1 0 0</fdir1><frictionCone>false</frictionCone><kp>1e6</kp><kd>100</kd>
       <minDepth>0.001</minDepth><maxVel>0.2</maxVel><maxContacts>3</maxContacts></gazebo>
     <gazebo reference='a'><selfCollide>true</selfCollide><turnGravityOff>true</turnGravityOff>
       <dampingFactor>0.1</dampingFactor><laserRetro>5</laserRetro><material>Gazebo/Orange</material></gazebo>)");
@@ -198,7 +198,7 @@ TEST_F(Urdf, AppliesLinkBlocks) {
     EXPECT_EQ(c.surface.mu, 0.7);
     EXPECT_EQ(c.surface.mu2, 0.6);
     EXPECT_EQ(c.surface.fdir1, Eigen::Vector3d(1, 0, 0));
-    EXPECT_TRUE(c.surface.friction_cone);
+    EXPECT_FALSE(c.surface.friction_cone);
     EXPECT_EQ(c.surface.kp_n_per_m, 1e6);
     EXPECT_EQ(c.surface.kd_n_s_per_m, 100.0);
     EXPECT_EQ(c.surface.min_depth_m, 0.001);
