@@ -160,16 +160,14 @@ Joint read_joint(const Node& node, const urdf::Joint& joint) {
   return made;
 }
 
-/// Mass of a link and of all that is fixed to it further out.
-double rigid_mass_kg(const Model& model, const std::string& name) {
+/// Whether neither a link nor what is fixed to it further out has an <inertial>.
+bool lacks_inertial(const Model& model, const std::string& name) {
   const Link* link = model.find_link(name);
-  double mass_kg = link && link->inertial ? link->inertial->mass_kg : 0.0;
-  for (const Joint& joint : model.joints) {
-    if (joint.parent == name && joint.type == JointType::kFixed) {
-      mass_kg += rigid_mass_kg(model, joint.child);
-    }
-  }
-  return mass_kg;
+  if (link && link->inertial) return false;
+  return std::all_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) {
+    return joint.parent != name || joint.type != JointType::kFixed ||
+           lacks_inertial(model, joint.child);
+  });
 }
 
 /// Nothing can move what has no mass. Gazebo leaves such a link out with all that hangs on it; here
@@ -180,9 +178,9 @@ void hold_massless_links(Model& model, Log& log) {
   };
   if (std::none_of(model.links.begin(), model.links.end(), has_mass)) return;
   for (Joint& joint : model.joints) {
-    if (joint.type == JointType::kFixed || rigid_mass_kg(model, joint.child) != 0.0) continue;
-    log.warn(joint.source.to_string() + ": found no mass on link '" + joint.child +
-             "', expected some on a link that moves; joint '" + joint.name + "' is held");
+    if (joint.type == JointType::kFixed || !lacks_inertial(model, joint.child)) continue;
+    log.warn(joint.source.to_string() + ": found no <inertial> on link '" + joint.child +
+             "', expected one on a link that moves; joint '" + joint.name + "' is held");
     joint.type = JointType::kFixed;
   }
 }

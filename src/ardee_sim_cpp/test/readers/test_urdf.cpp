@@ -65,13 +65,13 @@ TEST_F(Urdf, KeepsMasslessLinksAndFixedJoints) {
   EXPECT_NO_THROW(robot(kTwoLinks + joint("fixed", "<axis xyz='0 0 0'/>")));
 }
 
-TEST_F(Urdf, HoldsTheJointOfALinkWithoutMass) {
+TEST_F(Urdf, HoldsTheJointOfALinkWithoutInertial) {
   const std::string heavy =
       "<link name='a'><inertial><mass value='2'/>"
       "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
   const auto held = robot(heavy + "<link name='b'/>" + joint("continuous", ""));
   EXPECT_EQ(held->joints.at(0).type, JointType::kFixed);
-  EXPECT_TRUE(warned("found no mass on link 'b'"));
+  EXPECT_TRUE(warned("found no <inertial> on link 'b'"));
   // What is fixed to a link moves with it and lends it its mass.
   const std::string carrier =
       "<link name='b'/><link name='c'><inertial><mass value='1'/>"
