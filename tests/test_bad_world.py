@@ -19,6 +19,14 @@ BAD_WORLDS = {
     ),
     "step that is no number": (PLANE.replace(">0.005<", ">soon<"), "soon"),
     "negative step": (PLANE.replace(">0.005<", ">-0.005<"), "max_step_size"),
+    "topic with a blank": (
+        PLANE.replace(
+            "</world>",
+            '<model name="m"><link name="l"/><plugin name="truth" filename="libgazebo_ros_p3d.so">'
+            "<bodyName>l</bodyName><topicName>the truth</topicName></plugin></model></world>",
+        ),
+        "plugin 'truth': found topic '/the truth'",
+    ),
     "box without size": (PLANE.replace("1 20 2", "1 -20 2"), "size"),
 }
 

@@ -127,14 +127,18 @@ void RobotTopics::add(Entity& entity) {
   Topics topics;
   topics.services = std::make_unique<DeviceServices>(node_);
   for (const auto& device : entity.devices) {
-    for (Output& output : device->outputs()) {
-      topics.routes.push_back(advertise(output, *entity.robot));
+    try {
+      for (Output& output : device->outputs()) {
+        topics.routes.push_back(advertise(output, *entity.robot));
+      }
+      for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
+      for (const NumberInput& input : device->number_inputs()) {
+        topics.subscribers.push_back(subscribe(input));
+      }
+      topics.services->add(*device);
+    } catch (const Error& error) {
+      throw Error(entity.robot->model().source, "plugin '" + device->name() + "': " + error.what());
     }
-    for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
-    for (const NumberInput& input : device->number_inputs()) {
-      topics.subscribers.push_back(subscribe(input));
-    }
-    topics.services->add(*device);
   }
   const Topics& kept = topics_[entity.name()] = std::move(topics);
   for (const Route& route : kept.routes) routes_[route.output] = &route;

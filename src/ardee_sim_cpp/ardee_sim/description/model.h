@@ -22,7 +22,7 @@ struct Surface {
   double mu = 1.0;
   double mu2 = 1.0;
   Eigen::Vector3d fdir1{0, 0, 0};  // in the collision's frame; zero: none
-  bool friction_cone = false;      // with fdir1: sliding friction points against the sliding
+  bool friction_cone = true;       // false: ODE's pyramid, whose axes slide independently
   double slip1 = 0.0;
   double slip2 = 0.0;
   double kp_n_per_m = 1e12;

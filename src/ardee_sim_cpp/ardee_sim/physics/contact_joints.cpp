@@ -38,19 +38,29 @@ Eigen::Vector3d velocity_at(dBodyID body, const Eigen::Vector3d& p) {
   return to_vector(velocity);
 }
 
-/// Coulomb's cone within ODE's pyramid: while a contact slides, each axis carries the share of the
-/// friction that it has of the sliding, so that the whole points against it; while it sticks, both
-/// carry all they can. The pyramid alone lets a skid-steering robot turn about its heavier axle.
+/// Coulomb's friction within ODE's pyramid: while a contact slides, each axis carries the share
+/// that dissipates the most, (mu^2 v1, mu2^2 v2) / |(mu v1, mu2 v2)|, which for mu = mu2 points
+/// against the sliding; while it sticks, both carry all they can. The pyramid alone, whose axes
+/// slide independently, has a skid-steering robot turn about its heavier axle, or not at all.
 void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& normal,
                     dContact& contact) {
   const Eigen::Vector3d first = to_vector(contact.fdir1);
-  const double v1 = std::abs(sliding.dot(first));
-  const double v2 = std::abs(sliding.dot(normal.cross(first)));
-  const double speed = std::hypot(v1, v2);
-  if (speed <= 0.0) return;
+  const double grip1 = contact.surface.mu * std::abs(sliding.dot(first));
+  const double grip2 = contact.surface.mu2 * std::abs(sliding.dot(normal.cross(first)));
+  const double grip = std::hypot(grip1, grip2);
+  if (!(grip > 0.0)) return;
+  const double speed = grip / std::max(contact.surface.mu, contact.surface.mu2);
   const double slides = std::min(1.0, speed / kSlidingSpeed);
-  contact.surface.mu *= 1.0 - slides * (1.0 - v1 / speed);
-  contact.surface.mu2 *= 1.0 - slides * (1.0 - v2 / speed);
+  contact.surface.mu *= 1.0 - slides * (1.0 - grip1 / grip);
+  contact.surface.mu2 *= 1.0 - slides * (1.0 - grip2 / grip);
+}
+
+/// The axis that ODE itself takes for the first of its pyramid.
+Eigen::Vector3d default_direction(const Eigen::Vector3d& normal) {
+  dVector3 n, p, q;
+  for (int i = 0; i < 3; ++i) n[i] = normal[i];
+  dPlaneSpace(n, p, q);
+  return to_vector(p);
 }
 
 }  // namespace
@@ -60,7 +70,7 @@ ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsPar
   ContactLaw law;
   law.mu = std::min(a.mu, b.mu);
   law.mu2 = std::min(a.mu2, b.mu2);
-  law.friction_cone = a.friction_cone || b.friction_cone;
+  law.friction_cone = a.friction_cone && b.friction_cone;
   law.slip1 = a.slip1 + b.slip1;
   law.slip2 = a.slip2 + b.slip2;
   const double kp = std::min(1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m), kMaxStiffness);
@@ -110,13 +120,12 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   const double push =
       std::min(rate * std::max(0.0, point.depth_m - law.min_depth_m), law.max_push_m_per_s);
   contact.geom.depth = rate > 0.0 ? push / rate : 0.0;
-  if (const auto direction = friction_direction(a, b, point.normal)) {
-    contact.surface.mode |= dContactFDir1;
-    copy(*direction, contact.fdir1);
-    if (law.friction_cone) {
-      const Eigen::Vector3d& p = point.position;
-      narrow_to_cone(velocity_at(a.body, p) - velocity_at(b.body, p), point.normal, contact);
-    }
+  contact.surface.mode |= dContactFDir1;
+  copy(friction_direction(a, b, point.normal).value_or(default_direction(point.normal)),
+       contact.fdir1);
+  if (law.friction_cone) {
+    const Eigen::Vector3d& p = point.position;
+    narrow_to_cone(velocity_at(a.body, p) - velocity_at(b.body, p), point.normal, contact);
   }
   dJointAttach(dJointCreateContact(world_, group_.get(), &contact), a.body, b.body);
   ++count_;

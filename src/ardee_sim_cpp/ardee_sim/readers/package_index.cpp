@@ -14,17 +14,29 @@ namespace {
 constexpr int kMaxDepth = 12;
 
 /// The name in a package.xml; that of its folder if the file is broken (rospack's own way out).
-std::string package_name(const fs::path& manifest) {
-  tinyxml2::XMLDocument document;
-  if (document.LoadFile(manifest.c_str()) == tinyxml2::XML_SUCCESS && document.RootElement()) {
-    const auto* name = document.RootElement()->FirstChildElement("name");
-    if (name && name->GetText()) {
-      std::istringstream text(name->GetText());
-      std::string trimmed;
-      if (text >> trimmed) return trimmed;
-    }
+std::string package_name(const tinyxml2::XMLElement* root, const std::string& folder) {
+  const auto* name = root ? root->FirstChildElement("name") : nullptr;
+  if (name && name->GetText()) {
+    std::istringstream text(name->GetText());
+    std::string trimmed;
+    if (text >> trimmed) return trimmed;
   }
-  return manifest.parent_path().filename().string();
+  return fs::path(folder).filename().string();
+}
+
+/// The model folders that a manifest exports, with its own folder for "${prefix}".
+std::vector<std::string> model_paths(const tinyxml2::XMLElement* root, const std::string& folder) {
+  const auto* exports = root ? root->FirstChildElement("export") : nullptr;
+  const auto* gazebo = exports ? exports->FirstChildElement("gazebo_ros") : nullptr;
+  const char* list = gazebo ? gazebo->Attribute("gazebo_model_path") : nullptr;
+  if (!list) return {};
+  const std::string prefix = "${prefix}";
+  std::vector<std::string> paths = split_path_list(list);
+  for (std::string& path : paths) {
+    const std::size_t at = path.find(prefix);
+    if (at != std::string::npos) path.replace(at, prefix.size(), folder);
+  }
+  return paths;
 }
 
 }  // namespace
@@ -42,7 +54,13 @@ void PackageIndex::walk(const std::string& folder, int depth) {
   std::error_code error;
   const fs::path manifest = fs::path(folder) / "package.xml";
   if (fs::is_regular_file(manifest, error)) {
-    folders_.emplace(package_name(manifest), folder);  // the first of a name wins
+    tinyxml2::XMLDocument document;
+    document.LoadFile(manifest.c_str());
+    const tinyxml2::XMLElement* root = document.RootElement();
+    if (!folders_.emplace(package_name(root, folder), folder).second) return;  // the first wins
+    for (std::string& path : model_paths(root, folder)) {
+      exported_model_paths_.push_back(std::move(path));
+    }
     return;
   }
   if (depth >= kMaxDepth || fs::exists(fs::path(folder) / "CATKIN_IGNORE", error)) return;
@@ -58,11 +76,19 @@ void PackageIndex::walk(const std::string& folder, int depth) {
   for (const std::string& child : below) walk(child, depth + 1);
 }
 
+void PackageIndex::walk_once() {
+  if (walked_) return;
+  for (const std::string& root : roots_) walk(root, 0);
+  walked_ = true;
+}
+
+const std::vector<std::string>& PackageIndex::exported_model_paths() {
+  walk_once();
+  return exported_model_paths_;
+}
+
 std::optional<std::string> PackageIndex::find(const std::string& package) {
-  if (!walked_) {
-    for (const std::string& root : roots_) walk(root, 0);
-    walked_ = true;
-  }
+  walk_once();
   const auto found = folders_.find(package);
   if (found != folders_.end()) return found->second;
   std::error_code error;

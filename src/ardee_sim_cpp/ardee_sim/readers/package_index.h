@@ -15,13 +15,17 @@ class PackageIndex {
   explicit PackageIndex(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   std::optional<std::string> find(const std::string& package);
+  /// What packages add to Gazebo's model path by <export><gazebo_ros gazebo_model_path="..."/>.
+  const std::vector<std::string>& exported_model_paths();
 
  private:
+  void walk_once();
   void walk(const std::string& folder, int depth);
 
   std::vector<std::string> roots_;
   bool walked_ = false;
   std::map<std::string, std::string> folders_;
+  std::vector<std::string> exported_model_paths_;
 };
 
 /// The parts of a colon-separated list, empty ones left out.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/resource_locator.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -20,13 +21,17 @@ std::vector<std::string> environment_list(const char* name) {
 
 std::string normal(const fs::path& path) { return path.lexically_normal().string(); }
 
+bool is_there(const fs::path& place) {
+  std::error_code error;
+  return fs::exists(place, error);
+}
+
 /// The first of `places` that exists, or an Error that lists them.
 std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
                            const Source& source) {
   std::string searched;
   for (const fs::path& place : places) {
-    std::error_code error;
-    if (fs::exists(place, error)) return normal(place);
+    if (is_there(place)) return normal(place);
     searched += (searched.empty() ? "" : ", ") + normal(place);
   }
   throw Error(source, "found '" + uri + "', expected an existing file; searched: " +
@@ -70,6 +75,7 @@ ResourceLocator ResourceLocator::from_environment() {
   locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
   auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
   locator.find_package_ = [index](const std::string& package) { return index->find(package); };
+  locator.exports_ = [index] { return index->exported_model_paths(); };
   return locator;
 }
 
@@ -82,6 +88,9 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
   std::vector<fs::path> places;
   if (scheme == "model") {
     for (const std::string& folder : model_paths_) places.push_back(fs::path(folder) / rest);
+    if (exports_ && std::none_of(places.begin(), places.end(), is_there)) {
+      for (const std::string& folder : exports_()) places.push_back(fs::path(folder) / rest);
+    }
   } else if (fs::path(rest).is_absolute() && (scheme.empty() || scheme == "file")) {
     places.push_back(rest);
   } else if (scheme == "file") {

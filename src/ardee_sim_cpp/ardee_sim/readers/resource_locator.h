@@ -16,12 +16,17 @@ class ResourceLocator {
  public:
   using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
 
+  using ModelPathExports = std::function<std::vector<std::string>()>;
+
   /// GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ROS_PACKAGE_PATH of the environment.
   static ResourceLocator from_environment();
 
   void add_model_path(const std::string& folder) { model_paths_.push_back(folder); }
   void add_resource_path(const std::string& folder) { resource_paths_.push_back(folder); }
   void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
+
+  /// Further model folders; asked for only when a model is in none of the others.
+  void set_model_path_exports(ModelPathExports exports) { exports_ = std::move(exports); }
 
   /// The existing file or folder that `uri` names. Throws Error at `source` with the places
   /// searched.
@@ -37,6 +42,7 @@ class ResourceLocator {
   std::vector<std::string> model_paths_;
   std::vector<std::string> resource_paths_;
   PackageFinder find_package_;
+  ModelPathExports exports_;
 };
 
 }  // namespace ardee

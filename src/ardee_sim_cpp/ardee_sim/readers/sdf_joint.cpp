@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "ardee_sim/readers/validate.h"
+
 namespace ardee {
 namespace {
 
@@ -26,8 +28,16 @@ JointType joint_type(const Node& joint) {
                     "', expected fixed, revolute, prismatic, ball, universal, revolute2 or screw");
 }
 
+/// SDF 1.7 says expressed_in='__model__' where older files have <use_parent_model_frame>.
 bool in_model_frame(const Node& axis, double sdf_version) {
   constexpr double kFirstInJointFrame = 1.5;
+  const Node xyz = axis.required("xyz");
+  const std::string frame = xyz.attribute("expressed_in");
+  if (frame == "__model__") return true;
+  if (!frame.empty()) {
+    throw xyz.error("found expressed_in='" + frame +
+                    "', expected __model__, or none for the joint");
+  }
   return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame);
 }
 
@@ -97,8 +107,12 @@ SdfJoint read_sdf_joint(const Node& node, double sdf_version) {
   return made;
 }
 
-Joint finish_sdf_joint(const SdfJoint& read, const Pose& X_MC) {
+Joint finish_sdf_joint(const SdfJoint& read, const Model& model) {
   Joint joint = read.joint;
+  const std::string& held = joint.child == "world" ? joint.parent : joint.child;
+  const Link* link = model.find_link(held);
+  if (!link) throw Error(joint.source, unknown_link(held, model));
+  const Pose& X_MC = link->X_ML;
   Eigen::Quaterniond q_MJ = X_MC.q * joint.X_CJ.q;
   if (joint.child == "world") {
     // The pose of such a joint is given in the model's frame.

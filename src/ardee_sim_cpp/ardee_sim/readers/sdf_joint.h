@@ -17,8 +17,7 @@ struct SdfJoint {
 SdfJoint read_sdf_joint(const Node& joint, double sdf_version);
 
 /// Turns axes given in the model's frame into the joint's, and makes a joint whose child is the
-/// world one whose parent is. `X_MC` is the pose of the child link, or of the parent if the child
-/// is "world".
-Joint finish_sdf_joint(const SdfJoint& read, const Pose& X_MC);
+/// world one whose parent is. The links that it joins are in `model` already, or an Error.
+Joint finish_sdf_joint(const SdfJoint& read, const Model& model);
 
 }  // namespace ardee

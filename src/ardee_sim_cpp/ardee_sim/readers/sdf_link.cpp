@@ -65,8 +65,7 @@ Visual read_visual(const Node& node, Geometry geometry, Assets& assets) {
 
 }  // namespace
 
-Surface read_sdf_surface(const Node& collision) {
-  Surface made;
+Surface read_sdf_surface(const Node& collision, Surface made) {
   made.max_contacts = collision.integer("max_contacts", made.max_contacts, 0, kMaxContacts);
   const auto surface = collision.child("surface");
   if (!surface) return made;

@@ -10,8 +10,8 @@ namespace ardee {
 /// An SDF <link> with all it holds. Throws Error with file and line.
 Link read_sdf_link(const Node& link, Assets& assets);
 
-/// A <collision>'s surface, from <surface> and <max_contacts>.
-Surface read_sdf_surface(const Node& collision);
+/// `made` with what a <collision>'s <surface> and <max_contacts> say.
+Surface read_sdf_surface(const Node& collision, Surface made = {});
 
 SensorDescription read_sensor(const Node& sensor);
 PluginDescription read_plugin(const Node& plugin);

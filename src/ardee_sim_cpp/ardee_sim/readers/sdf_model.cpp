@@ -12,15 +12,6 @@ namespace {
 constexpr double kNewestVersion = 1.6;
 constexpr std::size_t kMaxLinks = 100'000;
 
-/// The joint with its axes in its own frame. Links of nested models are in `model` already.
-Joint finished_joint(const SdfJoint& read, const Model& model) {
-  const Joint& joint = read.joint;
-  const std::string& held = joint.child == "world" ? joint.parent : joint.child;
-  const Link* link = model.find_link(held);
-  if (!link) throw Error(joint.source, unknown_link(held, model));
-  return finish_sdf_joint(read, link->X_ML);
-}
-
 }  // namespace
 
 double SdfReader::read_version(const Node& root) {
@@ -76,7 +67,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& node, const Scope
               names, *made);
   if (!made->links.empty()) made->canonical_link = made->links.front().name;
   node.each("joint", [&](const Node& joint) {
-    made->joints.push_back(finished_joint(read_sdf_joint(joint, scope.version), *made));
+    made->joints.push_back(finish_sdf_joint(read_sdf_joint(joint, scope.version), *made));
   });
   validate_model(*made, assets_.log());
   count_placements(*made, made->source);

@@ -101,13 +101,15 @@ void check_geometries(const Node& link) {
 
 void check_joint(const Node& joint, Log& log) {
   const std::string type = joint.required_attribute("type");
-  if (type == "floating" || type == "planar") {
+  static const std::set<std::string> kTypes{"fixed",     "revolute", "continuous",
+                                            "prismatic", "floating", "planar"};
+  if (kTypes.count(type) == 0) {
     throw joint.error("found joint type '" + type +
-                      "', which is not supported; expected fixed, revolute, continuous, prismatic");
+                      "', expected fixed, revolute, continuous, prismatic, floating or planar");
   }
-  if (type != "fixed" && type != "revolute" && type != "continuous" && type != "prismatic") {
-    throw joint.error("found joint type '" + type +
-                      "', expected fixed, revolute, continuous or prismatic");
+  if (type == "planar") {
+    log.warn(joint.source().to_string() +
+             ": planar joints are not supported, the child moves freely");
   }
   const auto limit = joint.child("limit");
   if (!limit && (type == "revolute" || type == "prismatic")) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_material.h"
 
@@ -67,6 +68,14 @@ void apply_visual(const Node& node, Link& link, Assets& assets) {
   }
 }
 
+/// A <collision> block speaks for all collisions of the link.
+void apply_collision(const Node& node, Link& link) {
+  for (Collision& collision : link.collisions) {
+    collision.surface = read_sdf_surface(node, collision.surface);
+    collision.laser_retro = node.number("laser_retro", collision.laser_retro);
+  }
+}
+
 bool apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
@@ -78,6 +87,8 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
     set_material(node, link, assets);
   } else if (name == "visual") {
     apply_visual(node, link, assets);
+  } else if (name == "collision") {
+    apply_collision(node, link);
   } else if (name == "selfCollide" || name == "self_collide") {
     link.self_collide = node.to_boolean();
   } else if (name == "gravity") {
@@ -126,6 +137,10 @@ bool apply_to_model(const Node& node, Model& model) {
   const std::string_view name = node.name();
   if (name == "plugin") {
     model.plugins.push_back(read_plugin(node));
+  } else if (name == "joint") {
+    // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
+    constexpr double kSdfVersion = 1.6;
+    model.joints.push_back(finish_sdf_joint(read_sdf_joint(node, kSdfVersion), model));
   } else if (name == "static") {
     model.is_static = node.to_boolean();
   } else if (name == "selfCollide" || name == "self_collide") {

@@ -3,6 +3,7 @@
 
 #include <urdf_model/model.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -120,8 +121,13 @@ JointType type_of(const urdf::Joint& joint) {
     case urdf::Joint::PRISMATIC:
       return JointType::kPrismatic;
     default:
-      return JointType::kFixed;  // check_urdf lets nothing else through
+      return JointType::kFixed;
   }
+}
+
+/// Nothing holds the child of such a joint, as in Gazebo.
+bool is_free(const urdf::Joint& joint) {
+  return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
 }
 
 Joint read_joint(const Node& node, const urdf::Joint& joint) {
@@ -152,6 +158,31 @@ Joint read_joint(const Node& node, const urdf::Joint& joint) {
     made.axis.spring_reference = parse_number(dynamics->attribute("spring_reference", "0"), at);
   }
   return made;
+}
+
+/// Whether neither a link nor what is fixed to it further out has an <inertial>.
+bool lacks_inertial(const Model& model, const std::string& name) {
+  const Link* link = model.find_link(name);
+  if (link && link->inertial) return false;
+  return std::all_of(model.joints.begin(), model.joints.end(), [&](const Joint& joint) {
+    return joint.parent != name || joint.type != JointType::kFixed ||
+           lacks_inertial(model, joint.child);
+  });
+}
+
+/// Nothing can move what has no mass. Gazebo leaves such a link out with all that hangs on it; here
+/// it keeps its place. A robot without any mass is as it is: a drawing, or an error of the physics.
+void hold_massless_links(Model& model, Log& log) {
+  const auto has_mass = [](const Link& link) {
+    return link.inertial && link.inertial->mass_kg > 0;
+  };
+  if (std::none_of(model.links.begin(), model.links.end(), has_mass)) return;
+  for (Joint& joint : model.joints) {
+    if (joint.type == JointType::kFixed || !lacks_inertial(model, joint.child)) continue;
+    log.warn(joint.source.to_string() + ": found no <inertial> on link '" + joint.child +
+             "', expected one on a link that moves; joint '" + joint.name + "' is held");
+    joint.type = JointType::kFixed;
+  }
 }
 
 /// Poses of all links in the root link's frame, with each joint at zero.
@@ -187,11 +218,13 @@ std::shared_ptr<const Model> read_urdf(const std::string& text, const Node& root
     made->links.back().X_ML = poses.at(link->name);
   });
   root.each("joint", [&](const Node& node) {
-    made->joints.push_back(read_joint(node, *robot->getJoint(node.required_attribute("name"))));
+    const auto joint = robot->getJoint(node.required_attribute("name"));
+    if (!is_free(*joint)) made->joints.push_back(read_joint(node, *joint));
   });
   if (!made->links.empty()) {
     made->canonical_link = made->find_link(root_name) ? root_name : made->links.front().name;
   }
+  hold_massless_links(*made, assets.log());
   apply_gazebo_blocks(root, *made, assets);
   validate_model(*made, assets.log());
   return made;

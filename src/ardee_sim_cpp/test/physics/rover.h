@@ -17,7 +17,9 @@ struct RoverShape {
   double mu = 0.8;
   double mass_kg = 8.0;
   double mass_forward_m = 0.0;  // of the base
-  bool friction_cone = false;
+  double mass_left_m = 0.0;
+  Eigen::Vector3d fdir1{0, 0, 1};
+  bool friction_cone = Surface{}.friction_cone;
 };
 
 inline Link rover_wheel(const std::string& name, const RoverShape& shape) {
@@ -27,7 +29,7 @@ inline Link rover_wheel(const std::string& name, const RoverShape& shape) {
   Link wheel = link(name, inertial);
   Surface rubber;
   rubber.mu = rubber.mu2 = shape.mu;
-  rubber.fdir1 = {0, 0, 1};
+  rubber.fdir1 = shape.fdir1;
   rubber.friction_cone = shape.friction_cone;
   rubber.kp_n_per_m = 1e6;
   rubber.kd_n_s_per_m = 100.0;
@@ -80,7 +82,7 @@ inline void add_rover_corner(Model& rover, const std::string& name, double forwa
 /// The model's origin is between the hubs, at their height.
 inline std::shared_ptr<Model> rover_model(const RoverShape& shape = {}) {
   Link base = link("base", box_inertial(shape.mass_kg, {0.5, 0.3, 0.13}));
-  base.inertial->X_LI.p = {shape.mass_forward_m, 0, 0.1};
+  base.inertial->X_LI.p = {shape.mass_forward_m, shape.mass_left_m, 0.1};
   base.collisions.push_back(collision(Box{{0.5, 0.3, 0.13}}));
   base.collisions[0].X_LC.p = {0, 0, 0.12};
   auto rover = model(base);
@@ -96,10 +98,11 @@ inline std::size_t wheel_joint(const RoverShape& shape, std::size_t corner) {
   return shape.legs ? 2 * corner + 1 : corner;
 }
 
-/// Turns the wheels of both sides, rad/s.
-inline void drive(PhysicsModel& rover, const RoverShape& shape, double left, double right) {
+/// Turns the wheels of both sides, rad/s, each with up to so much torque.
+inline void drive(PhysicsModel& rover, const RoverShape& shape, double left, double right,
+                  double torque_n_m = 10.0) {
   for (std::size_t corner = 0; corner < 4; ++corner) {
-    rover.set_joint_motor(wheel_joint(shape, corner), corner % 2 == 0 ? left : right, 10.0);
+    rover.set_joint_motor(wheel_joint(shape, corner), corner % 2 == 0 ? left : right, torque_n_m);
   }
 }
 

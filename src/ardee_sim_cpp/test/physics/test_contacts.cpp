@@ -100,6 +100,36 @@ TEST_P(Contacts, FrictionDirectionTurnsWithTheBody) {
   EXPECT_NEAR(v.y(), 0.0, 0.01);
 }
 
+TEST_P(Contacts, FrictionSlowsASlidingBodyAlikeInEachDirection) {
+  for (const double direction : {0.0, 0.4, M_PI / 4}) {
+    Surface rubber;
+    rubber.mu = rubber.mu2 = 0.5;
+    PhysicsWorld world(params(h()), silent());
+    add_ground(world);
+    PhysicsModel& box = world.add_model(box_model(2, {0.4, 0.4, 0.02}, rubber), at(0, 0, 0.0095));
+    const Eigen::Vector3d along(std::cos(direction), std::sin(direction), 0);
+    box.set_twist({4.0 * along, {0, 0, 0}});
+    run(world, 0.5);
+    const Eigen::Vector3d v = box.link_twist(0).linear;
+    EXPECT_NEAR(v.dot(along), 4.0 - 0.5 * kGravity * 0.5, 0.05);
+    EXPECT_NEAR(v.cross(along).norm(), 0.0, 0.05);
+  }
+}
+
+TEST_P(Contacts, SlidingAlongAFreeAxisTakesNoGripFromTheOther) {
+  Surface runner;
+  runner.mu = 0.0;
+  runner.mu2 = 1.0;
+  runner.fdir1 = {1, 0, 0};
+  PhysicsWorld world(params(h()), silent());
+  add_ground(world);
+  PhysicsModel& sledge = world.add_model(box_model(2, {0.4, 0.3, 0.02}, runner), at(0, 0, 0.0095));
+  sledge.set_twist({{5, 0.5, 0}, {0, 0, 0}});
+  run(world, 0.1);  // v / (mu g) = 0.05 s
+  EXPECT_NEAR(sledge.link_twist(0).linear.x(), 5.0, 0.05);
+  EXPECT_NEAR(sledge.link_twist(0).linear.y(), 0.0, 0.02);
+}
+
 TEST_P(Contacts, SelfCollisionOnlyWhereAskedAndNeverAcrossAJoint) {
   for (const bool wanted : {false, true}) {
     auto description = box_model(1, {0.2, 0.2, 0.2});

@@ -84,6 +84,22 @@ TEST_F(Locator, FindsPackagesByTheirManifest) {
   EXPECT_EQ(index.find("no_such_package"), std::nullopt);
 }
 
+TEST_F(Locator, FindsModelsThatPackagesExportToGazebo) {
+  folder_.write("src/farm/package.xml",
+                "<package><name>farm</name><export><gazebo_ros "
+                "gazebo_model_path='${prefix}/models:${prefix}/..'/></export></package>");
+  folder_.write("src/plain/package.xml", "<package><name>plain</name><export/></package>");
+  const std::string barn = folder_.write("src/farm/models/barn/model.sdf", "");
+  const std::string mesh = folder_.write("src/farm/meshes/cow.dae", "");
+  auto index = std::make_shared<PackageIndex>(std::vector<std::string>{folder_.path() + "/src"});
+  locator_.set_model_path_exports([index] { return index->exported_model_paths(); });
+  EXPECT_EQ(locator_.resolve_model("model://barn", {}), barn);
+  EXPECT_EQ(locator_.resolve("model://farm/meshes/cow.dae", {}), mesh);
+  EXPECT_HAS(error_of("model://sty"), folder_.path() + "/src/farm/models/sty");
+  const std::string own = folder_.write("models/barn/model.sdf", "");
+  EXPECT_EQ(locator_.resolve_model("model://barn", {}), own) << "GAZEBO_MODEL_PATH comes first";
+}
+
 TEST(PathList, LeavesOutEmptyParts) {
   EXPECT_EQ(split_path_list("/a::/b:"), (std::vector<std::string>{"/a", "/b"}));
 }

@@ -41,6 +41,15 @@ TEST_F(SdfJointTest, UseParentModelFrameDecidesWhereGiven) {
   expect_near(joint("revolute", in_joint, "1.4").axis.axis, {1, 0, 0});
 }
 
+TEST_F(SdfJointTest, AnAxisMaySayInWhichFrameItIs) {
+  const auto with = [this](const std::string& frame) {
+    return joint("revolute", "<axis><xyz expressed_in='" + frame + "'>1 0 0</xyz></axis>", "1.7");
+  };
+  expect_near(with("__model__").axis.axis, {0, -1, 0});
+  expect_near(with("").axis.axis, {1, 0, 0});
+  EXPECT_HAS(error_of([&] { with("b"); }), "found expressed_in='b', expected __model__");
+}
+
 TEST_F(SdfJointTest, TheJointsOwnPoseTurnsAModelAxisToo) {
   // Joint turned back by 90 degrees: its axes are the model's.
   const Joint j =

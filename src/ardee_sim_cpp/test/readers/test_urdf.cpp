@@ -65,6 +65,64 @@ TEST_F(Urdf, KeepsMasslessLinksAndFixedJoints) {
   EXPECT_NO_THROW(robot(kTwoLinks + joint("fixed", "<axis xyz='0 0 0'/>")));
 }
 
+TEST_F(Urdf, HoldsTheJointOfALinkWithoutInertial) {
+  const std::string heavy =
+      "<link name='a'><inertial><mass value='2'/>"
+      "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+  const auto held = robot(heavy + "<link name='b'/>" + joint("continuous", ""));
+  EXPECT_EQ(held->joints.at(0).type, JointType::kFixed);
+  EXPECT_TRUE(warned("found no <inertial> on link 'b'"));
+  // What is fixed to a link moves with it and lends it its mass.
+  const std::string carrier =
+      "<link name='b'/><link name='c'><inertial><mass value='1'/>"
+      "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+      "<joint name='bc' type='fixed'><parent link='b'/><child link='c'/></joint>";
+  const auto turning = robot(heavy + carrier + joint("continuous", ""));
+  EXPECT_EQ(turning->joints.at(1).type, JointType::kContinuous);
+}
+
+TEST_F(Urdf, NothingHoldsTheChildOfAFloatingOrPlanarJoint) {
+  for (const char* type : {"floating", "planar"}) {
+    const auto m = robot(kTwoLinks + joint(type, "<origin xyz='0 0 1'/>"));
+    EXPECT_TRUE(m->joints.empty());
+    expect_near(m->find_link("b")->X_ML.p, {0, 0, 1});
+  }
+  EXPECT_TRUE(warned("planar joints are not supported, the child moves freely"));
+}
+
+TEST_F(Urdf, AGazeboBlockMayCloseALoopByAnSdfJoint) {
+  const std::string loop =
+      "<gazebo><joint name='loop' type='revolute'><parent>b</parent><child>a</child>"
+      "<pose>0.1 0 0 0 0 0</pose><axis><xyz>0 1 0</xyz></axis></joint>"
+      "<plugin name='p' filename='p.so'/></gazebo>";
+  const auto m = robot(kTwoLinks + joint("continuous", "") + loop);
+  ASSERT_EQ(m->joints.size(), 2u);
+  EXPECT_EQ(m->joints[1].parent, "b");
+  expect_near(m->joints[1].axis.axis, {0, 1, 0});
+  expect_near(m->joints[1].X_CJ.p, {0.1, 0, 0});
+  EXPECT_TRUE(warnings_->empty());
+  EXPECT_HAS(error_of([&] {
+               robot(kTwoLinks + joint("fixed", "") +
+                     "<gazebo><joint name='k' type='fixed'><parent>a</parent><child>x</child>"
+                     "</joint></gazebo>");
+             }),
+             "found link 'x', expected one of 'a', 'b'");
+}
+
+TEST_F(Urdf, AppliesACollisionBlockToAllCollisions) {
+  const auto m = robot(R"(<link name='a'>
+      <collision><geometry><sphere radius='1'/></geometry></collision>
+      <collision><geometry><sphere radius='2'/></geometry></collision></link>
+    <gazebo reference='a'><mu2>0.4</mu2><collision><max_contacts>4</max_contacts><surface><friction>
+      <ode><mu>0.3</mu></ode></friction></surface></collision></gazebo>)");
+  for (const Collision& c : m->links.at(0).collisions) {
+    EXPECT_EQ(c.surface.mu, 0.3);
+    EXPECT_EQ(c.surface.mu2, 0.4);
+    EXPECT_EQ(c.surface.max_contacts, 4);
+  }
+  EXPECT_TRUE(warnings_->empty());
+}
+
 TEST_F(Urdf, ReadsJointsAndTheSpringsOfListingA25) {
   const auto m = robot(
       kTwoLinks +
@@ -131,7 +189,7 @@ TEST_F(Urdf, AppliesLinkBlocks) {
       <collision><geometry><sphere radius='1'/></geometry></collision>
       <collision><geometry><sphere radius='2'/></geometry></collision>
       <visual><geometry><sphere radius='1'/></geometry></visual></link>
-    <gazebo reference='a'><mu1>0.7</mu1><mu2>0.6</mu2><fdir1>1 0 0</fdir1><frictionCone>true</frictionCone><kp>1e6</kp><kd>100</kd>
+    <gazebo reference='a'><mu1>0.7</mu1><mu2>0.6</mu2><fdir1>1 0 0</fdir1><frictionCone>false</frictionCone><kp>1e6</kp><kd>100</kd>
       <minDepth>0.001</minDepth><maxVel>0.2</maxVel><maxContacts>3</maxContacts></gazebo>
     <gazebo reference='a'><selfCollide>true</selfCollide><turnGravityOff>true</turnGravityOff>
       <dampingFactor>0.1</dampingFactor><laserRetro>5</laserRetro><material>Gazebo/Orange</material></gazebo>)");
@@ -140,7 +198,7 @@ TEST_F(Urdf, AppliesLinkBlocks) {
     EXPECT_EQ(c.surface.mu, 0.7);
     EXPECT_EQ(c.surface.mu2, 0.6);
     EXPECT_EQ(c.surface.fdir1, Eigen::Vector3d(1, 0, 0));
-    EXPECT_TRUE(c.surface.friction_cone);
+    EXPECT_FALSE(c.surface.friction_cone);
     EXPECT_EQ(c.surface.kp_n_per_m, 1e6);
     EXPECT_EQ(c.surface.kd_n_s_per_m, 100.0);
     EXPECT_EQ(c.surface.min_depth_m, 0.001);
