@@ -77,11 +77,13 @@ def test_watch_sensor_names_the_topics(sensor: str, code: int, said: str):
 
 @pytest.mark.parametrize("device", devices())
 def test_rviz_shows_topics_that_there_are(device: str):
-    """Of the device's own configuration, else of its kind's, else one without a topic."""
+    """Of the device's own configuration, else of its kind's, else one with marks alone."""
     names = (device, load(device)["kind"], "robot")
     file = next(f for f in (PACKAGE / f"rviz/{name}.rviz" for name in names) if f.is_file())
     displays = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"]
     shown = {d[key] for d in displays for key in ("Topic", "Image Topic") if key in d}
+    marks = {d["Marker Topic"] for d in displays if "Marker Topic" in d}
     published = {"/" + topic.format(name="sensor") for topic in load(device)["topics"]}
     assert shown <= published
-    assert bool(shown) == (file.stem != "robot")
+    assert bool(shown) == (file.stem not in ("robot", "gps"))
+    assert shown or "/ardee/sensor/readings" in marks

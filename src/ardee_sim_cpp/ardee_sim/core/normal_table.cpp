@@ -16,7 +16,7 @@ NormalTable::NormalTable() {
   std::vector<double> exact(kHalf);
   double z = 0.0;
   double squares = 0.0;
-  for (int k = 0; k < kHalf; ++k) {
+  for (std::uint32_t k = 0; k < kHalf; ++k) {
     const double share_above = 0.5 - (k + 0.5) / (2.0 * kHalf);
     for (int iteration = 0; iteration < 8; ++iteration) {
       const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * M_PI);
@@ -24,7 +24,7 @@ NormalTable::NormalTable() {
       z += step;
       if (std::abs(step) < 1e-12) break;
     }
-    exact[static_cast<std::size_t>(k)] = z;
+    exact[k] = z;
     squares += z * z;
   }
   const double scale = 1.0 / std::sqrt(squares / kHalf);

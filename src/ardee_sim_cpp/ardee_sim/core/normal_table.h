@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace ardee {
@@ -14,12 +15,17 @@ class NormalTable {
   static const NormalTable& get();
 
   float operator[](std::uint16_t bits) const {
-    const float size = upper_half_[bits & (kHalf - 1)];
-    return (bits & kHalf) != 0 ? size : -size;
+    // The sign by its bit: a branch on noise could not be foreseen.
+    std::uint32_t number;
+    std::memcpy(&number, &upper_half_[bits & (kHalf - 1)], sizeof number);
+    number |= (~std::uint32_t{bits} & kHalf) << 16;
+    float signed_number;
+    std::memcpy(&signed_number, &number, sizeof signed_number);
+    return signed_number;
   }
 
  private:
-  static constexpr int kHalf = 1 << 15;
+  static constexpr std::uint32_t kHalf = 1u << 15;
 
   NormalTable();
 

@@ -7,11 +7,16 @@
 namespace ardee {
 namespace {
 
+/// Rays of a picture that go together.
+constexpr int kGlances = 16;
 constexpr std::uint32_t kNotUsed = 0xFFFFFFFFu;
 
 bool is_careful(const BodySurface& surface) {
   return surface.mask != nullptr || !surface.two_sided || !surface.casts_shadows;
 }
+
+/// Ground is met from below, too: nobody takes a picture of it from there.
+bool is_careful_ground(const BodySurface& surface) { return !surface.casts_shadows; }
 
 float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -102,7 +107,7 @@ void DraftScene::add_patch(std::uint32_t body_index, const TerrainPatch& patch,
   const PlacedBody& placed = *bodies_[body_index].placed;
   const Terrain& terrain = placed.body->terrains[patch.terrain];
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
-  Part& part = parts_[is_careful(placed.body->surfaces[terrain.surface]) ? 1 : 0];
+  Part& part = parts_[is_careful_ground(placed.body->surfaces[terrain.surface]) ? 1 : 0];
   const auto first = static_cast<std::uint32_t>(part.places.size());
   const HeightPatch& cells = patch.cells;
   for (int row = cells.row; row <= cells.row + cells.rows; ++row) {
@@ -205,46 +210,78 @@ void DraftScene::find_shadows(RayPacket& packet) const {
   rtcOccluded8(packet.valid, scene_, &context, &packet.rays.ray);
 }
 
-const DraftScene::Triangle& DraftScene::triangle(const RayPacket& packet, int i) const {
-  return parts_[packet.rays.hit.geomID[i]].triangles[packet.rays.hit.primID[i]];
+void DraftScene::glance(const Eigen::Vector3f& eye, const GlanceRay* rays, int count,
+                        Glance* glances) const {
+  alignas(64) int valid[kGlances];
+  RTCRayHit16 packet;
+  for (int i = 0; i < kGlances; ++i) {
+    const GlanceRay& ray = rays[std::min(i, count - 1)];
+    valid[i] = i < count ? -1 : 0;
+    packet.ray.org_x[i] = eye.x();
+    packet.ray.org_y[i] = eye.y();
+    packet.ray.org_z[i] = eye.z();
+    packet.ray.dir_x[i] = ray.direction_W.x();
+    packet.ray.dir_y[i] = ray.direction_W.y();
+    packet.ray.dir_z[i] = ray.direction_W.z();
+    packet.ray.tnear[i] = ray.near_m;
+    packet.ray.tfar[i] = ray.far_m;
+    packet.ray.time[i] = 0.0f;
+    packet.ray.mask[i] = 0xFFFFFFFFu;
+    packet.ray.id[i] = static_cast<unsigned>(i);
+    packet.ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene_, &context, &packet);
+  for (int i = 0; i < count; ++i) {
+    Glance& glance = glances[i];
+    glance = Glance{};
+    const std::uint32_t geometry = packet.hit.geomID[i];
+    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    const Triangle& triangle = parts_[geometry].triangles[packet.hit.primID[i]];
+    glance.surface = (std::uint64_t{triangle.body} + 1) << 32 | triangle.surface;
+    glance.range_m = packet.ray.tfar[i];
+    glance.normal_W = {packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]};
+    glance.geometry = geometry;
+    glance.primitive = packet.hit.primID[i];
+  }
 }
 
-DraftScene::Meeting DraftScene::meeting(const RayPacket& packet, int i) const {
+DraftScene::Meeting DraftScene::meeting(const Part& part, const Triangle& triangle,
+                                        const Met& met) {
   // Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
-  const Part& part = parts_[packet.rays.hit.geomID[i]];
-  const Triangle& met = triangle(packet, i);
-  const Eigen::Vector3f& a = part.places[met.corners[0]];
-  const Eigen::Vector3f ab = part.places[met.corners[1]] - a;
-  const Eigen::Vector3f ac = part.places[met.corners[2]] - a;
-  const RTCRay8& ray = packet.rays.ray;
-  const Eigen::Vector3f direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
-  const Eigen::Vector3f from_a = Eigen::Vector3f(ray.org_x[i], ray.org_y[i], ray.org_z[i]) - a;
+  const Eigen::Vector3f& a = part.places[triangle.corners[0]];
+  const Eigen::Vector3f ab = part.places[triangle.corners[1]] - a;
+  const Eigen::Vector3f ac = part.places[triangle.corners[2]] - a;
+  const Eigen::Vector3f from_a = met.origin - a;
   Meeting result;
   result.normal = ab.cross(ac);
-  const float share = -1.0f / direction.dot(result.normal);
-  const Eigen::Vector3f across = from_a.cross(direction);
+  const float share = -1.0f / met.direction.dot(result.normal);
+  const Eigen::Vector3f across = from_a.cross(met.direction);
   result.t = share * from_a.dot(result.normal);
   result.u = share * ac.dot(across);
   result.v = -share * ab.dot(across);
-  if (!std::isfinite(share)) result = {ray.tfar[i], 1.0f / 3, 1.0f / 3, result.normal};
+  if (!std::isfinite(share)) {  // along the triangle: its middle
+    result.u = result.v = 1.0f / 3.0f;
+    result.t = ((ab + ac) / 3.0f - from_a).dot(met.direction);
+  }
   return result;
 }
 
-float DraftScene::range_m(const RayPacket& packet, int i) const { return meeting(packet, i).t; }
-
-void DraftScene::fill(const RayPacket& packet, int i, SurfacePoint& point) const {
-  const Part& part = parts_[packet.rays.hit.geomID[i]];
-  const Triangle& met = triangle(packet, i);
-  const PlacedBody& placed = *bodies_[met.body].placed;
-  const BodySurface& surface = placed.body->surfaces[met.surface];
-  const Meeting meets = meeting(packet, i);
+void DraftScene::fill(const Met& met, SurfacePoint& point) const {
+  const Part& part = parts_[met.geometry];
+  const Triangle& triangle = part.triangles[met.primitive];
+  const PlacedBody& placed = *bodies_[triangle.body].placed;
+  const BodySurface& surface = placed.body->surfaces[triangle.surface];
+  const Meeting meets = meeting(part, triangle, met);
   const Vertex* corners[3];
-  for (int k = 0; k < 3; ++k) corners[k] = &part.vertices[met.corners[k]];
+  for (int k = 0; k < 3; ++k) corners[k] = &part.vertices[triangle.corners[k]];
   const float w = 1.0f - meets.u - meets.v;
-  const RTCRay8& ray = packet.rays.ray;
-  const Eigen::Vector3f direction(ray.dir_x[i], ray.dir_y[i], ray.dir_z[i]);
   Eigen::Vector3f normal = meets.normal.normalized();
-  if (normal.dot(direction) > 0.0f) normal = -normal;
+  if (normal.dot(met.direction) > 0.0f) normal = -normal;
   Eigen::Vector3f smooth =
       w * corners[0]->normal + meets.u * corners[1]->normal + meets.v * corners[2]->normal;
   const float length = smooth.norm();
@@ -262,13 +299,11 @@ void DraftScene::fill(const RayPacket& packet, int i, SurfacePoint& point) const
   point.smooth_normal_W = smooth.cast<double>();
   point.uv =
       (w * corners[0]->uv + meets.u * corners[1]->uv + meets.v * corners[2]->uv).cast<double>();
-  point.uv_per_m = met.uv_per_m;
+  point.uv_per_m = triangle.uv_per_m;
   point.point_S.setZero();
-  if (met.terrain == kNoTerrain) return;
-  const Terrain& terrain = placed.body->terrains[met.terrain];
-  const Eigen::Vector3f at(ray.org_x[i] + meets.t * direction.x(),
-                           ray.org_y[i] + meets.t * direction.y(),
-                           ray.org_z[i] + meets.t * direction.z());
+  if (triangle.terrain == kNoTerrain) return;
+  const Terrain& terrain = placed.body->terrains[triangle.terrain];
+  const Eigen::Vector3f at = met.origin + meets.t * met.direction;
   const Eigen::Vector3d at_B =
       placed.q.conjugate() * (at.cast<double>() + origin_W_ - placed.p) / placed.scale;
   point.point_S = terrain.R_BS.transpose() * (at_B - terrain.p_BS);

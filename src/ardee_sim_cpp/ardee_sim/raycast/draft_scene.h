@@ -23,15 +23,23 @@ class DraftScene {
              const Eigen::Vector3d& origin_W);
   ~DraftScene();
 
+  /// A ray in the scene's coordinates, and the triangle that it has met.
+  struct Met {
+    Eigen::Vector3f origin;
+    Eigen::Vector3f direction;
+    std::uint32_t geometry;
+    std::uint32_t primitive;
+  };
+
+  /// The same for a block of a picture: for `count` (up to 16) rays.
+  void glance(const Eigen::Vector3f& eye, const GlanceRay* rays, int count, Glance* glances) const;
   /// Finds the triangle that each ray of the packet meets first.
   void meet(RayPacket& packet) const;
   /// Makes tfar negative for rays with something in their way.
   void find_shadows(RayPacket& packet) const;
-  /// How far ray `i` of the packet, which has met a triangle, has gone; computed from the triangle
-  /// alone, so that it does not depend on the processor's instructions.
-  float range_m(const RayPacket& packet, int i) const;
-  /// What that ray has met. A mesh's point_S is left out.
-  void fill(const RayPacket& packet, int i, SurfacePoint& point) const;
+  /// What a ray has met, worked out from the triangle alone, so that it does not depend on the
+  /// processor's instructions. A mesh's point_S is left out.
+  void fill(const Met& met, SurfacePoint& point) const;
 
   std::size_t bytes() const;
 
@@ -68,8 +76,7 @@ class DraftScene {
   void add_triangles(std::uint32_t body, const Eigen::Vector3d& origin_W);
   void add_patch(std::uint32_t body, const TerrainPatch& patch, const Eigen::Vector3d& origin_W);
   void attach(const EmbreeDevice& device, Part& part, bool careful);
-  const Triangle& triangle(const RayPacket& packet, int i) const;
-  Meeting meeting(const RayPacket& packet, int i) const;
+  static Meeting meeting(const Part& part, const Triangle& triangle, const Met& met);
   static void sort_out_hits(const RTCFilterFunctionNArguments* args);
   static void sort_out_shadows(const RTCFilterFunctionNArguments* args);
   template <typename Keep>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/raycast/moving_models.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ardee_sim/raycast/body_compiler.h"
@@ -89,6 +90,27 @@ bool MovingModels::touches_any(const Ray& ray_W, double reach_m) const {
   const Eigen::Vector3d inverse = ray_W.direction.cwiseInverse();
   for (const auto& [entity, entry] : entries_) {
     if (!entry.boxes_W.empty() && touches(entry.box_W, ray_W.origin, inverse, reach_m)) return true;
+  }
+  return false;
+}
+
+bool MovingModels::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay* rays,
+                                  int count) const {
+  if (entries_.empty()) return false;
+  double spread = 0.0;  // between directions, at most
+  for (int i = 1; i < count; ++i) {
+    const Eigen::Vector3f apart = rays[i].direction_W - rays[0].direction_W;
+    spread = std::max(spread, static_cast<double>(apart.norm()));
+  }
+  const Eigen::Vector3d way_W = rays[0].direction_W.cast<double>();
+  for (const auto& [entity, entry] : entries_) {
+    if (entry.boxes_W.empty()) continue;
+    const Eigen::Vector3d to_box = entry.box_W.center() - eye_W;
+    const double radius_m = entry.box_W.radius();
+    if (to_box.norm() <= radius_m) return true;
+    const double along_m = std::max(0.0, to_box.dot(way_W));
+    const double apart_m = (to_box - along_m * way_W).norm();
+    if (apart_m <= radius_m + spread * (along_m + radius_m)) return true;
   }
   return false;
 }

@@ -19,6 +19,8 @@ class MovingModels {
   void add(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
+  /// Whether one of the rays, close together, may touch the box about one of them.
+  bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count) const;
   /// Whether the ray touches the box about one of them within its reach.
   bool touches_any(const Ray& ray_W, double reach_m) const;
   void meet(RayQuery& query) const;

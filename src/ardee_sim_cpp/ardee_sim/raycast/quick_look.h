@@ -6,6 +6,9 @@
 
 namespace ardee {
 
+/// What a ray has met, for comparison with its neighbours.
+Glance glance_of(const RayHit& hit);
+
 /// Looks for pictures by the draft of the near region that the rays start in: what is nearest among
 /// its triangles is decided in floats. All else on a ray's way is met exactly.
 class QuickLook {
@@ -17,6 +20,14 @@ class QuickLook {
   bool look(const SceneRay* rays, int count, SurfacePoint* points) const;
   bool find_shadows(const SceneRay* rays, int count, bool* in_shadow) const;
 
+  /// Whether rays from there start in a draft.
+  bool starts_at(const Eigen::Vector3d& eye_W) const;
+  /// Any number of rays from such a point.
+  void glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
+              Glance* glances) const;
+  /// What a ray that was glanced at has met in the draft.
+  void look_closer(const SceneRay& ray, const Glance& glance, SurfacePoint& point) const;
+
  private:
   /// False if a ray starts outside.
   bool load(const SceneRay* rays, int count, RayPacket& packet) const;
@@ -24,6 +35,10 @@ class QuickLook {
   /// it. False if nothing is near any of them; then the queries are not started.
   bool meet_others(const SceneRay* rays, int count, const double reach_m[kPacketRays],
                    RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const;
+
+  /// Replaces what is farther than something that is not in the draft.
+  void glance_at_others(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count,
+                        Glance* glances) const;
 
   const NearRegion* region_;
   const SceneryStore& scenery_;

@@ -92,6 +92,9 @@ struct RayScene::Impl {
   QuickLook quick_look(const SceneRay* rays, std::size_t count) const {
     return {count > 0 ? regions.find(rays[0].origin_W) : nullptr, scenery, moving};
   }
+  QuickLook quick_look(const Eigen::Vector3d& eye_W) const {
+    return {regions.find(eye_W), scenery, moving};
+  }
 
   /// Calls cast_some(first, count, queries) for packets of rays by all threads, and keeps what they
   /// met.
@@ -264,6 +267,36 @@ void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
         return quick.find_shadows(rays + first, packet, in_shadow + first);
       },
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
+}
+
+void RayScene::glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
+                      Glance* glances) const {
+  impl_->require_committed();
+  const QuickLook quick = impl_->quick_look(eye_W);
+  if (quick.starts_at(eye_W)) return quick.glance(eye_W, rays, count, glances);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d way_W = rays[i].direction_W.cast<double>();
+    const auto near_m = static_cast<double>(rays[i].near_m);
+    const SceneRay ray{eye_W + near_m * way_W, way_W, static_cast<double>(rays[i].far_m) - near_m};
+    RayHit hit;
+    meet(&ray, 1, &hit);
+    glances[i] = glance_of(hit);
+    glances[i].range_m += rays[i].near_m;
+  }
+}
+
+void RayScene::look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                           const Glance* glances, std::size_t count, SurfacePoint* points) const {
+  const QuickLook quick = impl_->quick_look(eye_W);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (glances[i].surface == 0) {
+      points[i] = SurfacePoint{};
+    } else if (glances[i].geometry != Glance::kOutside) {
+      quick.look_closer(rays[i], glances[i], points[i]);
+    } else {
+      look_quickly(rays + i, 1, points + i);
+    }
+  }
 }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {

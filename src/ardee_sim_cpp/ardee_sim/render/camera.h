@@ -26,6 +26,8 @@ struct Camera {
   /// (0, 0) is the upper left corner of the upper left pixel. Not finite where a lens lets no light
   /// through.
   Eigen::Vector3d direction_C(double x_px, double y_px) const;
+  /// Whether direction_C is linear in x and y.
+  bool is_straight() const { return !lens || lens->lens().is_straight(); }
   /// The unit direction in the world.
   Eigen::Vector3d direction_W(double x_px, double y_px) const;
   /// Where in the picture a point lies; none behind the camera.

@@ -27,33 +27,10 @@ bool is_sheet(const SurfacePoint& point) {
          std::holds_alternative<Mesh>(point.visual->geometry);
 }
 
-/// Looks that meet a surface within this cosine between normals, and this share of the range, meet
-/// it where it is smooth.
-constexpr float kSmooth = 0.85f;
-constexpr float kSameRange = 0.02f;
-
-Seen seen_of(const SurfacePoint& point) {
-  Seen seen;
-  seen.entity = point.entity;
-  seen.link = point.link;
-  seen.shape = point.shape;
-  seen.material = point.material;
-  seen.range_m = static_cast<float>(point.range_m);
-  seen.normal_W = point.smooth_normal_W.cast<float>();
-  return seen;
-}
-
 /// Of the first lamps only: 0 for others.
 std::uint32_t bit_of(std::size_t lamp) { return lamp < 32 ? 1u << lamp : 0u; }
 
 }  // namespace
-
-bool same_surface(const Seen& a, const Seen& b) {
-  if (a.entity != b.entity || a.link != b.link || a.shape != b.shape || a.material != b.material) {
-    return false;
-  }
-  return a.entity == kNoEntity || a.normal_W.dot(b.normal_W) >= kSmooth;
-}
 
 void Shader::begin(const TileShading& shading) {
   s_ = &shading;
@@ -74,13 +51,24 @@ void Shader::clear() {
   rays_.clear();
   owners_.clear();
   seen_.clear();
-  neighbours_.clear();
+  glances_.clear();
 }
 
-void Shader::send(double x_px, double y_px, const Neighbours& neighbours) {
+void Shader::send(const GlanceRay& ray, float stretch, const Glance& glance,
+                  const Neighbours& neighbours) {
   Sample& sample = samples_.emplace_back();
-  seen_.emplace_back();
-  neighbours_.push_back(neighbours);
+  sample.travelled_m = ray.near_m;
+  sample.stretch = stretch;
+  seen_.push_back({glance, neighbours});
+  glances_.push_back(glance);
+  const Eigen::Vector3d direction_W = ray.direction_W.cast<double>();
+  rays_.push_back({s_->camera.X_WC.p + sample.travelled_m * direction_W, direction_W,
+                   static_cast<double>(ray.far_m) - sample.travelled_m});
+  owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
+}
+
+void Shader::send(double x_px, double y_px) {
+  Sample& sample = samples_.emplace_back();
   const Eigen::Vector3d way_C = s_->camera.direction_C(x_px, y_px);
   const double stretch = way_C.norm();
   if (!(stretch < std::numeric_limits<double>::infinity())) return;
@@ -96,7 +84,11 @@ void Shader::send(double x_px, double y_px, const Neighbours& neighbours) {
 void Shader::gather() {
   for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
     if (points_.size() < rays_.size()) points_.resize(rays_.size());
-    if (s_->options.quickly) {
+    if (layer == 0 && !glances_.empty()) {
+      s_->rays.look_closer(s_->camera.X_WC.p, rays_.data(), glances_.data(), rays_.size(),
+                           points_.data());
+      glances_.clear();
+    } else if (s_->options.quickly) {
       s_->rays.look_quickly(rays_.data(), rays_.size(), points_.data());
     } else {
       s_->rays.look(rays_.data(), rays_.size(), points_.data());
@@ -118,7 +110,6 @@ void Shader::shade_layer(bool first, bool last) {
       sample.light += sample.rest * sky_color(s_->scene, rays_[i].direction_W);
       continue;
     }
-    if (first) seen_[owners_[i]] = seen_of(point);
     sample.travelled_m += point.range_m;
     const double slant = std::max(std::abs(point.smooth_normal_W.dot(rays_[i].direction_W)), 0.05);
     const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
@@ -142,12 +133,13 @@ void Shader::shade_layer(bool first, bool last) {
 
 Shader::Opinion Shader::opinion(std::size_t sample, std::uint32_t lamp_bit) const {
   Opinion found = Opinion::kNone;
-  const Seen& seen = seen_[sample];
-  for (const std::uint32_t each : neighbours_[sample].samples) {
+  const Seen& mine = seen_[sample];
+  for (const std::uint32_t each : mine.neighbours.samples) {
     if (each == Neighbours::kNone) break;
     const Seen& other = seen_[each];
-    if (!same_surface(seen, other)) continue;
-    if (std::abs(seen.range_m - other.range_m) > kSameRange * seen.range_m) continue;
+    if (!same_surface(mine.glance, other.glance)) continue;
+    const float apart_m = std::abs(mine.glance.range_m - other.glance.range_m);
+    if (apart_m > kSameRange * mine.glance.range_m) continue;
     if ((other.asked & lamp_bit) == 0) return Opinion::kNone;
     const bool dark = (other.in_shadow & lamp_bit) != 0;
     const Opinion theirs = dark ? Opinion::kInShadow : Opinion::kLit;
@@ -181,8 +173,8 @@ void Shader::send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const S
   if (lit_side_W.dot(found->to_light_W) <= 0.0) return;
   const Eigen::Vector3f arriving = static_cast<float>(cosine) * diffuse.cwiseProduct(found->color);
   const bool shadows = s_->options.shadows && s_->scene.shadows && light.cast_shadows;
-  const std::uint32_t lamp_bit = first ? bit_of(lamp) : 0u;
-  const Opinion known = shadows ? opinion(owners_[i], lamp_bit) : Opinion::kNone;
+  const std::uint32_t lamp_bit = first && !seen_.empty() ? bit_of(lamp) : 0u;
+  const Opinion known = shadows && lamp_bit != 0 ? opinion(owners_[i], lamp_bit) : Opinion::kNone;
   if (!shadows || known == Opinion::kLit) samples_[owners_[i]].light += arriving;
   if (!shadows || known != Opinion::kNone) return;
   const double reach_m = std::min(found->distance_m, s_->options.max_range_m);
@@ -203,6 +195,7 @@ void Shader::add_unshadowed() {
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Waiting& each = waiting_[i];
     if (!in_shadow_[i]) samples_[each.sample].light += each.light;
+    if (each.lamp_bit == 0) continue;
     seen_[each.sample].asked |= each.lamp_bit;
     if (in_shadow_[i]) seen_[each.sample].in_shadow |= each.lamp_bit;
   }

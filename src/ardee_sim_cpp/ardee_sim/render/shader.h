@@ -40,20 +40,20 @@ struct Sample {
   double stretch = 1.0;  // length of the way for each metre along the camera's axis
 };
 
-/// What a look has met first.
-struct Seen {
-  std::uint32_t entity = kNoEntity;
-  std::uint32_t link = 0;
-  std::uint32_t shape = 0;
-  const Material* material = nullptr;
-  float range_m = 0.0f;
-  Eigen::Vector3f normal_W{0, 0, 0};
-  std::uint32_t asked = 0;      // a bit a lamp: whether it shines here was asked,
-  std::uint32_t in_shadow = 0;  // and it does not
-};
+/// Normals of a surface within this cosine are of a place where it is smooth.
+constexpr float kSmooth = 0.85f;
 
-/// Whether two looks have met one surface, where it is smooth.
-bool same_surface(const Seen& a, const Seen& b);
+/// Whether two rays of a picture have met one surface, where it is smooth; or both nothing.
+inline bool same_surface(const Glance& a, const Glance& b) {
+  if (a.surface != b.surface || a.surface == 0) return a.surface == b.surface;
+  if (a.geometry != Glance::kOutside && a.primitive == b.primitive) return true;
+  const float along = a.normal_W.dot(b.normal_W);
+  return along > 0.0f &&
+         along * along >= kSmooth * kSmooth * a.normal_W.squaredNorm() * b.normal_W.squaredNorm();
+}
+
+/// Ranges along one surface that differ by more, as a share, are not next to each other.
+constexpr float kSameRange = 0.02f;
 
 /// Samples next to a new one whose light has been gathered; kNone: fewer.
 struct Neighbours {
@@ -68,18 +68,24 @@ class Shader {
   /// Begins a picture's part; the room of the one before is used again.
   void begin(const TileShading& shading);
 
-  /// A look through (x, y) in pixels; one without a ray where the lens lets no light through. It
-  /// takes shadows from those of its neighbours that have met the same surface, if they are of one
-  /// opinion.
-  void send(double x_px, double y_px, const Neighbours& neighbours = {});
+  /// A look through (x, y) in pixels; one without a ray where the lens lets no light through.
+  void send(double x_px, double y_px);
+  /// One whose first meeting was glanced at: from `near_m` on along `direction_W`, of that length
+  /// for each metre along the camera's axis. It takes shadows from those of its neighbours that
+  /// have met the same surface, if they are of one opinion.
+  void send(const GlanceRay& ray, float stretch, const Glance& glance,
+            const Neighbours& neighbours);
+  /// One that sees nothing, among glanced ones.
+  void send_dark() {
+    samples_.emplace_back();
+    seen_.emplace_back();
+  }
   /// Forgets the looks.
   void clear();
   /// The light of all looks that were sent since the last call.
   void gather();
 
   const std::vector<Sample>& samples() const { return samples_; }
-  /// What a sample has met first.
-  const Seen& seen(std::size_t sample) const { return seen_[sample]; }
   /// Rays of the looks that were sent, and the sample of each.
   const std::vector<SceneRay>& rays() const { return rays_; }
   const std::vector<std::uint32_t>& owners() const { return owners_; }
@@ -90,6 +96,13 @@ class Shader {
     std::uint32_t sample;
     Eigen::Vector3f light;
     std::uint32_t lamp_bit;  // of the first lamps; 0: another
+  };
+  /// Of a sample that was glanced at.
+  struct Seen {
+    Glance glance;
+    Neighbours neighbours;
+    std::uint32_t asked = 0;      // a bit a lamp: whether it shines here was asked,
+    std::uint32_t in_shadow = 0;  // and it does not
   };
   enum class Opinion { kLit, kInShadow, kNone };
 
@@ -105,8 +118,8 @@ class Shader {
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
-  std::vector<Seen> seen_;              // of each sample
-  std::vector<Neighbours> neighbours_;  // of each sample
+  std::vector<Seen> seen_;       // of each sample, or of none
+  std::vector<Glance> glances_;  // of each ray, or of none
   std::vector<SceneRay> rays_;
   std::vector<std::uint32_t> owners_;  // the sample of each ray
   std::vector<SurfacePoint> points_;   // as many as ever were needed

@@ -24,6 +24,13 @@ double fraction(double x) {
   return rest < 0.0 ? rest + 1.0 : rest;
 }
 
+/// Straight between powers of two: a positive float's bits, read as a number.
+float rough_log2(float x) {
+  std::int32_t bits;
+  std::memcpy(&bits, &x, sizeof bits);
+  return static_cast<float>(bits - 0x3F800000) * 0x1p-23f;
+}
+
 Floats floats_of(const std::array<std::uint8_t, 4>& texel) {
   Bytes bytes;
   std::memcpy(&bytes, texel.data(), sizeof bytes);
@@ -94,7 +101,7 @@ Color Texture::color(const Eigen::Vector2d& uv, double footprint) const {
   if (!(uv.cwiseAbs().maxCoeff() < kFarthest)) return levels_.back().bilinear({0.0, 0.0});
   const int side = std::max(levels_.front().width, levels_.front().height);
   const float wanted =
-      std::log2(std::max(static_cast<float>(footprint) * static_cast<float>(side), 1.0f));
+      rough_log2(std::max(static_cast<float>(footprint) * static_cast<float>(side), 1.0f));
   const float last = static_cast<float>(levels_.size() - 1);
   const float level = std::min(wanted, last);
   const auto fine = static_cast<std::size_t>(level);

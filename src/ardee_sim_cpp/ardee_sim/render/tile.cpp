@@ -11,10 +11,12 @@
 namespace ardee {
 namespace {
 
-/// What lies between looks at one smooth surface is theirs too if they differ by less in light, and
-/// in depth (as a share of it) from a plane.
+/// Light between looks at one smooth surface is their mean if they differ by less.
 constexpr float kSameLight = 0.1f;
-constexpr float kSameRange = 0.02f;
+/// Rays of a block of a picture, this many each way, go together.
+constexpr int kBlock_px = 4;
+/// In place of a surface where the lens lets no light through.
+constexpr std::uint64_t kDark = 1;
 
 /// The bits of a number mirrored behind the binary point: with k / n an even pattern (Hammersley).
 double mirrored_bits(unsigned number) {
@@ -50,14 +52,11 @@ class Tile {
 
   /// Through the middle of each pixel.
   void shoot(const FrameParts& parts, Frame& frame) {
-    const bool every_one = parts.depth || parts.ids || !s_.options.quickly;
-    if (every_one) send_all();
+    const bool quickly = parts.light && s_.options.quickly;
+    if (parts.depth || parts.ids || !quickly) send_all();
     if (parts.depth || parts.ids) write_hits(parts, frame);
-    if (!parts.light) return;
-    if (s_.options.quickly) {
-      shoot_every_other(frame);
-      return;
-    }
+    if (quickly) shade_where_needed(frame);
+    if (quickly || !parts.light) return;
     shader_.gather();
     for (std::size_t k = 0; k < shader_.samples().size(); ++k) {
       frame.light[index_in(frame, k)] = shader_.samples()[k].light;
@@ -94,21 +93,34 @@ class Tile {
     }
   }
 
-  /// Looks through each second pixel each way, and through those between where their neighbours are
-  /// not of one smooth surface in one light.
-  void shoot_every_other(Frame& frame) {
+  struct Step {
+    int dx;
+    int dy;
+  };
+  /// Of a pixel among those of all blocks, block by block. Blocks are whole, also where the tile
+  /// ends within one.
+  std::size_t at(int column, int row) const {
+    constexpr unsigned kSide = kBlock_px;
+    const auto x = static_cast<unsigned>(column);
+    const auto y = static_cast<unsigned>(row);
+    const unsigned block = y / kSide * static_cast<unsigned>(blocks_) + x / kSide;
+    return block * kSide * kSide + y % kSide * kSide + x % kSide;
+  }
+
+  /// Glances through all pixels, shades each second of them each way, and of those between the ones
+  /// whose neighbours are not of the same smooth surface in one light.
+  void shade_where_needed(Frame& frame) {
     shader_.clear();
-    columns_ = area_.width / 2 + area_.width % 2 + 1;
-    const int rows = area_.height / 2 + area_.height % 2 + 1;
+    glance_all();
+    sample_of_.assign(rays_.size(), Neighbours::kNone);
     // Each second corner first, as on a chessboard: the others have neighbours then.
-    grid_.resize(static_cast<std::size_t>(columns_ * rows));
-    send_corners(rows, 0);
-    shader_.gather();
-    send_corners(rows, 1);
-    shader_.gather();
+    for (const int colour : {0, 1}) {
+      send_corners(colour);
+      shader_.gather();
+    }
     between_.clear();
-    for (int row = 0; row + 1 < rows; ++row) {
-      for (int column = 0; column + 1 < columns_; ++column) fill_square(column, row, frame);
+    for (int row = 0; row < area_.height; ++row) {
+      for (int column = 0; column < area_.width; ++column) fill(column, row, frame);
     }
     shader_.gather();
     for (const auto& [place, sample] : between_) {
@@ -116,83 +128,148 @@ class Tile {
     }
   }
 
-  /// The black or the white ones; in blocks, so that rays that go together are close together.
-  void send_corners(int rows, int colour) {
-    for (int upper = 0; upper < rows; upper += 4) {
-      for (int left = 0; left < columns_; left += 4) {
-        for (int k = 0; k < 16; ++k) {
-          const int column = left + k % 4;
-          const int row = upper + k / 4;
-          if ((column + row) % 2 != colour || column >= columns_ || row >= rows) continue;
-          Neighbours beside;
-          std::size_t count = 0;
-          const auto add = [&](int c, int r) {
-            if (c >= 0 && r >= 0 && c < columns_ && r < rows)
-              beside.samples[count++] = corner(c, r);
-          };
-          if (colour == 1) {
-            add(column - 1, row);
-            add(column + 1, row);
-            add(column, row - 1);
-            add(column, row + 1);
-          }
-          grid_[static_cast<std::size_t>(row * columns_ + column)] =
-              static_cast<std::uint32_t>(shader_.samples().size());
-          shader_.send(area_.left + 2 * column + 0.5, area_.upper + 2 * row + 0.5, beside);
-        }
-      }
-    }
-  }
-
-  std::uint32_t corner(int column, int row) const {
-    return grid_[static_cast<std::size_t>(row * columns_ + column)];
-  }
-
-  /// The pixels of a square of two by two whose first is a corner.
-  void fill_square(int column, int row, Frame& frame) {
-    const std::uint32_t corners[4] = {corner(column, row), corner(column + 1, row),
-                                      corner(column, row + 1), corner(column + 1, row + 1)};
-    const auto light = [&](int k) -> const Eigen::Vector3f& {
-      return shader_.samples()[corners[k]].light;
+  void glance_all() {
+    blocks_ = (area_.width + kBlock_px - 1) / kBlock_px;
+    const int rows_of_blocks = (area_.height + kBlock_px - 1) / kBlock_px;
+    const auto count = static_cast<std::size_t>(blocks_ * rows_of_blocks * kBlock_px * kBlock_px);
+    rays_.resize(count);
+    stretches_.resize(count);
+    const Eigen::Matrix3d R_WC = s_.camera.X_WC.q.toRotationMatrix();
+    const auto way_W = [&](int column, int row) -> Eigen::Vector3f {
+      const Eigen::Vector3d way_C =
+          s_.camera.direction_C(area_.left + column + 0.5, area_.upper + row + 0.5);
+      return (R_WC * way_C).cast<float>();
     };
-    for (int k = 0; k < 4; ++k) {
-      const int x = area_.left + 2 * column + k % 2;
-      const int y = area_.upper + 2 * row + k / 2;
-      if (x >= area_.left + area_.width || y >= area_.upper + area_.height) continue;
-      const std::size_t place = frame.index(x, y);
-      if (k == 0) {
-        frame.light[place] = light(0);
-      } else if (k < 3 && is_even(corners[0], corners[k])) {
-        frame.light[place] = 0.5f * (light(0) + light(k));
-      } else if (k == 3 && is_even(corners)) {
-        frame.light[place] = 0.25f * (light(0) + light(1) + light(2) + light(3));
-      } else {
-        shader_.send(x + 0.5, y + 0.5, neighbours(corners, k));
-        between_.emplace_back(place, shader_.samples().size() - 1);
+    const bool straight = s_.camera.is_straight();
+    const Eigen::Vector3f first = way_W(0, 0);
+    const Eigen::Vector3f right = way_W(1, 0) - first;
+    const Eigen::Vector3f down = way_W(0, 1) - first;
+    for (int block = 0; block < blocks_ * rows_of_blocks; ++block) {
+      for (int k = 0; k < kBlock_px * kBlock_px; ++k) {
+        const int column = block % blocks_ * kBlock_px + k % kBlock_px;
+        const int row = block / blocks_ * kBlock_px + k / kBlock_px;
+        set_ray(at(column, row), straight
+                                     ? Eigen::Vector3f(first + static_cast<float>(column) * right +
+                                                       static_cast<float>(row) * down)
+                                     : way_W(column, row));
+      }
+    }
+    glances_.resize(rays_.size());
+    s_.rays.glance(s_.camera.X_WC.p, rays_.data(), rays_.size(), glances_.data());
+    for (std::size_t k = 0; k < stretches_.size() && !straight; ++k) {
+      if (stretches_[k] == 0.0f) glances_[k].surface = kDark;
+    }
+  }
+
+  void set_ray(std::size_t place, const Eigen::Vector3f& way_W) {
+    const float stretch = way_W.norm();  // length of the way for each metre along the camera's axis
+    if (stretch < std::numeric_limits<float>::infinity()) {
+      stretches_[place] = stretch;
+      rays_[place] = {way_W * (1.0f / stretch), static_cast<float>(s_.camera.near_m) * stretch,
+                      std::min(static_cast<float>(s_.camera.far_m) * stretch,
+                               static_cast<float>(s_.options.max_range_m))};
+    } else {
+      stretches_[place] = 0.0f;
+      rays_[place] = {{1, 0, 0}, 0.0f, 0.0f};
+    }
+  }
+
+  /// Corners of squares are each second pixel, and the last.
+  static bool is_corner(int k, int count) { return k % 2 == 0 || k + 1 == count; }
+
+  std::uint32_t sample_of(int column, int row) const { return sample_of_[at(column, row)]; }
+
+  void send_corners(int colour) {
+    for (int row = 0; row < area_.height; ++row) {
+      if (!is_corner(row, area_.height)) continue;
+      for (int column = 0; column < area_.width; ++column) {
+        if (!is_corner(column, area_.width)) continue;
+        if (((column + 1) / 2 + (row + 1) / 2) % 2 != colour) continue;
+        Neighbours beside;
+        std::size_t count = 0;
+        const auto add = [&](int c, int r) {
+          if (c < 0 || r < 0 || c >= area_.width || r >= area_.height) return;
+          const std::uint32_t sample = sample_of(c, r);
+          if (sample != Neighbours::kNone) beside.samples[count++] = sample;
+        };
+        if (colour == 1) {
+          add(column - 2, row);
+          add(column + 2, row);
+          add(column, row - 2);
+          add(column, row + 2);
+        }
+        send(column, row, beside);
       }
     }
   }
 
-  /// Of pixel k of a square between these corners.
-  static Neighbours neighbours(const std::uint32_t corners[4], int k) {
-    Neighbours all{{corners[0], corners[1], corners[2], corners[3]}};
-    return k == 3 ? all : Neighbours{{corners[0], corners[k], Neighbours::kNone}};
+  std::uint32_t send(int column, int row, const Neighbours& neighbours) {
+    const std::size_t place = at(column, row);
+    const auto sample = static_cast<std::uint32_t>(shader_.samples().size());
+    if (glances_[place].surface == kDark) {
+      shader_.send_dark();
+    } else {
+      shader_.send(rays_[place], stretches_[place], glances_[place], neighbours);
+    }
+    sample_of_[place] = sample;
+    return sample;
   }
 
-  bool is_even(std::uint32_t a, std::uint32_t b) const {
-    const Eigen::Vector3f change = shader_.samples()[a].light - shader_.samples()[b].light;
-    return same_surface(shader_.seen(a), shader_.seen(b)) &&
-           change.cwiseAbs().maxCoeff() <= kSameLight;
+  /// The light of a pixel: its own, that of its neighbours, or, later, that of a sample between.
+  void fill(int column, int row, Frame& frame) {
+    const bool own_column = is_corner(column, area_.width);
+    const bool own_row = is_corner(row, area_.height);
+    Eigen::Vector3f& light = frame.light[frame.index(area_.left + column, area_.upper + row)];
+    if (own_column && own_row) {
+      light = light_of(column, row);
+      return;
+    }
+    const int dx = own_column ? 0 : 1;
+    const int dy = own_row ? 0 : 1;
+    static constexpr Step kDiagonals[] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    const Step straight[] = {{-dx, -dy}, {dx, dy}};
+    const bool even = dx == 0 || dy == 0 ? fill_from(column, row, straight, light)
+                                         : fill_from(column, row, kDiagonals, light);
+    if (even) return;
+    Neighbours around;
+    std::size_t count = 0;
+    for (int r = row - dy; r <= row + dy; r += 2) {
+      for (int c = column - dx; c <= column + dx; c += 2) around.samples[count++] = sample_of(c, r);
+      if (dy == 0) break;
+    }
+    between_.emplace_back(frame.index(area_.left + column, area_.upper + row),
+                          send(column, row, around));
   }
 
-  bool is_even(const std::uint32_t corners[4]) const {
-    if (!is_even(corners[0], corners[3]) || !is_even(corners[1], corners[2]) ||
-        !is_even(corners[0], corners[1])) {
+  const Eigen::Vector3f& light_of(int column, int row) const {
+    return shader_.samples()[sample_of(column, row)].light;
+  }
+
+  /// The mean light of the neighbours that are of the pixel's own surface, if there are some and it
+  /// is even there.
+  template <std::size_t N>
+  bool fill_from(int column, int row, const Step (&neighbours)[N], Eigen::Vector3f& light) {
+    const Glance& mine = glances_[at(column, row)];
+    Eigen::Vector3f sum(0, 0, 0), least(0, 0, 0), most(0, 0, 0);
+    float off_m = 0.0f;  // of their ranges from mine, in the mean
+    std::size_t count = 0;
+    for (const Step& step : neighbours) {
+      const Glance& theirs = glances_[at(column + step.dx, row + step.dy)];
+      if (!same_surface(mine, theirs)) continue;
+      const Eigen::Vector3f& their_light = light_of(column + step.dx, row + step.dy);
+      least = count == 0 ? their_light : Eigen::Vector3f(least.cwiseMin(their_light));
+      most = count == 0 ? their_light : Eigen::Vector3f(most.cwiseMax(their_light));
+      sum += their_light;
+      if (mine.surface != 0) off_m += theirs.range_m - mine.range_m;
+      ++count;
+    }
+    const float share = 1.0f / static_cast<float>(count);
+    if (count == 0 || std::abs(share * off_m) > kSameRange * mine.range_m ||
+        (most - least).maxCoeff() > kSameLight) {
       return false;
     }
-    const auto range_m = [&](int k) { return shader_.seen(corners[k]).range_m; };
-    const float bend_m = range_m(0) + range_m(3) - range_m(1) - range_m(2);
-    return std::abs(bend_m) <= kSameRange * range_m(0);
+    light = share * sum;
+    return true;
   }
 
   void write_hits(const FrameParts& parts, Frame& frame) const {
@@ -221,9 +298,12 @@ class Tile {
   const TileShading& s_;
   const TileArea area_;
   Shader& shader_;
-  int columns_ = 0;                                           // of the grid of corners
-  std::vector<std::uint32_t> grid_;                           // the corners' samples
-  std::vector<std::pair<std::size_t, std::size_t>> between_;  // places in the frame, and samples
+  int blocks_ = 0;  // side by side
+  std::vector<GlanceRay> rays_;
+  std::vector<float> stretches_;  // 0: the lens lets no light through
+  std::vector<Glance> glances_;
+  std::vector<std::uint32_t> sample_of_;                        // of each pixel
+  std::vector<std::pair<std::size_t, std::uint32_t>> between_;  // places in the frame, and samples
 };
 
 }  // namespace
