@@ -140,7 +140,7 @@ Shader::Opinion Shader::opinion(std::size_t sample, std::uint32_t lamp_bit) cons
     if (!same_surface(mine.glance, other.glance)) continue;
     const float apart_m = std::abs(mine.glance.range_m - other.glance.range_m);
     if (apart_m > kSameRange * mine.glance.range_m) continue;
-    if ((other.asked & lamp_bit) == 0) return Opinion::kNone;
+    if ((other.known & lamp_bit) == 0) return Opinion::kNone;
     const bool dark = (other.in_shadow & lamp_bit) != 0;
     const Opinion theirs = dark ? Opinion::kInShadow : Opinion::kLit;
     if (found != Opinion::kNone && found != theirs) return Opinion::kNone;
@@ -176,6 +176,10 @@ void Shader::send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const S
   const std::uint32_t lamp_bit = first && !seen_.empty() ? bit_of(lamp) : 0u;
   const Opinion known = shadows && lamp_bit != 0 ? opinion(owners_[i], lamp_bit) : Opinion::kNone;
   if (!shadows || known == Opinion::kLit) samples_[owners_[i]].light += arriving;
+  if (known != Opinion::kNone) {
+    seen_[owners_[i]].known |= lamp_bit;
+    if (known == Opinion::kInShadow) seen_[owners_[i]].in_shadow |= lamp_bit;
+  }
   if (!shadows || known != Opinion::kNone) return;
   const double reach_m = std::min(found->distance_m, s_->options.max_range_m);
   shadow_rays_.push_back({at_W + kOffset_m * lit_side_W, found->to_light_W, reach_m - kOffset_m});
@@ -196,7 +200,7 @@ void Shader::add_unshadowed() {
     const Waiting& each = waiting_[i];
     if (!in_shadow_[i]) samples_[each.sample].light += each.light;
     if (each.lamp_bit == 0) continue;
-    seen_[each.sample].asked |= each.lamp_bit;
+    seen_[each.sample].known |= each.lamp_bit;
     if (in_shadow_[i]) seen_[each.sample].in_shadow |= each.lamp_bit;
   }
   shadow_rays_.clear();

@@ -101,7 +101,7 @@ class Shader {
   struct Seen {
     Glance glance;
     Neighbours neighbours;
-    std::uint32_t asked = 0;      // a bit a lamp: whether it shines here was asked,
+    std::uint32_t known = 0;      // a bit a lamp: whether it shines here is known,
     std::uint32_t in_shadow = 0;  // and it does not
   };
   enum class Opinion { kLit, kInShadow, kNone };
