@@ -264,5 +264,41 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
   EXPECT_GE(same_shadows, static_cast<int>(shadow_rays.size()) - 4);
 }
 
+TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
+  const auto box = model_of(mesh_of({box_mesh("box", {0.5, 0.5, 0.5})}));
+  for (const bool pictures : {true, false}) {  // with a draft, and without
+    TestScene test(SceneKind::kVisual, options(true, 4.0, 1), 0, field(18, 0.8, {100, 50, 0}));
+    const Eigen::Vector3d eye_W(107, 57, 0.7);
+    test.scene.add_model(5000, box);
+    test.scene.set_link_poses(5000, {{{107.5, 57, 0.7}, Eigen::Quaterniond::Identity()}});
+    test.scene.prepare({eye_W}, pictures);
+    std::vector<GlanceRay> rays;
+    std::vector<SceneRay> whole;
+    for (const Eigen::Vector3f& direction : random_pattern(3000, 5).directions_S) {
+      rays.push_back({direction.normalized(), 0.2f, 30.0f});
+      const Eigen::Vector3d way_W = rays.back().direction_W.cast<double>();
+      whole.push_back({eye_W + 0.2 * way_W, way_W, 29.8});
+    }
+    std::vector<Glance> glances(rays.size());
+    test.scene.glance(eye_W, rays.data(), rays.size(), glances.data());
+    std::vector<SurfacePoint> closer(rays.size()), looks(rays.size());
+    test.scene.look_closer(eye_W, whole.data(), glances.data(), whole.size(), closer.data());
+    test.scene.look_quickly(whole.data(), whole.size(), looks.data());
+    int same_points = 0, of_model = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool met = looks[i].met();
+      const bool same =
+          met == (glances[i].surface != 0) && met == closer[i].met() &&
+          (!met ||
+           (std::abs(looks[i].range_m - closer[i].range_m) < 1e-4 &&
+            std::abs(looks[i].range_m + 0.2 - static_cast<double>(glances[i].range_m)) < 1e-4));
+      same_points += same ? 1 : 0;
+      of_model += closer[i].entity == 5000 ? 1 : 0;
+    }
+    EXPECT_GE(same_points, 2996);
+    EXPECT_GT(of_model, 50);
+  }
+}
+
 }  // namespace
 }  // namespace ardee::test
