@@ -280,15 +280,13 @@ void BodyCompiler::fill_block(TriangleBlock& block, const Bounds& bounds) {
     const Eigen::Vector3d v0 = corner(0);
     const Eigen::Vector3d edge1 = corner(1) - v0;
     const Eigen::Vector3d edge2 = corner(2) - v0;
-    const Eigen::Vector3d normal = edge1.cross(edge2);
     for (int k = 0; k < 3; ++k) {
       block.vertex[k][lane] = static_cast<float>(v0[k]);
       block.edge1[k][lane] = static_cast<float>(edge1[k]);
       block.edge2[k][lane] = static_cast<float>(edge2[k]);
-      block.normal[k][lane] = static_cast<float>(normal[k]);
     }
-    block.length[lane] =
-        static_cast<float>(1.0001 * std::max({edge1.norm(), edge2.norm(), (edge1 - edge2).norm()}));
+    const double longest = std::max({edge1.norm(), edge2.norm(), (edge1 - edge2).norm()});
+    block.longest = std::max(block.longest, static_cast<float>(1.0001 * longest));
   }
 }
 

@@ -75,12 +75,14 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
     }
   }
   entry.boxes_W.resize(entry.placed.size());
+  entry.box_table_W.clear();
   entry.box_W = Bounds{};
   for (std::size_t k = 0; k < entry.placed.size(); ++k) {
     const Pose& pose = X_WL[entry.links[k]];
     entry.placed[k].p = pose.p;
     entry.placed[k].q = pose.q.normalized();
     entry.boxes_W[k] = entry.placed[k].bounds_W().grown(kBoxMargin_m);
+    entry.box_table_W.add(entry.boxes_W[k]);
     entry.box_W.add(entry.boxes_W[k]);
   }
 }
@@ -115,24 +117,32 @@ bool MovingModels::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay*
   return false;
 }
 
-void MovingModels::meet(RayQuery& query) const {
-  for (const auto& [entity, entry] : entries_) meet(query, entity, entry);
+void MovingModels::meet(RayQuery* queries, int count) const {
+  for (const auto& [entity, entry] : entries_) meet(queries, count, entity, entry);
 }
 
 void MovingModels::meet(RayQuery& query, std::uint32_t entity) const {
   const auto found = entries_.find(entity);
-  if (found != entries_.end()) meet(query, entity, found->second);
+  if (found != entries_.end()) meet(&query, 1, entity, found->second);
 }
 
-void MovingModels::meet(RayQuery& query, std::uint32_t entity, const Entry& entry) {
+void MovingModels::meet(RayQuery* queries, int count, std::uint32_t entity, const Entry& entry) {
   if (entry.boxes_W.empty()) return;
-  const Ray& ray = query.ray_W();
-  const Eigen::Vector3d inverse = ray.direction.cwiseInverse();
-  if (!touches(entry.box_W, ray.origin, inverse, query.reach())) return;
-  for (std::size_t k = 0; k < entry.placed.size(); ++k) {
-    if (query.passes(entity, entry.links[k])) continue;
-    if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
-      query.meet_body(entry.placed[k], 0.0);
+  thread_local std::vector<double> entries;
+  thread_local std::vector<double> exits;
+  thread_local std::vector<std::uint32_t> near;
+  near.clear();
+  RayBundle(queries, count).find(entry.box_table_W, entries, exits, near);
+  if (near.empty()) return;
+  for (int i = 0; i < count; ++i) {
+    RayQuery& query = queries[i];
+    const Ray& ray = query.ray_W();
+    const Eigen::Vector3d inverse = ray.direction.cwiseInverse();
+    for (const std::uint32_t k : near) {
+      if (query.passes(entity, entry.links[k])) continue;
+      if (touches(entry.boxes_W[k], ray.origin, inverse, query.reach())) {
+        query.meet_body(entry.placed[k], 0.0);
+      }
     }
   }
 }

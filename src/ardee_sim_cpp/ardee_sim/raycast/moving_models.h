@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/raycast/ray_bundle.h"
 #include "ardee_sim/raycast/ray_query.h"
 
 namespace ardee {
@@ -23,7 +24,9 @@ class MovingModels {
   bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count) const;
   /// Whether the ray touches the box about one of them within its reach.
   bool touches_any(const Ray& ray_W, double reach_m) const;
-  void meet(RayQuery& query) const;
+  void meet(RayQuery& query) const { meet(&query, 1); }
+  /// Neighbouring rays.
+  void meet(RayQuery* queries, int count) const;
   void meet(RayQuery& query, std::uint32_t entity) const;
 
  private:
@@ -33,10 +36,11 @@ class MovingModels {
     std::vector<PlacedBody> placed;             // links that have shapes
     std::vector<std::uint32_t> links;           // their indices
     std::vector<Bounds> boxes_W;                // empty until the first poses
+    BoxTable box_table_W;                       // the same
     Bounds box_W;
   };
 
-  static void meet(RayQuery& query, std::uint32_t entity, const Entry& entry);
+  static void meet(RayQuery* queries, int count, std::uint32_t entity, const Entry& entry);
 
   const EmbreeDevice& device_;
   AlphaMasks& masks_;

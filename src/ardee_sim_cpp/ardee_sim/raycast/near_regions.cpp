@@ -14,8 +14,20 @@ constexpr std::size_t kBudgetShare = 4;
 constexpr double kSpareShare = 0.5;
 /// Where pictures are taken, the square reaches so far, if the budget allows.
 constexpr double kPictureRadius_m = 12.0;
+/// The next region's centre lies so far ahead of the sensor, as a share of the way from a centre
+/// that a sensor may go: less than 1, so that one that turns back is still within it.
+constexpr double kAhead = 0.75;
 /// Regions that no sensor was in for so many calls make room.
 constexpr std::uint64_t kIdleCalls = 2000;
+
+Eigen::Vector2d way_from(const NearRegion& region, const Eigen::Vector3d& eye_W) {
+  return eye_W.head<2>() - region.center_W();
+}
+
+/// How far a sensor may be from the centre without another region being made.
+double reserve_m(const NearRegion& region) {
+  return region.half_size_m() * (kSpareShare / (1.0 + kSpareShare));
+}
 
 }  // namespace
 
@@ -73,6 +85,7 @@ void NearRegions::keep(std::unique_ptr<NearRegion> region) {
   }
   kept_ = std::move(still);
   kept_.push_back({std::move(region), tick_});
+  ++made_;
 }
 
 void NearRegions::collect() {
@@ -93,11 +106,15 @@ void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   for (Kept& kept : kept_) {
     if (kept.region.get() == region) kept.last_used = tick_;
   }
-  const Eigen::Vector2d way = eye_W.head<2>() - region->center_W();
-  const double reserve_m = region->half_size_m() * (kSpareShare / (1.0 + kSpareShare));
-  if (region->holds_all() || way.norm() <= reserve_m || next_.valid()) return;
-  // Ahead of the sensor, so that it has twice the reserve to go.
-  const Eigen::Vector2d center = eye_W.head<2>() + way;
+  if (next_.valid() || std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        if (drafts_ && !kept.region->has_tried_draft()) return false;
+        return kept.region->holds_all() ||
+               way_from(*kept.region, eye_W).norm() <= reserve_m(*kept.region);
+      })) {
+    return;
+  }
+  const Eigen::Vector2d way = way_from(*region, eye_W);
+  const Eigen::Vector2d center = eye_W.head<2>() + kAhead * reserve_m(*region) * way.normalized();
   next_ = std::async(std::launch::async, [this, center] { return make(center); });
 }
 

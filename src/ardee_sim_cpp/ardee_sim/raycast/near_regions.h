@@ -27,6 +27,7 @@ class NearRegions {
 
   std::size_t bytes() const;
   std::size_t triangles() const;
+  std::size_t made() const { return made_; }
 
  private:
   struct Kept {
@@ -46,6 +47,7 @@ class NearRegions {
   std::vector<Kept> kept_;
   std::future<std::unique_ptr<NearRegion>> next_;
   std::uint64_t tick_ = 0;
+  std::size_t made_ = 0;
   bool drafts_ = false;
 };
 

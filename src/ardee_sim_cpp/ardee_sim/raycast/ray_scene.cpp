@@ -42,12 +42,12 @@ struct RayScene::Impl {
     double t_leave[kPacketRays];
     double t_high[kPacketRays];
     double t_low[kPacketRays];
+    for (int i = 0; i < count; ++i) scenery.meet_everywhere(queries[i]);
+    moving.meet(queries, count);
     for (int i = 0; i < kPacketRays; ++i) {
       t_low[i] = std::numeric_limits<double>::infinity();
       t_high[i] = -1.0;
       if (i >= count) continue;
-      scenery.meet_everywhere(queries[i]);
-      moving.meet(queries[i]);
       t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
       t_high[i] = std::min(queries[i].reach(), t_leave[i]);
     }
@@ -310,5 +310,7 @@ std::size_t RayScene::memory_bytes() const {
 }
 
 std::size_t RayScene::flattened_triangles() const { return impl_->regions.triangles(); }
+
+std::size_t RayScene::regions_made() const { return impl_->regions.made(); }
 
 }  // namespace ardee

@@ -104,9 +104,11 @@ class RayScene {
   /// About each place of the scenery, infinite planes left out; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
 
-  /// For benchmarks: bytes held by Embree and near regions, and triangles in the latter.
+  /// For benchmarks: bytes held by Embree and near regions, triangles in the latter, and how many
+  /// of them were made so far.
   std::size_t memory_bytes() const;
   std::size_t flattened_triangles() const;
+  std::size_t regions_made() const;
 
  private:
   struct Impl;

@@ -19,32 +19,34 @@ namespace {
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
 constexpr float kBlockSlack = 2e-6f;
 
-/// Möller and Trumbore (1997) for all lanes, with the planes' normals at hand and slack at each
-/// comparison.
+/// Möller and Trumbore (1997) for all lanes, with slack at each comparison. A block is fetched more
+/// often than it is hit, so what follows from its edges is worked out, not fetched.
 __attribute__((always_inline)) inline bool mark(const TriangleBlock& block, const BlockRay& ray,
                                                 std::int32_t marks[kBlockLanes]) {
   const float ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
   const float dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
   const float slack = ray.slack_m;
-  const float slack_d = slack * (std::abs(dx) + std::abs(dy) + std::abs(dz));
+  const float uv_slack = slack * (std::abs(dx) + std::abs(dy) + std::abs(dz)) * block.longest;
+  const float t_slack = slack * block.longest * block.longest;
   std::int32_t any = 0;
   for (int i = 0; i < kBlockLanes; ++i) {
     const float cx = block.vertex[0][i] - ox;
     const float cy = block.vertex[1][i] - oy;
     const float cz = block.vertex[2][i] - oz;
-    const float nx = block.normal[0][i], ny = block.normal[1][i], nz = block.normal[2][i];
+    const float ax = block.edge1[0][i], ay = block.edge1[1][i], az = block.edge1[2][i];
+    const float bx = block.edge2[0][i], by = block.edge2[1][i], bz = block.edge2[2][i];
+    const float nx = ay * bz - az * by;
+    const float ny = az * bx - ax * bz;
+    const float nz = ax * by - ay * bx;
     const float slope = nx * dx + ny * dy + nz * dz;
     const float height = nx * cx + ny * cy + nz * cz;
     const float rx = cy * dz - cz * dy;
     const float ry = cz * dx - cx * dz;
     const float rz = cx * dy - cy * dx;
-    const float u = rx * block.edge2[0][i] + ry * block.edge2[1][i] + rz * block.edge2[2][i];
-    const float v = -(rx * block.edge1[0][i] + ry * block.edge1[1][i] + rz * block.edge1[2][i]);
+    const float u = rx * bx + ry * by + rz * bz;
+    const float v = -(rx * ax + ry * ay + rz * az);
     const float sign = slope < 0.0f ? -1.0f : 1.0f;
     const float steep = slope * sign;
-    const float length = block.length[i];
-    const float uv_slack = slack_d * length;
-    const float t_slack = slack * length * length;
     const bool may_meet = (u * sign >= -uv_slack) & (v * sign >= -uv_slack) &
                           ((u + v) * sign <= steep + 2.0f * uv_slack) &
                           (height * sign >= ray.t_low * steep - t_slack) &

@@ -19,9 +19,8 @@ struct alignas(64) TriangleBlock {
   Lanes vertex[3];  // v0
   Lanes edge1[3];   // v1 - v0
   Lanes edge2[3];   // v2 - v0
-  Lanes normal[3];  // edge1 x edge2
-  Lanes length;     // of the longest edge
   float radius = 0.0f;
+  float longest = 0.0f;  // edge
   Eigen::Vector3d center;
   std::uint32_t first = 0;  // index of lane 0 among the body's triangles
   std::uint32_t count = 0;  // lanes in use; the others repeat the last

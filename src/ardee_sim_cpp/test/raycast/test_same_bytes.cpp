@@ -130,6 +130,20 @@ TEST(SameBytes, WhileRegionsFollowADrivingSensor) {
   }
 }
 
+/// Far from the first region's centre, then up and down within a metre: one more region is enough.
+TEST(Regions, AreNotMadeAgainWhereOneIsNear) {
+  TestScene test(SceneKind::kVisual, options(true, 4.0, 1));
+  test.scene.add_scenery(0, field(40, 0.4, {0, 0, 0}));
+  constexpr bool kAtOnce = true;  // for pictures, a region that is due is waited for
+  test.scene.prepare({{2.0, 8.0, 0.3}}, kAtOnce);
+  const std::size_t before = test.scene.regions_made();
+  for (int k = 0; k < 200; ++k) {
+    test.scene.prepare({{9.5 - 0.02 * std::abs(k % 100 - 50), 8.0, 0.3}}, kAtOnce);
+  }
+  EXPECT_GT(test.scene.regions_made(), before);
+  EXPECT_LE(test.scene.regions_made(), before + 2);
+}
+
 TEST(SameBytes, AgainAfterRemovalAndReturn) {
   const auto placements = field(20, 0.4, {0, 0, 0});
   TestScene scene(SceneKind::kVisual);

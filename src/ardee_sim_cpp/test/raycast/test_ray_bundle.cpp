@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "ardee_sim/core/rng.h"
+#include "ardee_sim/raycast/ray_bundle.h"
+
+namespace ardee {
+namespace {
+
+constexpr int kRays = 8;
+constexpr int kBoxes = 24;
+
+struct Case {
+  std::vector<Bounds> boxes;
+  RayQuery queries[kRays];
+};
+
+/// Neighbouring rays among random boxes; some along an axis, some with a component of -0.
+Case make_case(std::uint64_t number) {
+  const CounterRng rng(stream_key(number, "bundle"));
+  std::uint64_t n = 0;
+  const auto any = [&](double low, double high) { return low + (high - low) * rng.uniform(n++); };
+  const auto anywhere = [&](double size) {
+    return Eigen::Vector3d(any(-size, size), any(-size, size), any(-size, size));
+  };
+  Case made;
+  for (int k = 0; k < kBoxes; ++k) {
+    const Eigen::Vector3d center = anywhere(2.0);
+    Bounds box;
+    box.add(center - anywhere(0.8).cwiseAbs());
+    box.add(center + anywhere(0.8).cwiseAbs());
+    made.boxes.push_back(box);
+  }
+  const Eigen::Vector3d origin = anywhere(0.5);
+  Eigen::Vector3d way = anywhere(1.0).normalized();
+  if (number % 4 == 1) way = {1.0, 0.0, 0.0};
+  if (number % 4 == 2) way = {0.6, -0.0, -0.8};
+  const double spread = number % 2 == 0 ? 0.1 : 0.0;
+  for (RayQuery& query : made.queries) {
+    const Eigen::Vector3d direction = (way + spread * anywhere(1.0)).normalized();
+    query.start({origin + spread * anywhere(0.2), direction}, any(0.5, 3.0), kNoEntity, 0);
+  }
+  return made;
+}
+
+/// By points along the ray, 0.5 mm apart: no formula that could be wrong in the same way.
+bool visits(const Bounds& box, const RayQuery& query) {
+  for (double t = 0.0; t <= query.reach(); t += 5e-4) {
+    const Eigen::Vector3d point = query.ray_W().at(t);
+    if ((point - box.lower).minCoeff() >= 0.0 && (box.upper - point).minCoeff() >= 0.0) return true;
+  }
+  return false;
+}
+
+std::vector<std::uint32_t> near_of(const Case& some, int first, int count) {
+  BoxTable table;
+  for (const Bounds& box : some.boxes) table.add(box);
+  std::vector<double> entries;
+  std::vector<double> exits;
+  std::vector<std::uint32_t> near;
+  RayBundle(some.queries + first, count).find(table, entries, exits, near);
+  return near;
+}
+
+TEST(RayBundle, LeavesOutNoBoxThatARayVisits) {
+  int visited = 0;
+  for (std::uint64_t number = 0; number < 120; ++number) {
+    const Case some = make_case(number);
+    const std::vector<std::uint32_t> near = near_of(some, 0, kRays);
+    for (std::uint32_t k = 0; k < kBoxes; ++k) {
+      const bool met = std::any_of(some.queries, some.queries + kRays, [&](const RayQuery& query) {
+        return visits(some.boxes[k], query);
+      });
+      visited += met ? 1 : 0;
+      const auto named = std::count(near.begin(), near.end(), k);
+      EXPECT_GE(named, met ? 1 : 0) << number << " box " << k;
+    }
+  }
+  EXPECT_GT(visited, 100);
+}
+
+/// Of one ray it is the exact test: a box a little smaller than one it names is visited.
+TEST(RayBundle, NamesForOneRayTheBoxesOnItsWay) {
+  for (std::uint64_t number = 0; number < 120; ++number) {
+    Case some = make_case(number);
+    const std::vector<std::uint32_t> near = near_of(some, 0, 1);
+    for (const std::uint32_t k : near) {
+      const Bounds grown = some.boxes[k].grown(1e-3);
+      EXPECT_TRUE(visits(grown, some.queries[0])) << number << " box " << k;
+    }
+  }
+}
+
+TEST(RayBundle, LeavesOutWhatLiesAside) {
+  Case some = make_case(1);  // along x
+  some.boxes = {Bounds{}, Bounds{}, Bounds{}};
+  const Eigen::Vector3d origin = some.queries[0].ray_W().origin;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.1);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d center = origin + Eigen::Vector3d(k == 0 ? 0.3 : -0.3, k == 2 ? 1 : 0, 0);
+    some.boxes[static_cast<std::size_t>(k)].add(center - half);
+    some.boxes[static_cast<std::size_t>(k)].add(center + half);
+  }
+  EXPECT_EQ(near_of(some, 0, kRays), std::vector<std::uint32_t>{0});
+}
+
+}  // namespace
+}  // namespace ardee
