@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/lidar_beams.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ardee {
 namespace {
 
 constexpr std::size_t kMostSubRays = std::size_t(1) << 22;
+/// Beams whose axes are up to so many widths apart tell of each other's footprints.
+constexpr double kNeighbourWidths = 2.0;
+/// A neighbour is on the same surface if it is so near to its tangent plane: less than a lidar's
+/// noise (nominal).
+constexpr float kSameSurface_m = 0.02f;
 
 std::vector<Eigen::Vector3f> make_axes(const RayBlock& block) {
   std::vector<Eigen::Vector3f> axes_S;
@@ -24,19 +31,30 @@ std::vector<Eigen::Vector3f> make_axes(const RayBlock& block) {
   return axes_S;
 }
 
+/// Whether two beams side by side, which met something at those points, have met two surfaces that
+/// one pulse would not tell apart.
+bool mix(const RayHit& a, const Eigen::Vector3f& point_a_W, const RayHit& b,
+         const Eigen::Vector3f& point_b_W, float pulse_length_m) {
+  if (!(std::abs(a.range_m - b.range_m) <= pulse_length_m)) return false;  // NaN: both met nothing
+  const Eigen::Vector3f apart_W = point_b_W - point_a_W;
+  return std::abs(apart_W.dot(a.normal_W)) > kSameSurface_m ||
+         std::abs(apart_W.dot(b.normal_W)) > kSameSurface_m;
+}
+
 }  // namespace
 
 /// The pose of each column, or one for all of them.
-struct LidarBeams::Poses {
-  const Pose* first;
-  int columns;  // 1: the same for all
-  int sub_rays;
+class LidarBeams::Poses {
+ public:
+  Poses(const Pose* first, int columns) : first_(first), columns_(columns) {}
 
-  const Pose& of(std::size_t sub_ray) const {
-    if (columns == 1) return *first;
-    const std::size_t beam = sub_ray / static_cast<std::size_t>(sub_rays);
-    return first[beam % static_cast<std::size_t>(columns)];
+  const Pose& of(std::size_t beam) const {
+    return columns_ == 1 ? *first_ : first_[beam % static_cast<std::size_t>(columns_)];
   }
+
+ private:
+  const Pose* first_;
+  int columns_;  // 1: the same for all
 };
 
 LidarBeams::LidarBeams(const RayBlock& block, const LidarOptics& optics, bool look_through_near,
@@ -52,96 +70,159 @@ LidarBeams::LidarBeams(const RayBlock& block, const LidarOptics& optics, bool lo
     throw Error("found " + std::to_string(rays) + " rays with all sub-rays, expected up to " +
                 std::to_string(kMostSubRays));
   }
-  axes_S_ = make_axes(block);
-  pattern_ = spread_beams(axes_S_, optics);
+  axes_.pattern.directions_S = make_axes(block);
+  axes_.beams.resize(block.rays());
+  std::iota(axes_.beams.begin(), axes_.beams.end(), 0u);
+  if (optics.sub_rays == 1) return;
+  footprints_.pattern = spread_beams(axes_.pattern.directions_S, optics);
+  footprints_.beams = axes_.beams;
+  footprints_.each = optics.sub_rays;
+  mixing_.each = optics.sub_rays;
+  const double spacing_rad = std::abs(block.angle_increment_rad());
+  if (spacing_rad <= 0.0 || spacing_rad > kNeighbourWidths * optics.divergence_rad) {
+    optics_.sub_rays_at = LidarOptics::SubRaysAt::kEverywhere;
+    return;
+  }
+  const double reach = std::ceil(0.5 * optics.divergence_rad / spacing_rad);
+  mixing_reach_ = static_cast<std::size_t>(std::min(reach, static_cast<double>(columns_)));
 }
 
-SceneRay LidarBeams::ray(const Pose& X_WS, std::size_t sub_ray, double from_m) const {
-  const Eigen::Vector3d direction_S = pattern_.directions_S[sub_ray].cast<double>();
+SceneRay LidarBeams::ray(const Poses& X_WS, const Rays& rays, std::size_t i, double from_m) const {
+  const Pose& pose = X_WS.of(rays.beam(i));
+  const Eigen::Vector3d direction_S = rays.pattern.directions_S[i].cast<double>();
   const double reach_m = static_cast<double>(static_cast<float>(range_max_m_)) - from_m;
-  return {X_WS * (from_m * direction_S), (X_WS.q * direction_S).normalized(), reach_m};
+  return {pose * (from_m * direction_S), (pose.q * direction_S).normalized(), reach_m};
 }
 
 template <typename Cast>
-void LidarBeams::look_beyond_minimum(const Poses& X_WS, const Cast& cast,
+void LidarBeams::look_beyond_minimum(const Poses& X_WS, const Rays& rays, const Cast& cast,
                                      std::vector<RayHit>& hits) const {
   const auto minimum_m = static_cast<float>(range_min_m_);
   std::vector<std::size_t> blocked;
-  std::vector<SceneRay> rays;
+  std::vector<SceneRay> again;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!(hits[i].range_m < minimum_m)) continue;
     if (!look_through_near_ && hits[i].entity != carrier_.entity) continue;
     blocked.push_back(i);
-    rays.push_back(ray(X_WS.of(i), i, range_min_m_));
+    again.push_back(ray(X_WS, rays, i, range_min_m_));
   }
   if (blocked.empty()) return;
   std::vector<RayHit> beyond;
-  cast(rays, beyond);
+  cast(again, beyond);
   for (std::size_t k = 0; k < blocked.size(); ++k) {
     beyond[k].range_m += minimum_m;
     hits[blocked[k]] = beyond[k];
   }
 }
 
+template <typename Trace>
+void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS,
+                            std::vector<BeamEcho>& echoes) const {
+  echoes.resize(count());
+  const bool whole =
+      !footprints_.beams.empty() && optics_.sub_rays_at == LidarOptics::SubRaysAt::kEverywhere;
+  const Rays& first = whole ? footprints_ : axes_;
+  trace(first, hits_);
+  make_echoes(first, X_WS, echoes);
+  if (whole || footprints_.beams.empty()) return;
+  pick_mixing(X_WS);
+  trace(mixing_, hits_);
+  make_echoes(mixing_, X_WS, echoes);
+}
+
 void LidarBeams::measure(const Pose& X_WS, const RayScene& scene,
                          std::vector<BeamEcho>& echoes) const {
-  scene.cast(X_WS, pattern_, static_cast<float>(range_max_m_), carrier_.entity, carrier_.link,
-             hits_);
-  const Poses pose{&X_WS, 1, optics_.sub_rays};
-  look_beyond_minimum(
-      pose,
-      [&](const std::vector<SceneRay>& rays, std::vector<RayHit>& hits) {
-        scene.cast(rays, carrier_.entity, carrier_.link, hits);
-      },
-      hits_);
-  make_echoes(pose, echoes);
+  const Poses pose(&X_WS, 1);
+  const auto trace = [&](const Rays& rays, std::vector<RayHit>& hits) {
+    scene.cast(X_WS, rays.pattern, static_cast<float>(range_max_m_), carrier_.entity, carrier_.link,
+               hits);
+    look_beyond_minimum(
+        pose, rays,
+        [&](const std::vector<SceneRay>& some, std::vector<RayHit>& beyond) {
+          scene.cast(some, carrier_.entity, carrier_.link, beyond);
+        },
+        hits);
+  };
+  measure_by(trace, pose, echoes);
 }
 
 void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const RayScene& scene,
                                 std::vector<BeamEcho>& echoes) const {
-  const Poses poses{X_WS.data(), columns_, optics_.sub_rays};
-  const Poses pose_now{&X_WS.back(), 1, optics_.sub_rays};
-  const std::size_t count = pattern_.directions_S.size();
-  std::vector<SceneRay> rays;
-  rays.reserve(count);
+  const Poses poses(X_WS.data(), columns_);
+  const Poses pose_now(&X_WS.back(), 1);
   const auto cast_at_others = [&](const std::vector<SceneRay>& some, std::vector<RayHit>& hits) {
     scene.cast(some, carrier_.entity, kAllLinks, hits);
   };
-  for (std::size_t i = 0; i < count; ++i) rays.push_back(ray(poses.of(i), i, 0.0));
-  cast_at_others(rays, hits_);
-  look_beyond_minimum(poses, cast_at_others, hits_);
-
   const auto cast_at_own = [&](const std::vector<SceneRay>& some, std::vector<RayHit>& hits) {
     scene.cast_at_model(some, carrier_.entity, carrier_.link, hits);
   };
-  for (std::size_t i = 0; i < count; ++i) rays[i] = ray(pose_now.of(i), i, 0.0);
-  std::vector<RayHit> own;
-  cast_at_own(rays, own);
-  look_beyond_minimum(pose_now, cast_at_own, own);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!(own[i].range_m < hits_[i].range_m)) continue;
-    hits_[i] = own[i];
-    // The normal of now, as a sensor that was then where it is now would have seen it.
-    const Pose& then = poses.of(i);
-    hits_[i].normal_W =
-        (then.q * (X_WS.back().q.conjugate() * own[i].normal_W.cast<double>())).cast<float>();
-  }
-  make_echoes(poses, echoes);
+  const auto trace = [&](const Rays& rays, std::vector<RayHit>& hits) {
+    const std::size_t count = rays.pattern.directions_S.size();
+    std::vector<SceneRay> way;
+    way.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) way.push_back(ray(poses, rays, i, 0.0));
+    cast_at_others(way, hits);
+    look_beyond_minimum(poses, rays, cast_at_others, hits);
+    for (std::size_t i = 0; i < count; ++i) way[i] = ray(pose_now, rays, i, 0.0);
+    std::vector<RayHit> own;
+    cast_at_own(way, own);
+    look_beyond_minimum(pose_now, rays, cast_at_own, own);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(own[i].range_m < hits[i].range_m)) continue;
+      hits[i] = own[i];
+      // The normal of now, as a sensor that was then where it is now would have seen it.
+      const Pose& then = poses.of(rays.beam(i));
+      hits[i].normal_W =
+          (then.q * (X_WS.back().q.conjugate() * own[i].normal_W.cast<double>())).cast<float>();
+    }
+  };
+  measure_by(trace, poses, echoes);
 }
 
-void LidarBeams::make_echoes(const Poses& X_WS, std::vector<BeamEcho>& echoes) const {
-  EchoMaker maker(optics_, range_min_m_);
-  const auto sub_rays = static_cast<std::size_t>(optics_.sub_rays);
-  std::vector<float> cosines(sub_rays);
-  echoes.resize(axes_S_.size());
-  for (std::size_t beam = 0; beam < axes_S_.size(); ++beam) {
-    const std::size_t first = beam * sub_rays;
-    const Eigen::Quaternionf q = X_WS.of(first).q.cast<float>();
-    for (std::size_t k = 0; k < sub_rays; ++k) {
-      const Eigen::Vector3f direction_W = q * pattern_.directions_S[first + k];
-      cosines[k] = std::abs(hits_[first + k].normal_W.dot(direction_W));
+void LidarBeams::pick_mixing(const Poses& X_WS) const {
+  const Eigen::Vector3d& origin_W = X_WS.of(0).p;
+  points_W_.resize(count());
+  for (std::size_t beam = 0; beam < count(); ++beam) {
+    const Pose& pose = X_WS.of(beam);
+    points_W_[beam] = pose.q.cast<float>() * (hits_[beam].range_m * axis_S(beam)) +
+                      (pose.p - origin_W).cast<float>();
+  }
+  mixing_.beams.clear();
+  mixing_.pattern.directions_S.clear();
+  const std::vector<Eigen::Vector3f>& all_S = footprints_.pattern.directions_S;
+  const auto columns = static_cast<std::size_t>(columns_);
+  const auto each = static_cast<std::size_t>(mixing_.each);
+  const auto pulse_length_m = static_cast<float>(optics_.pulse_length_m);
+  std::size_t next = 0;  // all before it are picked, or not to be
+  for (std::size_t beam = 0; beam + 1 < count(); ++beam) {
+    const std::size_t row_end = beam - beam % columns + columns;
+    if (beam + 1 == row_end ||
+        !mix(hits_[beam], points_W_[beam], hits_[beam + 1], points_W_[beam + 1], pulse_length_m)) {
+      continue;
     }
-    echoes[beam] = maker.make(&hits_[first], cosines.data());
+    next = std::max({next, row_end - columns, beam + 1 - std::min(beam + 1, mixing_reach_)});
+    for (; next < std::min(row_end, beam + 1 + mixing_reach_); ++next) {
+      mixing_.beams.push_back(static_cast<std::uint32_t>(next));
+      const auto from = all_S.begin() + static_cast<std::ptrdiff_t>(next * each);
+      mixing_.pattern.directions_S.insert(mixing_.pattern.directions_S.end(), from,
+                                          from + mixing_.each);
+    }
+  }
+}
+
+void LidarBeams::make_echoes(const Rays& rays, const Poses& X_WS,
+                             std::vector<BeamEcho>& echoes) const {
+  EchoMaker maker(optics_, range_min_m_);
+  const auto each = static_cast<std::size_t>(rays.each);
+  std::vector<float> cosines(each);
+  for (std::size_t k = 0; k < rays.beams.size(); ++k) {
+    const std::size_t first = k * each;
+    const Eigen::Quaternionf q = X_WS.of(rays.beams[k]).q.cast<float>();
+    for (std::size_t i = 0; i < each; ++i) {
+      const Eigen::Vector3f direction_W = q * rays.pattern.directions_S[first + i];
+      cosines[i] = std::abs(hits_[first + i].normal_W.dot(direction_W));
+    }
+    echoes[rays.beams[k]] = maker.make(&hits_[first], cosines.data(), rays.each);
   }
 }
 

@@ -24,8 +24,8 @@ class LidarBeams {
   LidarBeams(const RayBlock& block, const LidarOptics& optics, bool look_through_near,
              const Carrier& carrier);
 
-  std::size_t count() const { return axes_S_.size(); }
-  const Eigen::Vector3f& axis_S(std::size_t beam) const { return axes_S_[beam]; }
+  std::size_t count() const { return axes_.beams.size(); }
+  const Eigen::Vector3f& axis_S(std::size_t beam) const { return axes_.pattern.directions_S[beam]; }
 
   /// What all beams bring back to X_WS: a pure function of the scene.
   void measure(const Pose& X_WS, const RayScene& scene, std::vector<BeamEcho>& echoes) const;
@@ -35,12 +35,27 @@ class LidarBeams {
                       std::vector<BeamEcho>& echoes) const;
 
  private:
-  struct Poses;
+  /// Rays of some beams, those of a beam side by side.
+  struct Rays {
+    RayPattern pattern;
+    std::vector<std::uint32_t> beams;
+    int each = 1;  // of a beam
 
-  SceneRay ray(const Pose& X_WS, std::size_t sub_ray, double from_m) const;
+    std::size_t beam(std::size_t ray) const { return beams[ray / static_cast<std::size_t>(each)]; }
+  };
+  class Poses;
+
+  SceneRay ray(const Poses& X_WS, const Rays& rays, std::size_t i, double from_m) const;
   template <typename Cast>
-  void look_beyond_minimum(const Poses& X_WS, const Cast& cast, std::vector<RayHit>& hits) const;
-  void make_echoes(const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
+  void look_beyond_minimum(const Poses& X_WS, const Rays& rays, const Cast& cast,
+                           std::vector<RayHit>& hits) const;
+  /// `trace(rays, hits)` finds what rays meet.
+  template <typename Trace>
+  void measure_by(const Trace& trace, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
+  void make_echoes(const Rays& rays, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
+  /// Into mixing_: the beams beside which, by the hits of the axes, another surface begins, less
+  /// than a pulse's length nearer or farther.
+  void pick_mixing(const Poses& X_WS) const;
 
   int columns_;
   double range_min_m_;
@@ -48,9 +63,14 @@ class LidarBeams {
   LidarOptics optics_;
   bool look_through_near_;
   Carrier carrier_;
-  std::vector<Eigen::Vector3f> axes_S_;
-  RayPattern pattern_;
-  mutable std::vector<RayHit> hits_;  // scratch, to spare an allocation a scan
+  Rays axes_;
+  Rays footprints_;  // all sub-rays of all beams; empty where the axes do
+  std::size_t mixing_reach_ =
+      1;  // so many beams to each side of an edge may have it in their footprint
+  // Scratch, to spare allocations a scan.
+  mutable std::vector<RayHit> hits_;
+  mutable std::vector<Eigen::Vector3f> points_W_;
+  mutable Rays mixing_;
 };
 
 }  // namespace ardee

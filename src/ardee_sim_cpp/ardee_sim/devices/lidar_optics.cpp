@@ -42,6 +42,8 @@ LidarOptics read_lidar_optics(Parameters& parameters) {
   optics.reflectivity_range_m = parameters.number("reflectivityRange", 0.0, 0.0, 1e6);
   optics.divergence_rad = parameters.number("beamDivergence", 0.0, 0.0, kWidest_rad);
   optics.sub_rays = parameters.integer("subRays", 1, 1, kMostSubRays);
+  optics.sub_rays_at = choose(parameters, "subRaysAt", "mixing", LidarOptics::SubRaysAt::kMixing,
+                              "everywhere", LidarOptics::SubRaysAt::kEverywhere);
   optics.pulse_length_m = parameters.number("pulseLength", optics.pulse_length_m, 0.0, 1e3);
   optics.return_mode =
       choose(parameters, "returnMode", "strongest", LidarOptics::ReturnMode::kStrongest, "first",
@@ -91,18 +93,17 @@ float EchoMaker::intensity(const RayHit& hit, float cosine) const {
   return static_cast<float>(optics_.intensity_scale) * hit.reflectivity * cosine;
 }
 
-BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines) {
-  if (optics_.sub_rays == 1) return single(hits[0], cosines[0]);
+BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines, int count) {
+  if (count == 1) return single(hits[0], cosines[0]);
   returns_.clear();
-  for (int k = 0; k < optics_.sub_rays; ++k) {
+  for (int k = 0; k < count; ++k) {
     if (!std::isfinite(hits[k].range_m)) continue;
-    returns_.push_back(
-        {hits[k].range_m, cosines[k], power(hits[k], cosines[k]) / optics_.sub_rays, &hits[k]});
+    returns_.push_back({hits[k].range_m, cosines[k], power(hits[k], cosines[k]) / count, &hits[k]});
   }
   std::stable_sort(returns_.begin(), returns_.end(),
                    [](const Return& a, const Return& b) { return a.range_m < b.range_m; });
   const Pulse pulse = choose_pulse();
-  return pulse.first == nullptr ? BeamEcho{kInfinity, 0.0f, 0} : mix(pulse);
+  return pulse.first == nullptr ? BeamEcho{kInfinity, 0.0f, 0} : mix(pulse, count);
 }
 
 BeamEcho EchoMaker::single(const RayHit& hit, float cosine) const {
@@ -131,7 +132,7 @@ EchoMaker::Pulse EchoMaker::choose_pulse() const {
   return best;
 }
 
-BeamEcho EchoMaker::mix(const Pulse& pulse) const {
+BeamEcho EchoMaker::mix(const Pulse& pulse, int count) const {
   double range_m = 0.0;
   double plain = 0.0;
   double diffuse = 0.0;
@@ -141,7 +142,7 @@ BeamEcho EchoMaker::mix(const Pulse& pulse) const {
     const auto brightness = static_cast<double>(intensity(*each->hit, each->cosine));
     range_m += weight * static_cast<double>(each->range_m);
     plain += weight * brightness;
-    diffuse += brightness / optics_.sub_rays;
+    diffuse += brightness / count;
     if (each->power > strongest->power) strongest = each;
   }
   const auto mixed_m = static_cast<float>(range_m);

@@ -20,6 +20,9 @@ struct LidarOptics {
   /// reflectivity * cos(incidence) * share of the beam, the power freed from its 1 / range^2.
   enum class Intensity { kPlain, kLambert };
   enum class ReturnMode { kStrongest, kFirst };
+  /// Where a beam's footprint is sampled: in those beams in which two surfaces become one return,
+  /// as far as their neighbours tell, or in all of them.
+  enum class SubRaysAt { kMixing, kEverywhere };
 
   Intensity intensity = Intensity::kPlain;
   double intensity_scale = 1.0;
@@ -27,12 +30,13 @@ struct LidarOptics {
       0.0;                      // where a 10 % target, met squarely, is just seen; 0: no limit
   double divergence_rad = 0.0;  // full angle of the beam
   int sub_rays = 1;             // that sample its footprint evenly; 1: its axis alone
+  SubRaysAt sub_rays_at = SubRaysAt::kMixing;
   double pulse_length_m = 0.3;  // returns less than this apart are one (2 ns; nominal)
   ReturnMode return_mode = ReturnMode::kStrongest;
 };
 
 /// The keys intensityModel, intensityScale, reflectivityRange, beamDivergence, subRays,
-/// pulseLength, returnMode.
+/// subRaysAt, pulseLength, returnMode.
 LidarOptics read_lidar_optics(Parameters& parameters);
 
 /// What a beam brings back. Ranges by REP 117: +inf nothing, -inf nearer than the minimum.
@@ -51,8 +55,9 @@ class EchoMaker {
  public:
   EchoMaker(const LidarOptics& optics, double range_min_m);
 
-  /// `hits` and `cosines` (of incidence) are those of the beam's sub-rays.
-  BeamEcho make(const RayHit* hits, const float* cosines);
+  /// `hits` and `cosines` (of incidence) are those of `count` rays that sample the beam: its axis
+  /// alone, or its sub-rays.
+  BeamEcho make(const RayHit* hits, const float* cosines, int count);
 
  private:
   struct Return {
@@ -71,7 +76,7 @@ class EchoMaker {
   float intensity(const RayHit& hit, float cosine) const;
   BeamEcho single(const RayHit& hit, float cosine) const;
   Pulse choose_pulse() const;
-  BeamEcho mix(const Pulse& pulse) const;
+  BeamEcho mix(const Pulse& pulse, int count) const;
 
   LidarOptics optics_;
   float range_min_m_;

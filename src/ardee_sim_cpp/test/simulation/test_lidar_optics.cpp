@@ -63,6 +63,35 @@ TEST(LidarOptics, OfReturnsFarApartTheStrongestOrTheFirstCounts) {
               (near * 2.0 + far * 3.0) / (near + far), 0.01);
 }
 
+/// Two walls one step apart: the beams that mix are those whose footprint has the edge in it, and
+/// they say the same as if all were sampled.
+TEST(LidarOptics, SamplingWhereSurfacesMixIsSamplingEverywhere) {
+  for (const double step_m : {0.1, 0.25}) {
+    const std::string world = edge(2.0 + step_m);
+    const std::string fan = angles(81, -0.04, 0.04);  // 1 mrad apart
+    const auto scan = [&](const std::string& at) {
+      return first_scan(world, lidar(wide_beam(0.01, "<subRaysAt>" + at + "</subRaysAt>"), fan));
+    };
+    const LidarReading mixing = scan("mixing");
+    const LidarReading everywhere = scan("everywhere");
+    int between = 0;
+    for (std::size_t beam = 0; beam < 81; ++beam) {
+      EXPECT_NEAR(mixing.ranges_m[beam], everywhere.ranges_m[beam], 2e-3) << beam;
+      const float range = mixing.ranges_m[beam];
+      between += range > 2.01f && range < 2.0f + static_cast<float>(step_m) - 0.005f ? 1 : 0;
+    }
+    EXPECT_NEAR(between, 9, 2) << "a footprint of 10 mrad, beams 1 mrad apart";
+  }
+}
+
+TEST(LidarOptics, OnlyNeighboursCloseEnoughTellWhereToSample) {
+  // 5 mrad beside the board's edge, beams 50 mrad apart: each samples its own footprint.
+  const RayPost sparse = lidar(wide_beam(0.02), angles(3, -0.055, 0.045));
+  const float range_m = first_scan(edge(2.2), sparse).ranges_m[1];
+  EXPECT_GT(range_m, 2.02f);
+  EXPECT_LT(range_m, 2.19f);
+}
+
 TEST(LidarOptics, ANarrowPoleIsMetByAsManyBeamsAsTouchIt) {
   // 2 cm wide at 5 m, under beams 1 mrad apart: it spans 4 mrad, and a beam of 10 mrad meets it
   // 5 mrad beside that on both sides.
@@ -74,7 +103,7 @@ TEST(LidarOptics, ANarrowPoleIsMetByAsManyBeamsAsTouchIt) {
     return met;
   };
   EXPECT_NEAR(count(""), 4, 1);
-  EXPECT_NEAR(count(wide_beam(0.01)), 14, 1);
+  EXPECT_NEAR(count(wide_beam(0.01, "<subRaysAt>everywhere</subRaysAt>")), 14, 1);
 }
 
 TEST(LidarOptics, ThePoleSendsBackItsShareOfTheBeam) {
