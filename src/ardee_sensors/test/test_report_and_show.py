@@ -32,9 +32,20 @@ def test_the_page_has_every_number_and_every_source():
     assert [item.split()[0] for item in known] == list(sources())
 
 
+def test_what_others_have_stands_with_its_source_beside_the_devices_own():
+    root = ElementTree.fromstring(page(["vlp16", "imu_terra", "imu"]).split("\n", 1)[1])
+    rows = {row[0].text: row for row in root.iter("tr")}
+    text = "".join(rows["noise_std_m"][3].itertext())
+    assert text == "webots; the macro of velodyne_simulator has 0.008 velodyne"
+    assert rows["noise_std_m"][3].find("abbr").get("title") == sources()["webots"]
+    links = [a.get("href") for a in root.find(".//section[@id='imu_terra']").iter("a")]
+    assert links == ["#imu"]
+
+
 def test_what_is_asked_for_is_checked_first():
     assert chosen([]) == devices()
     assert chosen(["sonar"]) == ["sonar"]
+    assert chosen(["imu_terra", "gps_with_mast"]) == ["imu_terra", "gps_with_mast", "imu", "gps"]
     with pytest.raises(ValueError, match="unknown sensor 'sonnar'"):
         chosen(["sonnar"])
 
