@@ -7,16 +7,7 @@ import re
 import subprocess
 from typing import List, Tuple
 
-from device_numbers import (
-    CONFIG,
-    MARKS,
-    PACKAGE,
-    Number,
-    devices,
-    load,
-    read_numbers,
-    sources,
-)
+from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
 from PIL import Image, ImageDraw
 
 POST_HEIGHT_M = 0.6
@@ -83,7 +74,9 @@ def _source_text(number: Number, known: dict) -> str:
     """Its comment from the first mark on: whose value it is, and what others have. A mark's meaning is its tool tip."""
 
     def explained(match: re.Match) -> str:
-        return ", ".join(_explained_mark(number, mark.strip(), known) for mark in match[1].split(","))
+        return ", ".join(
+            _explained_mark(number, mark.strip(), known) for mark in match[1].split(",")
+        )
 
     said = html.escape(number.comment[number.comment.index("[") :])
     return MARKS.sub(explained, said)
