@@ -75,7 +75,14 @@ def test_every_kind_stands_on_its_post(device: str):
 
 def test_a_sensor_that_is_not_there_is_refused():
     done = run_xacro(POST, sensor="sonnar")
-    assert done.returncode != 0 and "sonnar" in done.stderr
+    assert done.returncode != 0
+    assert f'unknown sensor "sonnar"; expected one of: {", ".join(devices())}' in done.stderr
+
+
+def test_the_launch_file_has_no_argument_that_nobody_can_give():
+    launch = ElementTree.parse(PACKAGE / "launch/show_sensor.launch")
+    names = {argument.get("name") for argument in launch.getroot().findall("arg")}
+    assert names == {"sensor", "world", "rviz", "rtf", "seed"}
 
 
 @pytest.mark.parametrize(
