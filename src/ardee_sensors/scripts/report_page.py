@@ -122,8 +122,9 @@ def page(shown: List[str]) -> str:
     body = "\n".join(section(device) for device in shown)
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'/><title>Sensors</title>"
-        f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n{body}\n"
-        f"<h2>Sources</h2><ul>{marks}</ul></body></html>\n"
+        f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n"
+        f"<p>What the marks of sources mean stands <a href='#sources'>at the end</a>.</p>\n{body}\n"
+        f"<h2 id='sources'>Sources</h2><ul>{marks}</ul></body></html>\n"
     )
 
 
