@@ -323,6 +323,11 @@ def check_other(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> N
     battery = last[f"ardee/{device}"]
     assert (battery["vmax"], battery["vmin"]) == (numbers["v_max_v"], numbers["v_min_v"])
     assert numbers["v_min_v"] <= battery["voltage"] <= numbers["v_initial_v"]
+    state = last[f"ardee/{device}_state"]
+    assert state["voltage"] == pytest.approx(battery["voltage"], abs=0.1)
+    assert 0 <= state["percentage"] <= 1 and state["design_capacity"] > 0 and state["present"]
+    # the message's word for what is not measured: the quick mode knows no current
+    assert all(math.isnan(state[key]) for key in ("temperature", "current", "charge", "capacity"))
 
 
 CHECKS = {
