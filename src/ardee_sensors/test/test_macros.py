@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from device_numbers import CONFIG, devices, expected_topics, load, read_numbers
 from macro_calls import call, complaint, of, robot, topics, write_robot
-from xacro_runner import SOURCES, mesh_path, run_xacro
+from xacro_runner import SOURCES, expand, mesh_path, run_xacro
 
 URDF = SOURCES / "ardee_sensors/urdf"
 LIDARS = [device for device in devices() if load(device)["kind"].startswith("lidar")]
@@ -247,3 +247,11 @@ def test_a_sensor_of_zero_rate_is_left_out_with_a_message(tmp_path: pathlib.Path
 def test_a_call_that_is_right_goes_without_a_word(tmp_path: pathlib.Path):
     calls = "".join(call(device, device) for device in devices())
     assert run_xacro(write_robot(tmp_path, calls)).stderr == ""
+
+
+@pytest.mark.parametrize("device", devices())
+def test_the_file_of_a_device_is_enough_for_it(tmp_path: pathlib.Path, device: str):
+    file = write_robot(tmp_path, call(device, "a"))
+    with_all = expand(file)
+    file.write_text(file.read_text().replace("all_sensors.urdf", f"{device}.urdf"))
+    assert expand(file) == with_all
