@@ -20,11 +20,10 @@ def leg(kind: int, place: str, reflect: int, limits: str, axis: str = LEG_AXIS) 
 
 def wheel(place: str, reflect: int, roll: float, x: float, yaw: float) -> str:
     prefix, suffix = place.split("_")
-    short = place[0] + suffix[0]
+    short = (place[0] + suffix[0]).upper()
     return f"""
-  <xacro:wheel prefix="{prefix}" suffix="{suffix}" stl="${{wheel_stl}}" color="grey"
-    radius="${{WHEEL_RADIUS}}" depth="${{WHEEL_DEPTH}}" reflect="{reflect}" friction="${{{short.upper()}_WHEEL_FRICTION}}"
-    scale="0.0254">
+  <xacro:wheel prefix="{prefix}" suffix="{suffix}" stl="${{wheel_stl}}" color="grey" radius="${{WHEEL_RADIUS}}"
+    depth="${{WHEEL_DEPTH}}" reflect="{reflect}" friction="${{{short}_WHEEL_FRICTION}}" scale="0.0254">
     <origin xyz="0 ${{{-reflect} * WHEEL_DEPTH}} 0" rpy="0 0 0" />
   </xacro:wheel>
   <xacro:attach_wheel_leg prefix="{prefix}" suffix="{suffix}">
