@@ -51,6 +51,12 @@ BAD = {
     "negative_lidar_rate": Bad(
         "hokuyo_ust10lx", 'rate_hz="-40"', "ardee/bad", ("<update_rate>", "found -40")
     ),
+    "lidar_rate_of_words": Bad(
+        "hokuyo_ust10lx", 'rate_hz="fast"', "ardee/bad", ("<update_rate>", "found 'fast'")
+    ),
+    "infinite_camera_rate": Bad(
+        "kinect", 'rate_hz="inf"', "ardee/bad/rgb/image_raw", ("<update_rate>", "found 'inf'")
+    ),
     "negative_gps_noise": Bad(
         "gps", 'noise="-0.1"', "ardee/bad", ("<gaussianNoise>", "below zero")
     ),

@@ -225,9 +225,11 @@ def check_camera(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> 
     check_info(last[f"ardee/{device}/camera_info"], *size, numbers["horizontal_fov_deg"])
 
 
-def check_depth(image: Dict[str, Any], cloud: Dict[str, Any], numbers: Dict[str, Any]) -> None:
+def check_depth(
+    image: Dict[str, Any], cloud: Dict[str, Any], numbers: Dict[str, Any], encoding: str = "32FC1"
+) -> None:
     size = numbers["width_px"], numbers["height_px"]
-    assert (image["width"], image["height"], image["encoding"]) == (*size, "32FC1")
+    assert (image["width"], image["height"], image["encoding"]) == (*size, encoding)
     std_m = (
         numbers["depth_noise_constant_m"]
         + numbers["depth_noise_linear"] * WALL_M
@@ -244,7 +246,10 @@ def check_rgbd(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> No
     color = "color" if device == "realsense_d435" else "rgb"
     depth_name = "image_rect_raw" if device == "realsense_d435" else "image_raw"
     points = "depth/color/points" if device == "realsense_d435" else "depth/points"
-    check_depth(last[f"{base}/depth/{depth_name}"], last[f"{base}/{points}"], numbers)
+    depth_encoding = "16UC1" if device == "realsense_d435" else "32FC1"  # as realsense2_camera
+    check_depth(
+        last[f"{base}/depth/{depth_name}"], last[f"{base}/{points}"], numbers, depth_encoding
+    )
     size = numbers["width_px"], numbers["height_px"]
     check_info(last[f"{base}/depth/camera_info"], *size, numbers["horizontal_fov_deg"])
     own = {
@@ -255,7 +260,7 @@ def check_rgbd(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> No
     assert (image["width"], image["height"], image["encoding"]) == (
         own["width_px"],
         own["height_px"],
-        "rgb8",
+        "mono8" if device == "fotonic" else "rgb8",  # the former has no colours
     )
     assert 20 < image["middle"] < 255
     check_info(last[f"{base}/{color}/camera_info"], *own.values())
@@ -318,6 +323,11 @@ def check_other(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> N
     battery = last[f"ardee/{device}"]
     assert (battery["vmax"], battery["vmin"]) == (numbers["v_max_v"], numbers["v_min_v"])
     assert numbers["v_min_v"] <= battery["voltage"] <= numbers["v_initial_v"]
+    state = last[f"ardee/{device}_state"]
+    assert state["voltage"] == pytest.approx(battery["voltage"], abs=0.1)
+    assert 0 <= state["percentage"] <= 1 and state["design_capacity"] > 0 and state["present"]
+    # the message's word for what is not measured: the quick mode knows no current
+    assert all(math.isnan(state[key]) for key in ("temperature", "current", "charge", "capacity"))
 
 
 CHECKS = {

@@ -3,10 +3,11 @@
 import html
 import math
 import pathlib
+import re
 import subprocess
 from typing import List, Tuple
 
-from device_numbers import CONFIG, PACKAGE, Number, devices, load, read_numbers, sources
+from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
 from PIL import Image, ImageDraw
 
 POST_HEIGHT_M = 0.6
@@ -70,17 +71,22 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
 
 
 def _source_text(number: Number, known: dict) -> str:
-    texts = []
-    for mark in number.marks:
-        first, _, rest = mark.partition(" ")
-        if first not in known:
-            raise ReportError(
-                f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}"
-            )
-        texts.append(
-            f'<abbr title="{html.escape(known[first])}">{html.escape(first)}</abbr> {rest}'
+    """Its comment from the first mark on: whose value it is, and what others have. A mark's meaning is its tool tip."""
+
+    def explained(match: re.Match) -> str:
+        return ", ".join(
+            _explained_mark(number, mark.strip(), known) for mark in match[1].split(",")
         )
-    return ", ".join(texts)
+
+    said = html.escape(number.comment[number.comment.index("[") :])
+    return MARKS.sub(explained, said)
+
+
+def _explained_mark(number: Number, mark: str, known: dict) -> str:
+    first, _, rest = mark.partition(" ")
+    if first not in known:
+        raise ReportError(f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}")
+    return f'<abbr title="{html.escape(known[first])}">{html.escape(first)}</abbr> {rest}'.strip()
 
 
 def _with_unit(number: Number) -> str:
@@ -99,12 +105,13 @@ def section(device: str) -> str:
         for n in read_numbers(CONFIG / f"{device}.yaml")
     )
     topics = ", ".join(f"<code>{t}</code> {kind}" for t, (kind, _) in numbers["topics"].items())
-    more = f" Also: {numbers['also']}." if "also" in numbers else ""
+    others = numbers.get("also", "").split()
+    more = "".join(f" What is not here is as of <a href='#{o}'>{o}</a>." for o in others)
     return (
         f"<section id='{device}'><h2>{html.escape(numbers['device'])}</h2>"
         f"<p><code>{numbers['macro']}</code> {topics}.{more}</p>"
         f"<img src='{device}.png' alt='{html.escape(numbers['device'])}'/>"
-        f"<table><tr><th>number</th><th>value</th><th></th><th>source</th></tr>{rows}</table></section>"
+        f"<table><tr><th>number</th><th>value</th><th>what it is</th><th>source</th></tr>{rows}</table></section>"
     )
 
 
@@ -115,8 +122,9 @@ def page(shown: List[str]) -> str:
     body = "\n".join(section(device) for device in shown)
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'/><title>Sensors</title>"
-        f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n{body}\n"
-        f"<h2>Sources</h2><ul>{marks}</ul></body></html>\n"
+        f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n"
+        f"<p>What the marks of sources mean stands <a href='#sources'>at the end</a>.</p>\n{body}\n"
+        f"<h2 id='sources'>Sources</h2><ul>{marks}</ul></body></html>\n"
     )
 
 
@@ -150,7 +158,6 @@ def contact_sheet(
 
 
 def chosen(names: List[str]) -> List[str]:
-    """The devices asked for, all of them without any."""
-    for name in names:
-        load(name)  # an unknown one is refused
-    return names or devices()
+    """The devices asked for and those whose numbers they share, all of them without any; an unknown one is refused."""
+    others = [other for name in names for other in load(name).get("also", "").split()]
+    return list(dict.fromkeys(names + others)) or devices()

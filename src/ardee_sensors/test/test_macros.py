@@ -8,8 +8,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 from device_numbers import CONFIG, devices, expected_topics, load, read_numbers
-from macro_calls import call, complaint, of, robot, topics
-from xacro_runner import SOURCES, mesh_path
+from macro_calls import call, complaint, of, robot, topics, write_robot
+from xacro_runner import SOURCES, expand, mesh_path, run_xacro
 
 URDF = SOURCES / "ardee_sensors/urdf"
 LIDARS = [device for device in devices() if load(device)["kind"].startswith("lidar")]
@@ -226,3 +226,32 @@ def test_the_battery_s_two_modes(tmp_path: pathlib.Path):
 )
 def test_a_wrong_call_is_refused(tmp_path: pathlib.Path, device: str, arguments: str, message: str):
     assert message in complaint(tmp_path, call(device, "a", arguments))
+
+
+@pytest.mark.parametrize("device", sorted(set(devices()) - {"approx_battery", "encoder"}))
+def test_a_sensor_of_zero_rate_is_left_out_with_a_message(tmp_path: pathlib.Path, device: str):
+    """The simulator says so of encoder and battery; to the other plugins 0 is as often as can be, as in Gazebo."""
+    rate = "update_rate" if load(device)["kind"] in ("gps", "imu") else "rate_hz"
+    parts = len(of(robot(tmp_path, call(device, "bad")), "sensor", "bad"))
+    calls = call(device, "bad", f'{rate}="0"') + call("sonar", "good")
+    done = run_xacro(write_robot(tmp_path, calls))
+    root = ElementTree.fromstring(done.stdout)
+    assert not of(root, "sensor", "bad")
+    assert all(topic.startswith("ardee/good") for topic in topics(root))
+    assert root.find("link[@name='bad_link']") is not None
+    said = [line for line in done.stderr.splitlines() if "found a rate of 0 Hz" in line]
+    assert len(said) == max(1, parts)  # GPS and IMU are plugins of the model
+    assert all('sensor "bad' in line for line in said) and "deprecated" not in done.stderr
+
+
+def test_a_call_that_is_right_goes_without_a_word(tmp_path: pathlib.Path):
+    calls = "".join(call(device, device) for device in devices())
+    assert run_xacro(write_robot(tmp_path, calls)).stderr == ""
+
+
+@pytest.mark.parametrize("device", devices())
+def test_the_file_of_a_device_is_enough_for_it(tmp_path: pathlib.Path, device: str):
+    file = write_robot(tmp_path, call(device, "a"))
+    with_all = expand(file)
+    file.write_text(file.read_text().replace("all_sensors.urdf", f"{device}.urdf"))
+    assert expand(file) == with_all

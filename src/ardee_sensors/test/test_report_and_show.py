@@ -32,9 +32,20 @@ def test_the_page_has_every_number_and_every_source():
     assert [item.split()[0] for item in known] == list(sources())
 
 
+def test_what_others_have_stands_with_its_source_beside_the_devices_own():
+    root = ElementTree.fromstring(page(["vlp16", "imu_terra", "imu"]).split("\n", 1)[1])
+    rows = {row[0].text: row for row in root.iter("tr")}
+    text = "".join(rows["noise_std_m"][3].itertext())
+    assert text == "webots; the macro of velodyne_simulator has 0.008 velodyne"
+    assert rows["noise_std_m"][3].find("abbr").get("title") == sources()["webots"]
+    links = [a.get("href") for a in root.find(".//section[@id='imu_terra']").iter("a")]
+    assert links == ["#imu"]
+
+
 def test_what_is_asked_for_is_checked_first():
     assert chosen([]) == devices()
     assert chosen(["sonar"]) == ["sonar"]
+    assert chosen(["imu_terra", "gps_with_mast"]) == ["imu_terra", "gps_with_mast", "imu", "gps"]
     with pytest.raises(ValueError, match="unknown sensor 'sonnar'"):
         chosen(["sonnar"])
 
@@ -56,13 +67,22 @@ def test_the_sheet_has_a_place_for_each(tmp_path: pathlib.Path):
 def test_every_kind_stands_on_its_post(device: str):
     root = ElementTree.fromstring(expand(POST, sensor=device))
     assert root.find("link[@name='sensor_link']") is not None
-    z = float(root.find("joint/origin").get("xyz").split()[2])
+    assert root.find("link[@name='base_footprint']/inertial") is None  # KDL warns of that
+    on_it = [j for j in root.findall("joint") if j.find("child").get("link").startswith("sensor")]
+    z = float(on_it[0].find("origin").get("xyz").split()[2])
     assert 0.6 <= z < 0.8
 
 
 def test_a_sensor_that_is_not_there_is_refused():
     done = run_xacro(POST, sensor="sonnar")
-    assert done.returncode != 0 and "sonnar" in done.stderr
+    assert done.returncode != 0
+    assert f'unknown sensor "sonnar"; expected one of: {", ".join(devices())}' in done.stderr
+
+
+def test_the_launch_file_has_no_argument_that_nobody_can_give():
+    launch = ElementTree.parse(PACKAGE / "launch/show_sensor.launch")
+    names = {argument.get("name") for argument in launch.getroot().findall("arg")}
+    assert names == {"sensor", "world", "rviz", "rtf", "seed"}
 
 
 @pytest.mark.parametrize(

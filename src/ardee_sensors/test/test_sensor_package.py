@@ -24,11 +24,11 @@ def expand_body(folder: pathlib.Path, body: str) -> ElementTree.Element:
     return ElementTree.fromstring(expand(file))
 
 
-def test_every_device_file_is_in_the_collection():
-    collection = (PACKAGE / "urdf/all_sensors.urdf.xacro").read_text()
-    for file in (PACKAGE / "urdf").rglob("*.urdf.xacro"):
-        if file.name != "all_sensors.urdf.xacro":
-            assert f"/{file.relative_to(PACKAGE)}" in collection
+def test_every_file_is_in_the_collection():
+    lists = [PACKAGE / "urdf/all_sensors.urdf.xacro", PACKAGE / "urdf/includes/helpers.urdf.xacro"]
+    collection = "".join(file.read_text() for file in lists)
+    for file in set((PACKAGE / "urdf").rglob("*.urdf.xacro")) - set(lists):
+        assert f"/{file.relative_to(PACKAGE)}" in collection
 
 
 def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 
 #include "ros/conversions.h"
 #include "ros/reading_to_message.h"
@@ -43,6 +44,7 @@ sensor_msgs::BatteryState to_message(const BatteryStateReading& reading) {
   Message message;
   message.header = to_ros(reading.header);
   message.voltage = static_cast<float>(reading.voltage_V);
+  message.temperature = std::numeric_limits<float>::quiet_NaN();  // not measured
   message.current = static_cast<float>(reading.current_A);
   message.charge = static_cast<float>(reading.charge_Ah);
   message.capacity = static_cast<float>(reading.capacity_Ah);

@@ -76,11 +76,6 @@ void read_noise(const Element& noise, RangeNoise& made, Log& log) {
   made.std_m = std;
 }
 
-/// As in Gazebo 0 is as fast as can be: each step.
-void refuse_negative_rate(const Element& sensor) {
-  Parameters(sensor).number("update_rate", 0.0, 0.0);
-}
-
 }  // namespace
 
 double RangeNoise::corrupt(double range_m, double normal) const {
@@ -96,7 +91,6 @@ RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +
                                            "': found no <ray>, expected one");
   }
-  refuse_negative_rate(sensor.element);
   read_scan(required_block(*ray, "scan"), block, log);
   read_range(required_block(*ray, "range"), block, log);
   if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise, log);

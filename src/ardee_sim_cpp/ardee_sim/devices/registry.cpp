@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/camera_sensor.h"
@@ -46,6 +47,11 @@ std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescripti
               "' is left out: " + error.what());
     return nullptr;
   }
+}
+
+/// As in Gazebo 0 is as fast as can be: each step.
+void check_update_rate(const SensorDescription& sensor) {
+  Parameters(sensor.element).number("update_rate", 0.0, 0.0);
 }
 
 template <typename Map, typename Make>
@@ -114,7 +120,10 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
         if (found == sensor_plugins_.end()) {
           unknown(plugin);
         } else {
-          const auto make = [&] { return found->second(sensor, plugin, link, context); };
+          const auto make = [&] {
+            check_update_rate(sensor);
+            return found->second(sensor, plugin, link, context);
+          };
           seed_for(sensor.name);
           keep(made_or_left_out(make, plugin, context.log));
         }

@@ -93,7 +93,11 @@ SensorDescription read_sensor(const Node& sensor) {
   SensorDescription made;
   made.name = sensor.required_attribute("name");
   made.type = sensor.required_attribute("type");
-  made.update_rate_hz = sensor.number("update_rate", 0.0);
+  try {
+    made.update_rate_hz = sensor.number("update_rate", 0.0);
+  } catch (const Error&) {
+    made.update_rate_hz = 0.0;  // whoever makes the sensor reads it again, says so and goes on
+  }
   made.X_LS = sensor.pose();
   made.element = sensor.to_element();
   sensor.each("plugin", [&made](const Node& node) { made.plugins.push_back(read_plugin(node)); });
