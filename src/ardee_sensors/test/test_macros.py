@@ -137,14 +137,15 @@ def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
     calls = [
         call(device, f"{device}.{name}", arguments)
         for device in LIDARS
-        for name, arguments in (("a", ""), ("b", 'plain="true"'), ("c", 'sub_rays="5"'))
+        for name, arguments in (("a", ""), ("b", 'plain="true"'), ("c", 'sub_rays="5" sub_rays_at="everywhere"'))
     ]
     return robot(tmp_path_factory.mktemp("lidars"), "\n".join(calls))
 
 
 @pytest.mark.parametrize("device", LIDARS)
 def test_plain_switches_the_realism_off(lidars: ElementTree.Element, device: str):
-    keys = ("intensityModel", "reflectivityRange", "noiseGrowth", "beamDivergence", "subRays")
+    keys = ("intensityModel", "reflectivityRange", "noiseGrowth", "beamDivergence")
+    keys += ("subRays", "subRaysAt")
     numbers = load(device)
     plugins = [p for p in lidars.iter("plugin") if p.get("name").startswith(f"{device}.")]
     real, plain, many = ([p.findtext(k) for k in keys] for p in plugins)
@@ -153,8 +154,9 @@ def test_plain_switches_the_realism_off(lidars: ElementTree.Element, device: str
     ]
     assert real[0] == many[0] == "lambert"
     assert [float(v) for v in real[1:4]] == of_the_device
-    assert plain == ["plain", "0", "0", "0", "1"]
-    assert many[4] == "5"
+    assert plain[:5] == ["plain", "0", "0", "0", "1"]
+    assert real[4:] == [str(numbers["sub_rays"]), "mixing"] and numbers["sub_rays"] > 2
+    assert many[4:] == ["5", "everywhere"]
 
 
 @pytest.mark.parametrize("device", devices())
