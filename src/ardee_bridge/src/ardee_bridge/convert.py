@@ -27,10 +27,10 @@ class Reading(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """An image or cloud, to be cut into chunks."""
+    """An image or cloud, to be cut into chunks; the payload may be the message's own bytes."""
 
     head: Any
-    payload: bytes
+    payload: codec.Buffer
 
 
 def _vector(v: Any) -> Vector:
@@ -136,8 +136,10 @@ def _range_counts(message: Any) -> np.ndarray:
 
 
 def _counts(values: np.ndarray) -> np.ndarray:
-    """Rounded and saturated as the codec does it; NaN is NO_VALUE."""
+    """Rounded and saturated as the codec does it; NaN is NO_VALUE. Overwrites the values."""
     limit = INT32.limits[1]
+    if not values.size or values.min() >= -limit and values.max() <= limit:  # NaN fails these
+        return np.rint(values, out=values).astype("<i4")
     is_nan = np.isnan(values)
     counts = np.rint(np.clip(np.where(is_nan, 0.0, values), -limit, limit)).astype("<i4")
     counts[is_nan] = NO_VALUE
@@ -243,17 +245,14 @@ def point_cloud(message: Any) -> Frame:
     head = codec.PointCloudChunk(chunk=_stamped(message))
     if message.width == 0 or message.height == 0:
         return Frame(head, b"")
-    fields = _point_fields(message).reshape(-1)
-    scales = {leaf.path: leaf.scale.counts_per_unit for leaf in codec.Point.leaves}
-    columns = [fields[name].astype(np.float64) * scales[name] for name in ("x", "y", "z")]
-    has_intensity = "intensity" in (fields.dtype.names or ())
-    columns.append(
-        fields["intensity"].astype(np.float64) * scales["intensity"]
-        if has_intensity
-        else np.zeros(len(fields))
-    )
-    finite = np.isfinite(columns[0]) & np.isfinite(columns[1]) & np.isfinite(columns[2])
-    return Frame(head, _counts(np.column_stack(columns)[finite]).tobytes())
+    fields = _point_fields(message)
+    points = np.zeros((fields.size, len(codec.Point.leaves)))
+    for column, leaf in enumerate(codec.Point.leaves):
+        if leaf.path in fields.dtype.names:
+            flat = fields[leaf.path].reshape(-1)
+            np.multiply(flat, leaf.scale.counts_per_unit, out=points[:, column], dtype=np.float64)
+    is_finite = np.isfinite(points[:, :3]).all(axis=1)
+    return Frame(head, memoryview(_counts(points if is_finite.all() else points[is_finite])).cast("B"))
 
 
 def stamp_s(message: Any) -> float:

@@ -41,13 +41,15 @@ class Connection:
 
     def read(self) -> None:
         """Take what has arrived."""
-        data, extras, _, _ = self.socket.recvmsg(1 << 16, 256)
-        if not data:
+        if not self._splitter.read(self._receive_into):
             raise ConnectionError("the publisher has ended")
-        self._at_ns = timestamp_ns(extras)
-        self._splitter.feed(data)
 
-    def _keep(self, message: bytes) -> None:
+    def _receive_into(self, room: memoryview) -> int:
+        count, extras, _, _ = self.socket.recvmsg_into([room], 256)
+        self._at_ns = timestamp_ns(extras)
+        return count
+
+    def _keep(self, message: memoryview) -> None:
         if self._at_ns is not None:
             seconds, nanoseconds = struct.unpack_from("<II", message, STAMP_AT)
             self.times[seconds * 10**9 + nanoseconds] = self._at_ns
