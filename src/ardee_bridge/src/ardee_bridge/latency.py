@@ -6,6 +6,7 @@ arrival at the receiver's socket. Nodes, publishers and receivers are processes 
 their own.
 """
 import contextlib
+import json
 import math
 import os
 import select
@@ -296,17 +297,20 @@ def server_arguments(
     peer: str, sources: Sequence[Union[Stream, Source]], realtime_priority: int
 ) -> List[str]:
     """Parameters of a sensor server of these sources."""
-    items = [
-        f"{{name: {source.topic}, kind: {source.kind}, topic: {source.topic}, "
-        + (f"format: {source.image_format}, " if source.image_format else "")
-        + f"component_id: {source.component_id}}}"
-        for source in sources
-    ]
+    items = []
+    for source in sources:
+        values = dict(name=source.topic, kind=source.kind, topic=source.topic)
+        values["component_id"] = source.component_id
+        if source.image_format:
+            values["format"] = source.image_format
+        if isinstance(source, Source) and source.velocity_topic:
+            values["velocity_topic"] = source.velocity_topic
+        items.append(values)
     return [
         "_port:=0",
         f"_peers:=[{peer}]",
         f"_realtime_priority:={realtime_priority}",
-        f"_sources:=[{', '.join(items)}]",
+        f"_sources:={json.dumps(items)}",
     ]
 
 

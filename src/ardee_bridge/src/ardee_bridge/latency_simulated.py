@@ -82,8 +82,8 @@ def receive(pipe: Any) -> None:
     pipe.send(_arrivals(kept))
 
 
-def _since(stamps: Stamps, at_ns: int) -> Stamps:
-    return {stamp: arrival for stamp, arrival in stamps.items() if arrival >= at_ns}
+def _within(stamps: Stamps, begin_ns: int, end_ns: int) -> Stamps:
+    return {stamp: at_ns for stamp, at_ns in stamps.items() if begin_ns <= at_ns <= end_ns}
 
 
 def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
@@ -137,26 +137,27 @@ def measure(
         server = latency.server_arguments(peer, sources, realtime_priority)
         stack.enter_context(latency.node(env, "sensor_server_node", *server))
         time.sleep(WARM_UP_S)
-        since_ns = time.time_ns()
-        time.sleep(seconds)
+        begin_ns = time.time_ns()
+        end_ns = begin_ns + round(seconds * 1e9)
+        time.sleep(seconds + latency.SETTLE_S)
         from_watcher.send("end")
         watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
         time.sleep(latency.SETTLE_S)
         from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
-    return _by_row(sources, watched, arrived, since_ns)
+    published = {
+        topic: _within(stamps, begin_ns, end_ns) for topic, stamps in watched.items()
+    }
+    return _by_row(sources, published, arrived)
 
 
 def _by_row(
-    sources: List[Source],
-    watched: Dict[str, Stamps],
-    arrived: Dict[latency.Key, Stamps],
-    since_ns: int,
+    sources: List[Source], published: Dict[str, Stamps], arrived: Dict[latency.Key, Stamps]
 ) -> Dict[str, latency.Spread]:
     found = {}
     for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
         like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
-        published = [_since(watched[f"/{source.topic}"], since_ns) for source in like]
+        before = [published[f"/{source.topic}"] for source in like]
         keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
-        found[row] = _spread(published, [arrived.get(key, {}) for key in keys])
+        found[row] = _spread(before, [arrived.get(key, {}) for key in keys])
     return found

@@ -38,13 +38,21 @@ class _PatientTransport(xmlrpc.client.Transport):
         return connection
 
 
-def connect(uri: str, topic: str, caller_id: str, kind: str, md5sum: str) -> socket.socket:
+def connect(
+    uri: str, topic: str, caller_id: str, kind: str, md5sum: str, segment_bytes: int = 0
+) -> socket.socket:
     """A connection to the node at `uri` that does not block, on which messages come at once; "*" is any type or md5sum.
 
-    Raises Refused, or one of AWAY.
+    `segment_bytes` limits TCP's segments, and with them how much the publisher sends before it turns to others; 0: as
+    much as the network carries. Raises Refused, or one of AWAY.
     """
-    opened = socket.create_connection(_place(uri, topic, caller_id), PATIENCE_S)
+    place = _place(uri, topic, caller_id)
+    opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
+        if segment_bytes:
+            opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, segment_bytes)
+        opened.settimeout(PATIENCE_S)
+        opened.connect(place)
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for option, value in KEEPALIVE.items():
             opened.setsockopt(socket.IPPROTO_TCP, option, value)

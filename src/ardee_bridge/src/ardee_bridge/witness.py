@@ -18,6 +18,9 @@ from ardee_bridge import tcpros
 
 SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
 CALLER = "/latency_witness"
+# As on Ethernet: after the beginning of a frame, which is all that the witness looks at, its publisher turns to the
+# subscriber that is measured, and does not make it wait for a copy of the whole frame.
+SEGMENT_BYTES = 1448
 # Length of a message that begins with a std_msgs/Header: its seq, seconds and nanoseconds.
 _BEGIN = struct.Struct("<IIII")
 
@@ -46,7 +49,7 @@ class Connection:
         self._rest = 0
         self._at_ns: Optional[int] = None
         uri = _publisher(topic, time.monotonic() + patience_s)
-        self.socket = tcpros.connect(uri, topic, CALLER, "*", "*")
+        self.socket = tcpros.connect(uri, topic, CALLER, "*", "*", SEGMENT_BYTES)
         self.socket.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
 
     def read(self) -> None:
