@@ -261,7 +261,10 @@ def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
 
 
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told."""
+    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
+
+    It stands for the simulator, whose threads that send go first where that is granted.
+    """
     import rospy
 
     from ardee_bridge import latency_messages
@@ -278,6 +281,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
             raise TimeoutError("the sensor server does not subscribe")
         time.sleep(0.05)
     messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
+    witness.go_first()
     times = {stream.key: [] for stream in streams}  # type: Times
     start = time.monotonic() + SETTLE_S
     due = [start + 0.37 * index / stream.rate_hz for index, stream in enumerate(streams)]
