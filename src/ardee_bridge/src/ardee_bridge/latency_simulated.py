@@ -12,6 +12,7 @@ import time
 from typing import Any, Dict, Iterator, List, Tuple
 
 import rosgraph
+import rospkg
 
 from ardee_bridge import codec, latency, witness
 from ardee_bridge.pairing import Pairer
@@ -20,6 +21,7 @@ from ardee_bridge.settings import KINDS, Source
 START_LIMIT_S = 120.0
 WARM_UP_S = 3.0
 WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
+SENSORS = "config/benchmark_sensors.urdf.xacro"
 ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
 
 Stamps = Dict[int, int]  # simulated time of a message [ns]: its arrival [ns]
@@ -113,7 +115,7 @@ def measure(
 ) -> Dict[str, latency.Spread]:
     """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given."""
     sources = [
-        source._replace(image_format=image_format) if source.kind == "image" else source
+        source._replace(image_format=image_format) if source.image_format == "jpeg" else source
         for source in sources
         if image_format or not source.is_frame
     ]
@@ -126,7 +128,9 @@ def measure(
             _launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true")
         )
         _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
-        stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
+        carried = f"sensors:={rospkg.RosPack().get_path('ardee_bridge')}/{SENSORS}"
+        robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
+        stack.enter_context(_launched(env, *robot))
         sources = _published(env, sources)
         topics = [f"/{source.topic}" for source in sources]
         watcher, from_watcher = latency.in_process(env, witness.watch, topics, START_LIMIT_S)
