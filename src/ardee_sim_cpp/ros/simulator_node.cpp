@@ -59,8 +59,9 @@ void use_simulated_time() {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
 }
 
-/// Messages on their way go before what computes, where the system grants it: a thread of roscpp's that writes an image
-/// to a socket would wait for rendering threads otherwise. Of its threads alone: to be called before there are others.
+/// Messages on their way go before what computes, where the system grants it: a thread of roscpp's
+/// that writes an image to a socket would wait for rendering threads otherwise. Of its threads
+/// alone: to be called before there are others.
 void let_messages_go_first() {
   const sched_param priority{1};
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {

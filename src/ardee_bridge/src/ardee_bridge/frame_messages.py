@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Images and point clouds of a connection's bytes, without a copy of their pixels and points.
 
-The layout is that of ROS 1 serialization (https://wiki.ros.org/ROS/Technical%20Overview#Message_serialization_and_msg_MD5_sums)
-of the message definitions of sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings after
-their length as uint32.
+The layout is ROS 1's (https://wiki.ros.org/ROS/Technical%20Overview, "Message serialization") of the definitions of
+sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings after their length as uint32.
 """
 import struct
 from typing import Any

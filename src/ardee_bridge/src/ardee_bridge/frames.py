@@ -146,7 +146,9 @@ def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) ->
                 subscriptions.update()
             if time.monotonic() >= report_s:
                 report_s += REPORT_PERIOD_S
-                pipe.send(Report(counters.counts(), tuple(said.popleft() for _ in range(len(said)))))
+                pipe.send(
+                    Report(counters.counts(), tuple(said.popleft() for _ in range(len(said))))
+                )
     finally:
         reader.close()
 

@@ -9,7 +9,7 @@ import os
 import signal
 import subprocess
 import time
-from typing import Any, Dict, Iterator, List, Tuple
+from typing import Any, Dict, Iterator, List
 
 import rosgraph
 import rospkg
@@ -149,9 +149,7 @@ def measure(
         time.sleep(latency.SETTLE_S)
         from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
-    published = {
-        topic: _within(stamps, begin_ns, end_ns) for topic, stamps in watched.items()
-    }
+    published = {topic: _within(stamps, begin_ns, end_ns) for topic, stamps in watched.items()}
     return _by_row(sources, published, arrived)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What keeps threads that send sensor messages from waiting: for other programs, for Python's lock, for its collector."""
+"""What keeps threads that send from waiting: for other programs, for Python's lock, for its collector."""
 import gc
 import os
 import sys

@@ -23,7 +23,7 @@ Warn = Callable[[str], None]
 
 
 class Kind(NamedTuple):
-    """A type of message: name, md5sum, and how to make one of its bytes, which are gone when the callbacks are through."""
+    """A type of message: name, md5sum, and how to make one of its bytes, which are gone after the callbacks."""
 
     name: str
     md5sum: str

@@ -141,7 +141,7 @@ class Splitter:
         return count > 0
 
     def _make_room(self, at: int, wanted: int) -> None:
-        """Move what begins at `at` to the front; a full buffer grows, to what is there twice and not to what is claimed."""
+        """Move what begins at `at` to the front. A full buffer is made twice as large, not as what is claimed."""
         rest = self._room[at : self._filled]
         if len(rest) == len(self._room):
             self._room = memoryview(bytearray(min(wanted, 2 * len(rest))))

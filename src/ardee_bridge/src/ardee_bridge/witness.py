@@ -44,7 +44,8 @@ class Connection:
     """To the publisher of a topic. Of each message it looks at the beginning, and has the kernel drop the rest."""
 
     def __init__(self, topic: str, patience_s: float) -> None:
-        self.times: Dict[int, int] = {}  # stamp of the message [ns]: arrival of its first bytes [ns]
+        # stamp of the message [ns]: arrival of its first bytes [ns]
+        self.times: Dict[int, int] = {}
         self._begin = b""
         self._rest = 0
         self._at_ns: Optional[int] = None
