@@ -154,4 +154,6 @@ def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) ->
 
 
 if __name__ == "__main__":
-    main()
+    from ardee_bridge import frames  # by this name the server knows the classes that go through the pipe
+
+    frames.main()
