@@ -56,7 +56,7 @@ def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
 def test_every_process_says_what_it_sent(fed: Bench) -> None:
     finish(fed.c_client("-t", "5"))
     assert fed.counters("sensor_server_node")["sent imu"] > 0
-    assert fed.counters("sensor_server_node_jpeg")["sent camera"] > 0
+    assert fed.counters("sensor_server_node_jpeg_2")["sent camera"] > 0
     of_frames = fed.counters("sensor_server_node_frames")
     assert of_frames["sent depth"] > 0 and of_frames["sent points"] > 0
 

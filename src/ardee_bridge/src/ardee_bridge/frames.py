@@ -154,6 +154,7 @@ def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) ->
 
 
 if __name__ == "__main__":
-    from ardee_bridge import frames  # by this name the server knows the classes that go through the pipe
+    # by this name the server knows the classes that go through the pipe
+    from ardee_bridge import frames
 
     frames.main()

@@ -21,14 +21,16 @@ def _resolved(source: Source) -> Source:
 
 
 def _jobs(settings: ServerSettings) -> List[Job]:
-    """Of the processes for images and clouds: one that compresses, one for what is sent as it is."""
+    """Of the processes for images and clouds: one for what is sent as it is, one for each camera that is compressed."""
     frames = [source for source in settings.sources if source.is_frame]
-    jobs = []
-    for word, goes_first in (("jpeg", False), ("frames", True)):
-        own = tuple(source for source in frames if (source.image_format == "jpeg") != goes_first)
-        name = f"{rospy.get_name()}_{word}"
-        jobs.append(Job(name, settings._replace(sources=own), goes_first))
-    return [job for job in jobs if job.settings.sources]
+    plain = tuple(source for source in frames if source.image_format != "jpeg")
+    name = rospy.get_name()
+    jobs = [Job(f"{name}_frames", settings._replace(sources=plain), True)] if plain else []
+    for source in frames:
+        if source not in plain:
+            of_camera = f"{name}_jpeg_{source.component_id}"
+            jobs.append(Job(of_camera, settings._replace(sources=(source,)), False))
+    return jobs
 
 
 def _make() -> Callable[[float], None]:
