@@ -7,15 +7,28 @@ from typing import Any, Dict, List
 P99_BUDGET_MS = 2.0
 
 
+# A simulated robot's frames are few where its cameras are to be drawn first.
+LEAST_FRAMES_S = 8.0
+
+
 def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
     """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's.
 
-    And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them: is a message lost?
+    And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them, with the images as JPEG and as
+    they are: is a message lost?
     """
-    simulated = _without_controls(_run(seconds, "--simulator"))
-    figures = {**_run(seconds), **{f"simulated {name}": f for name, f in simulated.items()}}
-    everything = _without_controls(_run(loss_s, "--cameras"))
-    return {**figures, **{f"beside cameras, {name}": f for name, f in everything.items()}}
+    frames_s = max(3 * seconds, LEAST_FRAMES_S)
+    figures = _run(seconds)
+    runs = {
+        "simulated ": (seconds, "--simulator"),
+        "simulated beside raw images, ": (frames_s, "--simulator", "--cameras", "raw"),
+        "beside cameras, ": (loss_s, "--cameras", "jpeg"),
+        "beside raw images, ": (loss_s, "--cameras", "raw"),
+    }
+    for prefix, (run_s, *options) in runs.items():
+        found = _without_controls(_run(run_s, *options))
+        figures.update((prefix + name, f) for name, f in found.items())
+    return figures
 
 
 def _without_controls(figures: Dict[str, Any]) -> Dict[str, Any]:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """For the tests of the UDP bridge: simulator, robot, both nodes and clients without ROS, each a process of its own."""
+import contextlib
 import os
 import pathlib
 import re
@@ -139,6 +140,19 @@ class Bench:
         """End it as a crash does."""
         os.killpg(self.simulator.pid, signal.SIGKILL)
         self.simulator.wait()
+
+    def kill_frame_processes(self) -> List[int]:
+        """End the server's processes for images and clouds as a crash does: which they were."""
+        found = []
+        for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+            pid = int(path.parent.name)
+            with contextlib.suppress(OSError):
+                words = path.read_bytes().split(b"\0")
+                if b"ardee_bridge.frames" in words and os.getpgid(pid) == self.server.pid:
+                    found.append(pid)
+        for pid in found:
+            os.kill(pid, signal.SIGKILL)
+        return found
 
     def c_client(self, *arguments: str) -> subprocess.Popen:
         """The client in C, driving if told so."""

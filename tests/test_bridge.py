@@ -53,6 +53,23 @@ def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
     assert found["point_cloud 0"][1] == "points 28800"
 
 
+def test_every_process_says_what_it_sent(fed: Bench) -> None:
+    finish(fed.c_client("-t", "5"))
+    assert fed.counters("sensor_server_node")["sent imu"] > 0
+    assert fed.counters("sensor_server_node_jpeg_2")["sent camera"] > 0
+    of_frames = fed.counters("sensor_server_node_frames")
+    assert of_frames["sent depth"] > 0 and of_frames["sent points"] > 0
+
+
+def test_processes_for_frames_that_die_are_started_again(fed: Bench) -> None:
+    finish(fed.c_client("-t", "5"))
+    killed = fed.kill_frame_processes()
+    assert len(killed) == 2
+    found = finish(fed.c_client("-t", "8"))
+    assert {"image 2", "image 3", "point_cloud 0"} <= set(found)
+    assert not set(fed.kill_frame_processes()) & set(killed)
+
+
 def test_the_c_client_drives_the_robot(bench: Bench) -> None:
     before = bench.state().x_m
     client = bench.c_client("-v", "0.5", "-t", "120")

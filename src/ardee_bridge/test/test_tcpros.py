@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Messages from the bytes of a connection, and handshakes with publishers that say what they should not."""
+import itertools
 import random
 import socket
 import struct
 import threading
-from typing import Callable, List
+from typing import Callable, Iterator, List
 from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
@@ -13,24 +14,64 @@ from rosgraph.network import encode_ros_handshake_header
 from ardee_bridge import tcpros
 
 
+class Stream:
+    """Bytes that arrive in parts of these sizes, as far as there is room for them."""
+
+    def __init__(self, stream: bytes, sizes: Iterator[int]) -> None:
+        self.rest, self._sizes = stream, sizes
+
+    def receive_into(self, room: memoryview) -> int:
+        assert len(room) > 0
+        part = self.rest[: min(len(room), next(self._sizes))]
+        self.rest = self.rest[len(part) :]
+        room[: len(part)] = part
+        return len(part)
+
+
+def framed(messages: List[bytes]) -> bytes:
+    return b"".join(struct.pack("<I", len(message)) + message for message in messages)
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_messages_are_the_same_however_their_bytes_arrive(seed):
     rng = random.Random(seed)
-    sent = [rng.randbytes(rng.choice((0, 1, 3, 4, 5, 100, 70_000))) for _ in range(30)]
-    stream = b"".join(struct.pack("<I", len(message)) + message for message in sent)
+    sent = [rng.randbytes(rng.choice((0, 1, 3, 4, 5, 100, 70_000, 300_000))) for _ in range(30)]
+    sizes = iter(lambda: rng.choice((1, 2, 3, 4, 5, 50, 65536, 1 << 20)), None)
+    stream = Stream(framed(sent), sizes)
     found: List[bytes] = []
-    splitter = tcpros.Splitter(found.append)
-    while stream:
-        count = rng.choice((1, 2, 3, 4, 5, 50, 65536))
-        splitter.feed(stream[:count])
-        stream = stream[count:]
-    assert found == sent
+    splitter = tcpros.Splitter(lambda message: found.append(bytes(message)))
+    while splitter.read(stream.receive_into):
+        pass
+    assert stream.rest == b"" and found == sent
+
+
+def test_a_message_is_handed_on_where_it_was_received():
+    views: List[memoryview] = []
+    splitter = tcpros.Splitter(views.append)
+    stream = Stream(framed([b"x" * 1000, b"y" * 1000]), itertools.repeat(1004))
+    while splitter.read(stream.receive_into):
+        pass
+    assert views[0].obj is views[1].obj and bytes(views[0]) == bytes(views[1]) == b"y" * 1000
 
 
 def test_a_length_that_no_message_has_is_refused():
     splitter = tcpros.Splitter(lambda message: None)
     with pytest.raises(tcpros.Refused, match="a message of 4294967295 bytes, expected at most"):
-        splitter.feed(b"\xff\xff\xff\xff")
+        splitter.read(Stream(b"\xff\xff\xff\xff", itertools.repeat(4)).receive_into)
+
+
+def test_room_is_made_for_what_came_and_not_for_what_is_claimed():
+    rooms: List[int] = []
+    stream = Stream(struct.pack("<I", 60 << 20) + b"x" * 200_000, itertools.repeat(50_000))
+
+    def receive_into(room: memoryview) -> int:
+        rooms.append(len(room.obj))
+        return stream.receive_into(room)
+
+    splitter = tcpros.Splitter(lambda message: None)
+    while splitter.read(receive_into):
+        pass
+    assert max(rooms) <= 2 * 200_004
 
 
 class Publisher:
@@ -104,9 +145,9 @@ def test_a_connection_gives_its_messages(say):
     found: List[bytes] = []
     with connect() as connected:
         connected.settimeout(10.0)
-        splitter = tcpros.Splitter(found.append)
+        splitter = tcpros.Splitter(lambda message: found.append(bytes(message)))
         while not found:
-            splitter.feed(connected.recv(100))
+            assert splitter.read(connected.recv_into)
     assert found == [b"hi"]
 
 

@@ -3,6 +3,8 @@
 
 #include <ros/package.h>
 #include <ros/ros.h>
+#include <sched.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -55,6 +57,18 @@ SimulationOptions simulation_options(const Settings& settings) {
 
 void use_simulated_time() {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
+}
+
+/// Messages on their way go before what computes, where the system grants it: a thread of roscpp's
+/// that writes an image to a socket would wait for rendering threads otherwise. Of its threads
+/// alone: to be called before there are others.
+void let_messages_go_first() {
+  const sched_param priority{1};
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    const pid_t thread = std::stoi(task.path().filename());
+    if (thread == getpid()) continue;
+    if (sched_setscheduler(thread, SCHED_RR | SCHED_RESET_ON_FORK, &priority) != 0) return;
+  }
 }
 
 void log_at_debug_level() {
@@ -124,6 +138,7 @@ int run_simulator(int argc, char** argv) {
     return 0;
   }
   const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
+  let_messages_go_first();
   try {
     run_node(command_line, private_node);
   } catch (const std::exception& error) {

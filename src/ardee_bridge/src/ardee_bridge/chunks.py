@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Images and point clouds are larger than a datagram: they travel as chunks."""
+import struct
 from typing import Dict, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 from ardee_bridge import codec
@@ -8,20 +9,38 @@ ChunkHead = Union[codec.ImageChunk, codec.PointCloudChunk]
 # The largest payload that, with the head before it, still fits a UDP datagram; whole points.
 MAX_PAYLOAD = 65_000 // codec.Point.size * codec.Point.size
 MAX_TOTAL = 64 << 20
+_INT32 = struct.Struct("<i")
+# A chunk's place within its head, which for images and clouds begins with it.
+_PLACE = {leaf.path: leaf.offset for leaf in codec.Chunk.leaves}
+_INDEX_AT, _OFFSET_AT = _PLACE["index"], _PLACE["offset"]
 
 
 def split(
-    data_type: codec.DataType, component_id: int, head: ChunkHead, payload: bytes, chunk_bytes: int
-) -> Iterator[codec.Datagrams]:
-    """The messages that carry `payload`; head.chunk names its time and sequence, the rest of it is filled in here."""
+    data_type: codec.DataType,
+    component_id: int,
+    head: ChunkHead,
+    payload: codec.Buffer,
+    chunk_bytes: int,
+) -> Iterator[codec.Pieces]:
+    """The messages that carry `payload`, whose bytes they show and do not copy.
+
+    head.chunk names their time and sequence; the rest of it is filled in here.
+    """
     view, chunk = memoryview(payload), head.chunk
     chunk.total = len(view)
     chunk.count = max(1, -(-len(view) // chunk_bytes))
-    for chunk.index in range(chunk.count):
-        chunk.offset = chunk.index * chunk_bytes
-        part = view[chunk.offset : chunk.offset + chunk_bytes]
-        data = b"".join((head.pack(), part))
-        yield codec.encode(data_type, component_id, data, count=len(part))
+    packed = head.pack()
+    headers: Dict[int, bytes] = {}  # of all chunks but the last, and of the last
+    for index in range(chunk.count):
+        offset = index * chunk_bytes
+        part = view[offset : offset + chunk_bytes]
+        if len(part) not in headers:
+            header, _ = codec.encode(data_type, component_id, b"", count=len(part))
+            headers[len(part)] = header
+        own = bytearray(packed)
+        _INT32.pack_into(own, _INDEX_AT, index)
+        _INT32.pack_into(own, _OFFSET_AT, offset)
+        yield (headers[len(part)],), (own, part)
 
 
 class Whole(NamedTuple):

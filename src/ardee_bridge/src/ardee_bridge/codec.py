@@ -7,7 +7,7 @@ Standard library only, so that a target computer can use it. A message is two da
     codec.Header.unpack(datagram), codec.data_struct(header).unpack(datagram).to_si()
 """
 import math
-from typing import Dict, List, Optional, Sequence, Tuple, Type
+from typing import Dict, List, Optional, Sequence, Tuple, Type, Union
 
 from ardee_bridge.enums import (  # noqa: F401
     ControlCode,
@@ -230,6 +230,9 @@ _CHUNKED = (ImageChunk, PointCloudChunk)
 _RANGE_COUNTS_PER_M = scale_of(LidarData.C_NAME, "ranges").counts_per_unit or 1
 
 Datagrams = Tuple[bytes, bytes]
+Buffer = Union[bytes, bytearray, memoryview]
+# Header and data datagram, each in the pieces that it is sent from.
+Pieces = Tuple[Tuple[Buffer, ...], Tuple[Buffer, ...]]
 
 
 def data_struct(header: Header) -> Optional[Type[CStruct]]:

@@ -3,9 +3,16 @@
 import threading
 import time
 from collections import Counter
-from typing import Callable, Dict
+from typing import Callable, Dict, NamedTuple
 
 LOG_AGAIN_S = 10.0
+
+
+class Counts(NamedTuple):
+    """What was done and what was dropped, by kind."""
+
+    done: Dict[str, int]
+    dropped: Dict[str, int]
 
 
 class Counters:
@@ -54,3 +61,7 @@ class Counters:
         """What was dropped so far, by reason."""
         with self._lock:
             return dict(self._dropped)
+
+    def counts(self) -> Counts:
+        """Both."""
+        return Counts(self.done(), self.dropped())

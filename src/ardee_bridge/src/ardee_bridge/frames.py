@@ -1,50 +1,70 @@
 # SPDX-License-Identifier: MIT
-"""The sensor server's second process: images and clouds, whose conversion would hold up the small sensors.
+"""Processes of the sensor server for images and clouds, which would hold up the small sensors and each other.
 
-It runs while somebody wants one, as a node of its own: `<name of the server>_frames`. It sends from the server's
-socket, so that receivers see one sender; the server keeps the clients and tells it of them through a pipe. It ends
-when that pipe does.
+Each is a node of its own while somebody wants one of its sources. It sends from the server's socket, so that receivers
+see one sender; the server keeps the clients and tells it of them through a pipe, by which it says what it has done.
+It ends when that pipe does.
 """
-import os
 import signal
 import socket
 import subprocess
 import sys
+import threading
+import time
+from collections import deque
 from multiprocessing.connection import Connection, Pipe
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Callable, Deque, NamedTuple, Optional, Tuple
 
-import rospy
-
-from ardee_bridge import ros_node
-from ardee_bridge.counters import Counters
+from ardee_bridge import priority
+from ardee_bridge.counters import Counters, Counts
+from ardee_bridge.reader import Reader
 from ardee_bridge.sensor_server import SensorServer, Target
-from ardee_bridge.settings import read_server
-from ardee_bridge.subscriptions import Subscriptions, by_rospy
+from ardee_bridge.settings import ServerSettings
+from ardee_bridge.subscriptions import Subscriptions
 from ardee_bridge.udp import PairLock
 
 PATIENCE_S = 5.0
+POLL_S = 0.2
+REPORT_PERIOD_S = 0.5
 
 
-def _remappings() -> List[str]:
-    """Those of topics: `from:=to`."""
-    return [word for word in sys.argv[1:] if ":=" in word and not word.startswith("_")]
+class Job(NamedTuple):
+    """What a process is to do: name of its node, settings with its sources alone and full names of topics.
+
+    Images that are compressed keep their process busy; one that only copies may go first, for it is soon through.
+    """
+
+    name: str
+    settings: ServerSettings
+    goes_first: bool
+
+
+class Report(NamedTuple):
+    """What a process has done since its start, and what it has to say."""
+
+    counts: Counts
+    said: Tuple[str, ...]
 
 
 class FrameProcess:
     """The server's end: starts the process when somebody wants a frame, again if it has died."""
 
-    def __init__(self, values: Dict[str, Any], opened: socket.socket, lock: PairLock) -> None:
-        self._values, self._socket, self._lock = values, opened, lock
-        self._sources = [source for source in read_server(values).sources if source.is_frame]
+    def __init__(
+        self, job: Job, opened: socket.socket, lock: PairLock, warn: Callable[[str], None]
+    ) -> None:
+        self.name = job.name
+        self._job, self._socket, self._pair_lock, self._warn = job, opened, lock, warn
         self._process: Optional[subprocess.Popen] = None
         self._pipe: Optional[Connection] = None
+        self._lock = threading.Lock()
+        self._counts = Counts({}, {})
 
     def serve(self, targets: Tuple[Target, ...]) -> None:
         """These are the targets now."""
         is_wanted = any(
             target.wants(source.data_type, source.component_id)
             for target in targets
-            for source in self._sources
+            for source in self._job.settings.sources
         )
         if self._process is None or self._process.poll() is not None:
             if not is_wanted:
@@ -53,29 +73,39 @@ class FrameProcess:
         try:
             self._pipe.send(targets)
         except OSError:
-            rospy.logwarn("the process for images and clouds has ended; the next request starts it")
+            self._warn(f"{self.name} has ended; the next request starts it")
+
+    def counts(self) -> Counts:
+        """The latest that it has said; what else it said is passed on."""
+        with self._lock:
+            try:
+                while self._pipe is not None and self._pipe.poll():
+                    self._counts, said = self._pipe.recv()
+                    for text in said:
+                        self._warn(f"{self.name}: {text}")
+            except (EOFError, OSError):
+                pass  # it has ended
+            return self._counts
 
     def _start(self) -> None:
         self.stop()
-        self._lock.is_shared = True
-        self._pipe, theirs = Pipe()
-        files = (theirs.fileno(), self._socket.fileno(), self._lock.file)
-        words = [sys.executable, "-m", "ardee_bridge.frames", *map(str, files), *_remappings()]
-        space = rospy.get_namespace()
-        self._process = subprocess.Popen(
-            words,
-            stdin=subprocess.DEVNULL,
-            pass_fds=files,
-            env=dict(os.environ, ROS_NAMESPACE=space),
-        )
+        self._pair_lock.is_shared = True
+        pipe, theirs = Pipe()
+        files = (theirs.fileno(), self._socket.fileno(), self._pair_lock.file)
+        words = [sys.executable, "-m", "ardee_bridge.frames", *map(str, files)]
+        self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, pass_fds=files)
         theirs.close()
-        self._pipe.send((rospy.get_name().rpartition("/")[2], self._values))
+        pipe.send(self._job)
+        with self._lock:
+            self._pipe = pipe
 
     def stop(self) -> None:
         """End it."""
         if self._process is None:
             return
-        self._pipe.close()
+        with self._lock:
+            self._pipe.close()
+            self._pipe = None
         try:
             self._process.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
@@ -89,29 +119,42 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's, whose end ends the pipe
     pipe_file, socket_file, lock_file = map(int, sys.argv[1:4])
     pipe = Connection(pipe_file)
-    sys.setswitchinterval(ros_node.SWITCH_INTERVAL_S)
     try:
-        name, values = pipe.recv()
-        rospy.init_node(f"{name}_frames", disable_rostime=True, disable_signals=True)
-        _serve(pipe, values, socket.socket(fileno=socket_file), lock_file)
-    except EOFError:
-        pass
-    rospy.signal_shutdown("the sensor server has ended")
+        _serve(pipe, pipe.recv(), socket.socket(fileno=socket_file), lock_file)
+    except (EOFError, OSError):
+        pass  # the server has ended
 
 
-def _serve(pipe: Connection, values: Dict[str, Any], opened: socket.socket, lock_file: int) -> None:
-    counters = Counters(rospy.logwarn)
-    settings = read_server(values)
-    lock = PairLock(lock_file, is_shared=True, priority=settings.realtime_priority)
-    server = SensorServer(settings, opened, counters, lock=lock)
+def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) -> None:
+    priority.share_fairly()
+    said: Deque[str] = deque(maxlen=100)
+    counters, has_to_end = Counters(said.append), threading.Event()
+    goes_first = job.settings.realtime_priority if job.goes_first else 0
+    lock = PairLock(lock_file, is_shared=True, priority=job.settings.realtime_priority)
+    server = SensorServer(job.settings, opened, counters, lock=lock)
     server.set_clients(())
-    subscriptions = Subscriptions([s for s in settings.sources if s.is_frame], server, by_rospy)
-    ros_node.start_diagnostics(rospy.get_name(), counters)
-    while not rospy.is_shutdown():
-        if pipe.poll(ros_node.POLL_S):
-            server.set_clients(pipe.recv())
-            subscriptions.update()
+    reader = Reader(job.name, said.append, lambda reason: has_to_end.set())
+    subscriptions = Subscriptions(job.settings.sources, server, reader)
+    priority.keep_what_there_is()
+    if goes_first and priority.go_first(goes_first):
+        lock.priority = 0
+    try:
+        report_s = time.monotonic()
+        while not has_to_end.is_set():
+            if pipe.poll(POLL_S):
+                server.set_clients(pipe.recv())
+                subscriptions.update()
+            if time.monotonic() >= report_s:
+                report_s += REPORT_PERIOD_S
+                pipe.send(
+                    Report(counters.counts(), tuple(said.popleft() for _ in range(len(said))))
+                )
+    finally:
+        reader.close()
 
 
 if __name__ == "__main__":
-    main()
+    # by this name the server knows the classes that go through the pipe
+    from ardee_bridge import frames
+
+    frames.main()

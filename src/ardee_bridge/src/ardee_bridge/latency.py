@@ -6,6 +6,7 @@ arrival at the receiver's socket. Nodes, publishers and receivers are processes 
 their own.
 """
 import contextlib
+import json
 import math
 import os
 import select
@@ -14,12 +15,12 @@ import socket
 import subprocess
 import time
 from multiprocessing import get_context
-from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple, Union
 
-from ardee_bridge import codec
-from ardee_bridge.pairing import Pairer
+from ardee_bridge import codec, witness
+from ardee_bridge.pairing import Message, Pairer
+from ardee_bridge.settings import KINDS, Source
 from ardee_bridge.udp import open_socket
-from ardee_bridge.witness import SO_TIMESTAMPNS, timestamp_ns
 
 MASTER = (
     "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
@@ -30,24 +31,25 @@ START_LIMIT_S = 30.0
 SETTLE_S = 0.5
 # Nothing for so long: no message is on its way any more, however busy the machine.
 SILENCE_S = 3.0
-COMMAND_RATE_HZ = 100.0
+# Larger datagrams are parts of frames, of which only the head is looked at.
+CHUNKED = (codec.ImageChunk, codec.PointCloudChunk)
+KEPT_WHOLE_BYTES, KEPT_BYTES = 16384, 64
 
 Key = Tuple[int, int]  # data type, component id
 Times = Dict[Key, List[int]]  # ns of the messages in their order
 
 
 class Stream(NamedTuple):
-    """A sensor: kind, topic, component id, rate."""
+    """A sensor: kind, topic, component id, rate, format of images."""
 
     kind: str
     topic: str
     component_id: int
     rate_hz: float
+    image_format: str = ""
 
     @property
     def key(self) -> Key:
-        from ardee_bridge.settings import KINDS
-
         return (int(KINDS[self.kind]), self.component_id)
 
 
@@ -62,14 +64,34 @@ SENSORS = (
     Stream("encoder", "/bench/encoder/rr", 2, 100.0),
     Stream("encoder", "/bench/encoder/rl", 3, 100.0),
 )
-# Its three cameras, and what it may carry besides.
-CAMERAS = (
-    Stream("image", "/bench/camera/front", 0, 30.0),
-    Stream("image", "/bench/camera/left", 1, 30.0),
-    Stream("image", "/bench/camera/right", 2, 30.0),
-    Stream("image", "/bench/depth", 3, 10.0),
-    Stream("point_cloud", "/bench/points", 0, 10.0),
-)
+
+
+def cameras(image_format: str) -> Tuple[Stream, ...]:
+    """Its three cameras, and what it may carry besides."""
+    return (
+        Stream("image", "/bench/camera/front", 0, 30.0, image_format),
+        Stream("image", "/bench/camera/left", 1, 30.0, image_format),
+        Stream("image", "/bench/camera/right", 2, 30.0, image_format),
+        Stream("image", "/bench/depth", 3, 10.0, "raw"),
+        Stream("point_cloud", "/bench/points", 0, 10.0),
+    )
+
+
+def row_of(kind: str, image_format: str) -> str:
+    """In the table: kind of sensor, of images the format too."""
+    return f"{image_format} {kind}" if image_format else kind
+
+
+class Datagram(NamedTuple):
+    """What came, of a large one only the beginning; its size, and when [ns]."""
+
+    beginning: bytes
+    size: int
+    at_ns: int
+
+    def data(self) -> bytes:
+        """All of it; what was not kept is zero."""
+        return self.beginning.ljust(self.size, b"\0")
 
 
 class Spread(NamedTuple):
@@ -166,11 +188,20 @@ def answer(process: Any, pipe: Any, limit_s: float) -> Any:
     return said
 
 
+def is_followed(message: Message) -> bool:
+    """Is it a chunk that is not its frame's last?"""
+    kind = codec.data_struct(message.header)
+    if kind not in CHUNKED:
+        return False
+    chunk = kind.unpack(message.data[: kind.size]).chunk
+    return chunk.index < chunk.count - 1
+
+
 def serial_of(header: codec.Header, data: bytes) -> int:
     """The running number that a message carries; -1 for a chunk that is not its frame's last."""
     kind = codec.data_struct(header)
     raw = kind.unpack(data[: kind.size])
-    if kind in (codec.ImageChunk, codec.PointCloudChunk):
+    if kind in CHUNKED:
         return raw.chunk.sequence if raw.chunk.index == raw.chunk.count - 1 else -1
     paths = {
         codec.IMUData: "accel.x",
@@ -182,17 +213,16 @@ def serial_of(header: codec.Header, data: bytes) -> int:
     return raw.as_dict()[paths[kind]]
 
 
-def receive_datagrams(pipe: Any) -> List[Tuple[bytes, int]]:
+def receive_datagrams(pipe: Any) -> List[Datagram]:
     """Say one's port, receive until told to end, "at once" or when nothing comes any more: what came, and when [ns].
 
     The receiver is to be another computer, which has nothing else to do: it goes first here, where that is granted.
     """
-    with contextlib.suppress(PermissionError):
-        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))
+    witness.go_first()
     opened = open_socket("127.0.0.1", 0)
-    opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
+    opened.setsockopt(socket.SOL_SOCKET, witness.SO_TIMESTAMPNS, 1)
     pipe.send(opened.getsockname()[1])
-    kept, word = [], ""
+    room, kept, word = memoryview(bytearray(65535)), [], ""
     while word != "at once":
         if pipe.poll():
             word = pipe.recv()
@@ -202,10 +232,11 @@ def receive_datagrams(pipe: Any) -> List[Tuple[bytes, int]]:
             continue
         while True:
             try:
-                data, extras, _, _ = opened.recvmsg(65535, 256, socket.MSG_DONTWAIT)
+                size, extras, _, _ = opened.recvmsg_into([room], 256, socket.MSG_DONTWAIT)
             except BlockingIOError:
                 break
-            kept.append((data, timestamp_ns(extras) or 0))
+            beginning = bytes(room[: size if size <= KEPT_WHOLE_BYTES else KEPT_BYTES])
+            kept.append(Datagram(beginning, size, witness.timestamp_ns(extras) or 0))
     return kept
 
 
@@ -214,22 +245,25 @@ def receive_sensors(pipe: Any) -> None:
     pipe.send(_arrivals(receive_datagrams(pipe)))
 
 
-def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[Key, Dict[int, int]]:
+def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
     """(data type, component) -> running number -> ns."""
     pairer, arrivals = Pairer(), {}  # type: Pairer, Dict[Key, Dict[int, int]]
-    for data, at_ns in kept:
-        message = pairer.feed("server", data, at_ns * 1e-9)
+    for datagram in kept:
+        message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
         if message is None:
             continue
         serial = serial_of(message.header, message.data)
         key = (message.header.data_type, message.header.component_id)
         if serial >= 0:
-            arrivals.setdefault(key, {})[serial] = at_ns
+            arrivals.setdefault(key, {})[serial] = datagram.at_ns
     return arrivals
 
 
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told."""
+    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
+
+    It stands for the simulator, whose threads that send go first where that is granted.
+    """
     import rospy
 
     from ardee_bridge import latency_messages
@@ -246,6 +280,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
             raise TimeoutError("the sensor server does not subscribe")
         time.sleep(0.05)
     messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
+    witness.go_first()
     times = {stream.key: [] for stream in streams}  # type: Times
     start = time.monotonic() + SETTLE_S
     due = [start + 0.37 * index / stream.rate_hz for index, stream in enumerate(streams)]
@@ -261,23 +296,41 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     pipe.recv()
 
 
-def _sources(streams: Sequence[Stream]) -> str:
-    items = [
-        f"{{name: {stream.topic}, kind: {stream.kind}, topic: {stream.topic}, "
-        f"component_id: {stream.component_id}}}"
-        for stream in streams
+def server_arguments(
+    peer: str, sources: Sequence[Union[Stream, Source]], realtime_priority: int
+) -> List[str]:
+    """Parameters of a sensor server of these sources."""
+    items = []
+    for source in sources:
+        values = dict(name=source.topic, kind=source.kind, topic=source.topic)
+        values["component_id"] = source.component_id
+        if source.image_format:
+            values["format"] = source.image_format
+        if isinstance(source, Source) and source.velocity_topic:
+            values["velocity_topic"] = source.velocity_topic
+        items.append(values)
+    return [
+        "_port:=0",
+        f"_peers:=[{peer}]",
+        f"_realtime_priority:={realtime_priority}",
+        f"_sources:={json.dumps(items)}",
     ]
-    return f"_sources:=[{', '.join(items)}]"
 
 
-def measure_sensors(seconds: float, cameras: bool) -> Dict[str, Spread]:
-    """Sensor message published -> data datagram arrived, by kind of sensor."""
-    groups = [SENSORS] + ([CAMERAS] if cameras else [])
+def measure_sensors(
+    seconds: float, image_format: str = "", realtime_priority: int = 1
+) -> Dict[str, Spread]:
+    """Sensor message published -> data datagram arrived, of frames the last, by kind of sensor.
+
+    With cameras where a format of their images is given.
+    """
+    groups = [SENSORS] + ([cameras(image_format)] if image_format else [])
     streams = [stream for group in groups for stream in group]
     with own_master() as env:
         receiver, from_receiver = in_process(env, receive_sensors)
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: [all]}}"
-        with node(env, "sensor_server_node", "_port:=0", f"_peers:=[{peer}]", _sources(streams)):
+        parameters = server_arguments(peer, streams, realtime_priority)
+        with node(env, "sensor_server_node", *parameters):
             running = [in_process(env, publish_sensors, group, seconds) for group in groups]
             times = {}  # type: Times
             for _, pipe in running:
@@ -295,74 +348,10 @@ def _by_kind(
 ) -> Dict[str, Spread]:
     latencies, sent = {}, {}  # type: Dict[str, List[int]], Dict[str, int]
     for stream in streams:
+        row = row_of(stream.kind, stream.image_format)
         published, arrived = times[stream.key], arrivals.get(stream.key, {})
-        sent[stream.kind] = sent.get(stream.kind, 0) + len(published)
-        latencies.setdefault(stream.kind, []).extend(
+        sent[row] = sent.get(row, 0) + len(published)
+        latencies.setdefault(row, []).extend(
             arrived[serial] - at_ns for serial, at_ns in enumerate(published) if serial in arrived
         )
-    return {kind: spread(latencies[kind], sent[kind]) for kind in sent}
-
-
-def receive_commands(pipe: Any, topic: str) -> None:
-    """Body of the robot: says when it listens and, told to end, when each command came."""
-    import rospy
-    from geometry_msgs.msg import Twist
-
-    arrivals = {}  # type: Dict[int, int]
-
-    def keep(twist: Any) -> None:
-        arrivals[round(twist.linear.x * 1e6)] = time.time_ns()
-
-    rospy.init_node("latency_robot", anonymous=True, disable_signals=True, disable_rostime=True)
-    robot = rospy.Subscriber(topic, Twist, keep, tcp_nodelay=True)
-    while not robot.get_num_connections():
-        time.sleep(0.05)
-    pipe.send("listening")
-    while not arrivals:
-        time.sleep(0.05)
-    pipe.send("moving")
-    pipe.recv()
-    pipe.send(arrivals)
-
-
-def measure_controls(seconds: float) -> Spread:
-    """Data datagram of a motion command sent -> its Twist in a subscriber's callback."""
-    with own_master() as env, open_socket("127.0.0.1", 0) as probe:
-        port = probe.getsockname()[1]
-        probe.close()
-        robot, from_robot = in_process(env, receive_commands, "/cmd_vel")
-        with node(env, "controls_client_node", f"_port:={port}", "_max_speed_m_s:=1.0"):
-            if not from_robot.poll(START_LIMIT_S):
-                raise TimeoutError("the controls client does not publish")
-            from_robot.recv()
-            _wake(port, from_robot)
-            sent = _send_commands(port, round(seconds * COMMAND_RATE_HZ))
-            time.sleep(SETTLE_S)
-            from_robot.send("end")
-            arrivals = answer(robot, from_robot, START_LIMIT_S)
-    found = [arrivals[serial] - at_ns for serial, at_ns in sent.items() if serial in arrivals]
-    return spread(found, len(sent))
-
-
-def _wake(port: int, from_robot: Any) -> None:
-    """Send commands until the first arrives: only then both ends of the topic know of each other."""
-    with open_socket("127.0.0.1", 0) as opened:
-        deadline = time.monotonic() + START_LIMIT_S
-        while not from_robot.poll(0.1):
-            if time.monotonic() > deadline:
-                raise TimeoutError("no command arrives")
-            for datagram in codec.encode_motion(0.0, 0.0):
-                opened.sendto(datagram, ("127.0.0.1", port))
-    from_robot.recv()
-
-
-def _send_commands(port: int, count: int) -> Dict[int, int]:
-    sent = {}
-    with open_socket("127.0.0.1", 0) as opened:
-        for serial in range(1, count + 1):
-            header, data = codec.encode_motion(serial / codec.DEFAULT_MULTIPLIER, 0.0)
-            opened.sendto(header, ("127.0.0.1", port))
-            sent[serial] = time.time_ns()
-            opened.sendto(data, ("127.0.0.1", port))
-            time.sleep(1.0 / COMMAND_RATE_HZ)
-    return sent
+    return {row: spread(latencies[row], sent[row]) for row in sent}

@@ -9,9 +9,10 @@ import os
 import signal
 import subprocess
 import time
-from typing import Any, Dict, Iterator, List, Tuple
+from typing import Any, Dict, Iterator, List
 
 import rosgraph
+import rospkg
 
 from ardee_bridge import codec, latency, witness
 from ardee_bridge.pairing import Pairer
@@ -20,6 +21,7 @@ from ardee_bridge.settings import KINDS, Source
 START_LIMIT_S = 120.0
 WARM_UP_S = 3.0
 WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
+SENSORS = "config/benchmark_sensors.urdf.xacro"
 ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
 
 Stamps = Dict[int, int]  # simulated time of a message [ns]: its arrival [ns]
@@ -58,12 +60,12 @@ def _wait_for(env: Dict[str, str], name: str) -> None:
         time.sleep(0.2)
 
 
-def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[latency.Key, Stamps]:
-    """When each sensor's message arrived, by its time stamp; of frames the first chunk."""
+def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Stamps]:
+    """When each sensor's message arrived, by its time stamp; of frames the last chunk."""
     pairer, stamps = Pairer(), {}  # type: Pairer, Dict[latency.Key, int]
     arrivals = {}  # type: Dict[latency.Key, Stamps]
-    for data, at_ns in kept:
-        message = pairer.feed("server", data, at_ns * 1e-9)
+    for datagram in kept:
+        message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
         if message is None:
             continue
         key = (message.header.data_type, message.header.component_id)
@@ -71,8 +73,8 @@ def _arrivals(kept: List[Tuple[bytes, int]]) -> Dict[latency.Key, Stamps]:
             time_of = codec.TimeStamp.unpack(message.data)
             key = (time_of.data_type, time_of.component_id)
             stamps[key] = time_of.sec * 10**9 + time_of.nsec
-        elif key in stamps:
-            arrivals.setdefault(key, {})[stamps.pop(key)] = at_ns
+        elif key in stamps and not latency.is_followed(message):
+            arrivals.setdefault(key, {})[stamps.pop(key)] = datagram.at_ns
     return arrivals
 
 
@@ -82,8 +84,8 @@ def receive(pipe: Any) -> None:
     pipe.send(_arrivals(kept))
 
 
-def _since(stamps: Stamps, at_ns: int) -> Stamps:
-    return {stamp: arrival for stamp, arrival in stamps.items() if arrival >= at_ns}
+def _within(stamps: Stamps, begin_ns: int, end_ns: int) -> Stamps:
+    return {stamp: at_ns for stamp, at_ns in stamps.items() if begin_ns <= at_ns <= end_ns}
 
 
 def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
@@ -97,39 +99,67 @@ def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
     return latency.spread(found, sent)
 
 
-def measure(seconds: float, cameras: bool, sources: List[Source]) -> Dict[str, latency.Spread]:
-    """Of all small sensors of a TerraSentia v3 in corn, with its cameras on their way beside them or not."""
+def _published(env: Dict[str, str], sources: List[Source]) -> List[Source]:
+    """Those sources that the robot has, once it has all small ones; it makes its topics known at one time."""
     small = [source for source in sources if not source.is_frame]
+    deadline = time.monotonic() + START_LIMIT_S
+    while not all(witness.publisher(f"/{source.topic}", env) for source in small):
+        if time.monotonic() > deadline:
+            raise TimeoutError("the simulated robot does not publish")
+        time.sleep(0.2)
+    return [source for source in sources if witness.publisher(f"/{source.topic}", env)]
+
+
+def measure(
+    seconds: float, image_format: str, sources: List[Source], realtime_priority: int
+) -> Dict[str, latency.Spread]:
+    """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given."""
+    sources = [
+        source._replace(image_format=image_format) if source.image_format == "jpeg" else source
+        for source in sources
+        if image_format or not source.is_frame
+    ]
     with contextlib.ExitStack() as stack:
         env = stack.enter_context(latency.own_master())
         receiver, from_receiver = latency.in_process(env, receive)
-        wanted = "[all, time]" if cameras else "[imu, gps, lidar, encoder, battery, time]"
+        wanted = "[all, time]" if image_format else "[imu, gps, lidar, encoder, battery, time]"
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
         stack.enter_context(
             _launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true")
         )
         _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
-        stack.enter_context(_launched(env, *ROBOT, "bot_model:=tsv3_default.urdf.xacro"))
-        topics = [f"/{source.topic}" for source in small]
+        carried = f"sensors:={rospkg.RosPack().get_path('ardee_bridge')}/{SENSORS}"
+        robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
+        stack.enter_context(_launched(env, *robot))
+        sources = _published(env, sources)
+        topics = [f"/{source.topic}" for source in sources]
         watcher, from_watcher = latency.in_process(env, witness.watch, topics, START_LIMIT_S)
         if not from_watcher.poll(START_LIMIT_S):
             raise TimeoutError("the simulated robot does not publish")
         from_watcher.recv()
         # publishers write to their subscribers in the order of their coming: the witness's before the server's
-        server = ("sensor_server_node", "_port:=0", f"_peers:=[{peer}]")
-        stack.enter_context(latency.node(env, *server))
+        server = latency.server_arguments(peer, sources, realtime_priority)
+        stack.enter_context(latency.node(env, "sensor_server_node", *server))
         time.sleep(WARM_UP_S)
-        since_ns = time.time_ns()
-        time.sleep(seconds)
+        begin_ns = time.time_ns()
+        end_ns = begin_ns + round(seconds * 1e9)
+        time.sleep(seconds + latency.SETTLE_S)
         from_watcher.send("end")
         watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
         time.sleep(latency.SETTLE_S)
         from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
+    published = {topic: _within(stamps, begin_ns, end_ns) for topic, stamps in watched.items()}
+    return _by_row(sources, published, arrived)
+
+
+def _by_row(
+    sources: List[Source], published: Dict[str, Stamps], arrived: Dict[latency.Key, Stamps]
+) -> Dict[str, latency.Spread]:
     found = {}
-    for kind in dict.fromkeys(source.kind for source in small):
-        like = [source for source in small if source.kind == kind]
-        published = [_since(watched[f"/{source.topic}"], since_ns) for source in like]
-        keys = [(int(KINDS[kind]), source.component_id) for source in like]
-        found[kind] = _spread(published, [arrived.get(key, {}) for key in keys])
+    for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
+        like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
+        before = [published[f"/{source.topic}"] for source in like]
+        keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
+        found[row] = _spread(before, [arrived.get(key, {}) for key in keys])
     return found

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Reads the topics of the small sensors in one thread: what the simulator publishes in a step comes at one time.
+"""Reads topics in one thread: what the simulator publishes in a step comes at one time.
 
-With a thread for each topic, as rospy has it, they would stand in each other's way. The master tells a node of new
-publishers only where that node calls itself at home, so the reader is a node of its own beside rospy's.
+With a thread for each topic, as rospy has it, they would stand in each other's way; and rospy copies a large message
+several times. The master tells a node of new publishers only where that node calls itself at home, so the reader is a
+node of its own beside rospy's.
 """
 import contextlib
 import itertools
@@ -17,17 +18,16 @@ from ardee_bridge.registrar import Owner, Registrar
 
 RETRY_S = 1.0
 CLOSE_POLL_S = 0.2
-READ_BYTES = 1 << 16
 
 Warn = Callable[[str], None]
 
 
 class Kind(NamedTuple):
-    """A type of message: name, md5sum, and how to make one of its bytes."""
+    """A type of message: name, md5sum, and how to make one of its bytes, which are gone after the callbacks."""
 
     name: str
     md5sum: str
-    decode: Callable[[bytes], Any]
+    decode: Callable[[memoryview], Any]
 
 
 class _Topic:
@@ -38,7 +38,7 @@ class _Topic:
         self.callbacks: List[Callable[[Any], None]] = []
         self.links: Dict[str, _Link] = {}
 
-    def take(self, data: bytes) -> None:
+    def take(self, data: memoryview) -> None:
         """Give a message to all that want it; an error of theirs is not the connection's."""
         try:
             message = self.kind.decode(data)
@@ -175,10 +175,7 @@ class Reader:
             for number, _ in self._poll.poll(CLOSE_POLL_S):
                 link = self._watched[number]
                 try:
-                    data = link.socket.recv(READ_BYTES)
-                    if data:
-                        link.splitter.feed(data)
-                    else:
+                    if not link.splitter.read(link.socket.recv_into):
                         self._forget(number)
                 except BlockingIOError:
                     pass

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
 import http.client
-import os
 import sys
 import threading
 import xmlrpc.client
@@ -14,14 +13,13 @@ import rospy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from ardee_bridge.counters import Counters
+from ardee_bridge import priority
+from ardee_bridge.counters import Counters, Counts
 from ardee_bridge.settings import SettingError
 
 DIAGNOSTICS_PERIOD_S = 1.0
 POLL_S = 0.2
 MASTER_PERIOD_S = 2.0
-# A thread that computes lets another one run after this time, not after Python's 5 ms.
-SWITCH_INTERVAL_S = 0.0005
 
 
 def read_parameters(file_name: str) -> Dict[str, Any]:
@@ -32,33 +30,41 @@ def read_parameters(file_name: str) -> Dict[str, Any]:
     return values
 
 
-def start_diagnostics(name: str, counters: Counters) -> None:
-    """Publish all counters once a second of wall time; WARN while something was dropped in the last one."""
+def start_diagnostics(
+    name: str, counters: Counters, others: Callable[[], Dict[str, Counts]] = dict
+) -> None:
+    """Publish all counters once a second of wall time, of this process and of others, by name.
+
+    WARN while something was dropped in the last second.
+    """
     publisher = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
 
     def repeat() -> None:
-        before = 0
+        before: Dict[str, int] = {}
         while not rospy.core.is_shutdown():
-            dropped = counters.dropped()
-            total = sum(dropped.values())
-            publisher.publish(_diagnostics(name, counters.done(), dropped, total - before))
-            before = total
+            counts = {name: counters.counts(), **others()}
+            publisher.publish(_diagnostics(counts, before))
+            before = {each: sum(counts[each].dropped.values()) for each in counts}
             rospy.rostime.wallsleep(DIAGNOSTICS_PERIOD_S)
 
     threading.Thread(target=repeat, daemon=True).start()
 
 
-def _diagnostics(
-    name: str, done: Dict[str, int], dropped: Dict[str, int], fresh: int
-) -> DiagnosticArray:
-    status = DiagnosticStatus(name=name, hardware_id="UDP bridge")
-    status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
-    status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
-    pairs = [(kind, count) for kind, count in sorted(done.items())]
-    pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
-    status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
-    array = DiagnosticArray(status=[status])
+def _diagnostics(counts: Dict[str, Counts], before: Dict[str, int]) -> DiagnosticArray:
+    """`before`: how much had been dropped a second ago."""
+    array = DiagnosticArray()
     array.header.stamp = rospy.Time.now()
+    for name, (done, dropped) in counts.items():
+        total = sum(dropped.values())
+        # a process that was started anew counts from zero
+        fresh = total - before.get(name, 0) if total >= before.get(name, 0) else total
+        status = DiagnosticStatus(name=name, hardware_id="UDP bridge")
+        status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
+        status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
+        pairs = sorted(done.items())
+        pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
+        status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
+        array.status.append(status)
     return array
 
 
@@ -94,30 +100,12 @@ class MasterWatch:
         rospy.signal_shutdown("forgotten by the master")
 
 
-def go_first(priority: int) -> bool:
-    """Have all threads but this one run before programs without real-time priority; False where that is not granted.
-
-    All, for any of them may hold Python's lock; but this one, which strangers' datagrams can keep busy. What the
-    threads start is like any other again.
-    """
-    policy, parameter = os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(priority)
-    for thread in map(int, os.listdir("/proc/self/task")):
-        try:
-            if thread != threading.get_native_id():
-                os.sched_setscheduler(thread, policy, parameter)
-        except ProcessLookupError:
-            pass  # it has ended
-        except PermissionError:
-            return False
-    return True
-
-
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
     Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
     """
-    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    priority.share_fairly()
     rospy.init_node(name, disable_rostime=True)
     watch = MasterWatch()
     try:
@@ -125,6 +113,7 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     except (SettingError, OSError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 2
+    priority.keep_what_there_is()
     while not rospy.is_shutdown():
         step(POLL_S)
     return 3 if watch.is_forgotten else 0

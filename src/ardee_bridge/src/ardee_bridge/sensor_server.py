@@ -99,7 +99,7 @@ class SensorServer:
             )
             return
         pair = codec.encode(source.data_type, source.component_id, reading.data, reading.count)
-        self._send_all(source, message, targets, [pair])
+        self._send_all(source, message, targets, [_pieces(pair)])
 
     def _publish_frame(self, source: Source, message: Any, targets: List[Target]) -> None:
         if source.kind == "image":
@@ -109,12 +109,10 @@ class SensorServer:
         sequence = self._sequences.get(source.name, 0)
         self._sequences[source.name] = (sequence + 1) & 0x7FFFFFFF
         frame.head.chunk.sequence = sequence
-        pairs = list(
-            chunks.split(
-                source.data_type, source.component_id, frame.head, frame.payload, source.chunk_bytes
-            )
+        messages = chunks.split(
+            source.data_type, source.component_id, frame.head, frame.payload, source.chunk_bytes
         )
-        self._send_all(source, message, targets, pairs)
+        self._send_all(source, message, targets, messages)
 
     def _targets_of(self, source: Source) -> List[Target]:
         return [
@@ -124,26 +122,25 @@ class SensorServer:
         ]
 
     def _send_all(
-        self, source: Source, message: Any, targets: List[Target], pairs: List[codec.Datagrams]
+        self,
+        source: Source,
+        message: Any,
+        targets: List[Target],
+        messages: Iterable[codec.Pieces],
     ) -> None:
-        stamp = None
-        for target in targets:
-            if target.data_types & _TIME_BIT:
-                stamp = stamp or _stamp(source, message)
-                self._send(target.address, stamp + pairs[0])
-            else:
-                self._send(target.address, pairs[0])
-        for pair in pairs[1:]:
+        stamp = _pieces(_stamp(source, message)) if _want_time(targets) else ()
+        for number, pair in enumerate(messages):
             for target in targets:
-                self._send(target.address, pair)
+                has_stamp = number == 0 and target.data_types & _TIME_BIT
+                self._send(target.address, stamp + pair if has_stamp else pair)
         self._counters.did(f"sent {source.name}")
 
-    def _send(self, address: Sender, datagrams: Tuple[bytes, ...]) -> None:
+    def _send(self, address: Sender, datagrams: Tuple[Tuple[codec.Buffer, ...], ...]) -> None:
         """Headers and data back to back, whatever other threads send."""
         try:
             with self._lock:
                 for datagram in datagrams:
-                    self._socket.sendto(datagram, socket.MSG_DONTWAIT, address)
+                    self._socket.sendmsg(datagram, (), socket.MSG_DONTWAIT, address)
         except BlockingIOError:
             self._counters.drop("messages to a full send buffer", f"{address[0]}:{address[1]}")
         except OSError as error:
@@ -190,7 +187,7 @@ class SensorServer:
         if not self._register(address, request):
             return
         self._counters.did("SET_PORT obeyed")
-        self._send(sender, codec.encode_ack(message.header))
+        self._send(sender, _pieces(codec.encode_ack(message.header)))
         self._on_targets()
 
     def _register(self, address: Sender, request: codec.SetPort) -> bool:
@@ -227,6 +224,15 @@ class SensorServer:
     def set_clients(self, targets: Iterable[Target]) -> None:
         """Send to these from now on; for a server whose clients another process keeps."""
         self._targets = {target.address: target for target in targets}
+
+
+def _pieces(pair: codec.Datagrams) -> codec.Pieces:
+    """Both datagrams, each in one piece."""
+    return (pair[0],), (pair[1],)
+
+
+def _want_time(targets: Iterable[Target]) -> bool:
+    return any(target.data_types & _TIME_BIT for target in targets)
 
 
 def _stamp(source: Source, message: Any) -> codec.Datagrams:

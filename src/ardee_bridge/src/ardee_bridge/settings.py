@@ -227,7 +227,7 @@ def _read_source(reader: Reader) -> Source:
         image_format=reader.choice("format", ("jpeg", "raw"), "jpeg") if kind == "image" else "",
         jpeg_quality=reader.whole("jpeg_quality", 1, 95, 80) if kind == "image" else 0,
         chunk_bytes=(
-            reader.whole("chunk_bytes", 256, MAX_PAYLOAD, 32768) if kind in FRAME_KINDS else 0
+            reader.whole("chunk_bytes", 256, MAX_PAYLOAD, MAX_PAYLOAD) if kind in FRAME_KINDS else 0
         ),
     )
     reader.finish()

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Subscriptions of a sensor server, in the node or in its process for images and clouds."""
+"""Subscriptions of a sensor server, in the node or in one of its processes for images and clouds."""
 import threading
 from typing import Any, Callable, Dict, Iterable, List
 
 import numpy
-import rospy
 from geometry_msgs.msg import Vector3Stamped
 from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2
 
-from ardee_bridge.reader import Kind, Reader
+from ardee_bridge import frame_messages
+from ardee_bridge.reader import Kind, Reader, Subscription
 from ardee_bridge.sensor_server import SensorServer
 from ardee_bridge.settings import Source
 from ardee_msgs.msg import Battery, Encoder
@@ -25,44 +25,30 @@ TYPES = {
     "image": Image,
     "point_cloud": PointCloud2,
 }
-# Room for a whole uncompressed image, so that it is read at one go.
-LARGE_BUFFER_BYTES = 1 << 24
-
-# Of a topic, a message's class, a callback: a subscription that ends with unregister().
-Subscribe = Callable[[str, Any, Callable[[Any], None]], Any]
-
-
-def by_rospy(topic: str, message: Any, callback: Callable[[Any], None]) -> rospy.Subscriber:
-    """Subscribe with a thread for the topic: for large messages, several of which are converted at a time."""
-    return rospy.Subscriber(
-        topic, message, callback, buff_size=LARGE_BUFFER_BYTES, tcp_nodelay=True
-    )
+# Those whose fields are not all made objects of.
+_DECODERS: Dict[Any, Callable[[memoryview], Any]] = {
+    LaserScan: lambda data: LaserScan().deserialize_numpy(bytes(data), numpy),
+    Image: frame_messages.image,
+    PointCloud2: frame_messages.point_cloud,
+}
 
 
-def by_reader(reader: Reader) -> Subscribe:
-    """Subscribe with the one thread of a reader: for small messages."""
-
-    def subscribe(topic: str, message: Any, callback: Callable[[Any], None]) -> Any:
-        def decode(data: bytes) -> Any:
-            if message is LaserScan:  # its arrays become numpy's, without a list between
-                return message().deserialize_numpy(data, numpy)
-            return message().deserialize(data)
-
-        kind = Kind(message._type, message._md5sum, decode)
-        return reader.subscribe(rospy.resolve_name(topic), kind, callback)
-
-    return subscribe
+def _kind(message: Any) -> Kind:
+    """Of a message's class."""
+    decode = _DECODERS.get(message, lambda data: message().deserialize(bytes(data)))
+    return Kind(message._type, message._md5sum, decode)
 
 
 class Subscriptions:
-    """Subscribed to the topics of those sources that somebody wants, so that no unwanted camera is rendered."""
+    """Subscribed to the topics of those sources that somebody wants, so that no unwanted camera is rendered.
 
-    def __init__(
-        self, sources: Iterable[Source], server: SensorServer, subscribe: Subscribe
-    ) -> None:
-        self._sources, self._server, self._subscribe = tuple(sources), server, subscribe
+    Their topics are full names.
+    """
+
+    def __init__(self, sources: Iterable[Source], server: SensorServer, reader: Reader) -> None:
+        self._sources, self._server, self._reader = tuple(sources), server, reader
         self._lock = threading.Lock()
-        self._active: Dict[str, List[Any]] = {}
+        self._active: Dict[str, List[Subscription]] = {}
 
     def update(self) -> None:
         """Subscribe and unsubscribe as the targets of the server want it."""
@@ -75,7 +61,7 @@ class Subscriptions:
                     for subscriber in self._active.pop(source.name):
                         subscriber.unregister()
 
-    def _follow(self, source: Source) -> List[Any]:
+    def _follow(self, source: Source) -> List[Subscription]:
         latest: Dict[str, Any] = {}
         subscribers = []
         if source.velocity_topic:
@@ -90,3 +76,6 @@ class Subscriptions:
 
         subscribers.append(self._subscribe(source.topic, TYPES[source.kind], publish))
         return subscribers
+
+    def _subscribe(self, topic: str, message: Any, callback: Callable[[Any], None]) -> Subscription:
+        return self._reader.subscribe(topic, _kind(message), callback)

@@ -17,6 +17,7 @@ from rosgraph.network import (
 PATIENCE_S = 10.0
 MAX_HEADER_BYTES = 1 << 20
 MAX_MESSAGE_BYTES = 64 << 20
+READ_BYTES = 1 << 16
 # As rospy has them: a publisher that vanishes without a word is noticed after two and a half minutes.
 KEEPALIVE = {socket.TCP_KEEPIDLE: 60, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 9}
 _LENGTH = struct.Struct("<I")
@@ -37,13 +38,21 @@ class _PatientTransport(xmlrpc.client.Transport):
         return connection
 
 
-def connect(uri: str, topic: str, caller_id: str, kind: str, md5sum: str) -> socket.socket:
+def connect(
+    uri: str, topic: str, caller_id: str, kind: str, md5sum: str, segment_bytes: int = 0
+) -> socket.socket:
     """A connection to the node at `uri` that does not block, on which messages come at once; "*" is any type or md5sum.
 
-    Raises Refused, or one of AWAY.
+    `segment_bytes` limits TCP's segments, and with them how much the publisher sends before it turns to others; 0: as
+    much as the network carries. Raises Refused, or one of AWAY.
     """
-    opened = socket.create_connection(_place(uri, topic, caller_id), PATIENCE_S)
+    place = _place(uri, topic, caller_id)
+    opened = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
+        if segment_bytes:
+            opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, segment_bytes)
+        opened.settimeout(PATIENCE_S)
+        opened.connect(place)
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         for option, value in KEEPALIVE.items():
             opened.setsockopt(socket.IPPROTO_TCP, option, value)
@@ -105,23 +114,38 @@ def _check(header: Dict[str, str], md5sum: str) -> None:
 
 
 class Splitter:
-    """Makes messages of a connection's bytes."""
+    """Makes messages of a connection's bytes, in a buffer that grows as they come to the longest of them."""
 
-    def __init__(self, take: Callable[[bytes], None]) -> None:
+    def __init__(self, take: Callable[[memoryview], None]) -> None:
+        """`take` gets the bytes of each message, which are overwritten once it has returned."""
         self._take = take
-        self._rest = bytearray()
+        self._room = memoryview(bytearray(READ_BYTES))
+        self._filled = 0
 
-    def feed(self, data: bytes) -> None:
-        """Hand on every message that is complete with these bytes."""
-        rest = self._rest
-        rest += data
-        at, end = 0, len(rest)
-        while end - at >= 4:
-            (size,) = _LENGTH.unpack_from(rest, at)
+    def read(self, receive_into: Callable[[memoryview], int]) -> bool:
+        """Receive, and hand on every message that is then complete; False at the end of the connection."""
+        count = receive_into(self._room[self._filled :])
+        self._filled += count
+        at = 0
+        while self._filled - at >= _LENGTH.size:
+            (size,) = _LENGTH.unpack_from(self._room, at)
             if size > MAX_MESSAGE_BYTES:
                 raise Refused(f"a message of {size} bytes, expected at most {MAX_MESSAGE_BYTES}")
-            if end - at - 4 < size:
-                break
-            at += 4 + size
-            self._take(bytes(rest[at - size : at]))
-        del rest[:at]
+            end = at + _LENGTH.size + size
+            if end > self._filled:
+                self._make_room(at, end - at)
+                return count > 0
+            self._take(self._room[at + _LENGTH.size : end])
+            at = end
+        self._make_room(at, READ_BYTES)
+        return count > 0
+
+    def _make_room(self, at: int, wanted: int) -> None:
+        """Move what begins at `at` to the front. A full buffer is made twice as large, not as what is claimed."""
+        rest = self._room[at : self._filled]
+        if len(rest) == len(self._room):
+            self._room = memoryview(bytearray(min(wanted, 2 * len(rest))))
+        elif at == 0:
+            return
+        self._room[: len(rest)] = rest
+        self._filled = len(rest)

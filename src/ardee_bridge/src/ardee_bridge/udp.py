@@ -42,7 +42,7 @@ class PairLock:
     """
 
     def __init__(self, file: int, is_shared: bool, priority: int = 0) -> None:
-        self.file, self.is_shared, self._priority = file, is_shared, priority
+        self.file, self.is_shared, self.priority = file, is_shared, priority
         self._threads = threading.Lock()
 
     @classmethod
@@ -52,7 +52,7 @@ class PairLock:
 
     def __enter__(self) -> None:
         self._threads.acquire()
-        self._hurry(os.SCHED_RR, self._priority)
+        self._hurry(os.SCHED_RR, self.priority)
         if self.is_shared:
             fcntl.lockf(self.file, fcntl.LOCK_EX)
 
@@ -63,12 +63,12 @@ class PairLock:
         self._threads.release()
 
     def _hurry(self, policy: int, priority: int) -> None:
-        if not self._priority:
+        if not self.priority:
             return
         try:
             os.sched_setscheduler(0, policy, os.sched_param(priority))
         except PermissionError:
-            self._priority = 0
+            self.priority = 0
 
 
 class Inbox:

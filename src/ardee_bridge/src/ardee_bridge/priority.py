@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+"""What keeps threads that send from waiting: for other programs, for Python's lock, for its collector."""
+import gc
+import os
+import sys
+import threading
+
+# A thread that computes lets another one run after this time, not after Python's 5 ms.
+SWITCH_INTERVAL_S = 0.0005
+
+
+def share_fairly() -> None:
+    """Of a process with several threads: none keeps Python's lock for long."""
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+
+
+def keep_what_there_is() -> None:
+    """Python's collector looks no more at what has been made so far, which stays: at the end of a start."""
+    gc.collect()
+    gc.freeze()
+
+
+def go_first(priority: int) -> bool:
+    """Have all threads but this one run before programs without real-time priority; False where that is not granted.
+
+    All, for any of them may hold Python's lock; but this one, which strangers' datagrams can keep busy. What the
+    threads start is like any other again.
+    """
+    policy, parameter = os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(priority)
+    for thread in map(int, os.listdir("/proc/self/task")):
+        try:
+            if thread != threading.get_native_id():
+                os.sched_setscheduler(thread, policy, parameter)
+        except ProcessLookupError:
+            pass  # it has ended
+        except PermissionError:
+            return False
+    return True
