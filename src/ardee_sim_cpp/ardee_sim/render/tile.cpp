@@ -2,6 +2,7 @@
 #include "ardee_sim/render/tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -93,10 +94,6 @@ class Tile {
     }
   }
 
-  struct Step {
-    int dx;
-    int dy;
-  };
   /// Of a pixel among those of all blocks, block by block. Blocks are whole, also where the tile
   /// ends within one.
   std::size_t at(int column, int row) const {
@@ -119,9 +116,7 @@ class Tile {
       shader_.gather();
     }
     between_.clear();
-    for (int row = 0; row < area_.height; ++row) {
-      for (int column = 0; column < area_.width; ++column) fill(column, row, frame);
-    }
+    fill(frame);
     shader_.gather();
     for (const auto& [place, sample] : between_) {
       frame.light[place] = shader_.samples()[sample].light;
@@ -215,61 +210,90 @@ class Tile {
     return sample;
   }
 
-  /// The light of a pixel: its own, that of its neighbours, or, later, that of a sample between.
-  void fill(int column, int row, Frame& frame) {
-    const bool own_column = is_corner(column, area_.width);
-    const bool own_row = is_corner(row, area_.height);
-    Eigen::Vector3f& light = frame.light[frame.index(area_.left + column, area_.upper + row)];
-    if (own_column && own_row) {
-      light = light_of(column, row);
-      return;
+  /// A shaded pixel.
+  struct Corner {
+    Eigen::Array4f light;
+    const Glance* glance;
+    std::uint32_t sample;
+  };
+
+  static std::vector<int> corners(int count) {
+    std::vector<int> found;
+    for (int k = 0; k < count; ++k) {
+      if (is_corner(k, count)) found.push_back(k);
     }
-    const int dx = own_column ? 0 : 1;
-    const int dy = own_row ? 0 : 1;
-    static constexpr Step kDiagonals[] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
-    const Step straight[] = {{-dx, -dy}, {dx, dy}};
-    const bool even = dx == 0 || dy == 0 ? fill_from(column, row, straight, light)
-                                         : fill_from(column, row, kDiagonals, light);
-    if (even) return;
-    Neighbours around;
-    std::size_t count = 0;
-    for (int r = row - dy; r <= row + dy; r += 2) {
-      for (int c = column - dx; c <= column + dx; c += 2) around.samples[count++] = sample_of(c, r);
-      if (dy == 0) break;
-    }
-    between_.emplace_back(frame.index(area_.left + column, area_.upper + row),
-                          send(column, row, around));
+    return found;
   }
 
-  const Eigen::Vector3f& light_of(int column, int row) const {
-    return shader_.samples()[sample_of(column, row)].light;
+  void read_corners(const std::vector<int>& columns, int row, std::vector<Corner>& found) const {
+    found.clear();
+    for (const int column : columns) {
+      const std::size_t place = at(column, row);
+      const std::uint32_t sample = sample_of_[place];
+      const Eigen::Vector3f& light = shader_.samples()[sample].light;
+      found.push_back({{light.x(), light.y(), light.z(), 0.0f}, &glances_[place], sample});
+    }
   }
 
-  /// The mean light of the neighbours that are of the pixel's own surface, if there are some and it
-  /// is even there.
+  /// Corners have their own light, pixels between them that of two or four, or, later, that of a
+  /// sample of their own.
+  void fill(Frame& frame) {
+    const std::vector<int> columns = corners(area_.width);
+    const std::vector<int> rows = corners(area_.height);
+    std::vector<Corner> upper;
+    std::vector<Corner> lower;
+    read_corners(columns, rows[0], lower);
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      upper.swap(lower);
+      const bool row_between = j + 1 < rows.size() && rows[j + 1] == rows[j] + 2;
+      if (j + 1 < rows.size()) read_corners(columns, rows[j + 1], lower);
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const bool between = i + 1 < columns.size() && columns[i + 1] == columns[i] + 2;
+        const int column = columns[i];
+        const int row = rows[j];
+        light_at(column, row, frame) = upper[i].light.head<3>();
+        if (between) fill_from<2>(column + 1, row, {&upper[i], &upper[i + 1]}, frame);
+        if (!row_between) continue;
+        fill_from<2>(column, row + 1, {&upper[i], &lower[i]}, frame);
+        if (!between) continue;
+        fill_from<4>(column + 1, row + 1, {&upper[i], &upper[i + 1], &lower[i], &lower[i + 1]},
+                     frame);
+      }
+    }
+  }
+
+  Eigen::Vector3f& light_at(int column, int row, Frame& frame) const {
+    return frame.light[frame.index(area_.left + column, area_.upper + row)];
+  }
+
+  /// The mean light of the corners around that are of the pixel's own surface, if there are some
+  /// and it is even there; else a sample of its own is sent.
   template <std::size_t N>
-  bool fill_from(int column, int row, const Step (&neighbours)[N], Eigen::Vector3f& light) {
+  void fill_from(int column, int row, const std::array<const Corner*, N>& around, Frame& frame) {
     const Glance& mine = glances_[at(column, row)];
-    Eigen::Vector3f sum(0, 0, 0), least(0, 0, 0), most(0, 0, 0);
+    Eigen::Array4f sum = Eigen::Array4f::Zero();
+    Eigen::Array4f least = Eigen::Array4f::Constant(std::numeric_limits<float>::infinity());
+    Eigen::Array4f most = -least;
     float off_m = 0.0f;  // of their ranges from mine, in the mean
-    std::size_t count = 0;
-    for (const Step& step : neighbours) {
-      const Glance& theirs = glances_[at(column + step.dx, row + step.dy)];
-      if (!same_surface(mine, theirs)) continue;
-      const Eigen::Vector3f& their_light = light_of(column + step.dx, row + step.dy);
-      least = count == 0 ? their_light : Eigen::Vector3f(least.cwiseMin(their_light));
-      most = count == 0 ? their_light : Eigen::Vector3f(most.cwiseMax(their_light));
-      sum += their_light;
-      if (mine.surface != 0) off_m += theirs.range_m - mine.range_m;
+    int count = 0;
+    for (const Corner* corner : around) {
+      if (!same_surface(mine, *corner->glance)) continue;
+      least = least.min(corner->light);
+      most = most.max(corner->light);
+      sum += corner->light;
+      if (mine.surface != 0) off_m += corner->glance->range_m - mine.range_m;
       ++count;
     }
     const float share = 1.0f / static_cast<float>(count);
-    if (count == 0 || std::abs(share * off_m) > kSameRange * mine.range_m ||
-        (most - least).maxCoeff() > kSameLight) {
-      return false;
+    if (count > 0 && !(std::abs(share * off_m) > kSameRange * mine.range_m) &&
+        !((most - least).maxCoeff() > kSameLight)) {
+      light_at(column, row, frame) = share * sum.head<3>();
+      return;
     }
-    light = share * sum;
-    return true;
+    Neighbours beside;
+    for (std::size_t k = 0; k < N; ++k) beside.samples[k] = around[k]->sample;
+    between_.emplace_back(frame.index(area_.left + column, area_.upper + row),
+                          send(column, row, beside));
   }
 
   void write_hits(const FrameParts& parts, Frame& frame) const {
