@@ -13,7 +13,7 @@ MEMORY_BUDGETS_MB = {200: 300.0, 20_000: 800.0, 200_000: 1500.0}
 REAL_TIME_BUDGET = 30.0
 LARGE_FIELD_SHARE = 0.8  # of the real-time factor with 200 plants; asked for at 100,000
 CAMERA_REAL_TIME_BUDGET = 1.0
-OF_EMBREE_BUDGET, OF_FLAT_BUDGET = 0.8, 0.6
+OF_SCENE_BUDGET, OF_FLAT_BUDGET = 0.8, 0.6
 LEAST_SPEED_M_S = 0.45  # of 0.5 commanded; a robot that is held would be timed at rest
 
 Figures = Dict[str, Any]
@@ -85,14 +85,16 @@ ROWS = [
     Row("a scan on top of it, median [us]", "engine.lidars.scan_us", "{:.0f}"),
     Row("a scan on top of it, 99th percentile [us]", "engine.lidars.scan_p99_us", "{:.0f}"),
     Row("lidar, a core [Mrays/s]", "lidar.mrays_per_s", "{:.2f}"),
-    Row("bare Embree, same division, a core [Mrays/s]", "lidar.embree_mrays_per_s", "{:.2f}"),
+    Row("bare Embree, the same scene, a core [Mrays/s]", "lidar.committed_mrays_per_s", "{:.2f}"),
+    Row("bare Embree, its own triangles, a core [Mrays/s]", "lidar.embree_mrays_per_s", "{:.2f}"),
     Row("bare Embree, one flat BVH, a core [Mrays/s]", "lidar.flat_mrays_per_s", "{:.2f}"),
     Row(
-        "lidar / bare Embree, same division",
-        "lidar.of_embree",
+        "lidar / bare Embree, the same scene",
+        "lidar.of_committed",
         "{:.2f}",
-        least=fixed(OF_EMBREE_BUDGET),
+        least=fixed(OF_SCENE_BUDGET),
     ),
+    Row("lidar / bare Embree, its own triangles", "lidar.of_embree", "{:.2f}"),
     Row(
         "lidar / bare Embree, one flat BVH", "lidar.of_flat", "{:.2f}", least=fixed(OF_FLAT_BUDGET)
     ),
@@ -138,7 +140,7 @@ def medians(repetitions: List[Figures]) -> Figures:
 def derive(figures: Figures) -> Figures:
     """Add what the table shows in other units."""
     lidar, node = figures.get("lidar", {}), figures.get("node", {})
-    for name in ("rays_per_s", "embree_rays_per_s", "flat_rays_per_s"):
+    for name in ("rays_per_s", "committed_rays_per_s", "embree_rays_per_s", "flat_rays_per_s"):
         if name in lidar:
             lidar["m" + name if name == "rays_per_s" else name.replace("rays", "mrays")] = (
                 lidar[name] / 1e6

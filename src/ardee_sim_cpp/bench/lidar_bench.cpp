@@ -9,6 +9,7 @@
 #include "bench/bench_arguments.h"
 #include "bench/embree_reference.h"
 #include "bench/lane_keeper.h"
+#include "bench/raycast_reference.h"
 #include "bench/stopwatch.h"
 
 namespace ardee::bench {
@@ -164,6 +165,23 @@ double run_reference(const BenchArguments& arguments, const EmbreeReference& ref
   return best_rays_per_s(scans, static_cast<int>(arguments.number("--rounds")), round);
 }
 
+/// Bare packets on the region that the engine itself commits about the middle of the way. What lies
+/// beyond it is left out, which the engine goes on to.
+double run_committed(const BenchArguments& arguments, const std::vector<Placement>& placements,
+                     const Scans& scans) {
+  RayOptions options;
+  options.flattened_radius_m = arguments.number("--radius-m");
+  Eigen::Vector3d middle_W(0, 0, 0);
+  middle_W.head<2>() = scans.middle();
+  const BareRegion region(placements, middle_W, options);
+  const auto round = [&] {
+    const CpuStopwatch watch;
+    for (const Pose& pose : scans.poses_W) region.cast(pose, scans.pattern, scans.range_max_m);
+    return watch.elapsed_s();
+  };
+  return best_rays_per_s(scans, static_cast<int>(arguments.number("--rounds")), round);
+}
+
 /// Share of rays on which both agree to the millimetre.
 double agreement(const std::vector<float>& a, const std::vector<float>& b) {
   std::size_t same = 0;
@@ -187,6 +205,7 @@ void run(const BenchArguments& arguments, std::ostream& out) {
   const double divided_rays_per_s = run_reference(arguments, divided, scans, divided_m);
   const auto flat = EmbreeReference::flat(placements, scans.middle(), reach_m);
   const double flat_rays_per_s = run_reference(arguments, flat, scans, flat_m);
+  const double committed_rays_per_s = run_committed(arguments, placements, scans);
   const auto hits = static_cast<double>(std::count_if(
       flat_m.begin(), flat_m.end(), [](float range) { return std::isfinite(range); }));
   out << "{\"placements\": " << placements.size() << ", \"scans\": " << scans.poses_W.size()
@@ -201,6 +220,8 @@ void run(const BenchArguments& arguments, std::ostream& out) {
       << ",\n \"flat_rays_per_s\": " << flat_rays_per_s
       << ", \"flat_triangles\": " << flat.triangle_count()
       << ", \"flat_agreement\": " << agreement(engine.ranges_m, flat_m)
+      << ",\n \"committed_rays_per_s\": " << committed_rays_per_s
+      << ", \"of_committed\": " << engine.rays_per_s / committed_rays_per_s
       << ",\n \"of_embree\": " << engine.rays_per_s / divided_rays_per_s
       << ", \"of_flat\": " << engine.rays_per_s / flat_rays_per_s << "}\n";
 }
