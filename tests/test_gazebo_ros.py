@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+"""Launch files written for gazebo_ros: its empty_world.launch, spawn_model and gzserver, on this simulator."""
+from pathlib import Path
+from typing import Any
+
+import probes
+import pytest
+from ros_graph import RosGraph, wait_until
+
+ROBOT = """<robot name="block"><link name="base_link">
+  <inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>
+  <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
+  <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
+</link></robot>"""
+# as robots' packages have it
+LAUNCH = """<launch>
+  <include file="$(find gazebo_ros)/launch/empty_world.launch">
+    <arg name="world_name" value="worlds/empty.world"/>
+    <arg name="gui" value="false"/>
+    <arg name="use_sim_time" value="true"/>
+    <arg name="extra_gazebo_args" value="--verbose"/>
+  </include>
+  <param name="robot_description" textfile="{robot}"/>
+  <node name="urdf_spawner" pkg="gazebo_ros" type="spawn_model" respawn="false" output="screen"
+        args="-urdf -model block -param robot_description -x 1 -z 0.1"/>
+</launch>"""
+STATE = ("/gazebo/get_model_state", "gazebo_msgs/GetModelState")
+STANDS_IN = Path(__file__).parents[1] / "src/gazebo_ros"
+
+pytestmark = pytest.mark.skipif(not STANDS_IN.exists(), reason="this machine has a gazebo_ros")
+
+
+def test_a_robots_own_launch_file(graph: RosGraph) -> None:
+    robot = graph.folder / "block.urdf"
+    robot.write_text(ROBOT)
+    launch = graph.folder / "block.launch"
+    launch.write_text(LAUNCH.format(robot=robot))
+    graph.spawn("roslaunch", "--wait", str(launch))
+
+    def state() -> Any:
+        found = graph.call(probes.call_service, *STATE, {"model_name": "block"})
+        return found if found.success else None
+
+    found = wait_until(state, "the robot to be there", 30.0)
+    assert found.pose.position.x == pytest.approx(1.0, abs=1e-3)
+
+
+def test_gzserver_takes_a_world_and_leaves_out_what_it_does_not_know(graph: RosGraph) -> None:
+    server = graph.spawn(
+        "rosrun", "gazebo_ros", "gzserver", "worlds/empty.world", "-u", "-e", "ode", "--minimal_comms"
+    )
+    graph.call(probes.call_service, *STATE, {"model_name": "none"})
+    assert "'--minimal_comms' has no meaning here and is left out" in server.output()
+    assert graph.call(probes.clock_stands_still)
+
+
+def test_gzserver_refuses_an_engine_that_there_is_not(graph: RosGraph) -> None:
+    server = graph.spawn("rosrun", "gazebo_ros", "gzserver", "-e", "bullet")
+    assert server.wait(20.0) != 0
+    assert "found 'bullet', expected one of ode" in server.output()
