@@ -31,11 +31,16 @@ ResourceLocator make_locator() {
 }
 
 /// A world file by its path, or by its name below Gazebo's resource paths.
+/// A name without a scheme is one below Gazebo's paths, like file://.
+std::string world_uri(const std::string& world) {
+  return world.find("://") == std::string::npos ? "file://" + world : world;
+}
+
 World load_world(Loader& loader, const std::string& world) {
   const std::filesystem::path path(world);
   if (std::filesystem::exists(path)) return loader.load_world(world);
   if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
-  return loader.load_world(make_locator().resolve(world, Source{"", 0, "world"}));
+  return loader.load_world(make_locator().resolve(world_uri(world), Source{"", 0, "world"}));
 }
 
 /// tf_prefix of a namespace or of one around it, as tf::resolve finds it.

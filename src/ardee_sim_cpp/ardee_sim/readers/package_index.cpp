@@ -24,19 +24,19 @@ std::string package_name(const tinyxml2::XMLElement* root, const std::string& fo
   return fs::path(folder).filename().string();
 }
 
-/// The model folders that a manifest exports, with its own folder for "${prefix}".
-std::vector<std::string> model_paths(const tinyxml2::XMLElement* root, const std::string& folder) {
+/// Appends the folders that a manifest exports to Gazebo, with its own folder for "${prefix}".
+void add_exports(const tinyxml2::XMLElement* root, const std::string& folder, const char* attribute,
+                 std::vector<std::string>& all) {
   const auto* exports = root ? root->FirstChildElement("export") : nullptr;
   const auto* gazebo = exports ? exports->FirstChildElement("gazebo_ros") : nullptr;
-  const char* list = gazebo ? gazebo->Attribute("gazebo_model_path") : nullptr;
-  if (!list) return {};
+  const char* list = gazebo ? gazebo->Attribute(attribute) : nullptr;
+  if (!list) return;
   const std::string prefix = "${prefix}";
-  std::vector<std::string> paths = split_path_list(list);
-  for (std::string& path : paths) {
+  for (std::string& path : split_path_list(list)) {
     const std::size_t at = path.find(prefix);
     if (at != std::string::npos) path.replace(at, prefix.size(), folder);
+    all.push_back(std::move(path));
   }
-  return paths;
 }
 
 }  // namespace
@@ -58,9 +58,8 @@ void PackageIndex::walk(const std::string& folder, int depth) {
     document.LoadFile(manifest.c_str());
     const tinyxml2::XMLElement* root = document.RootElement();
     if (!folders_.emplace(package_name(root, folder), folder).second) return;  // the first wins
-    for (std::string& path : model_paths(root, folder)) {
-      exported_model_paths_.push_back(std::move(path));
-    }
+    add_exports(root, folder, "gazebo_model_path", exported_model_paths_);
+    add_exports(root, folder, "gazebo_media_path", exported_media_paths_);
     return;
   }
   if (depth >= kMaxDepth || fs::exists(fs::path(folder) / "CATKIN_IGNORE", error)) return;
@@ -85,6 +84,11 @@ void PackageIndex::walk_once() {
 const std::vector<std::string>& PackageIndex::exported_model_paths() {
   walk_once();
   return exported_model_paths_;
+}
+
+const std::vector<std::string>& PackageIndex::exported_media_paths() {
+  walk_once();
+  return exported_media_paths_;
 }
 
 std::optional<std::string> PackageIndex::find(const std::string& package) {

@@ -15,8 +15,10 @@ class PackageIndex {
   explicit PackageIndex(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   std::optional<std::string> find(const std::string& package);
-  /// What packages add to Gazebo's model path by <export><gazebo_ros gazebo_model_path="..."/>.
+  /// What packages add to Gazebo's paths by <export><gazebo_ros gazebo_model_path="..."
+  /// gazebo_media_path="..."/>.
   const std::vector<std::string>& exported_model_paths();
+  const std::vector<std::string>& exported_media_paths();
 
  private:
   void walk_once();
@@ -26,6 +28,7 @@ class PackageIndex {
   bool walked_ = false;
   std::map<std::string, std::string> folders_;
   std::vector<std::string> exported_model_paths_;
+  std::vector<std::string> exported_media_paths_;
 };
 
 /// The parts of a colon-separated list, empty ones left out.

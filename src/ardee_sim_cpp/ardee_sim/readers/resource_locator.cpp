@@ -26,6 +26,14 @@ bool is_there(const fs::path& place) {
   return fs::exists(place, error);
 }
 
+/// What packages export is asked for only where nothing else is found: their folders are walked
+/// then.
+void add_exports(const ResourceLocator::PathExports& exports, const std::string& rest,
+                 std::vector<fs::path>& places) {
+  if (!exports || std::any_of(places.begin(), places.end(), is_there)) return;
+  for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
+}
+
 /// The first of `places` that exists, or an Error that lists them.
 std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
                            const Source& source) {
@@ -75,7 +83,8 @@ ResourceLocator ResourceLocator::from_environment() {
   locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
   auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
   locator.find_package_ = [index](const std::string& package) { return index->find(package); };
-  locator.exports_ = [index] { return index->exported_model_paths(); };
+  locator.model_exports_ = [index] { return index->exported_model_paths(); };
+  locator.media_exports_ = [index] { return index->exported_media_paths(); };
   return locator;
 }
 
@@ -88,9 +97,7 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
   std::vector<fs::path> places;
   if (scheme == "model") {
     for (const std::string& folder : model_paths_) places.push_back(fs::path(folder) / rest);
-    if (exports_ && std::none_of(places.begin(), places.end(), is_there)) {
-      for (const std::string& folder : exports_()) places.push_back(fs::path(folder) / rest);
-    }
+    add_exports(model_exports_, rest, places);
   } else if (fs::path(rest).is_absolute() && (scheme.empty() || scheme == "file")) {
     places.push_back(rest);
   } else if (scheme == "file") {
@@ -103,6 +110,7 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
       }
     }
     places.push_back(fs::path(folder_of(source.file)) / rest);
+    add_exports(media_exports_, rest, places);
   } else if (scheme.empty()) {
     places.push_back(fs::path(folder_of(source.file)) / rest);
   } else {

@@ -16,7 +16,7 @@ class ResourceLocator {
  public:
   using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
 
-  using ModelPathExports = std::function<std::vector<std::string>()>;
+  using PathExports = std::function<std::vector<std::string>()>;
 
   /// GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ROS_PACKAGE_PATH of the environment.
   static ResourceLocator from_environment();
@@ -26,7 +26,9 @@ class ResourceLocator {
   void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
 
   /// Further model folders; asked for only when a model is in none of the others.
-  void set_model_path_exports(ModelPathExports exports) { exports_ = std::move(exports); }
+  void set_model_path_exports(PathExports exports) { model_exports_ = std::move(exports); }
+  /// Further folders for file://; likewise.
+  void set_media_path_exports(PathExports exports) { media_exports_ = std::move(exports); }
 
   /// The existing file or folder that `uri` names. Throws Error at `source` with the places
   /// searched.
@@ -42,7 +44,8 @@ class ResourceLocator {
   std::vector<std::string> model_paths_;
   std::vector<std::string> resource_paths_;
   PackageFinder find_package_;
-  ModelPathExports exports_;
+  PathExports model_exports_;
+  PathExports media_exports_;
 };
 
 }  // namespace ardee

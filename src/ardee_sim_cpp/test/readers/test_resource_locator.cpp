@@ -100,6 +100,17 @@ TEST_F(Locator, FindsModelsThatPackagesExportToGazebo) {
   EXPECT_EQ(locator_.resolve_model("model://barn", {}), own) << "GAZEBO_MODEL_PATH comes first";
 }
 
+TEST_F(Locator, FindsWorldsBelowTheMediaPathsThatPackagesExport) {
+  folder_.write("src/farm/package.xml",
+                "<package><name>farm</name><export><gazebo_ros "
+                "gazebo_media_path='${prefix}'/></export></package>");
+  const std::string world = folder_.write("src/farm/worlds/barn.world", "");
+  auto index = std::make_shared<PackageIndex>(std::vector<std::string>{folder_.path() + "/src"});
+  EXPECT_HAS(error_of("file://worlds/barn.world"), "expected an existing file");
+  locator_.set_media_path_exports([index] { return index->exported_media_paths(); });
+  EXPECT_EQ(locator_.resolve("file://worlds/barn.world", {}), world);
+}
+
 TEST(PathList, LeavesOutEmptyParts) {
   EXPECT_EQ(split_path_list("/a::/b:"), (std::vector<std::string>{"/a", "/b"}));
 }
