@@ -35,7 +35,7 @@ def test_a_robots_own_launch_file(graph: RosGraph) -> None:
     robot.write_text(ROBOT)
     launch = graph.folder / "block.launch"
     launch.write_text(LAUNCH.format(robot=robot))
-    graph.spawn("roslaunch", "--wait", str(launch))
+    graph.spawn("roslaunch", str(launch))
 
     def state() -> Any:
         found = graph.call(probes.call_service, *STATE, {"model_name": "block"})

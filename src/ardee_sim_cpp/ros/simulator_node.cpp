@@ -30,12 +30,12 @@ ResourceLocator make_locator() {
   return locator;
 }
 
-/// A world file by its path, or by its name below Gazebo's resource paths.
 /// A name without a scheme is one below Gazebo's paths, like file://.
 std::string world_uri(const std::string& world) {
   return world.find("://") == std::string::npos ? "file://" + world : world;
 }
 
+/// A world file by its path, or by its name below Gazebo's resource paths.
 World load_world(Loader& loader, const std::string& world) {
   const std::filesystem::path path(world);
   if (std::filesystem::exists(path)) return loader.load_world(world);
