@@ -47,7 +47,14 @@ def test_a_robots_own_launch_file(graph: RosGraph) -> None:
 
 def test_gzserver_takes_a_world_and_leaves_out_what_it_does_not_know(graph: RosGraph) -> None:
     server = graph.spawn(
-        "rosrun", "gazebo_ros", "gzserver", "worlds/empty.world", "-u", "-e", "ode", "--minimal_comms"
+        "rosrun",
+        "gazebo_ros",
+        "gzserver",
+        "worlds/empty.world",
+        "-u",
+        "-e",
+        "ode",
+        "--minimal_comms",
     )
     graph.call(probes.call_service, *STATE, {"model_name": "none"})
     assert "'--minimal_comms' has no meaning here and is left out" in server.output()

@@ -137,7 +137,11 @@ def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
     calls = [
         call(device, f"{device}.{name}", arguments)
         for device in LIDARS
-        for name, arguments in (("a", ""), ("b", 'plain="true"'), ("c", 'sub_rays="5" sub_rays_at="everywhere"'))
+        for name, arguments in (
+            ("a", ""),
+            ("b", 'plain="true"'),
+            ("c", 'sub_rays="5" sub_rays_at="everywhere"'),
+        )
     ]
     return robot(tmp_path_factory.mktemp("lidars"), "\n".join(calls))
 
