@@ -56,7 +56,9 @@ def bench():
     made.close()
 
 
-@pytest.mark.parametrize("secs, nsecs", [(2**31, 0), (2**32 - 1, 0), (1, 10**9), (1, 2**32 - 1)])
+@pytest.mark.parametrize(
+    "secs, nsecs", [(2**31, 0), (2**32 - 1, 0), (1, 10**9), (1, 2**32 - 1)]
+)
 def test_a_time_that_the_wire_cannot_carry(bench, secs, nsecs):
     message = Imu()
     message.header.stamp.secs, message.header.stamp.nsecs = secs, nsecs
