@@ -9,7 +9,7 @@ import socket
 import subprocess
 import time
 from multiprocessing import get_context
-from typing import Any, Callable, Dict, List, NamedTuple, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Set, Tuple
 
 import probes
 from ros_graph import Process, RosGraph, wait_until
@@ -244,6 +244,20 @@ def finish(client: subprocess.Popen, timeout_s: float = 60.0) -> Dict[str, Tuple
     if any(name.startswith("ack") for name in found):
         found["ack"] = (1, "")
     return found
+
+
+def finish_once_heard(
+    start: Callable[[str], subprocess.Popen], wanted: Set[str]
+) -> Dict[str, Tuple[int, str]]:
+    """What a client reports, started with a time to run [s], and with a longer one until it got all that is wanted.
+
+    How long a server takes to start its processes for frames depends on what else the machine does.
+    """
+    for seconds in (5, 20, 80):
+        found = finish(start(str(seconds)), seconds + 60.0)
+        if wanted <= set(found):
+            return found
+    raise AssertionError(f"missing {sorted(wanted - set(found))} of {found}")
 
 
 def feed_until_killed(pipe: Any) -> None:

@@ -5,10 +5,12 @@ from typing import Iterator
 
 import probes
 import pytest
-from bridge_bench import SENSORS, Bench, feed_until_killed, finish, interrupt, start_in
+from bridge_bench import SENSORS, Bench, feed_until_killed, finish_once_heard, interrupt, start_in
 from ros_graph import RosGraph, wait_until
 
 from ardee_bridge import codec
+
+FRAMES = {"image 2", "image 3", "point_cloud 0"}
 
 
 @pytest.fixture(scope="module")
@@ -31,8 +33,7 @@ def fed(bench: Bench) -> Iterator[Bench]:
 
 
 def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
-    found = finish(fed.c_client("-t", "12"))
-    assert SENSORS <= set(found)
+    found = finish_once_heard(lambda seconds: fed.c_client("-t", seconds), SENSORS)
     assert found["lidar 0"][1].startswith("beams 1081 nearest")
     assert found["imu 0"][1] == "accel_z 9.810 m/s2 gyro_z 0.0000 rad/s"
     assert found["battery 0"][1] == "voltage 12.340 V"
@@ -44,8 +45,7 @@ def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
 
 
 def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
-    found = finish(fed.python_client("--seconds", "12"))
-    assert SENSORS <= set(found)
+    found = finish_once_heard(lambda seconds: fed.python_client("--seconds", seconds), SENSORS)
     assert "accel.z=9.81" in found["imu 0"][1]
     assert "position=-2.5" in found["encoder 1"][1]
     assert found["image 3"][1] == "DEPTH_32F_M width 640 height 480 bytes 1228800"
@@ -54,7 +54,7 @@ def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
 
 
 def test_every_process_says_what_it_sent(fed: Bench) -> None:
-    finish(fed.c_client("-t", "5"))
+    finish_once_heard(lambda seconds: fed.c_client("-t", seconds), FRAMES)
     assert fed.counters("sensor_server_node")["sent imu"] > 0
     assert fed.counters("sensor_server_node_jpeg_2")["sent camera"] > 0
     of_frames = fed.counters("sensor_server_node_frames")
@@ -62,11 +62,10 @@ def test_every_process_says_what_it_sent(fed: Bench) -> None:
 
 
 def test_processes_for_frames_that_die_are_started_again(fed: Bench) -> None:
-    finish(fed.c_client("-t", "5"))
+    finish_once_heard(lambda seconds: fed.c_client("-t", seconds), FRAMES)
     killed = fed.kill_frame_processes()
     assert len(killed) == 2
-    found = finish(fed.c_client("-t", "8"))
-    assert {"image 2", "image 3", "point_cloud 0"} <= set(found)
+    finish_once_heard(lambda seconds: fed.c_client("-t", seconds), FRAMES)
     assert not set(fed.kill_frame_processes()) & set(killed)
 
 

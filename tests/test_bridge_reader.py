@@ -22,7 +22,8 @@ class Bench:
         self.graph = graph
         self.said: List[str] = []
         self.ended: List[str] = []
-        self.reader = Reader(NAME, self.said.append, self.ended.append)
+        self.dropped: List[str] = []
+        self.reader = Reader(NAME, self.said.append, self.ended.append, self.dropped.append)
 
     def keep(self, topic: str) -> List[int]:
         """Subscribe; the list of what comes."""
@@ -104,6 +105,24 @@ def test_another_type_is_refused_once_and_the_right_one_read(make: Callable[[], 
     wait_until(lambda: len(kept) > 40, "messages of the other publisher, for two seconds")
     assert len(bench.said) == 1 and "/number of http" in bench.said[0]
     assert set(kept) == {2} and wrong.exit_code() is None
+
+
+def refuse(_: memoryview) -> None:
+    """In the place of a decoder that the bytes do not suit."""
+    raise ValueError("4 bytes, expected 5")
+
+
+def test_each_message_that_cannot_be_read_is_counted_and_the_others_are_read(
+    make: Callable[[], Bench],
+) -> None:
+    bench = make()
+    kept = bench.keep("/good")
+    bench.reader.subscribe("/bad", Kind(Int32._type, Int32._md5sum, refuse), kept.append)
+    bench.publish("/bad", 5)
+    bench.publish("/good", 7)
+    wait_until(lambda: 7 in kept and len(bench.dropped) > 1, "both are heard")
+    assert 5 not in kept and bench.said == []
+    assert "a message that cannot be read: 4 bytes, expected 5" in bench.dropped[0]
 
 
 def test_whoever_unsubscribes_is_called_no_more_and_the_master_knows(

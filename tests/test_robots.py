@@ -32,6 +32,7 @@ WHEELS = [f"{end}_{side}_wheel_link" for end in ("front", "rear") for side in ("
 RATES_S = 1.0  # simulated; rates are counted over it
 STEADY_S = 0.6  # simulated, until a motion is steady
 SPEED_M_S, TURN_RAD_S = 0.5, 1.0
+START_S = 120.0  # wall, until three launch files have brought up what they start on a busy machine
 
 
 def streams(name: str) -> Dict[str, Any]:
@@ -69,7 +70,15 @@ class Survey:
         self._buffer = tf2_ros.Buffer()
         self._tf = tf2_ros.TransformListener(self._buffer)
         self._commands = [rospy.Publisher(f"/{n}/cmd_vel", Twist, queue_size=1) for n in ROBOTS]
-        wait_until(self._complete, "every stream of every robot")
+        try:
+            wait_until(self._complete, "every stream of every robot", START_S)
+        except TimeoutError as error:
+            raise TimeoutError(f"{error}; missing {self._silent()}") from None
+
+    def _silent(self) -> List[str]:
+        """Streams that nothing came of, and topics of commands that nobody takes."""
+        silent = [f"{n}/{t}" for n, robot in self.heard.items() for t, m in robot.items() if not m]
+        return silent + [c.name for c in self._commands if not c.get_num_connections()]
 
     def _listen(self, name: str, topic: str, kind: str) -> None:
         import rospy
@@ -79,8 +88,7 @@ class Survey:
         rospy.Subscriber(f"/{name}/{topic}", kind_class, messages.append, queue_size=1000)
 
     def _complete(self) -> bool:
-        streams_heard = [messages for robot in self.heard.values() for messages in robot.values()]
-        return all(streams_heard) and all(c.get_num_connections() for c in self._commands)
+        return not self._silent()
 
     def now_s(self) -> float:
         """Simulated time of the last odometry of all robots."""
@@ -133,6 +141,15 @@ class Survey:
             if not self._buffer.can_transform(f"{name}/odom", f"{name}/{link}", zero)
         ]
 
+    def missing_once_known(self) -> Dict[str, List[str]]:
+        """Missing links by robot, when none is or none will be any more: tf comes by nodes that start last."""
+        deadline = time.monotonic() + START_S
+        while True:
+            missing = {name: self.missing_links(name) for name in ROBOTS}
+            if not any(missing.values()) or time.monotonic() > deadline:
+                return missing
+            time.sleep(0.1)
+
     def height_m(self, name: str) -> float:
         """Of base_footprint above the wheels' lowest points, by tf."""
         import rospy
@@ -163,10 +180,7 @@ def planar(odometry: Any) -> List[float]:
 def survey() -> Dict[str, Any]:
     """All robots at once: at rest, straight on, turning."""
     found = Survey()
-    missing = {name: found.missing_links(name) for name in ROBOTS}
-    if any(missing.values()):  # tf_static may come late
-        time.sleep(1.0)
-        missing = {name: found.missing_links(name) for name in ROBOTS}
+    missing = found.missing_once_known()
     found.wait(max(0.0, 1.0 - found.now_s()))
     return {
         "missing": missing,
@@ -227,7 +241,7 @@ def world(shared_graph: RosGraph) -> Process:
 @pytest.fixture(scope="module")
 def surveyed(shared_graph: RosGraph, world: Process) -> Dict[str, Any]:
     """What the probe learned."""
-    return shared_graph.call(survey)
+    return shared_graph.call(survey, timeout_s=3 * START_S)
 
 
 @pytest.fixture(scope="module")

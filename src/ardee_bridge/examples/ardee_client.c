@@ -3,14 +3,16 @@
  * drives the robot.
  *
  *   cc -std=c11 -O2 -I../include -o ardee_client ardee_client.c
- *   ./ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT] [-v SPEED] [-w
- * YAW_RATE] [-t SECONDS]
+ *   ./ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT]
+ *                  [-v SPEED] [-w YAW_RATE] [-t SECONDS]
  *
  *   -i  address of the simulation's computer, default 127.0.0.1
  *   -p  port to listen at, default 30000; 0: any free one, to be used with -a
- *   -a  ask the sensor server at this port for every sensor and for time stamps (SET_PORT); usually
- * 30001 -c  port of the controls client, default 35555 -v  speed, -1...1 of the robot's limit, and
- * -w yaw rate likewise; without either the robot is not driven -t  how long, default 5 s
+ *   -a  ask the sensor server at this port, usually 30001, for all sensors and time stamps
+ *   -c  port of the controls client, default 35555
+ *   -v  speed, -1...1 of the robot's limit; without -v and -w the robot is not driven
+ *   -w  yaw rate, -1...1 of the robot's limit
+ *   -t  how long, default 5 s
  */
 #define _POSIX_C_SOURCE 200809L
 #include <arpa/inet.h>
@@ -181,6 +183,7 @@ static void describe(const Ardee_Msg_Data_Header *h, const unsigned char *bytes,
     Ardee_Ext_PointCloudChunk cloud;
   } data;
   const size_t length = data_size(h);
+  memset(&data, 0, sizeof data); /* an answer's data is shorter than any sensor's */
   memcpy(&data, bytes, length < sizeof data ? length : sizeof data);
   switch (h->data_type) {
     case ARDEE_DATA_GPS:

@@ -9,6 +9,7 @@ import numpy as np
 from PIL import Image
 
 from ardee_bridge import codec
+from ardee_bridge.chunks import MAX_TOTAL
 from ardee_bridge.layout import INT32, NO_VALUE
 
 Vector = codec.Xyz
@@ -177,6 +178,8 @@ _ENCODINGS = {
     "16UC1": (codec.ImageEncoding.DEPTH_16U_MM, 2, "", ""),
     "32FC1": (codec.ImageEncoding.DEPTH_32F_M, 4, "", ""),
 }
+# A side of a JPEG picture: libjpeg's JPEG_MAX_DIMENSION.
+_MOST_JPEG_PIXELS = 65500
 
 
 def image(message: Any, image_format: str, quality: int) -> Frame:
@@ -193,6 +196,9 @@ def image(message: Any, image_format: str, quality: int) -> Frame:
         raise ConvertError("a big-endian depth image, expected little-endian")
     payload = message.data
     if image_format == "jpeg" and mode:
+        if not 0 < width <= _MOST_JPEG_PIXELS or height > _MOST_JPEG_PIXELS:
+            most = f"expected 1 to {_MOST_JPEG_PIXELS} pixels a side"
+            raise ConvertError(f"an image of {width}x{height} to compress, {most}")
         file = io.BytesIO()
         picture = Image.frombuffer(mode, (width, height), bytes(payload), "raw", order, step, 1)
         picture.save(file, "JPEG", quality=quality)
@@ -245,13 +251,18 @@ def point_cloud(message: Any) -> Frame:
     head = codec.PointCloudChunk(chunk=_stamped(message))
     if message.width == 0 or message.height == 0:
         return Frame(head, b"")
+    points = message.width * message.height
+    if points * codec.Point.size > MAX_TOTAL:
+        most = MAX_TOTAL // codec.Point.size
+        raise ConvertError(f"a point cloud of {points} points, expected at most {most}")
     fields = _point_fields(message).reshape(-1)
     counts = np.empty((fields.size, len(codec.Point.leaves)), "<i4")
     block, end = np.zeros((len(codec.Point.leaves), min(_BLOCK_POINTS, fields.size))), 0
-    for start in range(0, fields.size, _BLOCK_POINTS):
-        found = _point_counts(fields[start : start + _BLOCK_POINTS], block)
-        counts[end : end + found.shape[1]] = found.T
-        end += found.shape[1]
+    with np.errstate(all="ignore"):  # what is not finite is left out
+        for start in range(0, fields.size, _BLOCK_POINTS):
+            found = _point_counts(fields[start : start + _BLOCK_POINTS], block)
+            counts[end : end + found.shape[1]] = found.T
+            end += found.shape[1]
     return Frame(head, memoryview(counts).cast("B")[: end * codec.Point.size])
 
 
@@ -267,6 +278,9 @@ def _point_counts(fields: np.ndarray, block: np.ndarray) -> np.ndarray:
 
 
 def stamp_s(message: Any) -> float:
-    """Time of a message [s]."""
+    """Time of a message [s]; ConvertError where the wire's int32_t do not reach."""
     stamp = message.header.stamp
+    if stamp.secs > INT32.limits[1] or stamp.nsecs >= 1_000_000_000:
+        found = f"a time stamp of {stamp.secs} s and {stamp.nsecs} ns"
+        raise ConvertError(f"{found}, expected at most {INT32.limits[1]} s and 999999999 ns")
     return stamp.secs + stamp.nsecs * 1e-9

@@ -45,6 +45,10 @@ class Counters:
             self._said[kind] = self._dropped[kind]
         self._warn(f"dropped {fresh}: {kind}{', ' + detail if detail else ''}")
 
+    def drop_unreadable(self, detail: str) -> None:
+        """A ROS message whose bytes are none of its type."""
+        self.drop("sensor messages that cannot be read", detail)
+
     def raise_to(self, kind: str, total: int) -> None:
         """So many were dropped in all, by somebody else's count."""
         with self._lock:

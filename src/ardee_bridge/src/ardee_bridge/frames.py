@@ -133,7 +133,9 @@ def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) ->
     lock = PairLock(lock_file, is_shared=True, priority=job.settings.realtime_priority)
     server = SensorServer(job.settings, opened, counters, lock=lock)
     server.set_clients(())
-    reader = Reader(job.name, said.append, lambda reason: has_to_end.set())
+    reader = Reader(
+        job.name, said.append, lambda reason: has_to_end.set(), counters.drop_unreadable
+    )
     subscriptions = Subscriptions(job.settings.sources, server, reader)
     priority.keep_what_there_is()
     if goes_first and priority.go_first(goes_first):

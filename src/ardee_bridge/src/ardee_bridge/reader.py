@@ -69,15 +69,14 @@ class _Link:
                 self.has_ended.wait()
             except tcpros.Refused as why:
                 if str(why) != said:
-                    self.complain(str(why))
+                    self._reader.warn(f"{self}: {why}")
                 said = str(why)
             except tcpros.AWAY:
                 pass  # until it comes back, or the master says that it is gone
             self._is_dropped.wait(RETRY_S)
 
-    def complain(self, what: str) -> None:
-        """About the publisher."""
-        self._reader.warn(f"{self.topic.name} of {self.uri}: {what}")
+    def __str__(self) -> str:
+        return f"{self.topic.name} of {self.uri}"
 
     def _connect(self) -> None:
         kind = self.topic.kind
@@ -111,10 +110,19 @@ class Subscription:
 
 
 class Reader:
-    """A node of this name that reads topics. Callbacks are called in one thread, and should be quick."""
+    """A node of this name that reads topics. Callbacks are called in one thread, and should be quick.
 
-    def __init__(self, name: str, warn: Warn, on_shutdown: Callable[[str], None]) -> None:
-        self.name, self.warn = name, warn
+    `drop` gets a line for each message that cannot be read, which ends its connection; by default `warn` does.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        warn: Warn,
+        on_shutdown: Callable[[str], None],
+        drop: Optional[Warn] = None,
+    ) -> None:
+        self.name, self.warn, self._drop = name, warn, drop or warn
         # a signal that closes it may come in the midst of subscribe()
         self._lock = threading.RLock()
         self._topics: Dict[Tuple[str, str], _Topic] = {}
@@ -182,7 +190,7 @@ class Reader:
                 except OSError:
                     self._forget(number)
                 except tcpros.Refused as why:
-                    link.complain(str(why))
+                    self._drop(f"{link}: {why}")
                     self._forget(number)
 
     def _forget(self, number: int) -> None:

@@ -83,25 +83,26 @@ class SensorServer:
     def publish(self, source: Source, message: Any, velocity: Any = None) -> None:
         """Send a ROS message to all that want it."""
         targets = self._targets_of(source)
-        if not targets or not self._limits[source.name].admits(convert.stamp_s(message)):
+        if not targets:
             return
         try:
-            if source.is_frame:
-                self._publish_frame(source, message, targets)
-                return
-            is_gps = source.kind == "gps"
-            reading = (
-                convert.gps(message, velocity) if is_gps else convert.SINGLES[source.kind](message)
-            )
-        except (convert.ConvertError, ValueError) as error:
-            self._counters.drop(
-                "sensor messages that the wire cannot carry", f"{source.topic}: {error}"
-            )
-            return
-        pair = codec.encode(source.data_type, source.component_id, reading.data, reading.count)
-        self._send_all(source, message, targets, [_pieces(pair)])
+            if self._limits[source.name].admits(convert.stamp_s(message)):
+                self._send_all(source, message, targets, self._messages(source, message, velocity))
+        except ValueError as error:
+            what = "sensor messages that the wire cannot carry"
+            self._counters.drop(what, f"{source.topic}: {error}")
 
-    def _publish_frame(self, source: Source, message: Any, targets: List[Target]) -> None:
+    def _messages(self, source: Source, message: Any, velocity: Any) -> Iterable[codec.Pieces]:
+        if source.is_frame:
+            return self._frame_messages(source, message)
+        is_gps = source.kind == "gps"
+        reading = (
+            convert.gps(message, velocity) if is_gps else convert.SINGLES[source.kind](message)
+        )
+        pair = codec.encode(source.data_type, source.component_id, reading.data, reading.count)
+        return [_pieces(pair)]
+
+    def _frame_messages(self, source: Source, message: Any) -> Iterable[codec.Pieces]:
         if source.kind == "image":
             frame = convert.image(message, source.image_format, source.jpeg_quality)
         else:
@@ -109,10 +110,9 @@ class SensorServer:
         sequence = self._sequences.get(source.name, 0)
         self._sequences[source.name] = (sequence + 1) & 0x7FFFFFFF
         frame.head.chunk.sequence = sequence
-        messages = chunks.split(
+        return chunks.split(
             source.data_type, source.component_id, frame.head, frame.payload, source.chunk_bytes
         )
-        self._send_all(source, message, targets, messages)
 
     def _targets_of(self, source: Source) -> List[Target]:
         return [

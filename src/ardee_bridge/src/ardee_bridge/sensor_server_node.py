@@ -41,7 +41,8 @@ def _make() -> Callable[[float], None]:
     lock = PairLock.make()
     server = SensorServer(settings, opened, counters, lambda: on_targets(), lock=lock)
     small = [source for source in settings.sources if not source.is_frame]
-    reader = Reader(f"{rospy.get_name()}_small", rospy.logwarn, rospy.signal_shutdown)
+    own_name = f"{rospy.get_name()}_small"
+    reader = Reader(own_name, rospy.logwarn, rospy.signal_shutdown, counters.drop_unreadable)
     rospy.on_shutdown(reader.close)
     subscriptions = Subscriptions(small, server, reader)
     processes = [FrameProcess(job, opened, lock, rospy.logwarn) for job in _jobs(settings)]

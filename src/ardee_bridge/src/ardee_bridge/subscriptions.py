@@ -8,6 +8,7 @@ from geometry_msgs.msg import Vector3Stamped
 from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2
 
 from ardee_bridge import frame_messages
+from ardee_bridge.fix_velocity import FixWithVelocity
 from ardee_bridge.reader import Kind, Reader, Subscription
 from ardee_bridge.sensor_server import SensorServer
 from ardee_bridge.settings import Source
@@ -62,20 +63,16 @@ class Subscriptions:
                         subscriber.unregister()
 
     def _follow(self, source: Source) -> List[Subscription]:
-        latest: Dict[str, Any] = {}
-        subscribers = []
-        if source.velocity_topic:
+        def publish(message: Any, velocity: Any = None) -> None:
+            self._server.publish(source, message, velocity)
 
-            def keep(message: Vector3Stamped) -> None:
-                latest["velocity"] = message.vector
-
-            subscribers.append(self._subscribe(source.velocity_topic, Vector3Stamped, keep))
-
-        def publish(message: Any) -> None:
-            self._server.publish(source, message, latest.get("velocity"))
-
-        subscribers.append(self._subscribe(source.topic, TYPES[source.kind], publish))
-        return subscribers
+        if not source.velocity_topic:
+            return [self._subscribe(source.topic, TYPES[source.kind], publish)]
+        both = FixWithVelocity(publish)
+        return [
+            self._subscribe(source.velocity_topic, Vector3Stamped, both.on_velocity),
+            self._subscribe(source.topic, TYPES[source.kind], both.on_fix),
+        ]
 
     def _subscribe(self, topic: str, message: Any, callback: Callable[[Any], None]) -> Subscription:
         return self._reader.subscribe(topic, _kind(message), callback)
