@@ -38,10 +38,11 @@ def perceived_distances(record: Record, path: Path) -> None:
     axes.axhline(0.0, color="grey", linewidth=0.5)
     axes.set_ylim(-1.0, 1.0)
     axes.set_xlim(min(along[0], 0.0), max(along[-1], record.length_m))
-    axes.set_xlabel("the lidar's place along the row [m]")
-    axes.set_ylabel("lateral distance from the lidar [m], left positive")
-    axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}")
-    axes.legend(loc="upper right", ncol=4, markerscale=4.0, fontsize="small")
+    axes.set_xlabel("along the row [m]")
+    axes.set_ylabel("lateral distance from the lidar [m]")
+    axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
+    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
+    axes.legend(ncol=4, markerscale=4.0, fontsize="small", **above)
     _save(figure, path)
 
 
@@ -58,7 +59,7 @@ def errors(record: Record, path: Path) -> None:
     for axes in (top, bottom):
         axes.axhline(0.0, color="grey", linewidth=0.5)
         _step_ins(axes, record)
-    top.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}")
+    top.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
     _save(figure, path)
 
 

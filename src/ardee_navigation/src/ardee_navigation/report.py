@@ -72,6 +72,15 @@ def table(records: Sequence[Record]) -> str:
     return text + _line(["all", "", ends, *(cell(summary) for _, cell in _TABLE)])
 
 
+def in_short(record: Record) -> str:
+    """A run in a line, for a log."""
+    summary = summarize([record])
+    return (
+        f"seed {record.seed}, {record.end}, {summary.way_m:.1f} m, lateral RMS {100 * summary.lateral_rms_m:.1f} cm,"
+        f" {summary.interventions} interventions, real-time factor {summary.real_time_factor:.1f}"
+    )
+
+
 def _summary_csv(records: Sequence[Record], path: Path) -> None:
     names = list(Summary.__annotations__)
     with path.open("w") as file:
