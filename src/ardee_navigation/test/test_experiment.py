@@ -11,7 +11,7 @@ from sensor_msgs.msg import LaserScan
 from ardee_models.terrain_files import LevelGround
 from ardee_navigation.metrics import summarize
 from ardee_navigation.record import COLUMNS, Record
-from ardee_navigation.report import in_short, write_report
+from ardee_navigation.report import in_short, write_report, write_run
 from ardee_navigation.scenarios import Trial
 from ardee_navigation.trial import LARGEST_OFFSET_M, Judge, Seen
 from ardee_navigation.truth import Field, Pose, Stalks
@@ -125,6 +125,8 @@ def test_report_has_all_files_and_the_same_bytes(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         records = [run(lambda along: (0.39 if 3.995 < along < 4.007 else 0.01, 0.0))[0]]
         records.append(run(lambda along: (0.02, 0.0), number=1)[0])
+        for record in records:
+            write_run(record, tmp_path / name)
         write_report(records, "run_experiment ...", tmp_path / name)
     files = sorted(path.name for path in (tmp_path / "one").iterdir())
     runs = [f"run_0{i}{end}" for i in (0, 1) for end in (".csv", "_errors.png", "_lidar.png")]
