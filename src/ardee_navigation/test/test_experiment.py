@@ -6,11 +6,12 @@ from typing import Callable, List, Optional, Tuple
 
 import numpy as np
 import pytest
+from sensor_msgs.msg import LaserScan
 
 from ardee_models.terrain_files import LevelGround
 from ardee_navigation.metrics import summarize
 from ardee_navigation.record import COLUMNS, Record
-from ardee_navigation.report import write_report
+from ardee_navigation.report import in_short, write_report, write_run
 from ardee_navigation.scenarios import Trial
 from ardee_navigation.trial import LARGEST_OFFSET_M, Judge, Seen
 from ardee_navigation.truth import Field, Pose, Stalks
@@ -55,6 +56,22 @@ def test_a_perfect_drive() -> None:
     assert summary.left_error_m == pytest.approx(0.35 - (0.4 - lidar))
     assert summary.right_error_m == pytest.approx(0.43 - (0.4 + lidar))
     assert summary.real_time_factor == pytest.approx(summary.time_s / 2.0)
+
+
+def test_returns_are_kept_at_their_own_places() -> None:
+    judge, heading, lateral = Judge(trial(), "test", 0, 7, 0.2), 0.1, 0.05
+    judge.look(
+        0.0, Pose(4.0, lateral, heading), (0.5, 0.0), Seen(0.4, 0.4, (True, True), "following")
+    )
+    lidar = np.array([4.0 + 0.2 * math.cos(heading), lateral + 0.2 * math.sin(heading)])
+    post = np.array([4.18, 0.40])  # nearly abeam of the lidar; the second beam is not
+    x, y = post - lidar
+    bearing, distance = math.atan2(y, x) - heading, math.hypot(x, y)
+    scan = LaserScan(angle_min=bearing, angle_increment=0.5, ranges=[distance, 0.4, math.inf])
+    judge.keep_scan(scan)
+    ((along, across),) = judge.record.raw[0]
+    assert along == pytest.approx(4.18)
+    assert across == pytest.approx(distance * math.sin(bearing))
 
 
 def test_errors_are_weighted_by_the_way() -> None:
@@ -108,12 +125,15 @@ def test_report_has_all_files_and_the_same_bytes(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         records = [run(lambda along: (0.39 if 3.995 < along < 4.007 else 0.01, 0.0))[0]]
         records.append(run(lambda along: (0.02, 0.0), number=1)[0])
+        for record in records:
+            write_run(record, tmp_path / name)
         write_report(records, "run_experiment ...", tmp_path / name)
     files = sorted(path.name for path in (tmp_path / "one").iterdir())
     runs = [f"run_0{i}{end}" for i in (0, 1) for end in (".csv", "_errors.png", "_lidar.png")]
     assert files == ["report.md", *runs, "runs.csv"]
     for name in files:
         assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+    assert in_short(records[1]).startswith("seed 7, end of the row, 10.0 m, lateral RMS ")
     text = (tmp_path / "one" / "report.md").read_text()
     assert "- run 0, 4.0 m along: off the lane" in text and "2 of 2 at the end" in text
     assert (tmp_path / "one" / "run_00.csv").read_text().splitlines()[0] == ",".join(COLUMNS)

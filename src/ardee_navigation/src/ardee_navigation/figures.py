@@ -16,10 +16,10 @@ RAW, SEEN, TRUE, STEP_IN = "#1f3b73", "#4fa3e0", "#d1495b", "#e09f3e"
 LARGEST_POINTS = 40_000
 
 
-def _step_ins(axes: pyplot.Axes, record: Record) -> None:
+def _step_ins(axes: pyplot.Axes, record: Record, ahead_m: float = 0.0) -> None:
     for number, step_in in enumerate(record.interventions):
         label = "a person steps in" if number == 0 else None
-        axes.axvline(step_in.along_m, color=STEP_IN, linewidth=1.0, label=label)
+        axes.axvline(step_in.along_m + ahead_m, color=STEP_IN, linewidth=1.0, label=label)
 
 
 def perceived_distances(record: Record, path: Path) -> None:
@@ -34,14 +34,15 @@ def perceived_distances(record: Record, path: Path) -> None:
         label = {"left": ("perceived distance", "true distance")}.get(side, (None, None))
         axes.plot(along, sign * seen, color=SEEN, linewidth=1.4, label=label[0])
         axes.plot(along, sign * true, "--", color=TRUE, linewidth=1.0, label=label[1])
-    _step_ins(axes, record)
+    _step_ins(axes, record, record.lidar_ahead_m)
     axes.axhline(0.0, color="grey", linewidth=0.5)
     axes.set_ylim(-1.0, 1.0)
     axes.set_xlim(min(along[0], 0.0), max(along[-1], record.length_m))
-    axes.set_xlabel("the lidar's place along the row [m]")
-    axes.set_ylabel("lateral distance from the lidar [m], left positive")
-    axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}")
-    axes.legend(loc="upper right", ncol=4, markerscale=4.0, fontsize="small")
+    axes.set_xlabel("along the row [m]")
+    axes.set_ylabel("lateral distance from the lidar [m]")
+    axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
+    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
+    axes.legend(ncol=4, markerscale=4.0, fontsize="small", **above)
     _save(figure, path)
 
 
@@ -58,7 +59,7 @@ def errors(record: Record, path: Path) -> None:
     for axes in (top, bottom):
         axes.axhline(0.0, color="grey", linewidth=0.5)
         _step_ins(axes, record)
-    top.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}")
+    top.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
     _save(figure, path)
 
 

@@ -55,7 +55,9 @@ class Record:
     lidar_ahead_m: float = 0.0  # of the robot's middle
     samples: List[Sample] = field(default_factory=list)
     interventions: List[Intervention] = field(default_factory=list)
-    raw: List[np.ndarray] = field(default_factory=list)  # (n, 2): along m, lateral distance m
+    raw: List[np.ndarray] = field(
+        default_factory=list
+    )  # (n, 2): along m, lateral distance from the lidar m
     collisions: int = 0
     touched: int = 0  # different stalks
     knocked: int = 0  # stalks pushed over, had they not been rigid

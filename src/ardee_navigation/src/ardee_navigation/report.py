@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
 from pathlib import Path
-from typing import Callable, List, Sequence, Tuple
+from typing import Callable, Sequence, Tuple
 
 from ardee_navigation import figures
 from ardee_navigation.metrics import Summary, summarize
@@ -72,6 +72,15 @@ def table(records: Sequence[Record]) -> str:
     return text + _line(["all", "", ends, *(cell(summary) for _, cell in _TABLE)])
 
 
+def in_short(record: Record) -> str:
+    """A run in a line, for a log."""
+    summary = summarize([record])
+    return (
+        f"seed {record.seed}, {record.end}, {summary.way_m:.1f} m, lateral RMS {100 * summary.lateral_rms_m:.1f} cm,"
+        f" {summary.interventions} interventions, real-time factor {summary.real_time_factor:.1f}"
+    )
+
+
 def _summary_csv(records: Sequence[Record], path: Path) -> None:
     names = list(Summary.__annotations__)
     with path.open("w") as file:
@@ -91,14 +100,23 @@ def _interventions(records: Sequence[Record]) -> str:
     return "\n## Interventions\n\n" + "".join(lines) if lines else ""
 
 
-def write_report(records: List[Record], command: str, folder: Path) -> Path:
-    """All files of an experiment into a folder; the path of report.md."""
+def _stem(record: Record) -> str:
+    return f"run_{record.number:02d}"
+
+
+def write_run(record: Record, folder: Path) -> None:
+    """CSV and figures of a run into a folder."""
+    stem = _stem(record)
+    write_csv(record, folder / f"{stem}.csv")
+    figures.perceived_distances(record, folder / f"{stem}_lidar.png")
+    figures.errors(record, folder / f"{stem}_errors.png")
+
+
+def write_report(records: Sequence[Record], command: str, folder: Path) -> Path:
+    """What all runs have in common into the folder of `write_run`; the path of report.md."""
     pictures = ""
     for record in records:
-        stem = f"run_{record.number:02d}"
-        write_csv(record, folder / f"{stem}.csv")
-        figures.perceived_distances(record, folder / f"{stem}_lidar.png")
-        figures.errors(record, folder / f"{stem}_errors.png")
+        stem = _stem(record)
         pictures += f"\n![Run {record.number}: lidar and perceived distances]({stem}_lidar.png)\n"
         pictures += f"\n![Run {record.number}: errors]({stem}_errors.png)\n"
     _summary_csv(records, folder / "runs.csv")

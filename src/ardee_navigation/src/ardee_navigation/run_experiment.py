@@ -89,7 +89,7 @@ def _one_run(
 
 
 def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
-    from ardee_navigation.report import table, write_report
+    from ardee_navigation.report import in_short, table, write_report, write_run
     from ardee_navigation.simulation import Master, robot_urdf
 
     scenario = known_scenarios()[args.scenario]
@@ -104,11 +104,15 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
             folder = work / f"run_{number}"
             folder.mkdir()
             records.append(_one_run(scenario, args, number, urdf, folder))
+            write_run(records[-1], output)
+            report = write_report(records, command, output)  # what there is outlives a Ctrl-C
+            if not sys.stderr.isatty():  # no bar there
+                print(f"{number + 1} of {args.runs}: {in_short(records[-1])}", file=sys.stderr)
             shutil.rmtree(folder)
     finally:
         master.stop()
     print(table(records), end="")
-    return write_report(records, command, output)
+    return report
 
 
 def _stop_here(number: int, _frame: Any) -> NoReturn:

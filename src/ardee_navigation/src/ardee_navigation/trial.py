@@ -93,12 +93,16 @@ class Judge:
         return Pose(x, y, pose.yaw_rad)
 
     def keep_scan(self, scan: LaserScan) -> None:
-        """Returns abeam of the lidar, for the figures; call after `look`."""
+        """Returns abeam of the lidar, each at its own place along the row, for the figures; call after `look`."""
         points = to_cartesian(np.asarray(scan.ranges), scan.angle_min, scan.angle_increment)
         beside = (np.abs(points[:, 0]) < BESIDE_M) & (np.abs(points[:, 1]) < RAW_WITHIN_M)
-        lateral = points[beside, 1]
-        along = self.record.samples[-1].along_m + self.record.lidar_ahead_m
-        self.record.raw.append(np.column_stack((np.full(len(lateral), along), lateral)))
+        ahead, lateral = points[beside].T
+        here = self.record.samples[-1]
+        ahead = (
+            ahead + self.record.lidar_ahead_m
+        )  # of the robot; along the lane, which bends little there:
+        along = ahead * math.cos(here.heading_rad) - lateral * math.sin(here.heading_rad)
+        self.record.raw.append(np.column_stack((here.along_m + along, lateral)))
 
     def _why_step_in(
         self,
