@@ -63,7 +63,7 @@ std::string usage() {
          "  --verbose     log at debug level\n"
          "  -h, --help    this text\n"
          "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
-         "            ~publish_world_tf ~scenery_radius ~verbose\n";
+         "            ~publish_world_tf ~scenery_radius ~realtime_priority ~verbose\n";
 }
 
 CommandLine parse_command_line(int argc, char** argv) {
@@ -115,6 +115,9 @@ Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& n
   settings.clock_rate_hz = number(node, "pub_clock_frequency", settings.clock_rate_hz, 0.0, 1e9);
   settings.publish_world_tf = parameter(node, "publish_world_tf", true, "true or false");
   settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
+  constexpr double kHighestPriority = 99.0;
+  settings.realtime_priority =
+      static_cast<int>(number(node, "realtime_priority", 0.0, 0.0, kHighestPriority));
   return settings;
 }
 

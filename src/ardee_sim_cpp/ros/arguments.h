@@ -34,6 +34,7 @@ struct Settings {
   double clock_rate_hz = 100.0;            // of /clock, in simulated time; 0: each step
   bool publish_world_tf = true;
   double scenery_radius_m = 6.0;
+  int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none
 };
 
 /// The command line over the node's private parameters. Throws Error for a parameter of the wrong

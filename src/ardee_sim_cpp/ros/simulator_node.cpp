@@ -6,8 +6,10 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 
@@ -64,15 +66,20 @@ void use_simulated_time() {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
 }
 
-/// Messages on their way go before what computes, where the system grants it: a thread of roscpp's
-/// that writes an image to a socket would wait for rendering threads otherwise. Of its threads
-/// alone: to be called before there are others.
-void let_messages_go_first() {
-  const sched_param priority{1};
+/// Messages on their way go before what computes: a thread of roscpp's that writes an image to a
+/// socket would wait for rendering threads otherwise. Of its threads alone: to be called before
+/// there are others. Only on demand: while another thread holds roscpp's lock, the one that sends
+/// spins, and on a machine without an idle core it would keep the other from going on.
+void let_messages_go_first(int realtime_priority) {
+  const sched_param priority{realtime_priority};
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
     const pid_t thread = std::stoi(task.path().filename());
     if (thread == getpid()) continue;
-    if (sched_setscheduler(thread, SCHED_RR | SCHED_RESET_ON_FORK, &priority) != 0) return;
+    if (sched_setscheduler(thread, SCHED_RR | SCHED_RESET_ON_FORK, &priority) != 0) {
+      ROS_WARN_STREAM("realtime_priority: not granted (" << std::strerror(errno)
+                                                         << "); going on without");
+      return;
+    }
   }
 }
 
@@ -120,7 +127,9 @@ namespace {
 
 void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
   if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
-  SimulatorNode node(read_settings(command_line, private_node), private_node);
+  const Settings settings = read_settings(command_line, private_node);
+  if (settings.realtime_priority > 0) let_messages_go_first(settings.realtime_priority);
+  SimulatorNode node(settings, private_node);
   use_simulated_time();
   node.run();
 }
@@ -143,7 +152,6 @@ int run_simulator(int argc, char** argv) {
     return 0;
   }
   const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
-  let_messages_go_first();
   try {
     run_node(command_line, private_node);
   } catch (const std::exception& error) {

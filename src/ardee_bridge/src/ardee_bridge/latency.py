@@ -262,7 +262,7 @@ def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
     """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
 
-    It stands for the simulator, whose threads that send go first where that is granted.
+    It stands for a simulator whose `realtime_priority` is set.
     """
     import rospy
 

@@ -125,7 +125,13 @@ def measure(
         wanted = "[all, time]" if image_format else "[imu, gps, lidar, encoder, battery, time]"
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
         stack.enter_context(
-            _launched(env, *WORLD, "world:=scenario_2_corn.world", "headless:=true")
+            _launched(
+                env,
+                *WORLD,
+                "world:=scenario_2_corn.world",
+                "headless:=true",
+                f"realtime_priority:={realtime_priority}",
+            )
         )
         _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
         carried = f"sensors:={rospkg.RosPack().get_path('ardee_bridge')}/{SENSORS}"
