@@ -17,6 +17,11 @@ PROBE = pathlib.Path(__file__).with_name("benchmark_probe.py")
 PACKAGE = "ardee_sim_cpp"
 START_LIMIT_S = 120.0
 DRIVE_LIMIT_S = 300.0
+BRIEF = {
+    "simulation_bench": ("--duration-s", "0.5"),
+    "lidar_bench": ("--scans", "20", "--rounds", "2"),
+    "camera_bench": ("--seconds", "0.2", "--rounds", "1"),
+}
 
 
 def program(name: str) -> str:
@@ -38,10 +43,11 @@ def make_urdf(folder: pathlib.Path) -> pathlib.Path:
     return path
 
 
-def run_engine(name: str, field: Field, urdf: pathlib.Path, *extra: str) -> Dict[str, Any]:
+def run_engine(name: str, field: Field, urdf: pathlib.Path, brief: bool) -> Dict[str, Any]:
     """What simulation_bench, lidar_bench or camera_bench prints."""
     command = [program(name), "--world", str(field.world), "--robot", str(urdf)]
-    command += ["--pose", " ".join(map(str, field.start)), "--lane-m", str(field.lane_m), *extra]
+    command += ["--pose", " ".join(map(str, field.start)), "--lane-m", str(field.lane_m)]
+    command += BRIEF[name] if brief else ()
     done = subprocess.run(
         command, env=field.env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
@@ -112,19 +118,24 @@ def run_node(field: Field, urdf: pathlib.Path, window_s: float) -> Dict[str, Any
 
 
 def measure(
-    field: Field, urdf: pathlib.Path, only: List[str], window_s: float, say: Callable[[str], None]
+    field: Field,
+    urdf: pathlib.Path,
+    only: List[str],
+    window_s: float,
+    brief: bool,
+    say: Callable[[str], None],
 ) -> Dict[str, Any]:
     """One repetition of what is wanted, on one field."""
     result = {}  # type: Dict[str, Any]
     if "physics" in only or "lidar" in only:
         say("engine")
-        result["engine"] = run_engine("simulation_bench", field, urdf)
+        result["engine"] = run_engine("simulation_bench", field, urdf, brief)
     if "lidar" in only:
         say("rays")
-        result["lidar"] = run_engine("lidar_bench", field, urdf)
+        result["lidar"] = run_engine("lidar_bench", field, urdf, brief)
     if "camera" in only:
         say("cameras")
-        result["camera"] = run_engine("camera_bench", field, urdf)
+        result["camera"] = run_engine("camera_bench", field, urdf, brief)
     if "start" in only or "rtf" in only:
         say("node")
         result["node"] = run_node(field, urdf, window_s if "rtf" in only else 0.0)

@@ -53,6 +53,7 @@ def options() -> argparse.Namespace:
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument("--window-s", type=float, default=8.0, help="wall time of a drive with ROS")
     parser.add_argument("--loss-s", type=float, default=60.0, help="of the bridge at all rates")
+    parser.add_argument("--brief", action="store_true", help="to see that all of it works")
     found = parser.parse_args()
     if not 0.5 <= found.window_s <= 100.0:
         parser.error(f"--window-s: found {found.window_s}, expected 0.5 to 100")
@@ -79,6 +80,7 @@ def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict
                     urdf,
                     found.only,
                     found.window_s,
+                    found.brief,
                     lambda what: say(f"{field.plants} plants: {what}, {number} of {found.repeat}"),
                 )
             )

@@ -71,7 +71,7 @@ class Demo:
         import rospy
 
         command = ["roslaunch", "terrasentia_description", "launch_default_tsv1.launch"]
-        say(" ".join(command) + f" x:={start.x_m:.2f} y:={start.y_m:.2f} ...")
+        say(" ".join(command) + f" x:={start.x_m:.2f} y:={round(start.y_m, 2) + 0.0:.2f} ...")
         pose = {"x": start.x_m, "y": start.y_m, "z": start.z_m, "yaw": start.yaw_rad}
         arguments = [f"{name}:={value:.4f}" for name, value in pose.items()]
         display = os.environ.get("DISPLAY", "")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A simulator that is given no good world says so once and ends."""
+"""A simulator that is given no good world, or no good parameter, says so once and ends."""
 import pathlib
 
 import pytest
@@ -47,3 +47,23 @@ def test_a_missing_file(graph: RosGraph) -> None:
     simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", "/nowhere/no.world")
     assert simulator.wait(20.0) not in (0, -6, -11, 134, 139)
     assert simulator.output().count("/nowhere/no.world") == 1
+
+
+@pytest.mark.parametrize(
+    "name, value, expected",
+    [
+        ("realtime_priority", "1.5", "found 1.500000, expected a whole number from 0 to 99"),
+        ("realtime_priority", "100", "found 100.000000, expected a whole number from 0 to 99"),
+        ("realtime_priority", "high", "expected a whole number from 0 to 99"),
+        ("threads", "1.5", "found 1.500000, expected a whole number from 0"),
+        ("seed", "-1", "found -1.000000, expected a whole number from 0"),
+    ],
+)
+def test_a_parameter_that_is_no_whole_number(
+    graph: RosGraph, name: str, value: str, expected: str
+) -> None:
+    world = str(DATA / "plane.world")
+    simulator = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", world, f"_{name}:={value}")
+    assert simulator.wait(20.0) == 2, simulator.output()
+    lines = [line for line in simulator.output().splitlines() if name in line]
+    assert len(lines) == 1 and expected in lines[0], simulator.output()

@@ -19,7 +19,7 @@ def run(*arguments: str) -> subprocess.CompletedProcess:
 
 def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "figures.json"
-    brief = ("--repeat", "1", "--window-s", "0.5", "--loss-s", "0.5")
+    brief = ("--brief", "--repeat", "1", "--window-s", "0.5", "--loss-s", "0.5")
     done = run("--plants", "200", *brief, "--json", str(path))
     assert done.returncode == 0, done.stderr
     figures = json.loads(path.read_text())["plants"]["200"]

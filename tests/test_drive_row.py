@@ -59,3 +59,16 @@ def test_turns_towards_the_middle() -> None:
     assert drive_row.turn_rate(np.array([0.1, 0.0, 0.38]), 0.5) > 0
     assert drive_row.turn_rate(np.array([0.0, -0.1, 0.38]), 0.5) < 0
     assert drive_row.turn_rate(np.array([0.0, 0.0, 0.38]), 0.5) == 0
+
+
+@pytest.mark.parametrize(
+    "middle_m, place",
+    [
+        (0.032, "3 cm right of the middle"),  # the middle lies to the left of the robot
+        (-0.05, "5 cm left of the middle"),
+        (-0.001, "0 cm left of the middle"),
+    ],
+)
+def test_it_says_on_which_side_of_the_middle_it_is(middle_m: float, place: str) -> None:
+    assert drive_row.place_in(np.array([middle_m, 0.0, 0.38])) == place
+    assert drive_row.place_in(None) == "no row in sight"

@@ -18,7 +18,11 @@ import pytest
 from ros_graph import RosGraph, wait_until
 
 BUTTON, AXIS, INIT = 0x01, 0x02, 0x80
-ENABLE = 7  # the Xbox controller's, see the launch file
+ENABLE, PS3_ENABLE, PS3_BUTTONS = (
+    7,
+    11,
+    17,
+)  # an Xbox controller's, a PS3 controller's: see the launch file
 SCALE_LINEAR = 1.0  # m/s at full deflection, see the launch file
 DRIVE_AXIS, TURN_AXIS = 1, 2
 
@@ -26,16 +30,16 @@ DRIVE_AXIS, TURN_AXIS = 1, 2
 class Joystick:
     """A named pipe in the place of /dev/input/jsN."""
 
-    def __init__(self, path: pathlib.Path) -> None:
-        self.path, self._file = path, -1
+    def __init__(self, path: pathlib.Path, buttons: int = 11) -> None:
+        self.path, self.buttons, self._file = path, buttons, -1
 
     def plug_in(self) -> None:
-        """Appear, with the initial events that the kernel sends for 6 axes and 11 buttons."""
+        """Appear, with the initial events that the kernel sends for 6 axes and all buttons."""
         os.mkfifo(self.path)
         self._file = wait_until(self._open, "joy_node opens the joystick")
         for number in range(6):
             self.event(AXIS | INIT, number, 0)
-        for number in range(11):
+        for number in range(self.buttons):
             self.event(BUTTON | INIT, number, 0)
 
     def _open(self) -> int:
@@ -150,19 +154,42 @@ def device(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
     return tmp_path_factory.mktemp("joystick") / "js0"
 
 
+def start(graph: RosGraph, device: pathlib.Path, *more: str) -> RosGraph:
+    """A robot in an empty world that waits for a joystick."""
+    graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
+    graph.call(probes.clock_at_least, 0.2)
+    arguments = ("use_rviz:=false", "use_joy:=true", f"dev_joy:={device}", *more)
+    graph.launch("terrasentia_description", "launch_default_tsv1.launch", *arguments)
+    graph.call(probes.wait_for_topics, ["/odom", "/joy", "/cmd_vel"], [])
+    return graph
+
+
 @pytest.fixture(scope="module")
 def robot(shared_graph: RosGraph, device: pathlib.Path) -> RosGraph:
-    """A robot in an empty world that waits for a joystick."""
-    shared_graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
-    shared_graph.call(probes.clock_at_least, 0.2)
-    arguments = ("use_rviz:=false", "use_joy:=true", f"dev_joy:={device}")
-    shared_graph.launch("terrasentia_description", "launch_default_tsv1.launch", *arguments)
-    shared_graph.call(probes.wait_for_topics, ["/odom", "/joy", "/cmd_vel"], [])
-    return shared_graph
+    """The robot that an Xbox controller drives."""
+    return start(shared_graph, device)
 
 
 def test_a_joystick_drives_until_let_go_or_unplugged(robot: RosGraph, device: pathlib.Path) -> None:
     robot.call(ride, str(device))
+
+
+def ride_by_ps3(path: str) -> None:
+    """The Xbox controller's button does nothing, the other one's enables."""
+    robot, joystick = Robot(), Joystick(pathlib.Path(path), PS3_BUTTONS)
+    joystick.plug_in()
+    wait_for_contact(joystick, robot)
+    push(joystick)
+    robot.hears_nothing()
+    joystick.event(BUTTON, PS3_ENABLE, 1)
+    robot.drives(SCALE_LINEAR)
+    joystick.event(BUTTON, PS3_ENABLE, 0)
+    robot.drives(0.0)
+
+
+def test_a_ps3_controller_has_a_button_of_its_own(graph: RosGraph, tmp_path: pathlib.Path) -> None:
+    device = tmp_path / "js0"
+    start(graph, device, "use_xbox:=false").call(ride_by_ps3, str(device))
 
 
 def robot_moves(speeds_m_s: List[float]) -> None:

@@ -3,6 +3,7 @@
 
 import sys
 from pathlib import Path
+from typing import Any, Iterator
 
 import pytest
 
@@ -14,3 +15,11 @@ sys.path.insert(0, str(PACKAGE / "src"))
 def package() -> Path:
     """Source folder of ardee_bridge."""
     return PACKAGE
+
+
+@pytest.fixture
+def bench(request: pytest.FixtureRequest) -> Iterator[Any]:
+    """A test file's own `Bench`, closed after the test."""
+    made = request.module.Bench()
+    yield made
+    made.close()

@@ -52,13 +52,6 @@ class Bench:
         self.peer.close()
 
 
-@pytest.fixture
-def bench():
-    made = Bench()
-    yield made
-    made.close()
-
-
 @pytest.mark.parametrize(
     "speed, yaw_rate, multiplier, expected",
     [

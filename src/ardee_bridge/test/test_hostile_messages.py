@@ -49,13 +49,6 @@ class Bench:
         self._socket.close()
 
 
-@pytest.fixture
-def bench():
-    made = Bench()
-    yield made
-    made.close()
-
-
 @pytest.mark.parametrize(
     "secs, nsecs", [(2**31, 0), (2**32 - 1, 0), (1, 10**9), (1, 2**32 - 1)]
 )

@@ -72,13 +72,6 @@ class Bench:
             opened.close()
 
 
-@pytest.fixture
-def bench():
-    made = Bench()
-    yield made
-    made.close()
-
-
 def receive(client, count=1):
     """The next messages: (header, data)."""
     pairer, found = Pairer(), []

@@ -62,6 +62,15 @@ def test_runs_are_paired_by_seed(tmp_path: Path) -> None:
     assert "other: 2 in 100.0 m: 2.00 per 100 m, 0.24 to 7.22" in text
 
 
+def test_pairs_without_any_way_are_left_out_and_said_so(tmp_path: Path) -> None:
+    astray = "0,9,given up,0,nan,nan,nan,nan,nan,100,0,0,0"
+    one = read_runs(runs_csv(tmp_path / "one", [line(1, 0.01), line(2, 0.03), line(9)]))
+    other = read_runs(runs_csv(tmp_path / "other", [line(1, 0.01), line(2, 0.03), astray]))
+    text = compare(one, other, ("one", "other"))
+    assert "seeds 1, 2; 1 pairs with a run that never came between the rows are left out" in text
+    assert "other: 0 in 100.0 m" in text and "nan" not in text
+
+
 def test_an_experiment_does_not_differ_from_itself(tmp_path: Path) -> None:
     runs = read_runs(runs_csv(tmp_path / "one", [line(1), line(2, 0.02)]))
     differences = [row[2:] for name, row in rows(compare(runs, runs, ("a", "b"))).items()][2:]
@@ -89,5 +98,5 @@ def test_too_little_to_compare(tmp_path: Path) -> None:
         read_runs(tmp_path / "nowhere")
     one = read_runs(runs_csv(tmp_path / "one", [line(1), line(2)]))
     other = read_runs(runs_csv(tmp_path / "other", [line(2), line(3)]))
-    with pytest.raises(GeneratorError, match="found 1 seeds in both experiments, expected 2"):
+    with pytest.raises(GeneratorError, match="found 1 seeds whose runs .* expected 2"):
         compare(one, other, ("one", "other"))

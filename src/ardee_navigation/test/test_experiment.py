@@ -137,3 +137,21 @@ def test_report_has_all_files_and_the_same_bytes(tmp_path: Path) -> None:
     text = (tmp_path / "one" / "report.md").read_text()
     assert "- run 0, 4.0 m along: off the lane" in text and "2 of 2 at the end" in text
     assert (tmp_path / "one" / "run_00.csv").read_text().splitlines()[0] == ",".join(COLUMNS)
+
+
+def test_runs_that_never_came_between_the_rows_are_reported(tmp_path: Path) -> None:
+    astray, _ = run(lambda along: (0.39, 0.0), scans=60)  # set back 60 times before the first plant
+    astray.end = "given up"
+    write_run(astray, tmp_path)
+    text = write_report([astray], "run_experiment ...", tmp_path).read_text()
+    assert "| 0 | 7 | given up | 0.0 | - | - | - |" in text and "nan" not in text
+    assert "No run came between the rows" in text and in_short(astray).startswith(
+        "seed 7, given up, never between the rows, 60 interventions"
+    )
+    names, values = (line.split(",") for line in (tmp_path / "runs.csv").read_text().splitlines())
+    csv = dict(zip(names, values))
+    assert (csv["way_m"], csv["lateral_rms_m"], csv["interventions"]) == ("0", "nan", "60")
+    good, _ = run(lambda along: (0.03, 0.0), number=1)
+    text = write_report([astray, good], "run_experiment ...", tmp_path).read_text()
+    assert "not measured there: run 0." in text and "| all |  | 1 of 2 at the end" in text
+    assert summarize([astray, good]).lateral_rms_m == pytest.approx(0.03)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <iostream>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -51,5 +54,24 @@ class BenchArguments {
 
   std::map<std::string, std::string> values_;
 };
+
+/// The main() of a program that drives down a lane: runs `bench` on the command line. `own` are its
+/// defaults beside, or in place of, those of all of them. The exit code; 2 for an error.
+inline int run_bench(int argc, char** argv, std::map<std::string, std::string> own,
+                     const std::string& usage,
+                     const std::function<void(const BenchArguments&)>& bench) {
+  try {
+    own.merge(std::map<std::string, std::string>{{"--world", ""},
+                                                 {"--robot", ""},
+                                                 {"--pose", "0 0 0.175 0"},
+                                                 {"--lane-m", "6"},
+                                                 {"--speed-m-s", "0.5"}});
+    bench(BenchArguments(argc, argv, own, usage));
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << std::filesystem::path(argv[0]).filename().string() << ": " << error.what() << "\n";
+    return 2;
+  }
+}
 
 }  // namespace ardee::bench

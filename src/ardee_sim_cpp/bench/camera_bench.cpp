@@ -98,11 +98,7 @@ Drive drive(const BenchArguments& arguments, Simulation& simulation, Entity& car
 /// Rays a second of processor time of bare Embree, one thread, over every picture of the drive.
 double embree_rays_per_s(const BenchArguments& arguments, const Simulation& simulation,
                          const Drive& done) {
-  std::vector<Placement> scenery;
-  for (const auto& entity : simulation.entities()) {
-    scenery.insert(scenery.end(), entity->placements.begin(), entity->placements.end());
-  }
-  const auto flat = EmbreeReference::flat(scenery, done.poses_W.front().p.head<2>(),
+  const auto flat = EmbreeReference::flat(scenery(simulation), done.poses_W.front().p.head<2>(),
                                           arguments.number("--reach-m"));
   Camera camera;
   camera.width = kWidth;
@@ -162,23 +158,13 @@ void run(const BenchArguments& arguments, std::ostream& out) {
 }  // namespace ardee::bench
 
 int main(int argc, char** argv) {
-  try {
-    const ardee::bench::BenchArguments arguments(argc, argv,
-                                                 {{"--world", ""},
-                                                  {"--robot", "none"},
-                                                  {"--pose", "0 0 0.175 0"},
-                                                  {"--lane-m", "6"},
-                                                  {"--speed-m-s", "0.5"},
-                                                  {"--height-m", "0.3"},
-                                                  {"--seconds", "1"},
-                                                  {"--rounds", "2"},
-                                                  {"--reach-m", "40"},
-                                                  {"--threads", "0"}},
-                                                 ardee::bench::kUsage);
-    ardee::bench::run(arguments, std::cout);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "camera_bench: " << error.what() << "\n";
-    return 2;
-  }
+  return ardee::bench::run_bench(
+      argc, argv,
+      {{"--robot", "none"},
+       {"--height-m", "0.3"},
+       {"--seconds", "1"},
+       {"--rounds", "2"},
+       {"--reach-m", "40"},
+       {"--threads", "0"}},
+      ardee::bench::kUsage, [](const auto& arguments) { ardee::bench::run(arguments, std::cout); });
 }

@@ -25,6 +25,14 @@ double distance_m(const Placement& placement, const Eigen::Vector2d& center) {
 
 }  // namespace
 
+std::vector<Placement> scenery(const Simulation& simulation) {
+  std::vector<Placement> all;
+  for (const auto& entity : simulation.entities()) {
+    all.insert(all.end(), entity->placements.begin(), entity->placements.end());
+  }
+  return all;
+}
+
 EmbreeReference::EmbreeReference() : device_(rtcNewDevice("threads=1")) {
   if (!device_) throw Error("Embree: no device");
   scene_ = rtcNewScene(device_);

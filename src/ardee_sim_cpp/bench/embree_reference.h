@@ -5,9 +5,13 @@
 
 #include <vector>
 
+#include "ardee_sim/simulation/simulation.h"
 #include "bench/triangle_soup.h"
 
 namespace ardee::bench {
+
+/// All that stands in a simulation without moving.
+std::vector<Placement> scenery(const Simulation& simulation);
 
 /// A scenery given to Embree as its own triangles and instances, to race the engine's rays against.
 class EmbreeReference {

@@ -90,14 +90,6 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
   return scans;
 }
 
-std::vector<Placement> scenery(const Simulation& simulation) {
-  std::vector<Placement> all;
-  for (const auto& entity : simulation.entities()) {
-    all.insert(all.end(), entity->placements.begin(), entity->placements.end());
-  }
-  return all;
-}
-
 /// Rays a second of processor time, of the best of some rounds: other work on the machine only ever
 /// slows one down.
 template <typename Round>
@@ -230,22 +222,7 @@ void run(const BenchArguments& arguments, std::ostream& out) {
 }  // namespace ardee::bench
 
 int main(int argc, char** argv) {
-  try {
-    const ardee::bench::BenchArguments arguments(argc, argv,
-                                                 {{"--world", ""},
-                                                  {"--robot", ""},
-                                                  {"--pose", "0 0 0.175 0"},
-                                                  {"--lane-m", "6"},
-                                                  {"--speed-m-s", "0.5"},
-                                                  {"--scans", "200"},
-                                                  {"--rounds", "5"},
-                                                  {"--threads", "1"},
-                                                  {"--radius-m", "6"}},
-                                                 ardee::bench::kUsage);
-    ardee::bench::run(arguments, std::cout);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "lidar_bench: " << error.what() << "\n";
-    return 2;
-  }
+  return ardee::bench::run_bench(
+      argc, argv, {{"--scans", "200"}, {"--rounds", "5"}, {"--threads", "1"}, {"--radius-m", "6"}},
+      ardee::bench::kUsage, [](const auto& arguments) { ardee::bench::run(arguments, std::cout); });
 }

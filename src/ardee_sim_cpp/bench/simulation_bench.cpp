@@ -188,22 +188,9 @@ class Bench {
 }  // namespace ardee::bench
 
 int main(int argc, char** argv) {
-  try {
-    const ardee::bench::BenchArguments arguments(argc, argv,
-                                                 {{"--world", ""},
-                                                  {"--robot", ""},
-                                                  {"--pose", "0 0 0.175 0"},
-                                                  {"--lane-m", "6"},
-                                                  {"--speed-m-s", "0.5"},
-                                                  {"--duration-s", "60"},
-                                                  {"--settle-s", "1"},
-                                                  {"--seed", "0"},
-                                                  {"--threads", "0"}},
-                                                 ardee::bench::kUsage);
-    ardee::bench::Bench(arguments).run(std::cout);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "simulation_bench: " << error.what() << "\n";
-    return 2;
-  }
+  return ardee::bench::run_bench(
+      argc, argv,
+      {{"--duration-s", "60"}, {"--settle-s", "1"}, {"--seed", "0"}, {"--threads", "0"}},
+      ardee::bench::kUsage,
+      [](const auto& arguments) { ardee::bench::Bench(arguments).run(std::cout); });
 }

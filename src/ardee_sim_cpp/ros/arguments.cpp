@@ -4,6 +4,8 @@
 #include <getopt.h>
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "ardee_sim/core/error.h"
 
@@ -43,14 +45,16 @@ double number(const ros::NodeHandle& node, const std::string& name, double fallb
   return value;
 }
 
-int whole_number(const ros::NodeHandle& node, const std::string& name, int fallback) {
-  const std::string expected = "a whole number from 0";
-  const int value = parameter(node, name, fallback, expected);
-  if (value < 0) {
+/// Read as a double: ROS rounds one without a word where it is asked for an int.
+int whole_number(const ros::NodeHandle& node, const std::string& name, int fallback,
+                 int high = std::numeric_limits<int>::max()) {
+  const std::string expected = "a whole number from 0 to " + std::to_string(high);
+  const double value = parameter<double>(node, name, fallback, expected);
+  if (!(value >= 0.0 && value <= high && value == std::floor(value))) {
     throw Error("parameter " + node.resolveName(name) + ": found " + std::to_string(value) +
                 ", expected " + expected);
   }
-  return value;
+  return static_cast<int>(value);
 }
 
 }  // namespace
@@ -115,9 +119,8 @@ Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& n
   settings.clock_rate_hz = number(node, "pub_clock_frequency", settings.clock_rate_hz, 0.0, 1e9);
   settings.publish_world_tf = parameter(node, "publish_world_tf", true, "true or false");
   settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
-  constexpr double kHighestPriority = 99.0;
-  settings.realtime_priority =
-      static_cast<int>(number(node, "realtime_priority", 0.0, 0.0, kHighestPriority));
+  constexpr int kHighestPriority = 99;  // of SCHED_RR
+  settings.realtime_priority = whole_number(node, "realtime_priority", 0, kHighestPriority);
   return settings;
 }
 

@@ -72,7 +72,7 @@ def _run(row: Dict[str, str], where: str) -> Tuple[int, Run]:
     except (KeyError, TypeError, ValueError) as error:
         raise GeneratorError(f"{where}: not a line of run_experiment's runs.csv: {error}") from None
     wrong = [name for name, value in run.items() if not math.isfinite(value)]
-    if wrong:
+    if wrong and run["way_m"] != 0.0:  # without any way most of it is not known
         raise GeneratorError(f"{where}: {wrong[0]}: found {run[wrong[0]]}, expected a number")
     return seed, run
 
@@ -116,17 +116,26 @@ def _rate(runs: List[Run]) -> str:
 
 
 def compare(one: Dict[int, Run], other: Dict[int, Run], names: Tuple[str, str]) -> str:
-    """Markdown of the runs that both have."""
-    seeds = sorted(one.keys() & other.keys())
+    """Markdown of the runs that both have and that came between the rows."""
+    both = one.keys() & other.keys()
+    seeds = sorted(seed for seed in both if one[seed]["way_m"] and other[seed]["way_m"])
     if len(seeds) < 2:
-        raise GeneratorError(f"found {len(seeds)} seeds in both experiments, expected 2 or more")
+        raise GeneratorError(
+            f"found {len(seeds)} seeds whose runs came between the rows in both experiments, expected 2 or more"
+        )
     pairs = [(one[seed], other[seed]) for seed in seeds]
     lines: List[Sequence[str]] = [("mean of the runs", *names, "difference", "95 % interval")]
     lines.append(["---"] * 5)
     lines += [_difference(pairs, measure) for measure in MEASURES]
-    left_out = len(one.keys() | other.keys()) - len(seeds)
+    left_out = len(one.keys() | other.keys()) - len(both)
+    astray = len(both) - len(seeds)
     text = f"{len(seeds)} pairs of runs, seeds {', '.join(map(str, seeds))}"
     text += f"; {left_out} runs without a partner are left out" if left_out else ""
+    text += (
+        f"; {astray} pairs with a run that never came between the rows are left out"
+        if astray
+        else ""
+    )
     text += "\n\n" + "".join("| " + " | ".join(line) + " |\n" for line in lines)
     for side, name in enumerate(names):
         rate = _rate([pair[side] for pair in pairs])

@@ -13,7 +13,10 @@ NEAR_M = 0.10  # the share of the way that lies within this of the centre line
 
 @dataclass(frozen=True)
 class Summary:
-    """Of a run, or of several together. Lengths count the way between the first and the last place of the rows."""
+    """Of a run, or of several together. Lengths count the way between the first and the last place of the rows.
+
+    Without any such way, what is measured on it is nan.
+    """
 
     way_m: float
     lateral_rms_m: float
@@ -49,8 +52,16 @@ def way_steps_m(record: Record) -> np.ndarray:
     return np.where((step > 0.0) & (step < 0.2), step, 0.0)
 
 
+def _mean(values: np.ndarray, weights: np.ndarray) -> float:
+    return float(np.average(values, weights=weights)) if len(values) else math.nan
+
+
 def _rms(values: np.ndarray, weights: np.ndarray) -> float:
-    return math.sqrt(float(np.average(values**2, weights=weights)))
+    return math.sqrt(_mean(values**2, weights))
+
+
+def _largest(values: np.ndarray) -> float:
+    return float(np.abs(values).max()) if len(values) else math.nan
 
 
 def summarize(records: Sequence[Record]) -> Summary:
@@ -61,27 +72,25 @@ def summarize(records: Sequence[Record]) -> Summary:
         return np.concatenate([r.column(name)[c] for r, c in zip(records, chosen)])
 
     way = np.concatenate([way_steps_m(record)[c] for record, c in zip(records, chosen)])
-    if len(way) == 0:
-        raise ValueError("no run came between the rows")
     lateral, heading = joined("lateral_m"), joined("heading_rad")
     left, right = joined("left_seen_m"), joined("right_seen_m")
     width = left + right
     total_m, times = float(way.sum()), [record.column("time_s") for record in records]
     simulated_s = sum(float(time[-1] - time[0]) for time in times)
     interventions = sum(len(record.interventions) for record in records)
-    mean_width = float(np.average(width, weights=way))
+    mean_width = _mean(width, way)
     return Summary(
         way_m=total_m,
         lateral_rms_m=_rms(lateral, way),
-        lateral_max_m=float(np.abs(lateral).max()),
-        share_near=float(way[np.abs(lateral) <= NEAR_M].sum() / total_m),
+        lateral_max_m=_largest(lateral),
+        share_near=_mean(np.abs(lateral) <= NEAR_M, way),
         heading_rms_rad=_rms(heading, way),
-        heading_max_rad=float(np.abs(heading).max()),
+        heading_max_rad=_largest(heading),
         width_m=mean_width,
         width_sd_m=_rms(width - mean_width, way),
         width_true_m=float(np.mean([record.width_m for record in records])),
-        left_error_m=float(np.average(left - joined("left_true_m"), weights=way)),
-        right_error_m=float(np.average(right - joined("right_true_m"), weights=way)),
+        left_error_m=_mean(left - joined("left_true_m"), way),
+        right_error_m=_mean(right - joined("right_true_m"), way),
         interventions=interventions,
         metres_per_intervention=total_m / max(interventions, 1),
         collisions=sum(record.collisions for record in records),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
 from pathlib import Path
-from typing import Callable, Sequence, Tuple
+from typing import Callable, List, Sequence, Tuple
 
 from ardee_navigation import figures
 from ardee_navigation.metrics import Summary, summarize
@@ -59,24 +59,42 @@ def _latency(records: Sequence[Record]) -> str:
     )
 
 
+def _cells(summary: Summary) -> List[str]:
+    """What there is no figure for is a dash."""
+    texts = (cell(summary) for _, cell in _TABLE)
+    return ["-" if "nan" in text else text for text in texts]
+
+
+def _never_there(records: Sequence[Record]) -> str:
+    numbers = [str(record.number) for record in records if summarize([record]).way_m == 0.0]
+    if len(numbers) == len(records):
+        return "\nNo run came between the rows: nothing was measured there.\n"
+    if numbers:
+        return f"\nNever between the rows, so not measured there: run {', '.join(numbers)}.\n"
+    return ""
+
+
 def table(records: Sequence[Record]) -> str:
-    """Markdown: a line a run, one of all."""
+    """Markdown: a line a run, one of all; which runs never came between the rows."""
     text = _line(["run", "seed", "end", *(name for name, _ in _TABLE)])
     text += "|" + "---|" * (3 + len(_TABLE)) + "\n"
     for record in records:
         summary = summarize([record])
         cells = [str(record.number), str(record.seed), record.end]
-        text += _line([*cells, *(cell(summary) for _, cell in _TABLE)])
+        text += _line([*cells, *_cells(summary)])
     summary = summarize(records)
     ends = f"{summary.completed} of {len(records)} at the end of the row"
-    return text + _line(["all", "", ends, *(cell(summary) for _, cell in _TABLE)])
+    return text + _line(["all", "", ends, *_cells(summary)]) + _never_there(records)
 
 
 def in_short(record: Record) -> str:
     """A run in a line, for a log."""
     summary = summarize([record])
+    way = f"{summary.way_m:.1f} m, lateral RMS {100 * summary.lateral_rms_m:.1f} cm"
+    if summary.way_m == 0.0:
+        way = "never between the rows"
     return (
-        f"seed {record.seed}, {record.end}, {summary.way_m:.1f} m, lateral RMS {100 * summary.lateral_rms_m:.1f} cm,"
+        f"seed {record.seed}, {record.end}, {way},"
         f" {summary.interventions} interventions, real-time factor {summary.real_time_factor:.1f}"
     )
 
