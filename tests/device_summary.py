@@ -26,6 +26,7 @@ def image(message: Any) -> Dict[str, Any]:
     return {
         "width": message.width,
         "height": message.height,
+        "step": message.step,
         "encoding": message.encoding,
         "middle": float(value),
     }

@@ -63,6 +63,9 @@ BAD = {
     "negative_lidar_noise": Bad(
         "hokuyo_ust10lx", 'noise_std_m="-0.01"', "ardee/bad", ("<stddev>", "found -0.01")
     ),
+    "negative_range_resolution": Bad(
+        "hokuyo_ust10lx", 'range_resolution_m="-1"', "ardee/bad", ("<resolution>", "found -1")
+    ),
     "image_too_large": Bad(
         "ueye_cp_gige",
         'width_px="8000" height_px="8000"',
@@ -90,9 +93,12 @@ BAD = {
 }
 
 
+MASSLESS = "massless"  # a robot with nothing wrong: a sensor may weigh nothing
+
+
 def robot(name: str, folder: pathlib.Path) -> str:
     """Its xacro file: a good sonar, and the bad sensor."""
-    bad = BAD[name]
+    bad = BAD.get(name) or Bad("kinect", 'mass_kg="0"', "", ())
     arguments = bad.arguments.format(folder=folder)
     if bad.macro == "encoder":
         call = (
@@ -117,7 +123,7 @@ def complaints(
         "rosrun", "ardee_sim_cpp", "simulator", str(folder / "empty.world"), "--paused"
     )
     calls = []
-    for name in BAD:
+    for name in [*BAD, MASSLESS]:
         file = folder / f"{name}.urdf.xacro"
         file.write_text(robot(name, folder))
         fields = {
@@ -130,7 +136,9 @@ def complaints(
         calls.append(("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields))
     answers = shared_graph.call(probes.call_services, calls)
     assert [
-        (name, a.success, a.status_message) for name, a in zip(BAD, answers) if not a.success
+        (fields["model_name"], a.status_message)
+        for (*_, fields), a in zip(calls, answers)
+        if not a.success
     ] == []
     yield [line for line in simulator.output().splitlines() if "WARN" in line or "ERROR" in line]
 
@@ -150,3 +158,4 @@ def test_the_rest_of_each_robot_is_there(shared_graph: RosGraph, complaints: Lis
     for name, bad in BAD.items():
         assert published.get(f"/{name}/ardee/good") == "sensor_msgs/Range", name
         assert f"/{name}/{bad.topic}" not in published
+    assert published.get(f"/{MASSLESS}/ardee/bad/depth/points") == "sensor_msgs/PointCloud2"

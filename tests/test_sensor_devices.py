@@ -27,9 +27,15 @@ HEIGHT_M = 0.8
 NAMESPACE = "/all"
 SPEED_WINDOW_S = 0.1  # over which an encoder counts pulses
 SETTLE_S = 2.0  # until the beam lies still on the ground
+LAMP, LAMP_WAY = 0.9, (0.6, 0.2, -0.8)
+INFRARED = {  # topic, encoding and bytes a pixel of the drivers: realsense2_camera, kinect2_bridge
+    "realsense_d435": ("infra1/image_rect_raw", "mono8", 1),
+    "kinectv2": ("ir/image_raw", "16UC1", 2),
+}
 WORLD = f"""<sdf version="1.5"><world name="wall">
   <physics type="ode"><max_step_size>{STEP_S}</max_step_size><real_time_update_rate>0</real_time_update_rate></physics>
-  <light name="sun" type="directional"><direction>0.6 0.2 -0.8</direction><diffuse>0.9 0.9 0.9 1</diffuse></light>
+  <light name="sun" type="directional"><direction>{LAMP_WAY[0]} {LAMP_WAY[1]} {LAMP_WAY[2]}</direction>
+    <diffuse>{LAMP} {LAMP} {LAMP} 1</diffuse></light>
   <include><uri>model://ground_plane</uri></include>
   <model name="wall"><static>true</static><pose>{WALL_M + 0.05} 0 2 0 0 0</pose><link name="link">
     <collision name="c"><geometry><box><size>0.1 60 4</size></box></geometry></collision>
@@ -264,6 +270,23 @@ def check_rgbd(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> No
     )
     assert 20 < image["middle"] < 255
     check_info(last[f"{base}/{color}/camera_info"], *own.values())
+    if device in INFRARED:
+        check_infrared(device, numbers, last)
+
+
+def check_infrared(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
+    """Brightness of a white wall that fills the picture: (ambient light + lamp x cosine) x the least exposure."""
+    topic, encoding, pixel_bytes = INFRARED[device]
+    image = last[f"ardee/{device}/{topic}"]
+    size = numbers["width_px"], numbers["height_px"]
+    assert (image["width"], image["height"], image["encoding"]) == (*size, encoding)
+    assert image["step"] == pixel_bytes * numbers["width_px"]
+    ambient, least_exposure = 0.4, 0.5
+    light = ambient + LAMP * LAMP_WAY[0] / math.dist(LAMP_WAY, (0, 0, 0))
+    full = {"mono8": 255, "16UC1": 65.535}[encoding]  # the summary takes 16UC1 for millimetres
+    assert image["middle"] / full == pytest.approx(least_exposure * light, abs=0.005)
+    info = last[f"ardee/{device}/{topic.split('/')[0]}/camera_info"]
+    check_info(info, *size, numbers["horizontal_fov_deg"])
 
 
 def check_stereo(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:

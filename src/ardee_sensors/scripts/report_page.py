@@ -23,11 +23,41 @@ WORLD = """<?xml version="1.0"?>
   </visual></link></model>
 </world></sdf>
 """
-STYLE = """body{font:15px/1.4 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em}
-section{display:grid;grid-template-columns:330px 1fr;gap:1em 2em;border-top:1px solid #ccc;padding:1em 0}
-h2,p{grid-column:1/3;margin:0} img{width:320px} table{border-collapse:collapse}
-td,th{text-align:left;padding:1px 12px 1px 0;vertical-align:top} td:nth-child(2){white-space:nowrap}
-code{background:#eee;padding:0 3px}"""
+STYLE = """body{font:15px/1.4 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;overflow-wrap:break-word}
+section{display:grid;align-items:start;grid-template-columns:320px minmax(0,1fr);gap:.7em 2em}
+section{border-top:1px solid #ccc;padding:1em 0}
+h2,section>p{grid-column:1/-1;margin:0} img{width:100%;height:auto}
+table{border-collapse:collapse;width:100%} td:nth-child(4){width:24%}
+td,th{text-align:left;padding:1px 12px 1px 0;vertical-align:top} code{background:#eee;padding:0 3px}
+td:nth-child(2){white-space:nowrap} dt{font-weight:bold} dt,dd{margin:0 0 .2em}
+dl{display:grid;grid-template-columns:max-content 1fr;gap:0 1em}
+@media(max-width:900px){section{grid-template-columns:minmax(0,1fr)} img{max-width:320px}}
+@media(max-width:600px){thead{display:none} tr{display:block;padding:.3em 0;border-top:1px solid #eee}
+td{display:inline;padding:0 .4em 0 0;white-space:normal!important} td:first-child{font-weight:bold}}"""
+# what a number's name ends with, longest first, and what it means
+UNITS = {
+    "_n_m_s_per_rad": "N m s/rad",
+    "_a_s_per_rad": "A s/rad",
+    "_a_s_per_m": "A s/m",
+    "_m_per_m": "m/m",
+    "_per_m": "1/m",
+    "_rad_s2": "rad/s²",
+    "_m_s2": "m/s²",
+    "_rad_s": "rad/s",
+    "_m_s": "m/s",
+    "_n_m": "N m",
+    "_a_h": "A h",
+    "_ohm": "Ω",
+    "_rad": "rad",
+    "_deg": "°",
+    "_hz": "Hz",
+    "_kg": "kg",
+    "_px": "px",
+    "_m": "m",
+    "_v": "V",
+    "_s": "s",
+    "_a": "A",
+}
 
 
 class ReportError(Exception):
@@ -60,7 +90,7 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
     urdf.write_text(_run(["rosrun", "xacro", "xacro", post, *sensor]))
     world.write_text(WORLD)
     width, height = size_m(device)
-    away = 2.3 * math.hypot(width, height)
+    away = 2.7 * math.hypot(width, height)
     # the pendulum of an encoder hangs before it
     side = -1 if device == "encoder" else 1
     middle_z = POST_HEIGHT_M + height / 2
@@ -71,7 +101,7 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
 
 
 def _source_text(number: Number, known: dict) -> str:
-    """Its comment from the first mark on: whose value it is, and what others have. A mark's meaning is its tool tip."""
+    """Its comment from the first mark on: whose value it is, and what others have. A mark leads to its meaning."""
 
     def explained(match: re.Match) -> str:
         return ", ".join(
@@ -86,45 +116,55 @@ def _explained_mark(number: Number, mark: str, known: dict) -> str:
     first, _, rest = mark.partition(" ")
     if first not in known:
         raise ReportError(f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}")
-    return f'<abbr title="{html.escape(known[first])}">{html.escape(first)}</abbr> {rest}'.strip()
+    meaning = html.escape(known[first])
+    return f'<a href="#source-{first}" title="{meaning}">{html.escape(first)}</a> {rest}'.strip()
 
 
-def _with_unit(number: Number) -> str:
-    value = number.value
-    if number.key.endswith("_rad") and "_s" not in number.key:
-        return f"{value} ({math.degrees(float(value)):.5g} deg)"
-    return value
+def with_unit(number: Number) -> str:
+    """Its value and unit, angles in degrees too; plain numbers have none."""
+    ending = next((ending for ending in UNITS if number.key.endswith(ending)), "")
+    value = f"{number.value} {UNITS[ending]}" if ending else number.value
+    if ending == "_rad":
+        return f"{value} ({math.degrees(float(number.value)):.5g}°)"
+    return value.replace(" °", "°")
 
 
 def section(device: str) -> str:
     """One device's part of the page."""
     known, numbers = sources(), load(device)
     rows = "".join(
-        f"<tr><td>{n.key}</td><td>{html.escape(_with_unit(n))}</td>"
+        f"<tr><td>{n.key}</td><td>{html.escape(with_unit(n))}</td>"
         f"<td>{html.escape(n.comment.split('[')[0].strip())}</td><td>{_source_text(n, known)}</td></tr>"
         for n in read_numbers(CONFIG / f"{device}.yaml")
     )
-    topics = ", ".join(f"<code>{t}</code> {kind}" for t, (kind, _) in numbers["topics"].items())
+    topics = "; ".join(f"<code>{t}</code> {kind}" for t, (kind, _) in numbers["topics"].items())
     others = numbers.get("also", "").split()
-    more = "".join(f" What is not here is as of <a href='#{o}'>{o}</a>." for o in others)
+    more = "".join(f" For what is not here see <a href='#{o}'>{o}</a>." for o in others)
+    name = html.escape(numbers["device"])
     return (
-        f"<section id='{device}'><h2>{html.escape(numbers['device'])}</h2>"
-        f"<p><code>{numbers['macro']}</code> {topics}.{more}</p>"
-        f"<img src='{device}.png' alt='{html.escape(numbers['device'])}'/>"
-        f"<table><tr><th>number</th><th>value</th><th>what it is</th><th>source</th></tr>{rows}</table></section>"
+        f"<section id='{device}'><h2>{name}</h2>"
+        f"<p>Macro <code>{numbers['macro']}</code>. Topics: {topics}.{more}</p>"
+        f"<div><img src='{device}.png' alt='{name}, on a post' width='640' height='480'/></div>"
+        "<table><thead><tr><th>number</th><th>value</th><th>what it is</th><th>source</th></tr></thead>"
+        f"<tbody>{rows}</tbody></table></section>"
     )
 
 
 def page(shown: List[str]) -> str:
     """The whole page of the devices."""
-    marks = "".join(f"<li><b>{m}</b> {html.escape(text)}</li>" for m, text in sources().items())
+    marks = "".join(
+        f"<dt id='source-{mark}'>{mark}</dt><dd>{html.escape(text)}</dd>"
+        for mark, text in sources().items()
+    )
     links = " · ".join(f"<a href='#{d}'>{d}</a>" for d in shown)
     body = "\n".join(section(device) for device in shown)
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'/><title>Sensors</title>"
+        "<meta name='viewport' content='width=device-width, initial-scale=1'/>"
         f"<style>{STYLE}</style></head><body><h1>Sensors</h1><p>{links}</p>\n"
-        f"<p>What the marks of sources mean stands <a href='#sources'>at the end</a>.</p>\n{body}\n"
-        f"<h2 id='sources'>Sources</h2><ul>{marks}</ul></body></html>\n"
+        "<p>Topics stand below the robot's namespace, <code>{name}</code> is the macro's argument. "
+        f"A source's mark leads to <a href='#sources'>what it means</a>.</p>\n{body}\n"
+        f"<section><h2 id='sources'>Sources</h2></section><dl>{marks}</dl></body></html>\n"
     )
 
 

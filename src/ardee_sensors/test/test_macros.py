@@ -207,6 +207,14 @@ def test_servos_lead_pan_and_tilt_unless_told_not_to(tmp_path: pathlib.Path, dev
     assert zoom == pytest.approx([math.radians(numbers[key]) for key in keys])
 
 
+@pytest.mark.parametrize("device, encoding", [("realsense_d435", "mono8"), ("kinectv2", "16UC1")])
+def test_infrared_images_beside_coloured_clouds(tmp_path: pathlib.Path, device: str, encoding: str):
+    """As the drivers have it: the cloud's colours are those of the colour stream."""
+    depth = robot(tmp_path, call(device, "a")).find(".//sensor[@type='depth']")
+    assert depth.findtext("camera/image/format") == "R8G8B8"
+    assert depth.findtext("plugin/imageEncoding") == encoding
+
+
 def test_the_stereo_baseline_is_in_poses_and_camera_info(tmp_path: pathlib.Path):
     root = robot(tmp_path, call("zed2", "a", 'baseline_m="0.2"'))
     sensor = root.find(".//sensor[@type='multicamera']")
@@ -238,16 +246,67 @@ def test_a_wrong_call_is_refused(tmp_path: pathlib.Path, device: str, arguments:
 def test_a_sensor_of_zero_rate_is_left_out_with_a_message(tmp_path: pathlib.Path, device: str):
     """The simulator says so of encoder and battery; to the other plugins 0 is as often as can be, as in Gazebo."""
     rate = "update_rate" if load(device)["kind"] in ("gps", "imu") else "rate_hz"
-    parts = len(of(robot(tmp_path, call(device, "bad")), "sensor", "bad"))
     calls = call(device, "bad", f'{rate}="0"') + call("sonar", "good")
     done = run_xacro(write_robot(tmp_path, calls))
     root = ElementTree.fromstring(done.stdout)
     assert not of(root, "sensor", "bad")
     assert all(topic.startswith("ardee/good") for topic in topics(root))
     assert root.find("link[@name='bad_link']") is not None
-    said = [line for line in done.stderr.splitlines() if "found a rate of 0 Hz" in line]
-    assert len(said) == max(1, parts)  # GPS and IMU are plugins of the model
-    assert all('sensor "bad' in line for line in said) and "deprecated" not in done.stderr
+    (said,) = [line for line in done.stderr.splitlines() if "left out" in line]
+    assert 'sensor "bad' in said and re.search(r"found (a rate of 0 Hz|rate_hz 0)", said)
+    assert "deprecated" not in done.stderr
+
+
+def test_a_mass_of_zero_is_no_inertia(tmp_path: pathlib.Path):
+    domes = [device for device in devices() if "yoke_mass_kg" in load(device)]
+    calls = [call(device, device, 'mass_kg="0"') for device in devices() if device not in domes]
+    root = robot(tmp_path, "".join(calls))
+    masses = [(link.get("name"), link.find("inertial")) for link in root.iter("link")]
+    assert [name for name, inertial in masses if inertial is not None] == [
+        "gps_with_mast_mast_link"
+    ]
+    said = complaint(tmp_path, call(domes[0], "a", 'mass_kg="0.1"'))
+    assert 'found mass_kg 0.1 of sensor "a"; expected at least 0.55' in said
+
+
+TWO_CAMERAS = ("zed2", "realsense_d435", "kinectv2")
+IMPOSSIBLE = {  # argument and value: what the message expects
+    ("rate_hz", "-30"): "more than 0",
+    ("rate_hz", "often"): "more than 0",
+    ("rate_hz", "inf"): "more than 0",
+    ("width_px", "640.5"): "a whole number from 1 to 8192",
+    ("height_px", "0"): "a whole number from 1 to 8192",
+    ("horizontal_fov_deg", "180"): "more than 0 and less than 180",
+    ("noise_std", "-0.1"): "0 or more",
+    ("exposure", "0"): "auto, or more than 0",
+    ("clip_far_m", "0.01"): "more than clip_near_m",
+    ("depth_max_m", "0.1"): "more than depth_min_m",
+}
+OF_ONE = {
+    ("zed2", "baseline_m", "-1"): "more than 0",
+    ("zed2", "baseline_m", "wide"): "more than 0",
+    ("realsense_d435", "rgb_width_px", "-1280"): "a whole number from 1 to 8192",
+    ("kinectv2", "rgb_horizontal_fov_deg", "0"): "more than 0 and less than 180",
+    ("kinectv2", "rgb_offset_y_m", "left"): "a number",
+}
+
+
+def test_two_cameras_of_one_device_say_once_what_cannot_be(tmp_path: pathlib.Path):
+    """And both are left out: the body stays, and so does the rest of the robot."""
+    wrong = {(device, *key): said for device in TWO_CAMERAS for key, said in IMPOSSIBLE.items()}
+    wrong.update(OF_ONE)
+    calls = [call(key[0], f"bad{i}", f'{key[1]}="{key[2]}"') for i, key in enumerate(wrong)]
+    done = run_xacro(write_robot(tmp_path, "".join(calls) + call("sonar", "good")))
+    assert done.returncode == 0, done.stderr
+    said = [line for line in done.stderr.splitlines() if "left out" in line]
+    assert said == [
+        f'warning: sensor "bad{i}" (sensor_{device}) is left out: found {argument} {value}, expected {expected}'
+        for i, ((device, argument, value), expected) in enumerate(wrong.items())
+    ]
+    root = ElementTree.fromstring(done.stdout)
+    assert [sensor.get("name") for sensor in root.iter("sensor")] == ["good_sensor"]
+    links = {link.get("name") for link in root.iter("link")}
+    assert {f"bad{i}_link" for i in range(len(wrong))} < links
 
 
 def test_a_call_that_is_right_goes_without_a_word(tmp_path: pathlib.Path):

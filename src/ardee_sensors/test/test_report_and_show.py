@@ -3,11 +3,14 @@
 import pathlib
 import subprocess
 import xml.etree.ElementTree as ElementTree
+from html.parser import HTMLParser
 
 import pytest
+import report_page
 import yaml
-from device_numbers import CONFIG, PACKAGE, devices, load, read_numbers, sources
-from report_page import chosen, contact_sheet, page
+from device_numbers import CONFIG, PACKAGE, Number, devices, load, read_numbers, sources
+from PIL import Image
+from report_page import chosen, contact_sheet, page, with_unit
 from xacro_runner import expand, ros_environment, run_xacro
 
 POST = PACKAGE / "robots/show_sensor.urdf.xacro"
@@ -16,30 +19,103 @@ ONE_OF_A_KIND = sorted({load(device)["kind"]: device for device in devices()}.va
 ]
 
 
-def test_the_page_has_every_number_and_every_source():
-    root = ElementTree.fromstring(page(devices()).split("\n", 1)[1])
-    sections = {section.get("id"): section for section in root.iter("section")}
-    assert sorted(sections) == devices()
-    for device, section in sections.items():
-        rows = [["".join(cell.itertext()) for cell in row] for row in section.iter("tr")][1:]
+class Page(HTMLParser):
+    """What a browser makes of a page: the sections with their pictures and rows, links and the places they lead to."""
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.sections, self.links, self.places, self.open = {}, [], [], []
+        self.feed(text)
+        self.close()
+        assert not self.open, f"never closed: {self.open}"
+
+    def handle_starttag(self, tag: str, attributes: list) -> None:
+        found = dict(attributes)
+        self.places += [found["id"]] if "id" in found else []
+        if tag == "section":
+            self.here = self.sections.setdefault(found.get("id"), {"pictures": [], "rows": []})
+        elif tag == "img":
+            self.here["pictures"].append(found)
+        elif tag == "tr":
+            self.here["rows"].append([])
+        elif tag in ("td", "th"):
+            self.here["rows"][-1].append("")
+        elif tag == "a":
+            self.links.append(found)
+        if tag not in ("img", "meta"):
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attributes: list) -> None:
+        self.handle_starttag(tag, attributes)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if "td" in self.open or "th" in self.open:
+            self.here["rows"][-1][-1] += data
+
+
+def test_the_page_has_every_number_with_unit_and_source():
+    found = Page(page(devices()))
+    assert [name for name in found.sections if name] == devices()
+    for device in devices():
+        rows = found.sections[device]["rows"][1:]
         numbers = read_numbers(CONFIG / f"{device}.yaml")
         assert [row[0] for row in rows] == [number.key for number in numbers]
         for row, number in zip(rows, numbers):
-            assert row[1].split(" (")[0] == number.value
-            assert all(mark.split()[0] in row[3] for mark in number.marks)
-        assert section.find("img").get("src") == f"{device}.png"
-    known = ["".join(item.itertext()) for item in root.iter("li")]
-    assert [item.split()[0] for item in known] == list(sources())
+            assert row[1] == with_unit(number) and row[1].startswith(number.value)
+            assert row[3] and all(mark.split()[0] in row[3] for mark in number.marks)
+
+
+def test_the_page_s_links_lead_somewhere_and_each_source_is_there():
+    found = Page(page(devices()))
+    assert len(found.places) == len(set(found.places))
+    assert {f"source-{mark}" for mark in sources()} <= set(found.places)
+    assert all(link["href"][0] == "#" and link["href"][1:] in found.places for link in found.links)
+
+
+@pytest.mark.parametrize(
+    "key, value, shown",
+    [
+        ("rate_hz", "30", "30 Hz"),
+        ("horizontal_fov_deg", "87", "87°"),
+        ("min_angle_rad", "-1.5708", "-1.5708 rad (-90°)"),
+        ("rate_noise_rad_s", "0 0 1", "0 0 1 rad/s"),
+        ("vibration_std_accel_m_s2", "0 0 9", "0 0 9 m/s²"),
+        ("depth_noise_quadratic_per_m", "0.0036", "0.0036 1/m"),
+        ("damping_n_m_s_per_rad", "0.1", "0.1 N m s/rad"),
+        ("samples", "7", "7"),
+    ],
+)
+def test_a_number_has_the_unit_of_its_name(key: str, value: str, shown: str):
+    assert with_unit(Number(key, value, "", [])) == shown
+
+
+def test_the_report_has_a_picture_of_each_device_asked_for(tmp_path: pathlib.Path, monkeypatch):
+    """The pictures' renderer is another package's: here each is one of its size."""
+    monkeypatch.setattr(
+        report_page,
+        "take_picture",
+        lambda device, work, picture: Image.new("RGB", (640, 480), "red").save(picture),
+    )
+    (tmp_path / "work").mkdir()
+    names = ["imu_terra", "imu", "zed2"]
+    file = report_page.write_report(tmp_path / "report", names, tmp_path / "work")
+    found = Page(file.read_text(encoding="utf-8"))
+    for name in names:
+        (picture,) = found.sections[name]["pictures"]
+        assert load(name)["device"] in picture["alt"]
+        with Image.open(file.parent / picture["src"]) as there:
+            assert there.size == (int(picture["width"]), int(picture["height"]))
 
 
 def test_what_others_have_stands_with_its_source_beside_the_devices_own():
-    root = ElementTree.fromstring(page(["vlp16", "imu_terra", "imu"]).split("\n", 1)[1])
-    rows = {row[0].text: row for row in root.iter("tr")}
-    text = "".join(rows["noise_std_m"][3].itertext())
-    assert text == "webots; the macro of velodyne_simulator has 0.008 velodyne"
-    assert rows["noise_std_m"][3].find("abbr").get("title") == sources()["webots"]
-    links = [a.get("href") for a in root.find(".//section[@id='imu_terra']").iter("a")]
-    assert links == ["#imu"]
+    found = Page(page(["vlp16", "imu_terra", "imu"]))
+    rows = {row[0]: row for row in found.sections["vlp16"]["rows"]}
+    assert rows["noise_std_m"][3] == "webots; the macro of velodyne_simulator has 0.008 velodyne"
+    assert {"href": "#source-webots", "title": sources()["webots"]} in found.links
+    assert {"href": "#imu"} in found.links
 
 
 def test_what_is_asked_for_is_checked_first():
@@ -53,8 +129,6 @@ def test_what_is_asked_for_is_checked_first():
 def test_the_sheet_has_a_place_for_each(tmp_path: pathlib.Path):
     one = contact_sheet([], width_px=40)
     assert one.size == (240, 0)
-    from PIL import Image
-
     paths = [tmp_path / f"{name}.png" for name in "abcdefg"]
     for path in paths:
         Image.new("RGB", (8, 6), "red").save(path)

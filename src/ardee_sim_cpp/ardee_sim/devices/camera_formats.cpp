@@ -21,6 +21,8 @@ const Format kFormats[] = {
     {PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
 };
 
+constexpr char kPlain16[] = "16UC1";  // the same bytes as mono16, not said to be brightness
+
 }  // namespace
 
 PixelFormat read_pixel_format(const std::string& name, const Source& source) {
@@ -32,6 +34,16 @@ PixelFormat read_pixel_format(const std::string& name, const Source& source) {
     known += std::string(known.empty() ? "" : ", ") + *each.names.begin();
   }
   throw Error(source, "found format '" + name + "', expected one of: " + known);
+}
+
+PixelFormat read_encoding(const std::string& name, const Source& source) {
+  std::string known;
+  for (const Format& each : kFormats) {
+    if (name == each.encoding) return each.format;
+    known += std::string(each.encoding) + ", ";
+  }
+  if (name == kPlain16) return PixelFormat::kMono16;
+  throw Error(source, "found encoding '" + name + "', expected one of: " + known + kPlain16);
 }
 
 const char* encoding_of(PixelFormat format) {

@@ -11,6 +11,10 @@ namespace ardee {
 /// The format that SDF's <format> names. Throws Error for one that is not known.
 PixelFormat read_pixel_format(const std::string& name, const Source& source);
 
+/// The format of an encoding of sensor_msgs/image_encodings. Throws Error for one that is not
+/// known.
+PixelFormat read_encoding(const std::string& name, const Source& source);
+
 /// Its name in sensor_msgs/image_encodings.
 const char* encoding_of(PixelFormat format);
 

@@ -117,6 +117,15 @@ DepthParams read_depth(Parameters& parameters, const CameraParams& camera, Camer
   return depth;
 }
 
+/// What the image is published as; without the key it is as <format> says.
+void read_image_encoding(Parameters& parameters, CameraParams& camera) {
+  camera.cloud_format = camera.development.format;
+  camera.encoding = parameters.text("imageEncoding", encoding_of(camera.cloud_format));
+  if (const Element* key = parameters.block("imageEncoding")) {
+    camera.development.format = read_encoding(camera.encoding, key->source);
+  }
+}
+
 void read_zoom(Parameters& parameters, CameraParams& camera) {
   camera.fov_min_rad =
       parameters.number("horizontalFovMin", kLeastFov_rad, kLeastFov_rad, kMostFov_rad);
@@ -158,6 +167,7 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
   read_zoom(parameters, camera);
   camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context);
   camera.development.exposure = read_exposure(parameters);
+  read_image_encoding(parameters, camera);
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");
   const double rate_hz = parameters.number("updateRate", 0.0, 0.0);

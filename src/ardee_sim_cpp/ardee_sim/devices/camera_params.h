@@ -49,7 +49,9 @@ struct CameraParams {
   double fov_max_rad = 0.0;
   double near_m = 0.1;
   double far_m = 100.0;
-  Development development;
+  Development development;                        // of the image
+  std::string encoding;                           // of the image, as sensor_msgs has it
+  PixelFormat cloud_format = PixelFormat::kRgb8;  // in which the cloud has its colours: <format>
   DepthParams depth;
   CameraTopics topics;
   std::string frame;  // the optical one

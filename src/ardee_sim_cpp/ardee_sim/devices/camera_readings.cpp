@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "ardee_sim/core/normal_table.h"
-#include "ardee_sim/devices/camera_formats.h"
 
 namespace ardee {
 namespace {
@@ -29,8 +28,9 @@ ImageReading image_of(const Frame& frame, const char* encoding,
 }
 
 /// 0x00RRGGBB of a pixel; a Bayer pixel counts as grey.
-std::uint32_t packed_color(const ImageReading& image, PixelFormat format, std::size_t pixel) {
-  const std::uint8_t* at = &image.data[pixel * static_cast<std::size_t>(bytes_per_pixel(format))];
+std::uint32_t packed_color(const std::vector<std::uint8_t>& pixels, PixelFormat format,
+                           std::size_t pixel) {
+  const std::uint8_t* at = &pixels[pixel * static_cast<std::size_t>(bytes_per_pixel(format))];
   const auto pack = [](std::uint32_t r, std::uint32_t g, std::uint32_t b) {
     return r << 16 | g << 8 | b;
   };
@@ -60,12 +60,11 @@ std::vector<float> measured_depths(const Frame& frame, const DepthParams& params
 }
 
 ImageReading color_image(const Frame& frame, const CameraParams& params, const CounterRng& noise) {
-  const PixelFormat format = params.development.format;
   ImageReading image;
   image.width = static_cast<std::uint32_t>(frame.width);
   image.height = static_cast<std::uint32_t>(frame.height);
-  image.encoding = encoding_of(format);
-  image.step = image.width * static_cast<std::uint32_t>(bytes_per_pixel(format));
+  image.encoding = params.encoding;
+  image.step = image.width * static_cast<std::uint32_t>(bytes_per_pixel(params.development.format));
   image.data = develop(frame, params.development, noise);
   return image;
 }
@@ -91,11 +90,19 @@ ImageReading instance_image(const Frame& frame) {
   return image_of(frame, "32SC1", numbers);
 }
 
+std::vector<std::uint8_t> cloud_pixels(const Frame& frame, const CameraParams& params,
+                                       const ImageReading& image, const CounterRng& noise) {
+  if (params.cloud_format == params.development.format && !image.data.empty()) return image.data;
+  Development colored = params.development;
+  colored.format = params.cloud_format;
+  return develop(frame, colored, noise);
+}
+
 PointCloudReading point_cloud(const Camera& camera, const std::vector<float>& depths_m,
-                              const ImageReading& image, PixelFormat format) {
+                              const std::vector<std::uint8_t>& pixels, PixelFormat format) {
   PointCloudReading cloud;
-  cloud.width = image.width;
-  cloud.height = image.height;
+  cloud.width = static_cast<std::uint32_t>(camera.width);
+  cloud.height = static_cast<std::uint32_t>(camera.height);
   cloud.fields = {{"x", 0}, {"y", 4}, {"z", 8}, {"rgb", kColorOffset}};
   cloud.point_step = kPointBytes;
   cloud.is_dense = false;
@@ -106,7 +113,7 @@ PointCloudReading point_cloud(const Camera& camera, const std::vector<float>& de
     const float z = depths_m[i];
     const Eigen::Vector3f way_C = camera.direction_C(column + 0.5, row + 0.5).cast<float>();
     const float point[3] = {-way_C.y() * z, -way_C.z() * z, z};
-    const std::uint32_t color = packed_color(image, format, i);
+    const std::uint32_t color = packed_color(pixels, format, i);
     std::uint8_t* at = &cloud.data[i * kPointBytes];
     std::memcpy(at, point, sizeof(point));
     std::memcpy(at + kColorOffset, &color, sizeof(color));

@@ -19,9 +19,13 @@ ImageReading depth_image(const Frame& frame, const std::vector<float>& depths_m,
 ImageReading label_image(const Frame& frame);
 /// 32SC1: 0 for nothing, else 1 and up.
 ImageReading instance_image(const Frame& frame);
-/// Organised: x, y, z on optical axes and rgb, 32 bytes a point, as Gazebo packs it. `image` gives
-/// the colours, of that format.
+/// The colours of a cloud in the format of <format>: those of `image` where it has it, is not
+/// empty.
+std::vector<std::uint8_t> cloud_pixels(const Frame& frame, const CameraParams& params,
+                                       const ImageReading& image, const CounterRng& noise);
+/// Organised: x, y, z on optical axes and rgb, 32 bytes a point, as Gazebo packs it; the pixels are
+/// of that format.
 PointCloudReading point_cloud(const Camera& camera, const std::vector<float>& depths_m,
-                              const ImageReading& image, PixelFormat format);
+                              const std::vector<std::uint8_t>& pixels, PixelFormat format);
 
 }  // namespace ardee

@@ -139,12 +139,13 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
     eye.camera.X_WC = pose() * eye.params.X_SC;
     const Frame frame = pictures_.take(eye.camera, parts);
     ImageReading image;
-    if (parts.light) image = color_image(frame, eye.params, noise.frame(0));
+    if (asked_for(eye.image)) image = color_image(frame, eye.params, noise.frame(0));
     if (parts.depth) {
       const auto depths_m = measured_depths(frame, eye.params.depth, noise.frame(1));
       if (asked_for(eye.depth)) give(eye.depth, depth_image(frame, depths_m, eye.params.depth));
       if (asked_for(eye.points)) {
-        give(eye.points, point_cloud(eye.camera, depths_m, image, eye.params.development.format));
+        const auto pixels = cloud_pixels(frame, eye.params, image, noise.frame(0));
+        give(eye.points, point_cloud(eye.camera, depths_m, pixels, eye.params.cloud_format));
       }
     }
     if (asked_for(eye.image)) give(eye.image, std::move(image));

@@ -53,7 +53,8 @@ void read_range(const Element& range, RayBlock& block, Log& log) {
   if (block.range_max_m <= block.range_min_m) {
     throw parameters.error("max", "expected more than <min>");
   }
-  parameters.ignore({"resolution"});  // Gazebo does not quantise ranges either
+  // Checked alone: Gazebo does not quantise ranges either.
+  parameters.number("resolution", 0.0, 0.0, 1e6);
   parameters.finish(log);
 }
 

@@ -94,6 +94,53 @@ TEST(DepthCamera, MillimetresAndCutOffs) {
   EXPECT_EQ(value_at<std::uint16_t>(cut_mm.depth().data, 0), 0);
 }
 
+/// A wall of one colour that glows: what a pixel says is its luma by ITU-R BT.601, in closed form.
+TEST(DepthCamera, AnInfraredImageIsGreyWhileTheCloudHasColours) {
+  const std::string glow =
+      "<model name='wall'><static>true</static><pose>3.5 0 0 0 0 0</pose><link name='link'><visual "
+      "name='v'><geometry><box><size>1 40 40</size></box></geometry><material><ambient>0 0 0 1"
+      "</ambient><diffuse>0 0 0 1</diffuse><emissive>0.2 0.4 0.6 1</emissive></material></visual>"
+      "</link></model>";
+  constexpr double kLuma = 0.299 * 0.2 + 0.587 * 0.4 + 0.114 * 0.6;
+  struct Expected {
+    const char* encoding;
+    std::uint32_t bytes;
+    double value;
+  };
+  for (const Expected& each : {Expected{"mono8", 1, 255 * kLuma},
+                               {"16UC1", 2, 65535 * kLuma},
+                               {"mono16", 2, 65535 * kLuma}}) {
+    for (const bool image_asked_for : {true, false}) {
+      TestWorld world(glow);
+      const std::string key = std::string("<imageEncoding>") + each.encoding + "</imageEncoding>";
+      Entity& post = world.spawn(
+          camera_post("openni_kinect", camera_block(kWidth, kHeight, 1.0), key, "depth"), "post");
+      if (!image_asked_for) listen_to(post, {"/cam/points"});
+      world.run(0.1);
+      const auto cloud = world.recorder().on<PointCloudReading>("/cam/points").at(0);
+      EXPECT_EQ(value_at<std::uint32_t>(cloud.data, 16), 0x336699u);  // 51, 102, 153
+      if (!image_asked_for) continue;
+      const auto image = world.recorder().on<ImageReading>("/cam/ir/image_raw").at(0);
+      EXPECT_EQ(image.encoding, each.encoding);
+      EXPECT_EQ(image.step, each.bytes * kWidth);
+      ASSERT_EQ(image.data.size(), each.bytes * kWidth * kHeight);
+      const double value = each.bytes == 1 ? image.data[0] : value_at<std::uint16_t>(image.data, 0);
+      EXPECT_NEAR(value, each.value, 0.5 + 1e-4 * each.value);
+    }
+  }
+}
+
+TEST(DepthCamera, AnUnknownEncodingLeavesItOut) {
+  TestWorld world(wall());
+  Entity& post = world.spawn(camera_post("openni_kinect", camera_block(kWidth, kHeight, 1.0),
+                                         "<imageEncoding>L8</imageEncoding>", "depth"),
+                             "post");
+  EXPECT_TRUE(post.devices.empty());
+  ASSERT_EQ(world.messages().size(), 1u);
+  EXPECT_NE(world.messages()[0].find("found encoding 'L8', expected one of: rgb8"),
+            std::string::npos);
+}
+
 TEST(DepthCamera, TheSkyHasNoDepth) {
   Kinect kinect("", Pose::from_xyz_rpy({0, 0, 0}, {0, 0, M_PI}));
   EXPECT_TRUE(std::isnan(value_at<float>(kinect.depth().data, 0)));
