@@ -21,6 +21,7 @@ def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
     figures = _run(seconds)
     runs = {
         "simulated ": (seconds, "--simulator"),
+        "simulated beside JPEG images, ": (frames_s, "--simulator", "--cameras", "jpeg"),
         "simulated beside raw images, ": (frames_s, "--simulator", "--cameras", "raw"),
         "beside cameras, ": (loss_s, "--cameras", "jpeg"),
         "beside raw images, ": (loss_s, "--cameras", "raw"),

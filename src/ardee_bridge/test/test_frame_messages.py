@@ -4,7 +4,7 @@ import io
 import random
 
 import pytest
-from sensor_msgs.msg import Image, PointCloud2, PointField
+from sensor_msgs.msg import CompressedImage, Image, PointCloud2, PointField
 
 from ardee_bridge import frame_messages
 
@@ -37,7 +37,15 @@ def a_cloud(rng):
     return message
 
 
+def a_compressed_image(rng):
+    message = CompressedImage(format="bgr8; jpeg compressed bgr8")
+    header(message, rng)
+    message.data = rng.randbytes(rng.randrange(99))
+    return message
+
+
 KINDS = [(an_image, frame_messages.image), (a_cloud, frame_messages.point_cloud)]
+KINDS += [(a_compressed_image, frame_messages.compressed_image)]
 
 
 @pytest.mark.parametrize("make, read", KINDS)

@@ -77,19 +77,20 @@ ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
 }  // namespace
 
 bool RobotTopics::Route::has_listeners() const {
-  return publisher ? publisher.getNumSubscribers() > 0 : images.getNumSubscribers() > 0;
+  return publisher ? publisher.getNumSubscribers() > 0 : pictures->has_listeners();
 }
 
 RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
   require_valid(output.topic);
-  Route route{&output, &robot, {}, {}};
+  Route route{&output, &robot, {}, nullptr};
   if (output.kind == reading_kind<ImageReading>()) {
-    route.images = images_.advertise(output.topic, kImageQueue);
+    const image_transport::Publisher pictures = images_.advertise(output.topic, kImageQueue);
+    if (pictures) route.pictures = std::make_unique<PictureSender>(pictures, kImageQueue);
   } else {
     route.publisher =
         advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
   }
-  if (!route.publisher && !route.images) {
+  if (!route.publisher && !route.pictures) {
     throw Error("topic " + output.topic + " is already published with another type");
   }
   return route;
@@ -172,7 +173,7 @@ void RobotTopics::on_reading(const Output& output, const Reading& reading) {
         if (route.publisher) {
           route.publisher.publish(to_message(measured));
         } else if constexpr (std::is_same_v<std::decay_t<decltype(measured)>, ImageReading>) {
-          route.images.publish(boost::make_shared<sensor_msgs::Image>(to_message(measured)));
+          route.pictures->send(boost::make_shared<sensor_msgs::Image>(to_message(measured)));
         }
       },
       reading);

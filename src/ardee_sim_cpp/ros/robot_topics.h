@@ -14,6 +14,7 @@
 #include "ardee_sim/simulation/entity.h"
 #include "ros/device_services.h"
 #include "ros/odometry_frames.h"
+#include "ros/picture_sender.h"
 
 namespace ardee::node {
 
@@ -35,7 +36,7 @@ class RobotTopics : public ReadingSink {
     Output* output = nullptr;
     const Robot* robot = nullptr;
     ros::Publisher publisher;
-    image_transport::Publisher images;  // in its place, for pictures
+    std::unique_ptr<PictureSender> pictures;  // in its place, for pictures
 
     bool has_listeners() const;
   };

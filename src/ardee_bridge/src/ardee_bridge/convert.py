@@ -2,13 +2,14 @@
 """ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
 import io
 import math
+import re
 import struct
 from typing import Any, Callable, Dict, NamedTuple, Optional
 
 import numpy as np
 from PIL import Image
 
-from ardee_bridge import codec
+from ardee_bridge import codec, jpeg
 from ardee_bridge.chunks import MAX_TOTAL
 from ardee_bridge.layout import INT32, NO_VALUE
 
@@ -207,6 +208,21 @@ def image(message: Any, image_format: str, quality: int) -> Frame:
         chunk=_stamped(message), encoding=encoding, width=width, height=height, step=step
     )
     return Frame(head, payload)
+
+
+# sensor_msgs/CompressedImage.format: "jpeg" as drivers have it, "rgb8; jpeg compressed bgr8" as image_transport does
+_IS_JPEG = re.compile(r"([^;]*;)?\s*jpe?g\b", re.IGNORECASE)
+
+
+def compressed_image(message: Any) -> Frame:
+    """sensor_msgs/CompressedImage of a JPEG file, whose bytes are sent as they are."""
+    if not _IS_JPEG.match(message.format):
+        raise ConvertError(f"a compressed image of format {message.format[:80]!r}, expected jpeg")
+    width, height = jpeg.size(message.data)
+    head = codec.ImageChunk(
+        chunk=_stamped(message), encoding=codec.ImageEncoding.JPEG, width=width, height=height
+    )
+    return Frame(head, message.data)
 
 
 def _stamped(message: Any) -> codec.Chunk:

@@ -7,7 +7,7 @@ sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings a
 import struct
 from typing import Any
 
-from sensor_msgs.msg import Image, PointCloud2, PointField
+from sensor_msgs.msg import CompressedImage, Image, PointCloud2, PointField
 
 _U8, _U32 = struct.Struct("<B"), struct.Struct("<I")
 _LEAST_FIELD_BYTES = 4 + 4 + 1 + 4  # an empty name, offset, datatype, count
@@ -58,6 +58,15 @@ def image(data: memoryview) -> Image:
     message.encoding = cursor.text()
     message.is_bigendian = cursor.u8()
     message.step = cursor.u32()
+    message.data = cursor.array()
+    return message
+
+
+def compressed_image(data: memoryview) -> CompressedImage:
+    """sensor_msgs/CompressedImage; its data is a part of the bytes."""
+    message, cursor = CompressedImage(), _Cursor(data)
+    cursor.header(message)
+    message.format = cursor.text()
     message.data = cursor.array()
     return message
 

@@ -13,13 +13,14 @@ import threading
 import time
 from collections import deque
 from multiprocessing.connection import Connection, Pipe
-from typing import Callable, Deque, NamedTuple, Optional, Tuple
+from typing import Callable, Deque, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
 
 from ardee_bridge import priority
+from ardee_bridge.camera_topics import CameraTopics, Choice
 from ardee_bridge.counters import Counters, Counts
 from ardee_bridge.reader import Reader
 from ardee_bridge.sensor_server import SensorServer, Target
-from ardee_bridge.settings import ServerSettings
+from ardee_bridge.settings import ServerSettings, Source
 from ardee_bridge.subscriptions import Subscriptions
 from ardee_bridge.udp import PairLock
 
@@ -39,6 +40,13 @@ class Job(NamedTuple):
     goes_first: bool
 
 
+class Orders(NamedTuple):
+    """Who gets messages, and names of the sources to read now."""
+
+    targets: Tuple[Target, ...]
+    names: FrozenSet[str]
+
+
 class Report(NamedTuple):
     """What a process has done since its start, and what it has to say."""
 
@@ -46,32 +54,39 @@ class Report(NamedTuple):
     said: Tuple[str, ...]
 
 
+class Shared(NamedTuple):
+    """What the processes have of the server: its socket, the lock on it, and where to say something."""
+
+    opened: socket.socket
+    lock: PairLock
+    warn: Callable[[str], None]
+
+
 class FrameProcess:
     """The server's end: starts the process when somebody wants a frame, again if it has died."""
 
-    def __init__(
-        self, job: Job, opened: socket.socket, lock: PairLock, warn: Callable[[str], None]
-    ) -> None:
+    def __init__(self, job: Job, shared: Shared) -> None:
         self.name = job.name
-        self._job, self._socket, self._pair_lock, self._warn = job, opened, lock, warn
+        self._job, (self._socket, self._pair_lock, self._warn) = job, shared
         self._process: Optional[subprocess.Popen] = None
         self._pipe: Optional[Connection] = None
         self._lock = threading.Lock()
         self._counts = Counts({}, {})
 
-    def serve(self, targets: Tuple[Target, ...]) -> None:
-        """These are the targets now."""
+    def serve(self, targets: Tuple[Target, ...], names: FrozenSet[str]) -> None:
+        """These are the targets, and the sources to read, now."""
         is_wanted = any(
             target.wants(source.data_type, source.component_id)
             for target in targets
             for source in self._job.settings.sources
+            if source.name in names
         )
         if self._process is None or self._process.poll() is not None:
             if not is_wanted:
                 return
             self._start()
         try:
-            self._pipe.send(targets)
+            self._pipe.send(Orders(targets, names))
         except OSError:
             self._warn(f"{self.name} has ended; the next request starts it")
 
@@ -114,6 +129,49 @@ class FrameProcess:
         self._process = None
 
 
+class FrameProcesses:
+    """All of them: one for what is sent as it is, and one for each camera whose images have to be compressed."""
+
+    def __init__(self, name: str, settings: ServerSettings, reader: Reader, shared: Shared) -> None:
+        """`name` is the server's; its reader watches the cameras' publishers."""
+
+        def make(ending: str, sources: List[Source], goes_first: bool) -> FrameProcess:
+            alone = settings._replace(sources=tuple(sources))
+            return FrameProcess(Job(f"{name}_{ending}", alone, goes_first), shared)
+
+        frames = [source for source in settings.sources if source.is_frame]
+        cameras = [source for source in frames if source.image_format == "jpeg"]
+        plain = [source for source in frames if source not in cameras]
+        as_they_are = plain + [source.of_camera() for source in cameras]
+        self._frames = [make("frames", as_they_are, True)] if frames else []
+        self._jpeg = [make(f"jpeg_{source.component_id}", [source], False) for source in cameras]
+        self._plain = frozenset(source.name for source in plain)
+        self._cameras = CameraTopics(cameras, reader)
+        self._choice = Choice(frozenset(), frozenset())
+
+    def serve(self, server: SensorServer) -> None:
+        """Tell them what the server's targets want, and where it comes from."""
+        self._choice = self._cameras.choice(server.wanted())
+        for process in self._frames:
+            process.serve(server.clients(), self._plain | self._choice.compressed)
+        for process in self._jpeg:
+            process.serve(server.clients(), self._choice.raw)
+
+    def follow(self, server: SensorServer) -> None:
+        """The same, if a camera's publishers have come or gone."""
+        if self._cameras.choice(server.wanted()) != self._choice:
+            self.serve(server)
+
+    def counts(self) -> Dict[str, Counts]:
+        """What each has done, by name."""
+        return {process.name: process.counts() for process in self._frames + self._jpeg}
+
+    def stop(self) -> None:
+        """End them."""
+        for process in self._frames + self._jpeg:
+            process.stop()
+
+
 def main() -> None:
     """Body of the process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's, whose end ends the pipe
@@ -144,8 +202,9 @@ def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) ->
         report_s = time.monotonic()
         while not has_to_end.is_set():
             if pipe.poll(POLL_S):
-                server.set_clients(pipe.recv())
-                subscriptions.update()
+                orders = pipe.recv()
+                server.set_clients(orders.targets)
+                subscriptions.update(orders.names)
             if time.monotonic() >= report_s:
                 report_s += REPORT_PERIOD_S
                 pipe.send(

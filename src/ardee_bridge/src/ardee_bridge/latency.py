@@ -270,16 +270,27 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     from ardee_bridge.subscriptions import TYPES
 
     rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
+    messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
     publishers = [
         rospy.Publisher(stream.topic, TYPES[stream.kind], queue_size=1000, tcp_nodelay=True)
         for stream in streams
     ]
+    raw = {}  # type: Dict[int, Tuple[Any, Any]]
+    for index, stream in enumerate(streams):
+        if stream.image_format == "jpeg":  # as a camera's driver, which offers both
+            raw[index] = publishers[index], messages[index]
+            messages[index] = latency_messages.compressed(messages[index])
+            publishers[index] = rospy.Publisher(
+                f"{stream.topic}/compressed",
+                type(messages[index]),
+                queue_size=1000,
+                tcp_nodelay=True,
+            )
     deadline = time.monotonic() + START_LIMIT_S
     while not all(publisher.get_num_connections() for publisher in publishers):
         if time.monotonic() > deadline:
             raise TimeoutError("the sensor server does not subscribe")
         time.sleep(0.05)
-    messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
     witness.go_first()
     times = {stream.key: [] for stream in streams}  # type: Times
     start = time.monotonic() + SETTLE_S
@@ -291,6 +302,8 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
         latency_messages.number(stream.kind, messages[index], len(times[stream.key]))
         times[stream.key].append(time.time_ns())
         publishers[index].publish(messages[index])
+        if index in raw:
+            raw[index][0].publish(raw[index][1])
         due[index] += 1.0 / stream.rate_hz
     pipe.send(times)
     pipe.recv()

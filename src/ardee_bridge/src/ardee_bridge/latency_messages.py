@@ -2,12 +2,22 @@
 """Messages of full size for the benchmark, numbered in a field that survives the wire."""
 from typing import Any, Callable, Dict
 
-from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2, PointField
+from sensor_msgs.msg import (
+    CompressedImage,
+    Image,
+    Imu,
+    LaserScan,
+    NavSatFix,
+    PointCloud2,
+    PointField,
+)
 
+from ardee_bridge import convert
 from ardee_bridge.codec import LIDAR_SLOTS
 from ardee_msgs.msg import Battery, Encoder
 
 WIDTH, HEIGHT = 640, 480
+JPEG_QUALITY = 80
 # A revolution of a lidar of 16 rings and 1800 columns.
 CLOUD_POINTS = 28_800
 POINT_FLOAT32 = 7
@@ -51,6 +61,12 @@ def make(kind: str, topic: str) -> Any:
     if kind == "image":
         return _image("32FC1", 4) if topic.endswith("depth") else _image("rgb8", 3)
     return _MAKERS[kind]()
+
+
+def compressed(image: Image) -> CompressedImage:
+    """The same image as JPEG, as a camera's driver publishes it beside the raw one."""
+    frame = convert.image(image, "jpeg", JPEG_QUALITY)
+    return CompressedImage(format="jpeg", data=frame.payload)
 
 
 def number(kind: str, message: Any, serial: int) -> None:

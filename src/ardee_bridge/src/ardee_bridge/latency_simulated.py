@@ -110,6 +110,13 @@ def _published(env: Dict[str, str], sources: List[Source]) -> List[Source]:
     return [source for source in sources if witness.publisher(f"/{source.topic}", env)]
 
 
+def _read(source: Source, env: Dict[str, str]) -> str:
+    """The topic that the sensor server takes it from."""
+    compressed = f"/{source.of_camera().topic}"
+    is_compressed = source.image_format == "jpeg" and witness.publisher(compressed, env)
+    return compressed if is_compressed else f"/{source.topic}"
+
+
 def measure(
     seconds: float, image_format: str, sources: List[Source], realtime_priority: int
 ) -> Dict[str, latency.Spread]:
@@ -138,8 +145,11 @@ def measure(
         robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
         stack.enter_context(_launched(env, *robot))
         sources = _published(env, sources)
-        topics = [f"/{source.topic}" for source in sources]
-        watcher, from_watcher = latency.in_process(env, witness.watch, topics, START_LIMIT_S)
+        topics = {source.name: _read(source, env) for source in sources}
+        watched_topics = list(topics.values())
+        watcher, from_watcher = latency.in_process(
+            env, witness.watch, watched_topics, START_LIMIT_S
+        )
         if not from_watcher.poll(START_LIMIT_S):
             raise TimeoutError("the simulated robot does not publish")
         from_watcher.recv()
@@ -155,7 +165,7 @@ def measure(
         time.sleep(latency.SETTLE_S)
         from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
-    published = {topic: _within(stamps, begin_ns, end_ns) for topic, stamps in watched.items()}
+    published = {name: _within(watched[topic], begin_ns, end_ns) for name, topic in topics.items()}
     return _by_row(sources, published, arrived)
 
 
@@ -165,7 +175,7 @@ def _by_row(
     found = {}
     for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
         like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
-        before = [published[f"/{source.topic}"] for source in like]
+        before = [published[source.name] for source in like]
         keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
         found[row] = _spread(before, [arrived.get(key, {}) for key in keys])
     return found

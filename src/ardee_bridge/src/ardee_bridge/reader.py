@@ -11,7 +11,7 @@ import select
 import socket
 import threading
 import traceback
-from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, FrozenSet, List, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge import tcpros
 from ardee_bridge.registrar import Owner, Registrar
@@ -98,6 +98,26 @@ class _Link:
                 self.socket.shutdown(socket.SHUT_RDWR)  # the reading thread then finds it ended
 
 
+class Watch:
+    """Who publishes a topic, as the master says; nobody is connected to it."""
+
+    def __init__(self, name: str, kind: str, number: int) -> None:
+        self.name, self.kind, self.number = name, kind, number
+        self._publishers: Optional[FrozenSet[str]] = None
+
+    @property
+    def is_known(self) -> bool:
+        """Has the master said anything yet?"""
+        return self._publishers is not None
+
+    def has_publishers(self) -> bool:
+        return bool(self._publishers)
+
+    def hear(self, uris: List[str]) -> None:
+        """These publish it."""
+        self._publishers = frozenset(uris)
+
+
 class Subscription:
     """A callback's; ends with unregister(), as rospy's do."""
 
@@ -126,6 +146,7 @@ class Reader:
         # a signal that closes it may come in the midst of subscribe()
         self._lock = threading.RLock()
         self._topics: Dict[Tuple[str, str], _Topic] = {}
+        self._watches: Set[Watch] = set()
         self._numbers = itertools.count()
         self._poll = select.epoll()
         self._watched: Dict[int, _Link] = {}
@@ -145,6 +166,26 @@ class Reader:
             self._register()
         return Subscription(lambda: self._end(key, callback))
 
+    def watch_publishers(self, name: str, kind: str) -> Watch:
+        """Be told who publishes a topic, given by its full name, of this type."""
+        with self._lock:
+            made = Watch(name, kind, next(self._numbers))
+            self._watches.add(made)
+            self._register()
+        return made
+
+    def refresh(self, watch: Watch) -> None:
+        """Ask the master: it does not say that the topics of a node that crashed and was started again are gone."""
+        with self._lock:
+            watch.number = next(self._numbers)
+            self._register()
+
+    def end_watch(self, watch: Watch) -> None:
+        """Be told no more."""
+        with self._lock:
+            self._watches.discard(watch)
+            self._register()
+
     def _end(self, key: Tuple[str, str], callback: Callable[[Any], None]) -> None:
         with self._lock:
             topic = self._topics[key]
@@ -157,12 +198,14 @@ class Reader:
             self._register()
 
     def _register(self) -> None:
-        self._registrar.want(
-            (topic.name, topic.kind.name, topic.number) for topic in self._topics.values()
-        )
+        topics = [(each.name, each.kind.name, each.number) for each in self._topics.values()]
+        watches = [(each.name, each.kind, each.number) for each in self._watches]
+        self._registrar.want(topics + watches)
 
     def _on_publishers(self, name: str, uris: List[str], are_all: bool) -> None:
         with self._lock:
+            for watch in [watch for watch in self._watches if watch.name == name]:
+                watch.hear(uris)
             for topic in [topic for topic in self._topics.values() if topic.name == name]:
                 for uri in uris:
                     if uri not in topic.links:
@@ -204,6 +247,7 @@ class Reader:
         with self._lock:
             links = [link for topic in self._topics.values() for link in topic.links.values()]
             self._topics.clear()
+            self._watches.clear()
         for link in links:
             link.drop()
         self._registrar.close()

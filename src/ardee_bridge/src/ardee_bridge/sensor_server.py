@@ -7,8 +7,9 @@ from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Se
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
+from ardee_bridge.handover import Handover
 from ardee_bridge.pairing import Message, Pairer
-from ardee_bridge.settings import ServerSettings, Source
+from ardee_bridge.settings import COMPRESSED, ServerSettings, Source
 from ardee_bridge.udp import Inbox, PairLock, Sender
 
 _ALL_BIT = 1 << codec.DataType.ALL
@@ -65,6 +66,7 @@ class SensorServer:
         self._settings, self._socket, self._counters = settings, opened, counters
         self._on_targets, self._clock = on_targets, clock
         self._lock = lock or PairLock.make()
+        self._handover = Handover(self._lock.file)
         self._pairer = Pairer()
         self._inbox = Inbox(opened)
         self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
@@ -86,13 +88,19 @@ class SensorServer:
         if not targets:
             return
         try:
-            if self._limits[source.name].admits(convert.stamp_s(message)):
-                self._send_all(source, message, targets, self._messages(source, message, velocity))
+            if not self._limits[source.name].admits(convert.stamp_s(message)):
+                return
+            messages = self._messages(source, message, velocity)
+            if messages is not None:
+                self._send_all(source, message, targets, messages)
         except ValueError as error:
             what = "sensor messages that the wire cannot carry"
             self._counters.drop(what, f"{source.topic}: {error}")
 
-    def _messages(self, source: Source, message: Any, velocity: Any) -> Iterable[codec.Pieces]:
+    def _messages(
+        self, source: Source, message: Any, velocity: Any
+    ) -> Optional[Iterable[codec.Pieces]]:
+        """None for one that is not to be sent."""
         if source.is_frame:
             return self._frame_messages(source, message)
         is_gps = source.kind == "gps"
@@ -102,11 +110,21 @@ class SensorServer:
         pair = codec.encode(source.data_type, source.component_id, reading.data, reading.count)
         return [_pieces(pair)]
 
-    def _frame_messages(self, source: Source, message: Any) -> Iterable[codec.Pieces]:
-        if source.kind == "image":
+    def _is_first(self, source: Source, message: Any) -> bool:
+        """Has no other process sent this image in the camera's other form?"""
+        is_compressed = source.image_format == COMPRESSED
+        with self._lock:
+            return self._handover.is_first(source.component_id, message.header.stamp, is_compressed)
+
+    def _frame_messages(self, source: Source, message: Any) -> Optional[Iterable[codec.Pieces]]:
+        if source.image_format == COMPRESSED:
+            frame = convert.compressed_image(message)
+        elif source.kind == "image":
             frame = convert.image(message, source.image_format, source.jpeg_quality)
         else:
             frame = convert.point_cloud(message)
+        if source.image_format in (COMPRESSED, "jpeg") and not self._is_first(source, message):
+            return None
         sequence = self._sequences.get(source.name, 0)
         self._sequences[source.name] = (sequence + 1) & 0x7FFFFFFF
         frame.head.chunk.sequence = sequence

@@ -21,6 +21,8 @@ KINDS = {
 }
 # Too large for a datagram, and slow to convert.
 FRAME_KINDS = ("image", "point_cloud")
+# Of images that come as JPEG files: no setting, but what becomes of "jpeg" where a camera compresses by itself.
+COMPRESSED = "compressed"
 SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
 _UNSET = object()
 
@@ -164,6 +166,10 @@ class Source(NamedTuple):
     def is_frame(self) -> bool:
         """Does it send images or clouds?"""
         return self.kind in FRAME_KINDS
+
+    def of_camera(self) -> "Source":
+        """The same images, compressed by whoever publishes them, on the topic that image_transport gives them."""
+        return self._replace(topic=f"{self.topic}/compressed", image_format=COMPRESSED)
 
 
 class ServerSettings(NamedTuple):

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Subscriptions of a sensor server, in the node or in one of its processes for images and clouds."""
 import threading
-from typing import Any, Callable, Dict, Iterable, List
+from typing import AbstractSet, Any, Callable, Dict, Iterable, List, Optional
 
 import numpy
 from geometry_msgs.msg import Vector3Stamped
-from sensor_msgs.msg import Image, Imu, LaserScan, NavSatFix, PointCloud2
+from sensor_msgs.msg import CompressedImage, Image, Imu, LaserScan, NavSatFix, PointCloud2
 
 from ardee_bridge import frame_messages
 from ardee_bridge.fix_velocity import FixWithVelocity
 from ardee_bridge.reader import Kind, Reader, Subscription
 from ardee_bridge.sensor_server import SensorServer
-from ardee_bridge.settings import Source
+from ardee_bridge.settings import COMPRESSED, Source
 from ardee_msgs.msg import Battery, Encoder
 
 TYPES = {
@@ -29,6 +29,7 @@ TYPES = {
 # Those whose fields are not all made objects of.
 _DECODERS: Dict[Any, Callable[[memoryview], Any]] = {
     LaserScan: lambda data: LaserScan().deserialize_numpy(bytes(data), numpy),
+    CompressedImage: frame_messages.compressed_image,
     Image: frame_messages.image,
     PointCloud2: frame_messages.point_cloud,
 }
@@ -51,10 +52,11 @@ class Subscriptions:
         self._lock = threading.Lock()
         self._active: Dict[str, List[Subscription]] = {}
 
-    def update(self) -> None:
-        """Subscribe and unsubscribe as the targets of the server want it."""
+    def update(self, names: Optional[AbstractSet[str]] = None) -> None:
+        """Subscribe and unsubscribe as the targets of the server want it, of these sources alone if they are given."""
         with self._lock:
             wanted = self._server.wanted()
+            wanted = wanted if names is None else wanted & names
             for source in self._sources:
                 if source.name in wanted and source.name not in self._active:
                     self._active[source.name] = self._follow(source)
@@ -67,7 +69,9 @@ class Subscriptions:
             self._server.publish(source, message, velocity)
 
         if not source.velocity_topic:
-            return [self._subscribe(source.topic, TYPES[source.kind], publish)]
+            is_compressed = source.image_format == COMPRESSED
+            kind = CompressedImage if is_compressed else TYPES[source.kind]
+            return [self._subscribe(source.topic, kind, publish)]
         both = FixWithVelocity(publish)
         return [
             self._subscribe(source.velocity_topic, Vector3Stamped, both.on_velocity),
