@@ -78,6 +78,7 @@ LidarBeams::LidarBeams(const RayBlock& block, const LidarOptics& optics, bool lo
   footprints_.beams = axes_.beams;
   footprints_.each = optics.sub_rays;
   mixing_.each = optics.sub_rays;
+  about_.each = optics.sub_rays - 1;
   const double spacing_rad = std::abs(block.angle_increment_rad());
   if (spacing_rad <= 0.0 || spacing_rad > kNeighbourWidths * optics.divergence_rad) {
     optics_.sub_rays_at = LidarOptics::SubRaysAt::kEverywhere;
@@ -123,11 +124,18 @@ void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS,
       !footprints_.beams.empty() && optics_.sub_rays_at == LidarOptics::SubRaysAt::kEverywhere;
   const Rays& first = whole ? footprints_ : axes_;
   trace(first, hits_);
-  make_echoes(first, X_WS, echoes);
+  make_echoes(first, hits_, X_WS, echoes);
   if (whole || footprints_.beams.empty()) return;
   pick_mixing(X_WS);
-  trace(mixing_, hits_);
-  make_echoes(mixing_, X_WS, echoes);
+  trace(about_, hits_about_);
+  hits_mixing_.clear();
+  auto about = hits_about_.cbegin();
+  for (const std::uint32_t beam : mixing_.beams) {
+    hits_mixing_.push_back(hits_[beam]);
+    hits_mixing_.insert(hits_mixing_.end(), about, about + about_.each);
+    about += about_.each;
+  }
+  make_echoes(mixing_, hits_mixing_, X_WS, echoes);
 }
 
 void LidarBeams::measure(const Pose& X_WS, const RayScene& scene,
@@ -187,8 +195,10 @@ void LidarBeams::pick_mixing(const Poses& X_WS) const {
     points_W_[beam] = pose.q.cast<float>() * (hits_[beam].range_m * axis_S(beam)) +
                       (pose.p - origin_W).cast<float>();
   }
-  mixing_.beams.clear();
-  mixing_.pattern.directions_S.clear();
+  for (Rays* rays : {&mixing_, &about_}) {
+    rays->beams.clear();
+    rays->pattern.directions_S.clear();
+  }
   const std::vector<Eigen::Vector3f>& all_S = footprints_.pattern.directions_S;
   const auto columns = static_cast<std::size_t>(columns_);
   const auto each = static_cast<std::size_t>(mixing_.each);
@@ -202,15 +212,17 @@ void LidarBeams::pick_mixing(const Poses& X_WS) const {
     }
     next = std::max({next, row_end - columns, beam + 1 - std::min(beam + 1, mixing_reach_)});
     for (; next < std::min(row_end, beam + 1 + mixing_reach_); ++next) {
-      mixing_.beams.push_back(static_cast<std::uint32_t>(next));
-      const auto from = all_S.begin() + static_cast<std::ptrdiff_t>(next * each);
-      mixing_.pattern.directions_S.insert(mixing_.pattern.directions_S.end(), from,
-                                          from + mixing_.each);
+      const auto axis = all_S.begin() + static_cast<std::ptrdiff_t>(next * each);
+      for (Rays* rays : {&mixing_, &about_}) {
+        rays->beams.push_back(static_cast<std::uint32_t>(next));
+        auto& some_S = rays->pattern.directions_S;
+        some_S.insert(some_S.end(), axis + mixing_.each - rays->each, axis + mixing_.each);
+      }
     }
   }
 }
 
-void LidarBeams::make_echoes(const Rays& rays, const Poses& X_WS,
+void LidarBeams::make_echoes(const Rays& rays, const std::vector<RayHit>& hits, const Poses& X_WS,
                              std::vector<BeamEcho>& echoes) const {
   EchoMaker maker(optics_, range_min_m_);
   const auto each = static_cast<std::size_t>(rays.each);
@@ -220,9 +232,9 @@ void LidarBeams::make_echoes(const Rays& rays, const Poses& X_WS,
     const Eigen::Quaternionf q = X_WS.of(rays.beams[k]).q.cast<float>();
     for (std::size_t i = 0; i < each; ++i) {
       const Eigen::Vector3f direction_W = q * rays.pattern.directions_S[first + i];
-      cosines[i] = std::abs(hits_[first + i].normal_W.dot(direction_W));
+      cosines[i] = std::abs(hits[first + i].normal_W.dot(direction_W));
     }
-    echoes[rays.beams[k]] = maker.make(&hits_[first], cosines.data(), rays.each);
+    echoes[rays.beams[k]] = maker.make(&hits[first], cosines.data(), rays.each);
   }
 }
 

@@ -52,8 +52,9 @@ class LidarBeams {
   /// `trace(rays, hits)` finds what rays meet.
   template <typename Trace>
   void measure_by(const Trace& trace, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
-  void make_echoes(const Rays& rays, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
-  /// Into mixing_: the beams beside which, by the hits of the axes, another surface begins, less
+  void make_echoes(const Rays& rays, const std::vector<RayHit>& hits, const Poses& X_WS,
+                   std::vector<BeamEcho>& echoes) const;
+  /// Into mixing_ and about_: the beams beside which, by the hits of the axes, another surface begins, less
   /// than a pulse's length nearer or farther.
   void pick_mixing(const Poses& X_WS) const;
 
@@ -64,13 +65,16 @@ class LidarBeams {
   bool look_through_near_;
   Carrier carrier_;
   Rays axes_;
-  Rays footprints_;  // all sub-rays of all beams; empty where the axes do
+  Rays footprints_;  // all sub-rays of all beams, the axis first; empty where the axes do
   std::size_t mixing_reach_ =
       1;  // so many beams to each side of an edge may have it in their footprint
   // Scratch, to spare allocations a scan.
   mutable std::vector<RayHit> hits_;
+  mutable std::vector<RayHit> hits_about_;
+  mutable std::vector<RayHit> hits_mixing_;
   mutable std::vector<Eigen::Vector3f> points_W_;
-  mutable Rays mixing_;
+  mutable Rays mixing_;  // all sub-rays of the beams that mix
+  mutable Rays about_;   // the same without the axes, which have been traced
 };
 
 }  // namespace ardee

@@ -61,7 +61,8 @@ RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarO
     const Eigen::Vector3d across = axis.unitOrthogonal();
     const Eigen::Vector3d upwards = axis.cross(across);
     const double turn_rad = 2.0 * M_PI * turns.uniform(beam);
-    for (int k = 0; k < optics.sub_rays; ++k) {
+    pattern.directions_S.push_back(axes_S[beam]);
+    for (int k = 1; k < optics.sub_rays; ++k) {
       const double off_axis_rad =
           0.5 * optics.divergence_rad * std::sqrt((k + 0.5) / optics.sub_rays);
       const double about_rad = turn_rad + k * kGoldenAngle_rad;

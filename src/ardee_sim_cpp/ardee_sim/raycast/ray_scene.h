@@ -40,7 +40,7 @@ struct RayOptions {
   /// Of scenery held piece by piece about sensors.
   std::size_t flattened_budget_bytes = 512u << 20;
   /// It reaches at least this far about a sensor, if the budget allows (measured: README.md).
-  double flattened_radius_m = 4.0;
+  double flattened_radius_m = 6.0;
   /// False: instances only. What rays return is the same.
   bool flatten = true;
 };
