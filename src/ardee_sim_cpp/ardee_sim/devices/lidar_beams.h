@@ -54,8 +54,8 @@ class LidarBeams {
   void measure_by(const Trace& trace, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
   void make_echoes(const Rays& rays, const std::vector<RayHit>& hits, const Poses& X_WS,
                    std::vector<BeamEcho>& echoes) const;
-  /// Into mixing_ and about_: the beams beside which, by the hits of the axes, another surface begins, less
-  /// than a pulse's length nearer or farther.
+  /// Into mixing_ and about_: the beams beside which, by the hits of the axes, another surface
+  /// begins, less than a pulse's length nearer or farther.
   void pick_mixing(const Poses& X_WS) const;
 
   int columns_;

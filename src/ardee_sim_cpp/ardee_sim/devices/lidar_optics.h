@@ -47,8 +47,8 @@ struct BeamEcho {
 };
 
 /// Directions of all sub-rays, those of a beam side by side. They stand for equal areas: the first
-/// is the beam's axis, the others lie about it on a sunflower (Vogel 1979) turned by an angle of the
-/// beam's own.
+/// is the beam's axis, the others lie about it on a sunflower (Vogel 1979) turned by an angle of
+/// the beam's own.
 RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarOptics& optics);
 
 /// Makes an echo of what the sub-rays of a beam have met.
