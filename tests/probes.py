@@ -4,6 +4,7 @@ import importlib
 import time
 from typing import Any, Dict, List, Optional, Tuple
 
+import rosgraph
 import rospy
 from ros_graph import wait_until
 
@@ -116,7 +117,9 @@ def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
 
 
 def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
-    """The simulated time [s], once it has reached a value."""
+    """The simulated time [s], once it has reached a value; a node that starts before it is announced keeps wall time."""
+    master = rosgraph.Master("probe")
+    wait_until(lambda: master.hasParam("/use_sim_time"), "use_sim_time", timeout_s)
     _start()
     return wait_until(
         lambda: rospy.get_time() >= sim_time_s and rospy.get_time(),
