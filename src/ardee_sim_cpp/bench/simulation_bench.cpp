@@ -15,7 +15,7 @@ constexpr const char* kUsage =
     "usage: simulation_bench --world FILE --robot FILE [--pose 'X Y Z YAW'] [--lane-m 6]\n"
     "         [--speed-m-s 0.5] [--duration-s 60] [--settle-s 1] [--seed 0] [--threads 0]\n"
     "Prints JSON. Durations are simulated ones, of each of three phases: nothing is read, lidars\n"
-    "only, everything.\n";
+    "only, all but pictures and clouds.\n";
 
 /// Counts what the devices measure.
 class Counter : public ReadingSink {
@@ -120,7 +120,10 @@ class Bench {
   void demand(bool lidars, bool rest) {
     for (const auto& device : robot_->devices) {
       for (Output& output : device->outputs()) {
-        output.demanded = output.kind == reading_kind<LidarReading>() ? lidars : rest;
+        const bool scan = output.kind == reading_kind<LidarReading>();
+        const bool picture = output.kind == reading_kind<ImageReading>() ||
+                             output.kind == reading_kind<PointCloudReading>();
+        output.demanded = !picture && (scan ? lidars : rest);
       }
     }
   }
@@ -138,7 +141,7 @@ class Bench {
     };
     phase("nothing_read", false, false);
     phase("lidars", true, false);
-    phase("everything", true, true);
+    phase("all_but_pictures", true, true);
   }
 
   Phase drive(Simulation& simulation, LaneKeeper& keeper) {
