@@ -8,13 +8,7 @@ from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from ardee_bridge import ros_node
-from ardee_bridge.controls import (
-    MOST_AT_ONCE,
-    STANDSTILL,
-    ControlsClient,
-    Motion,
-    what_was_obeyed,
-)
+from ardee_bridge.controls import MOST_AT_ONCE, STANDSTILL, ControlsClient, Motion, what_was_obeyed
 from ardee_bridge.counters import Counters
 from ardee_bridge.settings import ControlSettings, read_controls
 from ardee_bridge.udp import open_socket
