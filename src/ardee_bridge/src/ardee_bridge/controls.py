@@ -4,7 +4,7 @@ import select
 import socket
 import time
 from collections import deque
-from typing import Callable, Deque, NamedTuple, Optional
+from typing import Callable, Deque, Dict, NamedTuple, Optional
 
 from ardee_bridge import codec
 from ardee_bridge.counters import Counters
@@ -35,6 +35,15 @@ def to_motion(commands: codec.MotionCommands, settings: ControlSettings) -> Moti
         fraction(commands.normalized_speed) * settings.max_speed_m_s,
         fraction(commands.normalized_yaw_rate) * settings.max_yaw_rate_rad_s,
     )
+
+
+def what_was_obeyed(done: Dict[str, int], before: Dict[str, int], latest: Motion) -> str:
+    """Counts of what was done, now and earlier, as a line for the terminal (thesis 4.6.1); empty for nothing new."""
+    fresh = {kind: count - before.get(kind, 0) for kind, count in sorted(done.items())}
+    counts = ", ".join(f"{kind}: {count}" for kind, count in fresh.items() if count)
+    if not counts:
+        return ""
+    return f"{counts}; last told {latest.speed_m_s:.3f} m/s, {latest.yaw_rate_rad_s:.3f} rad/s"
 
 
 class ControlsClient:

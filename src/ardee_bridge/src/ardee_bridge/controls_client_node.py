@@ -1,20 +1,47 @@
 # SPDX-License-Identifier: MIT
 """The controls client as a ROS node."""
 import threading
-from typing import Callable, Optional
+from typing import Callable, Dict, Optional
 
 import rospy
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from ardee_bridge import ros_node
-from ardee_bridge.controls import MOST_AT_ONCE, ControlsClient, Motion
+from ardee_bridge.controls import MOST_AT_ONCE, STANDSTILL, ControlsClient, Motion, what_was_obeyed
 from ardee_bridge.counters import Counters
 from ardee_bridge.settings import ControlSettings, read_controls
 from ardee_bridge.udp import open_socket
 
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
+TELL_PERIOD_S = 1.0
+
+
+class Mover:
+    """Passes motions on to cmd_vel, and says once a second what was obeyed, from a thread of its own."""
+
+    def __init__(self, topic: str, counters: Counters) -> None:
+        self._publisher = rospy.Publisher(topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True)
+        self._counters, self._latest = counters, STANDSTILL
+        threading.Thread(target=self._tell, daemon=True).start()
+
+    def move(self, motion: Motion) -> None:
+        """Tell the robot."""
+        twist = Twist()
+        twist.linear.x, twist.angular.z = motion.speed_m_s, motion.yaw_rate_rad_s
+        self._publisher.publish(twist)
+        self._latest = motion
+
+    def _tell(self) -> None:
+        before: Dict[str, int] = {}
+        while not rospy.core.is_shutdown():
+            done = self._counters.done()
+            line = what_was_obeyed(done, before, self._latest)
+            if line:
+                rospy.loginfo(line)
+            before = done
+            rospy.rostime.wallsleep(TELL_PERIOD_S)
 
 
 class SimulationPauser:
@@ -43,7 +70,7 @@ class SimulationPauser:
                 paused, self._wanted = bool(self._wanted), None
             try:
                 self._services[paused]()
-            except (rospy.ServiceException, rospy.ROSException, OSError) as error:
+            except Exception as error:  # whatever it was, the next wish is to be heard
                 self._counters.drop("control codes that the simulation did not take", str(error))
 
 
@@ -51,17 +78,9 @@ def _make() -> Callable[[float], None]:
     settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
     counters = Counters(rospy.logwarn)
     opened = open_socket(settings.bind_address, settings.port)
-    publisher = rospy.Publisher(
-        settings.cmd_vel_topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True
-    )
-
-    def move(motion: Motion) -> None:
-        twist = Twist()
-        twist.linear.x, twist.angular.z = motion.speed_m_s, motion.yaw_rate_rad_s
-        publisher.publish(twist)
-
+    mover = Mover(settings.cmd_vel_topic, counters)
     pauser = SimulationPauser(settings, counters)
-    client = ControlsClient(settings, opened, counters, move, pauser.want)
+    client = ControlsClient(settings, opened, counters, mover.move, pauser.want)
 
     def stop() -> None:
         client.stop()

@@ -26,6 +26,7 @@ from ardee_bridge.udp import PairLock
 
 PATIENCE_S = 5.0
 POLL_S = 0.2
+RESTART_S = 2.0  # between two starts of a process that keeps ending
 REPORT_PERIOD_S = 0.5
 
 
@@ -63,13 +64,14 @@ class Shared(NamedTuple):
 
 
 class FrameProcess:
-    """The server's end: starts the process when somebody wants a frame, again if it has died."""
+    """The server's end: starts the process when somebody wants a frame, again if it has ended."""
 
     def __init__(self, job: Job, shared: Shared) -> None:
         self.name = job.name
         self._job, (self._socket, self._pair_lock, self._warn) = job, shared
         self._process: Optional[subprocess.Popen] = None
         self._pipe: Optional[Connection] = None
+        self._started_s = 0.0
         self._lock = threading.Lock()
         self._counts = Counts({}, {})
 
@@ -82,13 +84,20 @@ class FrameProcess:
             if source.name in names
         )
         if self._process is None or self._process.poll() is not None:
+            self.stop()
             if not is_wanted:
                 return
             self._start()
         try:
             self._pipe.send(Orders(targets, names))
         except OSError:
-            self._warn(f"{self.name} has ended; the next request starts it")
+            pass  # it has ended
+
+    def has_ended(self) -> bool:
+        """Was it started, some time ago, and runs no more?"""
+        if self._process is None or self._process.poll() is None:
+            return False
+        return time.monotonic() >= self._started_s + RESTART_S
 
     def counts(self) -> Counts:
         """The latest that it has said; what else it said is passed on."""
@@ -103,7 +112,7 @@ class FrameProcess:
             return self._counts
 
     def _start(self) -> None:
-        self.stop()
+        self._started_s = time.monotonic()
         self._pair_lock.is_shared = True
         pipe, theirs = Pipe()
         files = (theirs.fileno(), self._socket.fileno(), self._pair_lock.file)
@@ -118,6 +127,8 @@ class FrameProcess:
         """End it."""
         if self._process is None:
             return
+        if self._process.poll() is not None:
+            self._warn(f"{self.name} has ended: exit code {self._process.returncode}")
         with self._lock:
             self._pipe.close()
             self._pipe = None
@@ -158,8 +169,9 @@ class FrameProcesses:
             process.serve(server.clients(), self._choice.raw)
 
     def follow(self, server: SensorServer) -> None:
-        """The same, if a camera's publishers have come or gone."""
-        if self._cameras.choice(server.wanted()) != self._choice:
+        """The same, if a camera's publishers have come or gone, or a process has ended."""
+        has_ended = any(process.has_ended() for process in self._frames + self._jpeg)
+        if has_ended or self._cameras.choice(server.wanted()) != self._choice:
             self.serve(server)
 
     def counts(self) -> Dict[str, Counts]:

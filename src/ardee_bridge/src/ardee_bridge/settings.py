@@ -2,6 +2,7 @@
 """Settings of the two nodes: read from nested dictionaries (YAML, ROS parameters), checked key by key."""
 import ipaddress
 import math
+import re
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 from ardee_bridge import codec
@@ -24,6 +25,8 @@ FRAME_KINDS = ("image", "point_cloud")
 # Of images that come as JPEG files: no setting, but what becomes of "jpeg" where a camera compresses by itself.
 COMPRESSED = "compressed"
 SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
+# Names of the ROS graph (wiki.ros.org/Names), relative ones among them.
+_NAME = re.compile(r"[~/]?[A-Za-z]\w*(/\w+)*", re.ASCII)
 _UNSET = object()
 
 
@@ -52,6 +55,13 @@ class Reader:
         value = self._get(key, default)
         if not isinstance(value, str) or not value and value != default:
             raise self._fail(key, "a text")
+        return value
+
+    def name(self, key: str, default: Any = _UNSET) -> str:
+        """Name of a topic or service."""
+        value = self.text(key, default)
+        if value != default and not _NAME.fullmatch(value):
+            raise self._fail(key, "a ROS name such as ardee/gps")
         return value
 
     def choice(self, key: str, choices: Any, default: Any = _UNSET) -> str:
@@ -226,10 +236,10 @@ def _read_source(reader: Reader) -> Source:
     source = Source(
         name=reader.text("name"),
         kind=kind,
-        topic=reader.text("topic"),
+        topic=reader.name("topic"),
         component_id=reader.whole("component_id", 0, 2**31 - 1, 0),
         max_rate_hz=reader.number("max_rate_hz", 0.0, 1e6, 0),
-        velocity_topic=reader.text("velocity_topic", "") if kind == "gps" else "",
+        velocity_topic=reader.name("velocity_topic", "") if kind == "gps" else "",
         image_format=reader.choice("format", ("jpeg", "raw"), "jpeg") if kind == "image" else "",
         jpeg_quality=reader.whole("jpeg_quality", 1, 95, 80) if kind == "image" else 0,
         chunk_bytes=(
@@ -261,15 +271,26 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
         sources=sources,
     )
     reader.finish()
+    _check_unique(sources)
+    return settings
+
+
+def _check_unique(sources: Tuple[Source, ...]) -> None:
+    """Sources are told apart by their names here, and by kind and component on the wire."""
     places = [(source.data_type, source.component_id) for source in sources]
-    for number, place in enumerate(places):
+    names = [source.name for source in sources]
+    for number, (name, place) in enumerate(zip(names, places)):
+        if name in names[:number]:
+            other = names.index(name)
+            raise SettingError(
+                f"sources[{number}].name: found {name!r}, which is sources[{other}]'s; expected one of its own"
+            )
         if place in places[:number]:
             other, kind = sources[places.index(place)].name, sources[number].kind
             raise SettingError(
                 f"sources[{number}].component_id: found {place[1]}, which is {other}'s; "
                 f"expected one of its own among kind {kind}"
             )
-    return settings
 
 
 def read_controls(values: Dict[str, Any]) -> ControlSettings:
@@ -279,12 +300,12 @@ def read_controls(values: Dict[str, Any]) -> ControlSettings:
         bind_address=reader.address("bind_address"),
         port=reader.whole("port", 0, 65535),
         peers=reader.networks("peers"),
-        cmd_vel_topic=reader.text("cmd_vel_topic"),
+        cmd_vel_topic=reader.name("cmd_vel_topic"),
         max_speed_m_s=reader.number("max_speed_m_s", 0.001, 100.0),
         min_turn_radius_m=reader.number("min_turn_radius_m", 0.001, 1000.0),
         watchdog_s=reader.number("watchdog_s", 0.01, 60.0),
-        pause_service=reader.text("pause_service"),
-        unpause_service=reader.text("unpause_service"),
+        pause_service=reader.name("pause_service"),
+        unpause_service=reader.name("unpause_service"),
     )
     reader.finish()
     return settings

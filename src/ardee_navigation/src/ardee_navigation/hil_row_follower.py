@@ -24,6 +24,7 @@ from ardee_navigation.scenario_files import read_parameters, read_scenarios
 
 ASK_EVERY_S = 5.0  # the server forgets a client after 30 s of silence
 LARGEST_DATAGRAM = 65_535
+BACK_S = 1.0  # time that goes back by more: another simulation, no datagrams that changed places
 WANTED = (codec.DataType.LIDAR, codec.DataType.TIME)
 Address = Tuple[str, int]
 
@@ -56,6 +57,7 @@ class Target:
         self._follower = RowFollower(parameters)
         self._sensors, self._controls = sensors, controls
         self._pairer, self._clock, self._asked_s = Pairer(), Clock(), -float("inf")
+        self._last_s = -float("inf")  # simulated time of the latest scan
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         self._socket.settimeout(0.2)
@@ -65,8 +67,8 @@ class Target:
         for datagram in datagrams:
             try:
                 self._socket.sendto(datagram, to)
-            except ConnectionError:
-                return  # nobody listens there yet
+            except OSError:
+                return  # nobody listens there yet, or the network is away
 
     def ask(self) -> None:
         """Ask the server for scans, now and then again, so that either may start first or start again."""
@@ -94,6 +96,9 @@ class Target:
         raw = codec.LidarData.unpack(message.data)
         scan, ranges = raw.to_si(), np.array(codec.ranges_m(message.header, raw))
         now_s = self._clock.of_scan(message.header.component_id, scan.scan_time)
+        if now_s < self._last_s - BACK_S:
+            self._follower.reset()  # the simulation was started again
+        self._last_s = now_s
         output = self._follower.update(ranges, scan.angle_min, scan.dAngle, now_s)
         self._send(codec.encode_motion_si(output.speed_m_s, output.turn_rad_s), self._controls)
         return _line(now_s, output)

@@ -21,18 +21,22 @@ class _Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {message}\n")
 
 
-def _positive(text: str) -> int:
-    value = int(text)
-    if not 1 <= value <= 10_000:
-        raise argparse.ArgumentTypeError(f"found {value}, expected 1 to 10000")
+def _whole(text: str, least: int, most: int) -> int:
+    try:
+        value = int(text)
+    except ValueError:
+        value = least - 1
+    if not least <= value <= most:
+        raise argparse.ArgumentTypeError(f"found {text}, expected {least} to {most}")
     return value
+
+
+def _positive(text: str) -> int:
+    return _whole(text, 1, 10_000)
 
 
 def _seed(text: str) -> int:
-    value = int(text)
-    if not 0 <= value < 2**31:
-        raise argparse.ArgumentTypeError(f"found {value}, expected 0 to {2**31 - 1}")
-    return value
+    return _whole(text, 0, 2**31 - 1)
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:

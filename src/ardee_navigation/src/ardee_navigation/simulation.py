@@ -22,6 +22,7 @@ from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import LaserScan
 
+from ardee_models.errors import GeneratorError
 from ardee_msgs.srv import Step
 from ardee_navigation.truth import Pose
 from gazebo_msgs.msg import ModelState
@@ -59,7 +60,11 @@ def robot_urdf(bot_model: str = "tsv1_default.urdf.xacro") -> str:
 
     folder = Path(rospkg.RosPack().get_path("terrasentia_description")) / "robots"
     command = ["rosrun", "xacro", "xacro", str(folder / bot_model), "ns:="]
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    made = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if made.returncode:
+        why = (made.stderr.strip() or "no word of why").splitlines()[-1]
+        raise GeneratorError(f"--bot-model: found {bot_model!r}, of which xacro says: {why}")
+    return made.stdout
 
 
 def to_ros(pose: Pose, z_m: float) -> RosPose:

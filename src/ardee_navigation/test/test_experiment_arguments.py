@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""What run_experiment says to arguments that cannot be: one line, exit code 2."""
+import sys
+
+import pytest
+
+from ardee_models.errors import GeneratorError
+from ardee_navigation import run_experiment, simulation
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (["--runs", "x"], "argument --runs: found x, expected 1 to 10000"),
+        (["--runs", "0"], "argument --runs: found 0, expected 1 to 10000"),
+        (["--seed", "1.5"], "argument --seed: found 1.5, expected 0 to 2147483647"),
+    ],
+)
+def test_numbers(words, message, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["run_experiment", "--scenario", "corn", *words])
+    with pytest.raises(SystemExit) as ended:
+        run_experiment.main()
+    assert ended.value.code == 2
+    assert capsys.readouterr().err == f"run_experiment: {message}\n"
+
+
+def test_a_robot_that_is_not_there():
+    with pytest.raises(GeneratorError, match="^--bot-model: found 'nobody.xacro', .*nobody.xacro"):
+        simulation.robot_urdf("nobody.xacro")
