@@ -14,6 +14,8 @@ MASTER = (
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
 )
 Probe = Callable[..., Any]
+PROBES = get_context("forkserver")  # its server has imported once what each probe would import anew
+PROBES.set_forkserver_preload(["numpy", "pytest", "rospy", "tf2_ros"])
 
 
 def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers: Any) -> None:
@@ -150,9 +152,8 @@ class RosGraph:
 
     def call(self, probe: Probe, *args: Any, timeout_s: float = 90.0) -> Any:
         """probe(*args) in a process of its own: rospy can be initialised only once in each."""
-        context = get_context("spawn")
-        answers = context.Queue()
-        process = context.Process(target=_run_probe, args=(self.env, probe, args, answers))
+        answers = PROBES.Queue()
+        process = PROBES.Process(target=_run_probe, args=(self.env, probe, args, answers))
         process.start()
         try:
             worked, value = answers.get(timeout=timeout_s)
