@@ -117,7 +117,7 @@ def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
 
 
 def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
-    """The simulated time [s], once it has reached a value; a node that starts before it is announced keeps wall time."""
+    """The simulated time [s], once it has reached a value; a node started before it is announced keeps wall time."""
     master = rosgraph.Master("probe")
     wait_until(lambda: master.hasParam("/use_sim_time"), "use_sim_time", timeout_s)
     _start()
