@@ -64,7 +64,7 @@ def topics(namespace: str = "/") -> Dict[str, str]:
     return dict(rospy.get_published_topics(namespace))
 
 
-def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 30.0) -> List[str]:
+def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60.0) -> List[str]:
     """All published topics, once those of the first list are there and those of the second are not."""
     _start()
 
