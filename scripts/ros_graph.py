@@ -5,6 +5,7 @@ import pathlib
 import queue
 import signal
 import subprocess
+import sys
 import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
@@ -25,6 +26,8 @@ def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers
         answers.put((True, probe(*args)))
     except BaseException as error:
         answers.put((False, f"{type(error).__name__}: {error}"))
+    if "rospy" in sys.modules:  # a fork ends without what rospy does at exit: telling the master
+        sys.modules["rospy"].signal_shutdown("the probe ends")
 
 
 def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0) -> Any:
