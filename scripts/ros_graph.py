@@ -5,6 +5,7 @@ import pathlib
 import queue
 import signal
 import subprocess
+import sys
 import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
@@ -14,6 +15,8 @@ MASTER = (
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
 )
 Probe = Callable[..., Any]
+PROBES = get_context("forkserver")  # its server has imported once what each probe would import anew
+PROBES.set_forkserver_preload(["numpy", "pytest", "rospy", "tf2_ros"])
 
 
 def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers: Any) -> None:
@@ -23,6 +26,8 @@ def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers
         answers.put((True, probe(*args)))
     except BaseException as error:
         answers.put((False, f"{type(error).__name__}: {error}"))
+    if "rospy" in sys.modules:  # a fork ends without what rospy does at exit: telling the master
+        sys.modules["rospy"].signal_shutdown("the probe ends")
 
 
 def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0) -> Any:
@@ -150,9 +155,8 @@ class RosGraph:
 
     def call(self, probe: Probe, *args: Any, timeout_s: float = 90.0) -> Any:
         """probe(*args) in a process of its own: rospy can be initialised only once in each."""
-        context = get_context("spawn")
-        answers = context.Queue()
-        process = context.Process(target=_run_probe, args=(self.env, probe, args, answers))
+        answers = PROBES.Queue()
+        process = PROBES.Process(target=_run_probe, args=(self.env, probe, args, answers))
         process.start()
         try:
             worked, value = answers.get(timeout=timeout_s)

@@ -64,7 +64,7 @@ def topics(namespace: str = "/") -> Dict[str, str]:
     return dict(rospy.get_published_topics(namespace))
 
 
-def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 30.0) -> List[str]:
+def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60.0) -> List[str]:
     """All published topics, once those of the first list are there and those of the second are not."""
     _start()
 
@@ -117,7 +117,7 @@ def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
 
 
 def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
-    """The simulated time [s], once it has reached a value; a node that starts before it is announced keeps wall time."""
+    """The simulated time [s], once it has reached a value; a node started before it is announced keeps wall time."""
     master = rosgraph.Master("probe")
     wait_until(lambda: master.hasParam("/use_sim_time"), "use_sim_time", timeout_s)
     _start()
