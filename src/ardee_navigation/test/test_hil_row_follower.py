@@ -106,10 +106,19 @@ def test_strangers_and_rubbish_are_not_answered(ends: tuple) -> None:
 
 def test_without_time_stamps_the_scans_period_counts() -> None:
     clock = Clock()
-    assert clock.of_scan(0, 0.025) == pytest.approx(0.025)
-    assert clock.of_scan(0, 0.025) == pytest.approx(0.050)
+    assert clock.of_scan(0, 0.025, 100.0) == pytest.approx(0.025)
+    assert clock.of_scan(0, 0.025, 100.1) == pytest.approx(0.050)
     clock.stamp(codec.TimeStamp(sec=7, nsec=0, data_type=codec.DataType.LIDAR))
-    assert clock.of_scan(0, 0.025) == 7.0
-    assert clock.of_scan(0, float("nan")) == 7.0
+    assert clock.of_scan(0, 0.025, 100.2) == 7.0
     clock.stamp(codec.TimeStamp(sec=9, nsec=0, data_type=codec.DataType.IMU))
-    assert clock.of_scan(0, 0.025) == pytest.approx(7.025)
+    assert clock.of_scan(0, 0.025, 100.3) == pytest.approx(7.025)
+
+
+@pytest.mark.parametrize("period_s", [0.0, float("nan"), -1.0])
+def test_without_a_period_either_the_wait_counts(period_s: float) -> None:
+    clock = Clock()
+    assert clock.of_scan(0, period_s, 100.0) == 0.0
+    assert clock.of_scan(0, period_s, 100.03) == pytest.approx(0.03)
+    clock.stamp(codec.TimeStamp(sec=7, nsec=0, data_type=codec.DataType.LIDAR))
+    assert clock.of_scan(0, period_s, 100.05) == 7.0
+    assert clock.of_scan(0, period_s, 100.07) == pytest.approx(7.02)

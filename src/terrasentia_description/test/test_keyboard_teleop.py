@@ -71,6 +71,13 @@ def test_without_a_key_there_is_none(teleop):
     os.close(reader)
 
 
+@pytest.mark.parametrize("value", ["fast", -0.1, float("nan"), float("inf"), None])
+def test_a_parameter_that_is_no_number_is_named(teleop, value):
+    assert teleop.number("speed", 1) == 1.0
+    with pytest.raises(ValueError, match="~speed: found .*, expected a number from 0"):
+        teleop.number("speed", value)
+
+
 def test_without_a_terminal_it_says_so():
     done = subprocess.run(
         ["/usr/bin/python3", str(SCRIPT)], stdin=subprocess.DEVNULL, capture_output=True, text=True

@@ -30,20 +30,25 @@ Address = Tuple[str, int]
 
 
 class Clock:
-    """Simulated time of a scan: that of the time stamp sent before it, else counted on by the scan's own period."""
+    """Simulated time of a scan: that of the time stamp sent before it, else counted on by the scan's own period.
+
+    A scan that does not tell its period (simulated lidars leave it 0) took as long as it was waited for.
+    """
 
     def __init__(self) -> None:
         self._stamps: Dict[int, float] = {}
-        self._last_s = 0.0
+        self._last_s = self._arrived_s = 0.0
 
     def stamp(self, data: codec.TimeStamp) -> None:
         """A time stamp, which the next message of its component belongs to."""
         if data.data_type == codec.DataType.LIDAR:
             self._stamps = {data.component_id: data.sec + 1e-9 * data.nsec}
 
-    def of_scan(self, component_id: int, period_s: float) -> float:
-        """Time [s] of the scan that has just arrived."""
-        step_s = period_s if math.isfinite(period_s) else 0.0
+    def of_scan(self, component_id: int, period_s: float, arrived_s: float) -> float:
+        """Time [s] of the scan that has arrived at `arrived_s` by this computer's clock."""
+        waited_s = arrived_s - self._arrived_s if self._arrived_s else 0.0
+        self._arrived_s = arrived_s
+        step_s = period_s if 0.0 < period_s < math.inf else waited_s
         self._last_s = self._stamps.pop(component_id, self._last_s + step_s)
         return self._last_s
 
@@ -95,7 +100,7 @@ class Target:
             return None
         raw = codec.LidarData.unpack(message.data)
         scan, ranges = raw.to_si(), np.array(codec.ranges_m(message.header, raw))
-        now_s = self._clock.of_scan(message.header.component_id, scan.scan_time)
+        now_s = self._clock.of_scan(message.header.component_id, scan.scan_time, time.monotonic())
         if now_s < self._last_s - BACK_S:
             self._follower.reset()  # the simulation was started again
         self._last_s = now_s
