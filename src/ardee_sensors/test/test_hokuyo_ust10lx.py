@@ -52,7 +52,7 @@ def test_listing_4_1_alone_gives_the_device(tmp_path: pathlib.Path):
     plugin = sensor.find("plugin")
     assert plugin.get("filename") == "libgazebo_ros_gpu_laser.so"
     names = [plugin.findtext(k) for k in ("robotNamespace", "topicName", "frameName")]
-    assert names == ["/", "ardee/hokuyo", "hokuyo_link"]
+    assert names == ["", "ardee/hokuyo", "hokuyo_link"]  # empty: where the robot is spawned
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,9 @@
 #include <ros/names.h>
 #include <std_msgs/Float64.h>
 
+#include <algorithm>
+#include <iterator>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -45,7 +48,7 @@ bool always_demanded(const Output& output) {
 void require_valid(const std::string& topic) {
   std::string why;
   if (!ros::names::validate(topic, why)) {
-    throw Error("found topic '" + topic + "', expected a valid name: " + why);
+    throw Error("found '" + topic + "' as a topic or service, expected a valid name: " + why);
   }
 }
 
@@ -124,23 +127,38 @@ ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
   return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
 }
 
+void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
+  for (const Service& service : device.services()) require_valid(service.name);
+  for (const Trigger& trigger : device.triggers()) require_valid(trigger.topic);
+  std::vector<Route> routes;
+  std::vector<ros::Subscriber> subscribers;
+  for (Output& output : device.outputs()) routes.push_back(advertise(output, robot));
+  for (const Input& input : device.inputs()) subscribers.push_back(subscribe(input));
+  for (const NumberInput& input : device.number_inputs()) subscribers.push_back(subscribe(input));
+  topics.services->add(device);
+  std::move(routes.begin(), routes.end(), std::back_inserter(topics.routes));
+  std::move(subscribers.begin(), subscribers.end(), std::back_inserter(topics.subscribers));
+}
+
 void RobotTopics::add(Entity& entity) {
   Topics topics;
   topics.services = std::make_unique<DeviceServices>(node_);
+  std::set<const Device*> left_out;
   for (const auto& device : entity.devices) {
     try {
-      for (Output& output : device->outputs()) {
-        topics.routes.push_back(advertise(output, *entity.robot));
-      }
-      for (const Input& input : device->inputs()) topics.subscribers.push_back(subscribe(input));
-      for (const NumberInput& input : device->number_inputs()) {
-        topics.subscribers.push_back(subscribe(input));
-      }
-      topics.services->add(*device);
+      add(*device, *entity.robot, topics);
     } catch (const Error& error) {
-      throw Error(entity.robot->model().source, "plugin '" + device->name() + "': " + error.what());
+      const Error placed(entity.robot->model().source,
+                         "plugin '" + device->name() + "': " + error.what());
+      if (!device->is_dispensable()) throw placed;
+      ROS_ERROR_STREAM(placed.what() << "; it is left out");
+      left_out.insert(device.get());
     }
   }
+  auto& devices = entity.devices;
+  devices.erase(std::remove_if(devices.begin(), devices.end(),
+                               [&](const auto& device) { return left_out.count(device.get()); }),
+                devices.end());
   const Topics& kept = topics_[entity.name()] = std::move(topics);
   for (const Route& route : kept.routes) routes_[route.output] = &route;
 }

@@ -24,7 +24,8 @@ class RobotTopics : public ReadingSink {
  public:
   explicit RobotTopics(OdometryFrames& frames) : frames_(frames) {}
 
-  /// Throws Error if a topic cannot be had; then none of the entity's is there.
+  /// A sensor whose topics cannot be had is taken off the entity, with a message. Throws Error if
+  /// those of another device cannot; then none of the entity's is there.
   void add(Entity& entity);
   void remove(const std::string& entity_name);
   /// Tells the devices which of their outputs somebody listens to.
@@ -45,6 +46,7 @@ class RobotTopics : public ReadingSink {
     std::vector<ros::Subscriber> subscribers;
     std::unique_ptr<DeviceServices> services;
   };
+  void add(Device& device, const Robot& robot, Topics& topics);
   Route advertise(Output& output, const Robot& robot);
   ros::Subscriber subscribe(const Input& input);
   ros::Subscriber subscribe(const NumberInput& input);

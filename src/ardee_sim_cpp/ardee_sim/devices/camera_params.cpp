@@ -45,7 +45,7 @@ void read_clip(const Element& clip, CameraParams& camera, Log& log) {
 void read_noise(const Element& noise, CameraParams& camera, Log& log) {
   Parameters parameters(noise);
   const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
-                                                          : parameters.text("type", "none");
+                                                          : parameters.text("type", "gaussian");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
   parameters.ignore({"type", "bias_mean", "bias_stddev", "precision"});
@@ -142,7 +142,9 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
                  DeviceContext& context) {
   Parameters parameters(plugin.element);
   const std::string robot = plugin_namespace(parameters, context);
-  const std::string space = resolve_topic(parameters.text("cameraName", "") + suffix, robot);
+  // As in Gazebo a camera's name is below the robot's namespace, with a slash before it too.
+  const std::string name = without_slashes(parameters.text("cameraName", "")) + suffix;
+  const std::string space = "/" + without_slashes(robot + "/" + name);
   const auto topic = [&](const char* key, const char* fallback) {
     return resolve_topic(parameters.text(key, fallback), space);
   };

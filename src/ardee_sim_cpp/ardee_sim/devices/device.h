@@ -138,6 +138,9 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   const std::string& name() const { return name_; }
+  /// Whether the robot does without it where it cannot be, as it does without a sensor.
+  bool is_dispensable() const { return is_dispensable_; }
+  void set_dispensable(bool is_dispensable) { is_dispensable_ = is_dispensable; }
   std::deque<Output>& outputs() { return outputs_; }
   std::deque<Input>& inputs() { return inputs_; }
   const std::vector<NumberInput>& number_inputs() const { return number_inputs_; }
@@ -163,6 +166,7 @@ class Device {
 
  private:
   std::string name_;
+  bool is_dispensable_ = false;
   std::deque<Output> outputs_;
   std::deque<Input> inputs_;
   std::vector<NumberInput> number_inputs_;

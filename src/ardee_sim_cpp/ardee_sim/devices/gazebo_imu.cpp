@@ -37,7 +37,8 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.feels_gravity = parameters.boolean("gravity", false);
   params.topic = resolve_topic(parameters.text("topicName", "/default_imu"), space);
-  params.service = resolve_topic(parameters.text("serviceName", "/default_imu"), space);
+  const std::string service = parameters.text("serviceName", "/default_imu");
+  if (!service.empty()) params.service = resolve_topic(service, space);
   params.frame = resolve_frame(parameters.text("frameName", body), space, context);
   parameters.ignore({"alwaysOn", "updateRateHZ"});
   parameters.finish(context.log);

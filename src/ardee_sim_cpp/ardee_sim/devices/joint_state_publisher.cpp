@@ -32,6 +32,7 @@ std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugi
     joints.push_back(context.robot.joint_index(name, plugin.element.source));
   }
   const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
+  parameters.ignore({"alwaysOn"});
   parameters.finish(context.log);
   return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
                                                std::move(joints), rate_hz, context.robot);

@@ -2,16 +2,13 @@
 #include "ardee_sim/devices/names.h"
 
 namespace ardee {
-namespace {
 
-std::string without_slashes(std::string text) {
+std::string without_slashes(const std::string& text) {
   const std::size_t first = text.find_first_not_of('/');
   if (first == std::string::npos) return "";
   const std::size_t last = text.find_last_not_of('/');
   return text.substr(first, last - first + 1);
 }
-
-}  // namespace
 
 std::string plugin_namespace(Parameters& parameters, const DeviceContext& context) {
   const std::string own = parameters.text("robotNamespace", "");
@@ -19,7 +16,10 @@ std::string plugin_namespace(Parameters& parameters, const DeviceContext& contex
 }
 
 std::string resolve_topic(const std::string& topic, const std::string& robot_namespace) {
-  if (!topic.empty() && topic.front() == '/') return topic;
+  if (without_slashes(topic).empty()) {
+    throw Error("found '" + topic + "' as a topic or service, expected a name");
+  }
+  if (topic.front() == '/') return topic;
   const std::string space = without_slashes(robot_namespace);
   return (space.empty() ? "/" : "/" + space + "/") + topic;
 }

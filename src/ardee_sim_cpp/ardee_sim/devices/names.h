@@ -12,8 +12,11 @@ namespace ardee {
 /// robot was spawned in.
 std::string plugin_namespace(Parameters& parameters, const DeviceContext& context);
 
+/// Without those at its ends.
+std::string without_slashes(const std::string& text);
+
 /// A topic as a ROS node in `robot_namespace` would resolve it: absolute stays, relative goes below
-/// the namespace.
+/// the namespace. Throws Error if there is no name.
 std::string resolve_topic(const std::string& topic, const std::string& robot_namespace);
 
 /// A frame as tf2 wants it: no leading slash, the namespace's tf_prefix in front (as tf::resolve

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kMostRays = 1 << 20;
 constexpr double kTwoTurns = 4.0 * M_PI;
-constexpr double kQuarterTurn = 0.5 * M_PI;
 
 const Element& required_block(const Element& parent, const char* name) {
   const Element* block = parent.child(name);
@@ -33,8 +32,8 @@ void read_scan(const Element& scan, RayBlock& block, Log& log) {
   if (!given) return;
   Parameters vertical(*given);
   block.rows = read_samples(vertical, 1);
-  block.elevation_min_rad = vertical.number("min_angle", 0.0, -kQuarterTurn, kQuarterTurn);
-  block.elevation_max_rad = vertical.number("max_angle", 0.0, -kQuarterTurn, kQuarterTurn);
+  block.elevation_min_rad = vertical.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
+  block.elevation_max_rad = vertical.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
   vertical.finish(log);
   if (block.rows > 1 && block.elevation_max_rad <= block.elevation_min_rad) {
     throw vertical.error("max_angle", "expected more than <min_angle>");
@@ -61,7 +60,7 @@ void read_range(const Element& range, RayBlock& block, Log& log) {
 void read_noise(const Element& noise, RangeNoise& made, Log& log) {
   Parameters parameters(noise);
   const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
-                                                          : parameters.text("type", "none");
+                                                          : parameters.text("type", "gaussian");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
   const double precision = parameters.number("precision", 0.0, 0.0);

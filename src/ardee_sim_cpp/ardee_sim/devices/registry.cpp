@@ -93,12 +93,19 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
         before == 0 ? robot.seed : stream_key(robot.seed, "namesake " + std::to_string(before));
   };
   const auto unknown = [&](const PluginDescription& plugin) {
+    const bool of_sensor = sensor_plugins_.count(stem(plugin.filename)) > 0;
+    const bool of_model = model_plugins_.count(stem(plugin.filename)) > 0;
+    const std::string expected = of_sensor  ? "it within a <sensor>"
+                                 : of_model ? "it outside of <sensor>"
+                                            : "one of:" + known_names();
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
-                     "', expected one of:" + known_names() + "; it is left out");
+                     "', expected " + expected + "; it is left out");
   };
   const Model& model = context.robot.model();
-  const auto keep = [&](std::unique_ptr<Device> device) {
-    if (device) devices.push_back(std::move(device));
+  const auto keep = [&](std::unique_ptr<Device> device, bool dispensable) {
+    if (!device) return;
+    device->set_dispensable(dispensable);
+    devices.push_back(std::move(device));
   };
   for (const PluginDescription& plugin : model.plugins) {
     const auto found = model_plugins_.find(stem(plugin.filename));
@@ -111,7 +118,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
     seed_for(plugin.name);
     // A static model keeps those of its devices that do without motion.
     const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
-    keep(may_fail ? made_or_left_out(make, plugin, context.log) : make());
+    keep(may_fail ? made_or_left_out(make, plugin, context.log) : make(), may_fail);
   }
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     for (const SensorDescription& sensor : model.links[link].sensors) {
@@ -125,7 +132,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
             return found->second(sensor, plugin, link, context);
           };
           seed_for(sensor.name);
-          keep(made_or_left_out(make, plugin, context.log));
+          keep(made_or_left_out(make, plugin, context.log), true);
         }
       }
     }

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Where the topics of a robot's sensors go, and topics that cannot be: the robot is spawned without those sensors."""
+import pathlib
+from typing import List
+
+import probes
+import pytest
+from geometry_msgs.msg import Pose, Quaternion
+from ros_graph import RosGraph
+
+WORLD = """<sdf version="1.5"><world name="default"><physics type="ode">
+  <max_step_size>0.005</max_step_size></physics></world></sdf>"""
+INERTIAL = """<inertial><mass value="1" />
+  <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0" /></inertial>"""
+ROBOT = (
+    """<robot name="robot" xmlns:xacro="http://ros.org/wiki/xacro">{before}
+  <xacro:include filename="$(find ardee_sensors)/urdf/all_sensors.urdf.xacro" />
+  <link name="base_footprint">"""
+    + INERTIAL
+    + """</link>{calls}</robot>"""
+)
+SONAR = """<xacro:sensor_sonar name="{}" parent="base_footprint" topic="{}">
+  <origin xyz="0 0 0" /></xacro:sensor_sonar>"""
+
+
+@pytest.fixture(scope="module")
+def world(shared_graph: RosGraph) -> RosGraph:
+    """An empty world."""
+    file = shared_graph.folder / "empty.world"
+    file.write_text(WORLD)
+    shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file))
+    shared_graph.call(probes.clock_at_least, 0.1)
+    return shared_graph
+
+
+def spawn(graph: RosGraph, name: str, calls: str, before: str = "") -> None:
+    """A robot in the namespace of its name; it has to come."""
+    file = graph.folder / f"{name}.urdf.xacro"  # type: pathlib.Path
+    file.write_text(ROBOT.format(before=before, calls=calls))
+    fields = {
+        "model_name": name,
+        "model_xml": graph.run("rosrun", "xacro", "xacro", str(file)),
+        "robot_namespace": "/" + name,
+        "initial_pose": Pose(orientation=Quaternion(0, 0, 0, 1)),
+        "reference_frame": "world",
+    }
+    answer = graph.call(
+        probes.call_service, "/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields
+    )
+    assert answer.success, answer.status_message
+
+
+def errors(graph: RosGraph, part: str) -> List[str]:
+    """The simulator's complaints that hold `part`."""
+    return [line for line in graph.logs().splitlines() if "ERROR" in line and part in line]
+
+
+def test_topics_lie_where_the_robot_is_spawned_unless_it_says_otherwise(world: RosGraph) -> None:
+    spawn(world, "one", SONAR.format("sonar", ""))
+    named = '<xacro:property name="robot_namespace" value="/elsewhere" />'
+    spawn(world, "two", SONAR.format("sonar", ""), named)
+    topics = world.call(probes.topics)
+    assert topics["/one/ardee/sonar"] == topics["/elsewhere/ardee/sonar"] == "sensor_msgs/Range"
+    assert "/ardee/sonar" not in topics and "/two/ardee/sonar" not in topics
+
+
+@pytest.mark.parametrize(
+    "name, topic, said",
+    [
+        ("not_a_name", "two words", "expected a valid name"),
+        ("taken", "/clock", "/clock is already published with another type"),
+    ],
+)
+def test_a_sensor_whose_topic_cannot_be_is_left_out(
+    world: RosGraph, name: str, topic: str, said: str
+) -> None:
+    spawn(world, name, SONAR.format("good", "good") + SONAR.format("bad", topic))
+    (line,) = errors(world, f"'{name}'")
+    assert "'bad_sensor'" in line and said in line and "left out" in line
+    assert world.call(probes.collect, f"/{name}/good", "sensor_msgs/Range", 2)
