@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Measures the sensor server on loopback with messages of the benchmark's own, at the sensors' full rates."""
 import time
+import warnings
 from typing import Any, Dict, List, Sequence, Tuple
 
 from ardee_bridge import codec, latency_floor, witness
@@ -88,17 +89,19 @@ def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
     """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
 
-    It stands for a simulator whose `realtime_priority` is set.
+    It stands for a simulator whose `realtime_priority` is set. Its publishers have no queue: rospy would write to the
+    socket in a thread of its own, without that priority, and the messages would wait for it.
     """
     import rospy
 
     from ardee_bridge import latency_messages
     from ardee_bridge.subscriptions import TYPES
 
+    warnings.simplefilter("ignore", SyntaxWarning)  # rospy's, for publishers without a queue
     rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
     messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
     publishers = [
-        rospy.Publisher(stream.topic, TYPES[stream.kind], queue_size=1000, tcp_nodelay=True)
+        rospy.Publisher(stream.topic, TYPES[stream.kind], queue_size=None, tcp_nodelay=True)
         for stream in streams
     ]
     raw = {}  # type: Dict[int, Tuple[Any, Any]]
@@ -109,7 +112,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
             publishers[index] = rospy.Publisher(
                 f"{stream.topic}/compressed",
                 type(messages[index]),
-                queue_size=1000,
+                queue_size=None,
                 tcp_nodelay=True,
             )
     deadline = time.monotonic() + START_LIMIT_S
