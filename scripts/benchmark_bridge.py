@@ -5,8 +5,8 @@ import subprocess
 from typing import Any, Dict, List
 
 P99_BUDGET_MS = 2.0
-
-
+# The floor, measured beside the bridge: it has no budget.
+FLOOR = "bare forwarder"
 # A simulated robot's frames are few where its cameras are to be drawn first.
 LEAST_FRAMES_S = 8.0
 
@@ -15,7 +15,7 @@ def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
     """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's.
 
     And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them, with the images as JPEG and as
-    they are: is a message lost?
+    they are: is a message lost? Beside each of them the floor.
     """
     frames_s = max(3 * seconds, LEAST_FRAMES_S)
     figures = _run(seconds)
@@ -27,14 +27,9 @@ def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
         "beside raw images, ": (loss_s, "--cameras", "raw"),
     }
     for prefix, (run_s, *options) in runs.items():
-        found = _without_controls(_run(run_s, *options))
+        found = _run(run_s, "--only", "sensors", *options)
         figures.update((prefix + name, f) for name, f in found.items())
     return figures
-
-
-def _without_controls(figures: Dict[str, Any]) -> Dict[str, Any]:
-    """They are the same measurement each time."""
-    return {name: f for name, f in figures.items() if name != "datagram to cmd_vel"}
 
 
 def _run(seconds: float, *options: str) -> Dict[str, Any]:
@@ -54,12 +49,13 @@ def _run(seconds: float, *options: str) -> Dict[str, Any]:
 
 
 def lines(figures: Dict[str, Any]) -> List[str]:
-    """One line a kind of message, with a mark where the budget is missed or a message lost."""
+    """One line a kind of message, with a mark where its budget is missed or a message lost."""
     found = []
     for name, f in figures.items():
-        mark = " !" if f["p99_ms"] > P99_BUDGET_MS or f["lost"] else ""
+        budget = "" if FLOOR in name else f" (<= {P99_BUDGET_MS:.2f})"
+        mark = " !" if f["lost"] or budget and f["p99_ms"] > P99_BUDGET_MS else ""
         found.append(
-            f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f} ms "
-            f"(<= {P99_BUDGET_MS:.2f}), most {f['max_ms']:.2f} ms, {f['lost']} of {f['sent']} lost{mark}"
+            f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f} ms{budget}, "
+            f"most {f['max_ms']:.2f} ms, {f['lost']} of {f['sent']} lost{mark}"
         )
     return found

@@ -5,6 +5,7 @@ import math
 import pathlib
 import subprocess
 
+import benchmark_bridge
 import benchmark_field
 import benchmark_table
 
@@ -33,11 +34,15 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     # Rays that race each other have to meet the same things.
     assert figures["lidar"]["flat_agreement"] > 0.99
     assert figures["engine"]["placements"] == 201
-    for name, spread in json.loads(path.read_text())["bridge"].items():
+    bridge = json.loads(path.read_text())["bridge"]
+    for name, spread in bridge.items():
         assert 0.0 < spread["p50_ms"] <= spread["p99_ms"] <= spread["max_ms"], name
         assert name in done.stdout
         assert spread["sent"] > 0 and f"{spread['lost']} of {spread['sent']} lost" in done.stdout
-    assert "beside cameras, point_cloud message to datagram" in done.stdout
+    assert "beside cameras, point_cloud message to datagram" in bridge
+    # Six measurements, each with its floor; the controls, which are the same in all, once.
+    assert sum("bare forwarder" in name for name in bridge) == 6
+    assert sum("cmd_vel" in name for name in bridge) == 1
 
 
 def test_bad_arguments_are_named() -> None:
@@ -63,3 +68,11 @@ def test_medians_and_missed_budgets() -> None:
     assert start.cell(20_001, figures, figures) == "3.20 (<= 10.00)  "
     assert start.cell(200_001, figures, figures) == "3.20  "
     assert start.cell(200, {}, {}) == "-"
+
+
+def test_the_floor_has_no_budget() -> None:
+    late = dict(p50_ms=0.5, p99_ms=2.5, max_ms=3.0, sent=100, lost=0)
+    names = ("imu message to datagram", "simulated bare forwarder message to datagram")
+    imu, floor = benchmark_bridge.lines({name: late for name in names})
+    assert "99th percentile 2.50 ms (<= 2.00), most" in imu and imu.endswith("lost !")
+    assert "99th percentile 2.50 ms, most" in floor and floor.endswith("0 of 100 lost")

@@ -9,7 +9,7 @@ import pytest
 from bridge_bench import Bench, resident_mb
 from ros_graph import RosGraph, wait_until
 
-from ardee_bridge import codec, latency, latency_controls
+from ardee_bridge import codec, latency_controls, latency_sensors
 
 FLOOD_HZ = 10_000
 FLOOD_S = 4.0
@@ -171,7 +171,7 @@ def test_a_flood_of_good_commands_is_obeyed_and_memory_stays_flat(bench: Bench) 
 
 
 def test_nothing_is_lost_at_full_rates() -> None:
-    for kind, figures in latency.measure_sensors(seconds=5.0).items():
+    for kind, figures in latency_sensors.measure_sensors(seconds=5.0).items():
         assert figures.sent > 0 and figures.lost == 0, (kind, figures)
     figures = latency_controls.measure_controls(seconds=2.0)
     assert figures.sent == 200 and figures.lost == 0

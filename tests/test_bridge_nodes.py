@@ -111,7 +111,14 @@ def test_the_benchmark_measures_everything(graph: RosGraph) -> None:
     )
     kinds = json.loads(graph.run(*command, timeout_s=120.0))
     names = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud"}
-    names |= {"jpeg image", "raw image"}
+    names |= {"jpeg image", "raw image", "bare forwarder"}
     assert set(kinds) == {f"{name} message to datagram" for name in names} | {"datagram to cmd_vel"}
     for figures in kinds.values():
         assert figures["sent"] > 0 and 0 < figures["p50_ms"] <= figures["max_ms"]
+
+
+@pytest.mark.parametrize("only", ["sensors", "controls"])
+def test_the_benchmark_leaves_one_half_out(graph: RosGraph, only: str) -> None:
+    command = ("rosrun", "ardee_bridge", "latency_benchmark", "--json", "--seconds", "0.5")
+    kinds = json.loads(graph.run(*command, "--only", only, timeout_s=120.0))
+    assert kinds and {"cmd_vel" in name for name in kinds} == {only == "controls"}

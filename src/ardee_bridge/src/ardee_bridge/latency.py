@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Measures the bridge on loopback: how long messages take, and whether any is lost.
+"""What the bridge's measurements on loopback share: how long do messages take, and is any lost?
 
-Sensor messages carry a running number in a field that survives the wire; a datagram's time is the kernel's, of its
-arrival at the receiver's socket. Nodes, publishers and receivers are processes of their own, around a ROS master of
-their own.
+A datagram's time is the kernel's, of its arrival at the receiver's socket. Nodes, publishers and receivers are
+processes of their own, around a ROS master of their own.
 """
 import contextlib
 import json
@@ -13,12 +12,11 @@ import select
 import signal
 import socket
 import subprocess
-import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple, Union
 
 from ardee_bridge import codec, witness
-from ardee_bridge.pairing import Message, Pairer
+from ardee_bridge.pairing import Message
 from ardee_bridge.settings import KINDS, Source
 from ardee_bridge.udp import open_socket
 
@@ -36,7 +34,6 @@ CHUNKED = (codec.ImageChunk, codec.PointCloudChunk)
 KEPT_WHOLE_BYTES, KEPT_BYTES = 16384, 64
 
 Key = Tuple[int, int]  # data type, component id
-Times = Dict[Key, List[int]]  # ns of the messages in their order
 
 
 class Stream(NamedTuple):
@@ -51,30 +48,6 @@ class Stream(NamedTuple):
     @property
     def key(self) -> Key:
         return (int(KINDS[self.kind]), self.component_id)
-
-
-# The full rates of the TerraSentia v3's sensors.
-SENSORS = (
-    Stream("imu", "/bench/imu", 0, 100.0),
-    Stream("gps", "/bench/gps", 0, 20.0),
-    Stream("lidar", "/bench/lidar", 0, 40.0),
-    Stream("battery", "/bench/battery", 0, 100.0),
-    Stream("encoder", "/bench/encoder/fr", 0, 100.0),
-    Stream("encoder", "/bench/encoder/fl", 1, 100.0),
-    Stream("encoder", "/bench/encoder/rr", 2, 100.0),
-    Stream("encoder", "/bench/encoder/rl", 3, 100.0),
-)
-
-
-def cameras(image_format: str) -> Tuple[Stream, ...]:
-    """Its three cameras, and what it may carry besides."""
-    return (
-        Stream("image", "/bench/camera/front", 0, 30.0, image_format),
-        Stream("image", "/bench/camera/left", 1, 30.0, image_format),
-        Stream("image", "/bench/camera/right", 2, 30.0, image_format),
-        Stream("image", "/bench/depth", 3, 10.0, "raw"),
-        Stream("point_cloud", "/bench/points", 0, 10.0),
-    )
 
 
 def row_of(kind: str, image_format: str) -> str:
@@ -197,22 +170,6 @@ def is_followed(message: Message) -> bool:
     return chunk.index < chunk.count - 1
 
 
-def serial_of(header: codec.Header, data: bytes) -> int:
-    """The running number that a message carries; -1 for a chunk that is not its frame's last."""
-    kind = codec.data_struct(header)
-    raw = kind.unpack(data[: kind.size])
-    if kind in CHUNKED:
-        return raw.chunk.sequence if raw.chunk.index == raw.chunk.count - 1 else -1
-    paths = {
-        codec.IMUData: "accel.x",
-        codec.GPSData: "altitude",
-        codec.LidarData: "scan_time",
-        codec.BatteryData: "vmin",
-        codec.EncoderData: "id",
-    }
-    return raw.as_dict()[paths[kind]]
-
-
 def receive_datagrams(pipe: Any) -> List[Datagram]:
     """Say one's port, receive until told to end, "at once" or when nothing comes any more: what came, and when [ns].
 
@@ -240,75 +197,6 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
     return kept
 
 
-def receive_sensors(pipe: Any) -> None:
-    """Body of the receiver, which then says when each message came."""
-    pipe.send(_arrivals(receive_datagrams(pipe)))
-
-
-def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
-    """(data type, component) -> running number -> ns."""
-    pairer, arrivals = Pairer(), {}  # type: Pairer, Dict[Key, Dict[int, int]]
-    for datagram in kept:
-        message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
-        if message is None:
-            continue
-        serial = serial_of(message.header, message.data)
-        key = (message.header.data_type, message.header.component_id)
-        if serial >= 0:
-            arrivals.setdefault(key, {})[serial] = datagram.at_ns
-    return arrivals
-
-
-def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
-
-    It stands for a simulator whose `realtime_priority` is set.
-    """
-    import rospy
-
-    from ardee_bridge import latency_messages
-    from ardee_bridge.subscriptions import TYPES
-
-    rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
-    messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
-    publishers = [
-        rospy.Publisher(stream.topic, TYPES[stream.kind], queue_size=1000, tcp_nodelay=True)
-        for stream in streams
-    ]
-    raw = {}  # type: Dict[int, Tuple[Any, Any]]
-    for index, stream in enumerate(streams):
-        if stream.image_format == "jpeg":  # as a camera's driver, which offers both
-            raw[index] = publishers[index], messages[index]
-            messages[index] = latency_messages.compressed(messages[index])
-            publishers[index] = rospy.Publisher(
-                f"{stream.topic}/compressed",
-                type(messages[index]),
-                queue_size=1000,
-                tcp_nodelay=True,
-            )
-    deadline = time.monotonic() + START_LIMIT_S
-    while not all(publisher.get_num_connections() for publisher in publishers):
-        if time.monotonic() > deadline:
-            raise TimeoutError("the sensor server does not subscribe")
-        time.sleep(0.05)
-    witness.go_first()
-    times = {stream.key: [] for stream in streams}  # type: Times
-    start = time.monotonic() + SETTLE_S
-    due = [start + 0.37 * index / stream.rate_hz for index, stream in enumerate(streams)]
-    while min(due) < start + seconds:
-        index = due.index(min(due))
-        stream = streams[index]
-        time.sleep(max(0.0, due[index] - time.monotonic()))
-        latency_messages.number(stream.kind, messages[index], len(times[stream.key]))
-        times[stream.key].append(time.time_ns())
-        publishers[index].publish(messages[index])
-        if index in raw:
-            raw[index][0].publish(raw[index][1])
-        due[index] += 1.0 / stream.rate_hz
-    pipe.send(times)
-    pipe.recv()
-
-
 def server_arguments(
     peer: str, sources: Sequence[Union[Stream, Source]], realtime_priority: int
 ) -> List[str]:
@@ -328,43 +216,3 @@ def server_arguments(
         f"_realtime_priority:={realtime_priority}",
         f"_sources:={json.dumps(items)}",
     ]
-
-
-def measure_sensors(
-    seconds: float, image_format: str = "", realtime_priority: int = 1
-) -> Dict[str, Spread]:
-    """Sensor message published -> data datagram arrived, of frames the last, by kind of sensor.
-
-    With cameras where a format of their images is given.
-    """
-    groups = [SENSORS] + ([cameras(image_format)] if image_format else [])
-    streams = [stream for group in groups for stream in group]
-    with own_master() as env:
-        receiver, from_receiver = in_process(env, receive_sensors)
-        peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: [all]}}"
-        parameters = server_arguments(peer, streams, realtime_priority)
-        with node(env, "sensor_server_node", *parameters):
-            running = [in_process(env, publish_sensors, group, seconds) for group in groups]
-            times = {}  # type: Times
-            for _, pipe in running:
-                times.update(hear(pipe, seconds + 2 * START_LIMIT_S))
-            from_receiver.send("when nothing comes any more")
-            arrivals = answer(receiver, from_receiver, 2 * START_LIMIT_S + seconds)
-            for process, pipe in running:
-                pipe.send("end")
-                process.join(START_LIMIT_S)
-    return _by_kind(streams, times, arrivals)
-
-
-def _by_kind(
-    streams: Sequence[Stream], times: Times, arrivals: Dict[Key, Dict[int, int]]
-) -> Dict[str, Spread]:
-    latencies, sent = {}, {}  # type: Dict[str, List[int]], Dict[str, int]
-    for stream in streams:
-        row = row_of(stream.kind, stream.image_format)
-        published, arrived = times[stream.key], arrivals.get(stream.key, {})
-        sent[row] = sent.get(row, 0) + len(published)
-        latencies.setdefault(row, []).extend(
-            arrived[serial] - at_ns for serial, at_ns in enumerate(published) if serial in arrived
-        )
-    return {row: spread(latencies[row], sent[row]) for row in sent}

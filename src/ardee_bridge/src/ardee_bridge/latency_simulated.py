@@ -14,7 +14,7 @@ from typing import Any, Dict, Iterator, List
 import rosgraph
 import rospkg
 
-from ardee_bridge import codec, latency, witness
+from ardee_bridge import codec, latency, latency_floor, witness
 from ardee_bridge.pairing import Pairer
 from ardee_bridge.settings import KINDS, Source
 
@@ -120,7 +120,10 @@ def _read(source: Source, env: Dict[str, str]) -> str:
 def measure(
     seconds: float, image_format: str, sources: List[Source], realtime_priority: int
 ) -> Dict[str, latency.Spread]:
-    """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given."""
+    """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given.
+
+    And the bare forwarder's in the same time.
+    """
     sources = [
         source._replace(image_format=image_format) if source.image_format == "jpeg" else source
         for source in sources
@@ -128,6 +131,7 @@ def measure(
     ]
     with contextlib.ExitStack() as stack:
         env = stack.enter_context(latency.own_master())
+        floor = stack.enter_context(latency_floor.running(realtime_priority))
         receiver, from_receiver = latency.in_process(env, receive)
         wanted = "[all, time]" if image_format else "[imu, gps, lidar, encoder, battery, time]"
         peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
@@ -160,13 +164,14 @@ def measure(
         begin_ns = time.time_ns()
         end_ns = begin_ns + round(seconds * 1e9)
         time.sleep(seconds + latency.SETTLE_S)
+        bare = floor(begin_ns, end_ns)
         from_watcher.send("end")
         watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
         time.sleep(latency.SETTLE_S)
         from_receiver.send("at once")
         arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
     published = {name: _within(watched[topic], begin_ns, end_ns) for name, topic in topics.items()}
-    return _by_row(sources, published, arrived)
+    return {**_by_row(sources, published, arrived), latency_floor.NAME: bare}
 
 
 def _by_row(

@@ -34,10 +34,10 @@ def timestamp_ns(extras: Sequence[Any]) -> Optional[int]:
     return None
 
 
-def go_first() -> None:
+def go_first(priority: int = 1) -> None:
     """What is measured with must not wait for what is measured, where that is granted."""
     with contextlib.suppress(PermissionError):
-        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(1))
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(priority))
 
 
 class Connection:
