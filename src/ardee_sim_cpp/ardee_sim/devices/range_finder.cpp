@@ -2,6 +2,7 @@
 #include "ardee_sim/devices/range_finder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,10 @@ namespace {
 constexpr double kSonarRate_hz = 10.0;  // hector_gazebo_ros_sonar's
 
 RangeReading::Radiation read_radiation(Parameters& keys) {
-  const std::string text = keys.text("radiation", "ultrasound");
+  std::string text = keys.text("radiation", "ultrasound");
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));  // also as the message's constants are written
+  });
   if (text == "ultrasound") return RangeReading::Radiation::kUltrasound;
   if (text == "infrared") return RangeReading::Radiation::kInfrared;
   throw keys.error("radiation", "expected ultrasound or infrared");

@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Both, RangeFinders, testing::Values(kRange, kSonar),
 TEST(Range, TellsTheFieldOfViewAndRadiationOfItsKeys) {
   TestWorld world(room());
   RayPost post = cone(kRange,
-                      "<fov>0.12</fov><radiation>infrared</radiation>"
+                      "<fov>0.12</fov><radiation>INFRARED</radiation>"
                       "<updateRate>5</updateRate><frameName>nose</frameName>");
   world.spawn(post.xml(), "post", kOneMetreUp);
   world.run(1.0);
