@@ -22,10 +22,12 @@ BAD_WORLDS = {
     "topic with a blank": (
         PLANE.replace(
             "</world>",
-            '<model name="m"><link name="l"/><plugin name="truth" filename="libgazebo_ros_p3d.so">'
-            "<bodyName>l</bodyName><topicName>the truth</topicName></plugin></model></world>",
+            '<model name="m"><link name="a"/><link name="b"><pose>1 0 0 0 0 0</pose></link>'
+            '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>'
+            '</axis></joint><plugin name="joints" filename="libgazebo_ros_joint_state_publisher.so">'
+            "<robotNamespace>the field</robotNamespace><jointName>j</jointName></plugin></model></world>",
         ),
-        "plugin 'truth': found topic '/the truth'",
+        "plugin 'joints': found '/the field/joint_states' as a topic or service",
     ),
     "box without size": (PLANE.replace("1 20 2", "1 -20 2"), "size"),
 }

@@ -71,11 +71,13 @@ def _diagnostics(counts: Dict[str, Counts], before: Dict[str, int]) -> Diagnosti
 class MasterWatch:
     """Goes on while the ROS master is away, for topics need none; ends the node once another one is there instead.
 
-    rospy never registers anew: the new master and its nodes would not know of this node.
+    rospy never registers anew: the new master and its nodes would not know of this node's topics. Its name alone they
+    may know, for a line of the log asks for a parameter in that name; so the master's process is compared, too.
     """
 
     def __init__(self) -> None:
         self.is_forgotten = False
+        self._pid = rosgraph.Master(rospy.get_name()).getPid()
         threading.Thread(target=self._repeat, daemon=True).start()
 
     def _repeat(self) -> None:
@@ -83,7 +85,10 @@ class MasterWatch:
         while not rospy.is_shutdown():
             rospy.rostime.wallsleep(MASTER_PERIOD_S)
             try:
-                rosgraph.Master(name).lookupNode(name)
+                master = rosgraph.Master(name)
+                master.lookupNode(name)
+                if master.getPid() != self._pid:
+                    self._end(name)
                 is_away = False
             except rosgraph.MasterError:
                 self._end(name)
@@ -107,8 +112,8 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """
     priority.share_fairly()
     rospy.init_node(name, disable_rostime=True)
-    watch = MasterWatch()
     try:
+        watch = MasterWatch()
         step = body()
     except (SettingError, OSError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
