@@ -76,3 +76,9 @@ def test_the_floor_has_no_budget() -> None:
     imu, floor = benchmark_bridge.lines({name: late for name in names})
     assert "99th percentile 2.50 ms (<= 2.00), most" in imu and imu.endswith("lost !")
     assert "99th percentile 2.50 ms, most" in floor and floor.endswith("0 of 100 lost")
+
+
+def test_a_bridge_row_without_messages_is_missed() -> None:
+    nothing = dict(p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan, sent=0, lost=0)
+    (imu,) = benchmark_bridge.lines({"imu message to datagram": nothing})
+    assert imu.endswith("0 of 0 lost !")
