@@ -5,7 +5,6 @@ Each is a node of its own while somebody wants one of its sources. It sends from
 see one sender; the server keeps the clients and tells it of them through a pipe, by which it says what it has done.
 It ends when that pipe does.
 """
-import signal
 import socket
 import subprocess
 import sys
@@ -13,7 +12,7 @@ import threading
 import time
 from collections import deque
 from multiprocessing.connection import Connection, Pipe
-from typing import Callable, Deque, Dict, FrozenSet, List, NamedTuple, Optional, Tuple
+from typing import Callable, Deque, Dict, FrozenSet, List, NamedTuple, Optional, Tuple, Union
 
 from ardee_bridge import priority
 from ardee_bridge.camera_topics import CameraTopics, Choice
@@ -88,10 +87,8 @@ class FrameProcess:
             if not is_wanted:
                 return
             self._start()
-        try:
-            self._pipe.send(Orders(targets, names))
-        except OSError:
-            pass  # it has ended
+            self._send(self._job)
+        self._send(Orders(targets, names))
 
     def has_ended(self) -> bool:
         """Was it started, some time ago, and runs no more?"""
@@ -117,11 +114,19 @@ class FrameProcess:
         pipe, theirs = Pipe()
         files = (theirs.fileno(), self._socket.fileno(), self._pair_lock.file)
         words = [sys.executable, "-m", "ardee_bridge.frames", *map(str, files)]
-        self._process = subprocess.Popen(words, stdin=subprocess.DEVNULL, pass_fds=files)
+        # Ctrl-C in the terminal is the server's alone, whose end ends the pipe
+        self._process = subprocess.Popen(
+            words, stdin=subprocess.DEVNULL, pass_fds=files, start_new_session=True
+        )
         theirs.close()
-        pipe.send(self._job)
         with self._lock:
             self._pipe = pipe
+
+    def _send(self, what: Union[Job, Orders]) -> None:
+        try:
+            self._pipe.send(what)
+        except OSError:
+            pass  # it has ended
 
     def stop(self) -> None:
         """End it."""
@@ -186,7 +191,6 @@ class FrameProcesses:
 
 def main() -> None:
     """Body of the process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's, whose end ends the pipe
     pipe_file, socket_file, lock_file = map(int, sys.argv[1:4])
     pipe = Connection(pipe_file)
     try:
