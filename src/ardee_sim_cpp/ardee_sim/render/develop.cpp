@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
 
 #include "ardee_sim/core/normal_table.h"
 #include "ardee_sim/render/tone.h"
@@ -21,79 +23,136 @@ constexpr float kLeastGain = 0.5f;
 constexpr float kMostGain = 2.5f;
 constexpr int kEvery = 4;  // each so many pixels, both ways, are metered
 
-using Colors = std::array<int, 4>;  // of the upper two and lower two pixels of a Bayer square
+constexpr std::size_t kPiece = 64;  // pixels of a row that are worked on together; an even number
 
-const Colors* bayer(PixelFormat format) {
-  static const Colors rggb{0, 1, 1, 2}, bggr{2, 1, 1, 0}, gbrg{1, 2, 0, 1}, grbg{1, 0, 2, 1};
+template <std::size_t kEach>  // values a pixel
+using Values = Eigen::Array<float, int{kEach * kPiece}, 1>;
+
+using Colors = std::array<int, 2>;  // of the even and the odd pixels of a row
+
+Colors bayer(PixelFormat format, int row) {
+  const bool upper = row % 2 == 0;
   switch (format) {
     case PixelFormat::kBayerRggb8:
-      return &rggb;
+      return upper ? Colors{0, 1} : Colors{1, 2};
     case PixelFormat::kBayerBggr8:
-      return &bggr;
+      return upper ? Colors{2, 1} : Colors{1, 0};
     case PixelFormat::kBayerGbrg8:
-      return &gbrg;
-    case PixelFormat::kBayerGrbg8:
-      return &grbg;
+      return upper ? Colors{1, 2} : Colors{0, 1};
     default:
-      return nullptr;
+      return upper ? Colors{1, 0} : Colors{2, 1};
   }
 }
 
-/// Writes pixels of one frame; noise is drawn by the number of the pixel.
+/// Writes pieces of the rows of one frame; noise is drawn by the number of the pixel.
 class Writer {
  public:
   Writer(const Development& how, const CounterRng& noise, float gain)
-      : how_(how),
+      : format_(how.format),
         noise_(noise),
         gain_(gain),
         mean_(static_cast<float>(how.noise_mean)),
-        std_(static_cast<float>(how.noise_std)),
-        bayer_(bayer(how.format)) {}
+        std_(static_cast<float>(how.noise_std)) {}
 
-  void write(const Eigen::Vector3f& light, int column, int row, std::size_t pixel,
+  /// `count` pixels from `pixel` on, whose column is even.
+  void write(const Eigen::Vector3f* light, int row, std::size_t pixel, std::size_t count,
              std::uint8_t* out) const {
-    const std::uint64_t bits = std_ > 0.0f ? noise_.bits(pixel) : 0;
-    const auto value = [&](float brightness, int draw) {
-      if (std_ <= 0.0f) return brightness + mean_;
-      return brightness + mean_ + std_ * normals_[static_cast<std::uint16_t>(bits >> (16 * draw))];
-    };
-    const auto channel = [&](int c) { return value(tone(gain_ * light[c]), c); };
-    switch (how_.format) {
+    switch (format_) {
       case PixelFormat::kRgb8:
-      case PixelFormat::kBgr8: {
-        // All three before the first is written: bytes could be a part of anything.
-        const std::uint8_t red = to_byte(channel(0));
-        const std::uint8_t green = to_byte(channel(1));
-        const std::uint8_t blue = to_byte(channel(2));
-        const bool red_first = how_.format == PixelFormat::kRgb8;
-        out[0] = red_first ? red : blue;
-        out[1] = green;
-        out[2] = red_first ? blue : red;
-        return;
-      }
+      case PixelFormat::kBgr8:
+        return write_colors(light, pixel, count, out);
       case PixelFormat::kMono8:
-        out[0] = to_byte(value(tone(gain_ * kLuma.dot(light)), 0));
-        return;
-      case PixelFormat::kMono16: {
-        const float share = std::clamp(value(tone(gain_ * kLuma.dot(light)), 0), 0.0f, 1.0f);
-        const auto number = static_cast<std::uint16_t>(65535.0f * share + 0.5f);
-        out[0] = static_cast<std::uint8_t>(number & 0xFF);
-        out[1] = static_cast<std::uint8_t>(number >> 8);
-        return;
-      }
+      case PixelFormat::kMono16:
+        return write_grey(light, pixel, count, out);
       default:
-        out[0] =
-            to_byte(channel((*bayer_)[static_cast<std::size_t>(2 * (row & 1) + (column & 1))]));
+        return write_bayer(light, bayer(format_, row), pixel, count, out);
     }
   }
 
  private:
-  const Development& how_;
-  const CounterRng& noise_;
+  void write_colors(const Eigen::Vector3f* light, std::size_t pixel, std::size_t count,
+                    std::uint8_t* out) const {
+    static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+    Values<3> values = Values<3>::Zero();
+    std::memcpy(values.data(), light, count * sizeof(Eigen::Vector3f));
+    auto bytes = numbers<std::uint8_t, 3>(values, pixel, {0, 0});
+    if (format_ == PixelFormat::kBgr8) {
+      for (std::size_t k = 0; k < bytes.size(); k += 3) std::swap(bytes[k], bytes[k + 2]);
+    }
+    std::memcpy(out, bytes.data(), 3 * count);
+  }
+
+  void write_grey(const Eigen::Vector3f* light, std::size_t pixel, std::size_t count,
+                  std::uint8_t* out) const {
+    Values<1> values = Values<1>::Zero();
+    for (std::size_t k = 0; k < count; ++k) values.data()[k] = kLuma.dot(light[k]);
+    if (format_ == PixelFormat::kMono8) {
+      std::memcpy(out, numbers<std::uint8_t, 1>(values, pixel, {0, 0}).data(), count);
+      return;
+    }
+    const auto words = numbers<std::uint16_t, 1>(values, pixel, {0, 0});
+    for (std::size_t k = 0; k < count; ++k) {
+      out[2 * k] = static_cast<std::uint8_t>(words[k] & 0xFF);
+      out[2 * k + 1] = static_cast<std::uint8_t>(words[k] >> 8);
+    }
+  }
+
+  void write_bayer(const Eigen::Vector3f* light, const Colors& colors, std::size_t pixel,
+                   std::size_t count, std::uint8_t* out) const {
+    Values<1> values = Values<1>::Zero();
+    for (std::size_t k = 0; k < count; ++k) values.data()[k] = light[k][colors[k % 2]];
+    std::memcpy(out, numbers<std::uint8_t, 1>(values, pixel, colors).data(), count);
+  }
+
+  /// From light to what is stored: loops of constant length, of which Eigen and GCC make vector
+  /// instructions. `draws`: see normals().
+  template <typename Number, std::size_t kEach>
+  std::array<Number, kEach * kPiece> numbers(Values<kEach>& values, std::size_t pixel,
+                                             const Colors& draws) const {
+    values = Values<kEach>::Zero().max(gain_ * values);
+    if (values.maxCoeff() > kToneKnee) {
+      values = values.unaryExpr([](float light) { return tone(light); });
+    }
+    const auto scale = [&](const auto& noisy) {
+      constexpr float kFull = std::numeric_limits<Number>::max();
+      values = kFull * noisy.max(0.0f).min(1.0f) + 0.5f;
+    };
+    if (std_ > 0.0f) {
+      scale(values + mean_ + std_ * normals<kEach>(pixel, draws));
+    } else {
+      scale(values + mean_);
+    }
+    std::array<Number, kEach * kPiece> rounded;
+    for (std::size_t k = 0; k < rounded.size(); ++k) {
+      rounded[k] = static_cast<Number>(values.data()[k]);
+    }
+    return rounded;
+  }
+
+  /// A pixel has four draws of sixteen bits; those of its values start with number draws[0] in even
+  /// columns, draws[1] in odd ones.
+  template <std::size_t kEach>
+  Values<kEach> normals(std::size_t pixel, const Colors& draws) const {
+    std::array<std::uint16_t, kEach * kPiece + 3> bits;
+    const auto draw = [&](std::size_t k, int first) {
+      const std::uint64_t four = noise_.bits(pixel + k) >> (16 * first);
+      // Little-endian: the first draw comes first. The next pixel's are put over what is left.
+      std::memcpy(&bits[kEach * k], &four, sizeof four);
+    };
+    for (std::size_t k = 0; k < kPiece; k += 2) {
+      draw(k, draws[0]);
+      draw(k + 1, draws[1]);
+    }
+    Values<kEach> found;
+    normals_.look_up<kEach * kPiece>(bits.data(), found.data());
+    return found;
+  }
+
+  const PixelFormat format_;
+  const CounterRng noise_;
   const float gain_;
   const float mean_;
   const float std_;
-  const Colors* bayer_;
   const NormalTable& normals_ = NormalTable::get();
 };
 
@@ -130,9 +189,11 @@ std::vector<std::uint8_t> develop(const Frame& frame, const Development& how,
   std::vector<std::uint8_t> bytes(frame.light.size() * size);
   const Writer writer(how, noise, how.exposure ? *how.exposure : automatic_exposure(frame));
   tbb::parallel_for(0, frame.height, [&](int row) {
-    for (int column = 0; column < frame.width; ++column) {
-      const std::size_t pixel = frame.index(column, row);
-      writer.write(frame.light[pixel], column, row, pixel, &bytes[pixel * size]);
+    const auto width = static_cast<std::size_t>(frame.width);
+    for (std::size_t column = 0; column < width; column += kPiece) {
+      const std::size_t pixel = frame.index(0, row) + column;
+      writer.write(&frame.light[pixel], row, pixel, std::min(kPiece, width - column),
+                   &bytes[pixel * size]);
     }
   });
   return bytes;

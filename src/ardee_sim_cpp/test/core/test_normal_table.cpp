@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "ardee_sim/core/normal_table.h"
 
@@ -24,6 +26,19 @@ TEST(NormalTable, HasTheQuantilesOfTheStandardNormalDistribution) {
   EXPECT_NEAR(fourths / 65536, 3.0, 0.01);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(below[k] / 65536.0, 0.5 * std::erfc(-kLimits[k] / std::sqrt(2.0)), 1e-4);
+  }
+}
+
+TEST(NormalTable, LooksUpManyAsItDoesOne) {
+  constexpr std::size_t kAll = 65536;
+  std::vector<std::uint16_t> bits(kAll);
+  std::iota(bits.begin(), bits.end(), std::uint16_t{0});
+  std::vector<float> many(kAll);
+  NormalTable::get().look_up<kAll>(bits.data(), many.data());
+  for (std::size_t k = 0; k < kAll; ++k) {
+    EXPECT_EQ(many[k], NormalTable::get()[bits[k]]);
+    EXPECT_EQ(many[k], -many[kAll / 2 ^ k]);  // the uppermost bit is the sign
+    EXPECT_EQ(many[k] > 0.0f, k >= kAll / 2);
   }
 }
 
