@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Ctrl-C ends everything that a launch file started."""
 import pathlib
+import signal
 
 import probes
 from ros_graph import RosGraph, wait_until
@@ -27,3 +28,16 @@ def test_ctrl_c_ends_the_simulator_at_once_and_with_exit_0(graph: RosGraph) -> N
     graph.call(probes.clock_at_least, 0.1)
     simulator.interrupt()
     assert simulator.wait(10.0) == 0, simulator.output()
+
+
+def test_ctrl_c_amid_the_imports_of_spawn_model_ends_it_without_a_word(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    """As when the simulator refuses its world at once, and the launch file ends with it."""
+    (tmp_path / "rospy.py").write_text(
+        "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
+    )
+    script = graph.run("catkin_find", "--first-only", "--libexec", "ardee_sim_cpp", "spawn_model")
+    path = f"{tmp_path}:{graph.env.get('PYTHONPATH', '')}"
+    spawner = graph.spawn(script.strip(), "-urdf", "-stdin", "-model", "m", PYTHONPATH=path)
+    assert (spawner.wait(20.0), spawner.output()) == (-signal.SIGINT, "")

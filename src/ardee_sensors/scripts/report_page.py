@@ -5,6 +5,7 @@ import math
 import pathlib
 import re
 import subprocess
+import tempfile
 from typing import List, Tuple
 
 from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
@@ -168,12 +169,23 @@ def page(shown: List[str]) -> str:
     )
 
 
+def make_writable(folder: pathlib.Path) -> None:
+    """The folder is there and takes a file, or a ReportError says why not: before minutes of drawing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise ReportError(
+            f"found --output {folder} ({error.strerror}), expected a folder that can be written"
+        ) from None
+
+
 def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
     """Pictures, a sheet of them all and index.html in the folder; returns the page's path."""
+    make_writable(folder)
     for device in shown:
         take_picture(device, work, work / f"{device}.png")
     text = page(shown)
-    folder.mkdir(parents=True, exist_ok=True)
     for device in shown:
         (folder / f"{device}.png").write_bytes((work / f"{device}.png").read_bytes())
     contact_sheet([folder / f"{device}.png" for device in shown]).save(folder / "sensors_sheet.png")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The report's page, and the post that show_sensor.launch puts into the room."""
 import pathlib
+import re
+import signal
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from html.parser import HTMLParser
@@ -110,6 +112,20 @@ def test_the_report_has_a_picture_of_each_device_asked_for(tmp_path: pathlib.Pat
             assert there.size == (int(picture["width"]), int(picture["height"]))
 
 
+@pytest.mark.parametrize("place", ["a_file", "a_file/below"])
+def test_a_place_that_cannot_be_written_is_said_before_any_picture(
+    place: str, tmp_path: pathlib.Path, monkeypatch
+):
+    drawn = []
+    monkeypatch.setattr(report_page, "take_picture", lambda *arguments: drawn.append(arguments))
+    (tmp_path / "a_file").write_text("")
+    folder = tmp_path / place
+    expected = re.escape(f"found --output {folder} (") + ".*expected a folder that can be written"
+    with pytest.raises(report_page.ReportError, match=expected):
+        report_page.write_report(folder, ["sonar"], tmp_path)
+    assert not drawn
+
+
 def test_what_others_have_stands_with_its_source_beside_the_devices_own():
     found = Page(page(["vlp16", "imu_terra", "imu"]))
     rows = {row[0]: row for row in found.sections["vlp16"]["rows"]}
@@ -151,6 +167,25 @@ def test_a_sensor_that_is_not_there_is_refused():
     done = run_xacro(POST, sensor="sonnar")
     assert done.returncode != 0
     assert f'unknown sensor "sonnar"; expected one of: {", ".join(devices())}' in done.stderr
+
+
+def test_two_words_for_a_sensor_are_refused_as_one_name():
+    file = str(PACKAGE / "launch/show_sensor.launch")
+    command = ["roslaunch", "--dump-params", file, "sensor:=sonar axis"]
+    done = subprocess.run(command, env=ros_environment(), capture_output=True, text=True)
+    assert 'unknown sensor "sonar axis"; expected one of: ' in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("script", ["show_readings", "watch_sensor"])
+def test_ctrl_c_amid_the_imports_ends_it_without_a_word(script: str, tmp_path: pathlib.Path):
+    """What each imports of others is here a module that sends it the signal."""
+    interrupt = "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
+    for name in ("roslib", "yaml"):
+        (tmp_path / f"{name}.py").write_text(interrupt)
+    command = ["/usr/bin/python3", str(PACKAGE / "scripts" / script), "sonar"]
+    environment = dict(ros_environment(), PYTHONPATH=str(tmp_path))
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
 
 
 def test_the_launch_file_has_no_argument_that_nobody_can_give():
