@@ -36,15 +36,15 @@ std::string stem(const std::string& filename) {
   return text.rfind("lib", 0) == 0 ? text.substr(3) : text;
 }
 
-/// What `make` makes; if it throws, nothing, and the log says why.
+/// What `make` makes; if it throws, nothing, and the log says why. `what`: "sensor" or "plugin".
 template <typename Make>
 std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescription& plugin,
-                                         Log& log) {
+                                         const char* what, const std::string& name, Log& log) {
   try {
     return make();
   } catch (const Error& error) {
-    log.error(plugin.element.source.to_string() + ": plugin '" + plugin.filename +
-              "' is left out: " + error.what());
+    log.error(plugin.element.source.to_string() + ": " + what + " '" + name + "' (" +
+              plugin.filename + ") is left out: " + error.what());
     return nullptr;
   }
 }
@@ -118,7 +118,8 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
     seed_for(plugin.name);
     // A static model keeps those of its devices that do without motion.
     const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
-    keep(may_fail ? made_or_left_out(make, plugin, context.log) : make(), may_fail);
+    keep(may_fail ? made_or_left_out(make, plugin, "plugin", plugin.name, context.log) : make(),
+         may_fail);
   }
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     for (const SensorDescription& sensor : model.links[link].sensors) {
@@ -132,7 +133,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
             return found->second(sensor, plugin, link, context);
           };
           seed_for(sensor.name);
-          keep(made_or_left_out(make, plugin, context.log), true);
+          keep(made_or_left_out(make, plugin, "sensor", sensor.name, context.log), true);
         }
       }
     }

@@ -108,7 +108,7 @@ TEST_P(BadBattery, IsLeftOutAndTheRobotIsThere) {
   EXPECT_TRUE(world.spawn(GetParam(), "robot").devices.empty());
   EXPECT_TRUE(
       std::any_of(world.messages().begin(), world.messages().end(), [](const std::string& text) {
-        return text.find("libardee_ros_battery.so' is left out") != std::string::npos;
+        return text.find("(libardee_ros_battery.so) is left out") != std::string::npos;
       }));
 }
 

@@ -100,7 +100,7 @@ TEST_P(BadEncoder, IsLeftOutWithOneMessageAndTheModelIsThere) {
       world.spawn(test_bench(GetParam(), unknown ? "no_such_joint" : "axle"), "bench");
   EXPECT_TRUE(bench.devices.empty());
   const auto is_about_it = [](const std::string& text) {
-    return text.find("libardee_ros_encoder.so' is left out") != std::string::npos;
+    return text.find("plugin 'encoder' (libardee_ros_encoder.so) is left out") != std::string::npos;
   };
   EXPECT_EQ(std::count_if(world.messages().begin(), world.messages().end(), is_about_it), 1);
   world.run(0.01);

@@ -273,7 +273,8 @@ TEST_P(BadRangeSensor, IsLeftOutWithOneMessage) {
   EXPECT_TRUE(robot.devices.empty());
   ASSERT_EQ(world.messages().size(), 1u);
   EXPECT_NE(world.messages()[0].find(GetParam().message), std::string::npos) << world.messages()[0];
-  EXPECT_NE(world.messages()[0].find("left out"), std::string::npos);
+  const std::string named = "sensor 'eye' (" + std::string(GetParam().plugin) + ") is left out";
+  EXPECT_NE(world.messages()[0].find(named), std::string::npos) << world.messages()[0];
   world.run(0.2);
 }
 

@@ -109,7 +109,8 @@ TEST(SkidSteer, AStaticRobotStandsThereWithoutItsDrive) {
   EXPECT_TRUE(robot.devices.empty());
   EXPECT_TRUE(
       std::any_of(world.messages().begin(), world.messages().end(), [](const std::string& text) {
-        return text.find("libgazebo_ros_skid_steer_drive.so' is left out") != std::string::npos;
+        return text.find("plugin 'drive' (libgazebo_ros_skid_steer_drive.so) is left out") !=
+               std::string::npos;
       }));
   world.run(0.1);
 }
