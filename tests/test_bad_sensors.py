@@ -67,6 +67,9 @@ BAD = {
     "negative_range_resolution": Bad(
         "hokuyo_ust10lx", 'range_resolution_m="-1"', "ardee/bad", ("<resolution>", "found -1")
     ),
+    "namespace_with_a_blank": Bad(
+        "sonar", 'robot_namespace="a b"', "ardee/bad", ("found 'a b' as a namespace", "valid name")
+    ),
     "image_too_large": Bad(
         "ueye_cp_gige",
         'width_px="8000" height_px="8000"',

@@ -47,6 +47,10 @@ World load_world(Loader& loader, const std::string& world) {
 
 /// tf_prefix of a namespace or of one around it, as tf::resolve finds it.
 std::string tf_prefix(const std::string& robot_namespace) {
+  std::string why;
+  if (!ros::names::validate("/" + robot_namespace, why)) {
+    throw Error("found '" + robot_namespace + "' as a namespace, expected a valid name: " + why);
+  }
   const ros::NodeHandle node("/" + robot_namespace);
   std::string key;
   std::string prefix;
