@@ -75,7 +75,12 @@ double Parameters::number(const std::string& key, double fallback, double low, d
   const double value = parse_number(child->text, child->source);
   if (value < low || value > high) {
     std::ostringstream what;
-    what << "found " << value << ", expected a number in [" << low << ", " << high << "]";
+    what << "found " << value << ", expected a number ";
+    if (high == std::numeric_limits<double>::max()) {
+      what << "of at least " << low;
+    } else {
+      what << "in [" << low << ", " << high << "]";
+    }
     throw Error(child->source, what.str());
   }
   return value;

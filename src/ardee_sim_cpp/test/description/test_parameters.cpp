@@ -56,6 +56,8 @@ TEST(Parameters, AValueOutOfBoundsIsRefused) {
   const Element element = block({{"rate", "-1"}});
   EXPECT_EQ(message_of([&] { Parameters(element).number("rate", 1.0, 0.0, 100.0); }),
             "robot.urdf:11: <rate>: found -1, expected a number in [0, 100]");
+  EXPECT_EQ(message_of([&] { Parameters(element).number("rate", 1.0, 0.0); }),
+            "robot.urdf:11: <rate>: found -1, expected a number of at least 0");
 }
 
 TEST(Parameters, AMissingRequiredKeyIsNamed) {

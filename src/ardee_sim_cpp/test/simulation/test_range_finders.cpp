@@ -246,7 +246,7 @@ const BadSensor kBadSensors[] = {
     {"negative_sdf_noise", "libgazebo_ros_laser.so",
      [](RayPost& p) { p.noise = "<type>gaussian</type><stddev>-0.1</stddev>"; }, "found -0.1"},
     {"negative_rate", kRange, [](RayPost& p) { p.rate = "<update_rate>-5</update_rate>"; },
-     "found -5, expected a number in [0"},
+     "found -5, expected a number"},
     {"negative_velodyne_rate", "libgazebo_ros_velodyne_laser.so",
      [](RayPost& p) { p.rate = "<update_rate>-5</update_rate>"; }, "found -5"},
     {"negative_sonar_rate", kSonar, [](RayPost& p) { p.keys = "<updateRate>-1</updateRate>"; },
