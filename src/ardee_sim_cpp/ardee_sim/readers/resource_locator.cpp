@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "ardee_sim/readers/package_index.h"
 #include "ardee_sim/readers/text_file.h"
@@ -38,9 +39,12 @@ void add_exports(const ResourceLocator::PathExports& exports, const std::string&
 std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
                            const Source& source) {
   std::string searched;
+  std::set<std::string> named;  // a folder may be on several paths
   for (const fs::path& place : places) {
     if (is_there(place)) return normal(place);
-    searched += (searched.empty() ? "" : ", ") + normal(place);
+    std::error_code error;
+    const std::string whole = normal(fs::absolute(place, error));
+    if (named.insert(whole).second) searched += (searched.empty() ? "" : ", ") + whole;
   }
   throw Error(source, "found '" + uri + "', expected an existing file; searched: " +
                           (searched.empty() ? "nowhere (no path is set)" : searched));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
+
 #include "ardee_sim/readers/package_index.h"
 #include "fixture.h"
 
@@ -53,6 +55,19 @@ TEST_F(Locator, SaysWhereItSearched) {
   EXPECT_HAS(error_of("http://x/y"), "expected model://, package://, file:// or a path");
   EXPECT_HAS(error_of("model://"), "found an empty path");
   EXPECT_HAS(error_of("package://nobody/x"), "searched for package 'nobody'");
+}
+
+TEST_F(Locator, NamesEachPlaceThatItSearchedOnceAndInFull) {
+  locator_.add_model_path(folder_.path() + "/share");
+  locator_.add_model_path(folder_.path() + "/models/");
+  const std::string error = error_of("file://nothing.png");
+  for (const std::string place : {"/share/nothing.png", "/models/nothing.png", "/nothing.png"}) {
+    const std::string whole = " " + folder_.path() + place;
+    EXPECT_HAS(error, whole);
+    EXPECT_EQ(error.find(whole), error.rfind(whole)) << error;
+  }
+  EXPECT_HAS(error_of("beside.dae"),
+             "searched: " + (std::filesystem::current_path() / "beside.dae").string());
 }
 
 TEST_F(Locator, ChoosesTheNewestSdfUpTo16) {
