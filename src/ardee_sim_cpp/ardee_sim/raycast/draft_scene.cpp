@@ -7,8 +7,6 @@
 namespace ardee {
 namespace {
 
-/// Rays of a picture that go together.
-constexpr int kGlances = 16;
 constexpr std::uint32_t kNotUsed = 0xFFFFFFFFu;
 
 bool is_careful(const BodySurface& surface) {
@@ -42,11 +40,11 @@ Eigen::Vector3d normal_of(const BodySurface& surface, std::uint32_t vertex) {
 
 DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
                        const Eigen::Vector3d& origin_W)
-    : bodies_(bodies), origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
-  for (std::uint32_t k = 0; k < bodies_.size(); ++k) {
-    add_triangles(k, origin_W);
-    for (const std::uint32_t patch : bodies_[k].patches) {
-      add_patch(k, bodies_[k].placed->body->patches[patch], origin_W);
+    : origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
+  for (const DraftBody& body : bodies) {
+    add_triangles(*body.placed);
+    for (const std::uint32_t patch : body.patches) {
+      add_patch(*body.placed, body.placed->body->patches[patch]);
     }
   }
   for (const bool careful : {false, true}) attach(device, parts_[careful ? 1 : 0], careful);
@@ -61,18 +59,21 @@ DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>&
 
 DraftScene::~DraftScene() { rtcReleaseScene(scene_); }
 
-void DraftScene::add_triangles(std::uint32_t body_index, const Eigen::Vector3d& origin_W) {
-  const PlacedBody& placed = *bodies_[body_index].placed;
+void DraftScene::add_triangles(const PlacedBody& placed) {
   const Body& body = *placed.body;
+  const auto first_surface = static_cast<std::uint32_t>(surfaces_.size());
+  for (const BodySurface& surface : body.surfaces) {
+    surfaces_.push_back({&placed, &surface, nullptr});
+  }
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
-  const Eigen::Vector3d shift = placed.p - origin_W;
+  const Eigen::Vector3d shift = placed.p - origin_W_;
   std::vector<std::uint32_t> numbers[2];  // of the body's vertices in each part
   for (auto& each : numbers) each.assign(body.vertices.size(), kNotUsed);
   for (const BodyTriangle& from : body.triangles) {
     const BodySurface& surface = body.surfaces[from.surface];
     const std::size_t kind = is_careful(surface) ? 1 : 0;
     Part& part = parts_[kind];
-    Triangle triangle{{}, body_index, from.surface, kNoTerrain, 0.0f};
+    Triangle triangle{{}, first_surface + from.surface, 0.0f};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t vertex = from.vertices[k];
       std::uint32_t& number = numbers[kind][vertex];
@@ -102,12 +103,17 @@ void DraftScene::add_triangles(std::uint32_t body_index, const Eigen::Vector3d& 
   }
 }
 
-void DraftScene::add_patch(std::uint32_t body_index, const TerrainPatch& patch,
-                           const Eigen::Vector3d& origin_W) {
-  const PlacedBody& placed = *bodies_[body_index].placed;
+void DraftScene::add_patch(const PlacedBody& placed, const TerrainPatch& patch) {
   const Terrain& terrain = placed.body->terrains[patch.terrain];
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
-  Part& part = parts_[is_careful_ground(placed.body->surfaces[terrain.surface]) ? 1 : 0];
+  const BodySurface& ground = placed.body->surfaces[terrain.surface];
+  // Patches of one terrain are one surface, and follow each other.
+  if (surfaces_.empty() || surfaces_.back().terrain != &terrain ||
+      surfaces_.back().placed != &placed) {
+    surfaces_.push_back({&placed, &ground, &terrain});
+  }
+  const auto surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
+  Part& part = parts_[is_careful_ground(ground) ? 1 : 0];
   const auto first = static_cast<std::uint32_t>(part.places.size());
   const HeightPatch& cells = patch.cells;
   for (int row = cells.row; row <= cells.row + cells.rows; ++row) {
@@ -115,7 +121,7 @@ void DraftScene::add_patch(std::uint32_t body_index, const TerrainPatch& patch,
       const Eigen::Vector3d place_S = terrain.heights.vertex(column, row);
       const Eigen::Vector3d place_B = terrain.p_BS + terrain.R_BS * place_S;
       const Eigen::Vector3d normal_S = terrain.heights.smooth_normal(place_S.head<2>());
-      part.places.push_back((placed.p - origin_W + R_WB * (placed.scale * place_B)).cast<float>());
+      part.places.push_back((placed.p - origin_W_ + R_WB * (placed.scale * place_B)).cast<float>());
       part.vertices.push_back({(R_WB * (terrain.R_BS * normal_S)).cast<float>(), {0, 0}});
     }
   }
@@ -124,11 +130,8 @@ void DraftScene::add_patch(std::uint32_t body_index, const TerrainPatch& patch,
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t v00 = first + row * (columns + 1) + column;
       const std::uint32_t v01 = v00 + columns + 1;
-      const Triangle lower{
-          {v00, v00 + 1, v01 + 1}, body_index, terrain.surface, patch.terrain, 0.0f};
-      const Triangle upper{{v00, v01 + 1, v01}, body_index, terrain.surface, patch.terrain, 0.0f};
-      part.triangles.push_back(lower);
-      part.triangles.push_back(upper);
+      part.triangles.push_back({{v00, v00 + 1, v01 + 1}, surface, 0.0f});
+      part.triangles.push_back({{v00, v01 + 1, v01}, surface, 0.0f});
     }
   }
 }
@@ -160,8 +163,7 @@ void DraftScene::filter(const RTCFilterFunctionNArguments* args, const Keep& kee
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] == 0) continue;
     const Triangle& triangle = part.triangles[RTCHitN_primID(args->hit, n, i)];
-    const Body& body = *part.scene->bodies_[triangle.body].placed->body;
-    const BodySurface& surface = body.surfaces[triangle.surface];
+    const BodySurface& surface = *part.scene->surfaces_[triangle.surface].of_body;
     bool kept = keep(part, surface, triangle, i);
     if (kept && surface.mask != nullptr) {
       const float u = RTCHitN_u(args->hit, n, i);
@@ -210,43 +212,51 @@ void DraftScene::find_shadows(RayPacket& packet) const {
   rtcOccluded8(packet.valid, scene_, &context, &packet.rays.ray);
 }
 
-void DraftScene::glance(const Eigen::Vector3f& eye, const GlanceRay* rays, int count,
-                        Glance* glances) const {
-  alignas(64) int valid[kGlances];
+void DraftScene::glance(const Eigen::Vector3f& eye, GlanceBlock& block) const {
+  constexpr int kRays = GlanceBlock::kRays;
+  alignas(64) int valid[kRays];
   RTCRayHit16 packet;
-  for (int i = 0; i < kGlances; ++i) {
-    const GlanceRay& ray = rays[std::min(i, count - 1)];
-    valid[i] = i < count ? -1 : 0;
+  for (int i = 0; i < kRays; ++i) {
+    valid[i] = -1;
     packet.ray.org_x[i] = eye.x();
     packet.ray.org_y[i] = eye.y();
     packet.ray.org_z[i] = eye.z();
-    packet.ray.dir_x[i] = ray.direction_W.x();
-    packet.ray.dir_y[i] = ray.direction_W.y();
-    packet.ray.dir_z[i] = ray.direction_W.z();
-    packet.ray.tnear[i] = ray.near_m;
-    packet.ray.tfar[i] = ray.far_m;
+    packet.ray.dir_x[i] = block.x_W[i];
+    packet.ray.dir_y[i] = block.y_W[i];
+    packet.ray.dir_z[i] = block.z_W[i];
+    packet.ray.tnear[i] = block.near_m[i];
+    packet.ray.tfar[i] = block.far_m[i];
     packet.ray.time[i] = 0.0f;
     packet.ray.mask[i] = 0xFFFFFFFFu;
-    packet.ray.id[i] = static_cast<unsigned>(i);
     packet.ray.flags[i] = 0;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.Ng_x[i] = packet.hit.Ng_y[i] = packet.hit.Ng_z[i] = 0.0f;
   }
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid, scene_, &context, &packet);
-  for (int i = 0; i < count; ++i) {
-    Glance& glance = glances[i];
-    glance = Glance{};
+  for (int i = 0; i < kRays; ++i) {
+    const float x = packet.hit.Ng_x[i];
+    const float y = packet.hit.Ng_y[i];
+    const float z = packet.hit.Ng_z[i];
+    const float share = 1.0f / std::max(std::sqrt(x * x + y * y + z * z), 1e-30f);
+    block.normal_x_W[i] = share * x;
+    block.normal_y_W[i] = share * y;
+    block.normal_z_W[i] = share * z;
+  }
+  for (int i = 0; i < kRays; ++i) {
     const std::uint32_t geometry = packet.hit.geomID[i];
-    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
-    const Triangle& triangle = parts_[geometry].triangles[packet.hit.primID[i]];
-    glance.surface = (std::uint64_t{triangle.body} + 1) << 32 | triangle.surface;
-    glance.range_m = packet.ray.tfar[i];
-    glance.normal_W = {packet.hit.Ng_x[i], packet.hit.Ng_y[i], packet.hit.Ng_z[i]};
-    glance.geometry = geometry;
-    glance.primitive = packet.hit.primID[i];
+    const bool met = geometry != RTC_INVALID_GEOMETRY_ID;
+    block.surface[i] = GlanceBlock::kNothing;
+    block.triangle[i] = 0;
+    block.range_m[i] = std::numeric_limits<float>::infinity();
+    if (!met) continue;
+    const std::uint32_t primitive = packet.hit.primID[i];
+    block.surface[i] = GlanceBlock::kFirstSurface + parts_[geometry].triangles[primitive].surface;
+    block.triangle[i] = triangle_of(geometry, primitive);
+    block.range_m[i] = packet.ray.tfar[i];
   }
 }
 
@@ -272,10 +282,11 @@ DraftScene::Meeting DraftScene::meeting(const Part& part, const Triangle& triang
 }
 
 void DraftScene::fill(const Met& met, SurfacePoint& point) const {
-  const Part& part = parts_[met.geometry];
-  const Triangle& triangle = part.triangles[met.primitive];
-  const PlacedBody& placed = *bodies_[triangle.body].placed;
-  const BodySurface& surface = placed.body->surfaces[triangle.surface];
+  const Part& part = parts_[met.triangle >> kPartBit];
+  const Triangle& triangle = part.triangles[met.triangle & ((1u << kPartBit) - 1)];
+  const Surface& of_scene = surfaces_[triangle.surface];
+  const PlacedBody& placed = *of_scene.placed;
+  const BodySurface& surface = *of_scene.of_body;
   const Meeting meets = meeting(part, triangle, met);
   const Vertex* corners[3];
   for (int k = 0; k < 3; ++k) corners[k] = &part.vertices[triangle.corners[k]];
@@ -301,8 +312,8 @@ void DraftScene::fill(const Met& met, SurfacePoint& point) const {
       (w * corners[0]->uv + meets.u * corners[1]->uv + meets.v * corners[2]->uv).cast<double>();
   point.uv_per_m = triangle.uv_per_m;
   point.point_S.setZero();
-  if (triangle.terrain == kNoTerrain) return;
-  const Terrain& terrain = placed.body->terrains[triangle.terrain];
+  if (of_scene.terrain == nullptr) return;
+  const Terrain& terrain = *of_scene.terrain;
   const Eigen::Vector3f at = met.origin + meets.t * met.direction;
   const Eigen::Vector3d at_B =
       placed.q.conjugate() * (at.cast<double>() + origin_W_ - placed.p) / placed.scale;
@@ -310,7 +321,7 @@ void DraftScene::fill(const Met& met, SurfacePoint& point) const {
 }
 
 std::size_t DraftScene::bytes() const {
-  std::size_t sum = 0;
+  std::size_t sum = surfaces_.capacity() * sizeof(Surface);
   for (const Part& part : parts_) {
     sum += part.triangles.capacity() * sizeof(Triangle) +
            part.places.capacity() * sizeof(Eigen::Vector3f) +

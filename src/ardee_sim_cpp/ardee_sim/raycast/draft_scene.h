@@ -27,12 +27,15 @@ class DraftScene {
   struct Met {
     Eigen::Vector3f origin;
     Eigen::Vector3f direction;
-    std::uint32_t geometry;
-    std::uint32_t primitive;
+    std::uint32_t triangle;  // triangle_of()
   };
 
-  /// The same for a block of a picture: for `count` (up to 16) rays.
-  void glance(const Eigen::Vector3f& eye, const GlanceRay* rays, int count, Glance* glances) const;
+  /// A triangle by one number, from those that Embree gives.
+  static std::uint32_t triangle_of(std::uint32_t geometry, std::uint32_t primitive) {
+    return geometry << kPartBit | primitive;
+  }
+  /// Finds what the rays of a block of a picture, which start at `eye`, meet first.
+  void glance(const Eigen::Vector3f& eye, GlanceBlock& block) const;
   /// Finds the triangle that each ray of the packet meets first.
   void meet(RayPacket& packet) const;
   /// Makes tfar negative for rays with something in their way.
@@ -44,13 +47,17 @@ class DraftScene {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::uint32_t kNoTerrain = 0xFFFFFFFFu;
+  static constexpr int kPartBit = 30;
 
+  /// Of one placed body.
+  struct Surface {
+    const PlacedBody* placed;
+    const BodySurface* of_body;
+    const Terrain* terrain;  // null: a mesh
+  };
   struct Triangle {
     std::uint32_t corners[3];
-    std::uint32_t body;
-    std::uint32_t surface;  // of the body
-    std::uint32_t terrain;  // of the body, or kNoTerrain
+    std::uint32_t surface;
     float uv_per_m;
   };
   struct Vertex {
@@ -73,8 +80,8 @@ class DraftScene {
     Eigen::Vector3f normal;  // not of length 1
   };
 
-  void add_triangles(std::uint32_t body, const Eigen::Vector3d& origin_W);
-  void add_patch(std::uint32_t body, const TerrainPatch& patch, const Eigen::Vector3d& origin_W);
+  void add_triangles(const PlacedBody& placed);
+  void add_patch(const PlacedBody& placed, const TerrainPatch& patch);
   void attach(const EmbreeDevice& device, Part& part, bool careful);
   static Meeting meeting(const Part& part, const Triangle& triangle, const Met& met);
   static void sort_out_hits(const RTCFilterFunctionNArguments* args);
@@ -82,8 +89,8 @@ class DraftScene {
   template <typename Keep>
   static void filter(const RTCFilterFunctionNArguments* args, const Keep& keep);
 
-  const std::vector<DraftBody> bodies_;
   const Eigen::Vector3d origin_W_;
+  std::vector<Surface> surfaces_;
   Part parts_[2];  // met by all; to be looked at
   RTCSceneTy* scene_;
 };

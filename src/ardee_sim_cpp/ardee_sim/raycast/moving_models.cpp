@@ -96,15 +96,17 @@ bool MovingModels::touches_any(const Ray& ray_W, double reach_m) const {
   return false;
 }
 
-bool MovingModels::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay* rays,
-                                  int count) const {
+bool MovingModels::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& rays) const {
   if (entries_.empty()) return false;
-  double spread = 0.0;  // between directions, at most
-  for (int i = 1; i < count; ++i) {
-    const Eigen::Vector3f apart = rays[i].direction_W - rays[0].direction_W;
-    spread = std::max(spread, static_cast<double>(apart.norm()));
+  float spread2 = 0.0f;  // of distances between directions, at most
+  for (int i = 1; i < GlanceBlock::kRays; ++i) {
+    const float x = rays.x_W[i] - rays.x_W[0];
+    const float y = rays.y_W[i] - rays.y_W[0];
+    const float z = rays.z_W[i] - rays.z_W[0];
+    spread2 = std::max(spread2, x * x + y * y + z * z);
   }
-  const Eigen::Vector3d way_W = rays[0].direction_W.cast<double>();
+  const auto spread = static_cast<double>(std::sqrt(spread2));
+  const Eigen::Vector3d way_W = rays.direction_W(0).cast<double>();
   for (const auto& [entity, entry] : entries_) {
     if (entry.boxes_W.empty()) continue;
     const Eigen::Vector3d to_box = entry.box_W.center() - eye_W;

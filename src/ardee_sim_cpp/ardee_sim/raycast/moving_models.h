@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/raycast/glance.h"
 #include "ardee_sim/raycast/ray_bundle.h"
 #include "ardee_sim/raycast/ray_query.h"
 
@@ -21,7 +22,7 @@ class MovingModels {
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
   /// Whether one of the rays, close together, may touch the box about one of them.
-  bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count) const;
+  bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& rays) const;
   /// Whether the ray touches the box about one of them within its reach.
   bool touches_any(const Ray& ray_W, double reach_m) const;
   void meet(RayQuery& query) const { meet(&query, 1); }

@@ -38,7 +38,10 @@ bool QuickLook::meet_others(const SceneRay* rays, int count, const double reach_
     if (i >= count || reach_m[i] < 0.0) continue;
     const Ray ray{rays[i].origin_W, rays[i].direction_W};
     // No way out is shorter than the one straight to the border.
-    if (reach_m[i] > region_->depth_m(ray.origin)) t_leave[i] = region_->exit_t(ray);
+    const double depth_m = region_->depth_m(ray.origin);
+    const double below_top_m = scenery_.bounds_W().upper.z() - ray.origin.z();
+    const bool leaves_above = ray.direction.z() > 0.0 && ray.direction.z() * depth_m >= below_top_m;
+    if (reach_m[i] > depth_m && !leaves_above) t_leave[i] = region_->exit_t(ray);
     t_high[i] = std::min(reach_m[i], t_leave[i]);
     if (reach_m[i] > t_leave[i]) {
       beyond = true;
@@ -70,10 +73,10 @@ bool QuickLook::look(const SceneRay* rays, int count, SurfacePoint* points) cons
     const bool met = packet.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
     reach_m[i] = rays[i].reach_m;
     if (met) {
-      draft.fill(
-          {(rays[i].origin_W - region_->origin_W()).cast<float>(),
-           rays[i].direction_W.cast<float>(), packet.rays.hit.geomID[i], packet.rays.hit.primID[i]},
-          points[i]);
+      draft.fill({(rays[i].origin_W - region_->origin_W()).cast<float>(),
+                  rays[i].direction_W.cast<float>(),
+                  DraftScene::triangle_of(packet.rays.hit.geomID[i], packet.rays.hit.primID[i])},
+                 points[i]);
       reach_m[i] = std::min(reach_m[i], points[i].range_m);
     } else {
       points[i] = SurfacePoint{};
@@ -106,67 +109,73 @@ bool QuickLook::find_shadows(const SceneRay* rays, int count, bool* in_shadow) c
   return true;
 }
 
-Glance glance_of(const RayHit& hit) {
-  Glance glance;
-  if (hit.entity == kNoEntity) return glance;
-  // Apart from the surfaces of a draft by the highest bit.
-  glance.surface = std::uint64_t{1} << 63 | std::uint64_t{hit.entity} << 31 |
-                   std::uint64_t{hit.link & 0xFFFFu} << 15 | (hit.shape & 0x7FFFu);
-  glance.range_m = hit.range_m;
-  glance.normal_W = hit.normal_W;
-  return glance;
+void see_exactly(const RayHit& hit, std::size_t number, int i, GlanceBlock& block) {
+  const bool met = hit.entity != kNoEntity;
+  // Two surfaces share a number once in a thousand million pairs; their normals may still differ.
+  const std::uint64_t name =
+      std::uint64_t{hit.entity} << 32 ^ std::uint64_t{hit.link} << 16 ^ hit.shape;
+  const auto mixed = static_cast<std::uint32_t>(name * 0x9E3779B97F4A7C15u >> 33);
+  block.surface[i] = met ? GlanceBlock::kOutside | mixed : GlanceBlock::kNothing;
+  const std::uint32_t ray =
+      static_cast<std::uint32_t>(number) * GlanceBlock::kRays + static_cast<std::uint32_t>(i);
+  block.triangle[i] = met ? GlanceBlock::kOutside | ray : 0;
+  block.range_m[i] = met ? hit.range_m + block.near_m[i] : std::numeric_limits<float>::infinity();
+  const Eigen::Vector3f normal_W = met ? hit.normal_W : Eigen::Vector3f::Zero();
+  block.normal_x_W[i] = normal_W.x();
+  block.normal_y_W[i] = normal_W.y();
+  block.normal_z_W[i] = normal_W.z();
 }
 
-void QuickLook::glance_at_others(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count,
-                                 Glance* glances) const {
-  SceneRay scene_rays[kPacketRays];
-  double reach_m[kPacketRays];
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d way_W = rays[i].direction_W.cast<double>();
-    const auto near_m = static_cast<double>(rays[i].near_m);
-    reach_m[i] = static_cast<double>(std::min(rays[i].far_m, glances[i].range_m)) - near_m;
-    scene_rays[i] = {eye_W + near_m * way_W, way_W, reach_m[i]};
-  }
-  RayQuery queries[kPacketRays];
-  if (!meet_others(scene_rays, count, reach_m, RayQuery::Purpose::kNearest, queries)) return;
-  for (int i = 0; i < count; ++i) {
-    if (!queries[i].has_hit()) continue;
-    RayHit hit;
-    queries[i].fill(hit);
-    glances[i] = glance_of(hit);
-    glances[i].range_m += rays[i].near_m;
+void QuickLook::glance_at_others(const Eigen::Vector3d& eye_W, std::size_t number,
+                                 GlanceBlock& block) const {
+  for (int first = 0; first < GlanceBlock::kRays; first += kPacketRays) {
+    SceneRay rays[kPacketRays];
+    double reach_m[kPacketRays];
+    for (int i = 0; i < kPacketRays; ++i) {
+      const int k = first + i;
+      const Eigen::Vector3d way_W = block.direction_W(k).cast<double>();
+      const auto near_m = static_cast<double>(block.near_m[k]);
+      reach_m[i] = static_cast<double>(std::min(block.far_m[k], block.range_m[k])) - near_m;
+      rays[i] = {eye_W + near_m * way_W, way_W, reach_m[i]};
+    }
+    RayQuery queries[kPacketRays];
+    if (!meet_others(rays, kPacketRays, reach_m, RayQuery::Purpose::kNearest, queries)) continue;
+    for (int i = 0; i < kPacketRays; ++i) {
+      if (!queries[i].has_hit()) continue;
+      RayHit hit;
+      queries[i].fill(hit);
+      see_exactly(hit, number, first + i, block);
+    }
   }
 }
 
-void QuickLook::glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
-                       Glance* glances) const {
-  constexpr std::size_t kTogether = 16;
+void QuickLook::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const {
   const Eigen::Vector3f eye = (eye_W - region_->origin_W()).cast<float>();
-  const double depth_m = region_->depth_m(eye_W);
-  const double below_top_m = scenery_.bounds_W().upper.z() - eye_W.z();
+  const auto depth_m = static_cast<float>(region_->depth_m(eye_W));
+  const auto below_top_m =
+      std::max(static_cast<float>(scenery_.bounds_W().upper.z() - eye_W.z()), 1e-6f);
   const bool always = region_->has_rest() || scenery_.has_everywhere();
-  for (std::size_t first = 0; first < count; first += kTogether) {
-    const int block = static_cast<int>(std::min(kTogether, count - first));
-    region_->draft()->glance(eye, rays + first, block, glances + first);
-    bool others = always || moving_.may_touch_some(eye_W, rays + first, block);
-    for (int i = 0; i < block && !others; ++i) {
-      const std::size_t k = first + static_cast<std::size_t>(i);
-      // No way out is shorter than the one straight to the border.
-      const auto reach_m = static_cast<double>(std::min(rays[k].far_m, glances[k].range_m));
-      const auto climb = static_cast<double>(rays[k].direction_W.z());
-      others = reach_m > depth_m && (climb <= 0.0 || climb * depth_m < below_top_m);
+  for (std::size_t number = 0; number < count; ++number) {
+    GlanceBlock& block = blocks[number];
+    region_->draft()->glance(eye, block);
+    // No way out is shorter than the one straight to the border.
+    unsigned leave = 0;
+    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+      const unsigned far = std::min(block.far_m[i], block.range_m[i]) > depth_m;
+      const unsigned not_above = block.z_W[i] * depth_m < below_top_m;
+      leave |= far & not_above;
     }
-    for (int half = 0; half < block && others; half += kPacketRays) {
-      const std::size_t from = first + static_cast<std::size_t>(half);
-      glance_at_others(eye_W, rays + from, std::min(kPacketRays, block - half), glances + from);
+    if (always || leave != 0 || moving_.may_touch_some(eye_W, block)) {
+      glance_at_others(eye_W, number, block);
     }
   }
 }
 
-void QuickLook::look_closer(const SceneRay& ray, const Glance& glance, SurfacePoint& point) const {
-  region_->draft()->fill({(ray.origin_W - region_->origin_W()).cast<float>(),
-                          ray.direction_W.cast<float>(), glance.geometry, glance.primitive},
-                         point);
+void QuickLook::look_closer(const SceneRay& ray, std::uint32_t triangle,
+                            SurfacePoint& point) const {
+  region_->draft()->fill(
+      {(ray.origin_W - region_->origin_W()).cast<float>(), ray.direction_W.cast<float>(), triangle},
+      point);
 }
 
 }  // namespace ardee

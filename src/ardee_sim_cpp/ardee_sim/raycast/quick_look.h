@@ -6,8 +6,8 @@
 
 namespace ardee {
 
-/// What a ray has met, for comparison with its neighbours.
-Glance glance_of(const RayHit& hit);
+/// Writes what ray `i` of the block with that number has met exactly, from its near_m on.
+void see_exactly(const RayHit& hit, std::size_t number, int i, GlanceBlock& block);
 
 /// Looks for pictures by the draft of the near region that the rays start in: what is nearest among
 /// its triangles is decided in floats. All else on a ray's way is met exactly.
@@ -22,11 +22,10 @@ class QuickLook {
 
   /// Whether rays from there start in a draft.
   bool starts_at(const Eigen::Vector3d& eye_W) const;
-  /// Any number of rays from such a point.
-  void glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
-              Glance* glances) const;
+  /// Any number of blocks of rays from such a point.
+  void glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const;
   /// What a ray that was glanced at has met in the draft.
-  void look_closer(const SceneRay& ray, const Glance& glance, SurfacePoint& point) const;
+  void look_closer(const SceneRay& ray, std::uint32_t triangle, SurfacePoint& point) const;
 
  private:
   /// False if a ray starts outside.
@@ -37,8 +36,7 @@ class QuickLook {
                    RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const;
 
   /// Replaces what is farther than something that is not in the draft.
-  void glance_at_others(const Eigen::Vector3d& eye_W, const GlanceRay* rays, int count,
-                        Glance* glances) const;
+  void glance_at_others(const Eigen::Vector3d& eye_W, std::size_t number, GlanceBlock& block) const;
 
   const NearRegion* region_;
   const SceneryStore& scenery_;

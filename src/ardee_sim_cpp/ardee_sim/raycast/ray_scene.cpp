@@ -269,30 +269,31 @@ void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 
-void RayScene::glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
-                      Glance* glances) const {
+void RayScene::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const {
   impl_->require_committed();
   const QuickLook quick = impl_->quick_look(eye_W);
-  if (quick.starts_at(eye_W)) return quick.glance(eye_W, rays, count, glances);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d way_W = rays[i].direction_W.cast<double>();
-    const auto near_m = static_cast<double>(rays[i].near_m);
-    const SceneRay ray{eye_W + near_m * way_W, way_W, static_cast<double>(rays[i].far_m) - near_m};
-    RayHit hit;
-    meet(&ray, 1, &hit);
-    glances[i] = glance_of(hit);
-    glances[i].range_m += rays[i].near_m;
+  if (quick.starts_at(eye_W)) return quick.glance(eye_W, blocks, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    GlanceBlock& block = blocks[k];
+    SceneRay rays[GlanceBlock::kRays];
+    RayHit hits[GlanceBlock::kRays];
+    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+      const Eigen::Vector3d way_W = block.direction_W(i).cast<double>();
+      const auto near_m = static_cast<double>(block.near_m[i]);
+      rays[i] = {eye_W + near_m * way_W, way_W, static_cast<double>(block.far_m[i]) - near_m};
+    }
+    meet(rays, GlanceBlock::kRays, hits);
+    for (int i = 0; i < GlanceBlock::kRays; ++i) see_exactly(hits[i], k, i, block);
   }
 }
 
 void RayScene::look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
-                           const Glance* glances, std::size_t count, SurfacePoint* points) const {
+                           const std::uint32_t* triangles, std::size_t count,
+                           SurfacePoint* points) const {
   const QuickLook quick = impl_->quick_look(eye_W);
   for (std::size_t i = 0; i < count; ++i) {
-    if (glances[i].surface == 0) {
-      points[i] = SurfacePoint{};
-    } else if (glances[i].geometry != Glance::kOutside) {
-      quick.look_closer(rays[i], glances[i], points[i]);
+    if ((triangles[i] & GlanceBlock::kOutside) == 0) {
+      quick.look_closer(rays[i], triangles[i], points[i]);
     } else {
       look_quickly(rays + i, 1, points + i);
     }

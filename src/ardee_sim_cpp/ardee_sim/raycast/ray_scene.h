@@ -9,6 +9,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/raycast/bounds.h"
+#include "ardee_sim/raycast/glance.h"
 #include "ardee_sim/raycast/surface_point.h"
 
 namespace ardee {
@@ -91,11 +92,11 @@ class RayScene {
   void find_shadows_quickly(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
   /// For the many rays of a picture, best in blocks of four by four: what they meet, but not how it
   /// looks.
-  void glance(const Eigen::Vector3d& eye_W, const GlanceRay* rays, std::size_t count,
-              Glance* glances) const;
-  /// As look_quickly, for rays of `eye_W` that have been glanced at; they start at their near_m.
-  void look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays, const Glance* glances,
-                   std::size_t count, SurfacePoint* points) const;
+  void glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const;
+  /// As look_quickly, for rays of `eye_W` that have been glanced at and have met something; they
+  /// start at their near_m. `triangles` are those of the glances.
+  void look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                   const std::uint32_t* triangles, std::size_t count, SurfacePoint* points) const;
   /// The same without the look: range, entity, label and normal.
   void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.

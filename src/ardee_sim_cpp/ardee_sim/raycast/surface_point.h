@@ -39,23 +39,4 @@ struct SurfacePoint {
   bool met() const { return entity != kNoEntity; }
 };
 
-/// A ray of a picture: all of them start at the eye.
-struct GlanceRay {
-  Eigen::Vector3f direction_W{1, 0, 0};  // unit
-  float near_m = 0.0f;                   // what is nearer, or farther than far_m, is not met
-  float far_m = std::numeric_limits<float>::infinity();
-};
-
-/// The little that tells whether neighbours in a picture see one surface; `look_closer` tells the
-/// rest.
-struct Glance {
-  static constexpr std::uint32_t kOutside = 0xFFFFFFFFu;
-
-  std::uint64_t surface = 0;  // the same for points of one surface; 0: nothing was met
-  float range_m = std::numeric_limits<float>::infinity();  // from the eye
-  Eigen::Vector3f normal_W{0, 0, 0};                       // not of length 1
-  std::uint32_t geometry = kOutside;  // of the draft, or kOutside: it is not in there
-  std::uint32_t primitive = 0;        // of the draft
-};
-
 }  // namespace ardee

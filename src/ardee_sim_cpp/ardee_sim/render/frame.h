@@ -7,6 +7,14 @@
 
 namespace ardee {
 
+/// A part of a picture, in pixels.
+struct TileArea {
+  int left = 0;
+  int upper = 0;
+  int width = 0;
+  int height = 0;
+};
+
 /// What to find out about each pixel; nothing else is worked out.
 struct FrameParts {
   bool light = false;

@@ -14,14 +14,14 @@
 namespace ardee {
 namespace {
 
-constexpr int kTileSide_px = 64;
+constexpr int kTileSide_px = 32;
 
 int tiles_along(int pixels) { return (pixels + kTileSide_px - 1) / kTileSide_px; }
 
 }  // namespace
 
 void Renderer::for_each_tile(const Camera& camera, int threads,
-                             const std::function<void(const TileArea&, Shader&)>& work) {
+                             const std::function<void(const TileArea&, TileWorker&)>& work) {
   if (camera.width < 1 || camera.height < 1) {
     throw Error("found a picture without pixels, expected at least one");
   }
@@ -33,7 +33,7 @@ void Renderer::for_each_tile(const Camera& camera, int threads,
     workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                     static_cast<std::size_t>(threads));
   }
-  tbb::enumerable_thread_specific<Shader> shaders;
+  tbb::enumerable_thread_specific<TileWorker> of_threads;
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(0, count, [&](int tile) {
@@ -41,7 +41,7 @@ void Renderer::for_each_tile(const Camera& camera, int threads,
       const int upper = tile / columns * kTileSide_px;
       work({left, upper, std::min(kTileSide_px, camera.width - left),
             std::min(kTileSide_px, camera.height - upper)},
-           shaders.local());
+           of_threads.local());
     });
   });
 }
@@ -58,9 +58,9 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   const double pixels = static_cast<double>(camera.width) * camera.height;
   std::atomic<int> done_px{0};
   std::atomic<bool> stopped{false};
-  for_each_tile(camera, options.threads, [&](const TileArea& area, Shader& shader) {
+  for_each_tile(camera, options.threads, [&](const TileArea& area, TileWorker& worker) {
     if (stopped) return;
-    shade_tile(shading, area, shader, image);
+    shade_tile(shading, area, worker, image);
     const int done = done_px += area.width * area.height;
     if (progress && !progress(done / pixels)) stopped = true;
   });
@@ -81,8 +81,8 @@ Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
   RenderOptions once = options;
   once.samples = 1;
   const TileShading shading{rays_, looks_, scene_, lights_, camera, once};
-  for_each_tile(camera, options.threads, [&](const TileArea& area, Shader& shader) {
-    shoot_tile(shading, area, parts, shader, frame);
+  for_each_tile(camera, options.threads, [&](const TileArea& area, TileWorker& worker) {
+    shoot_tile(shading, area, parts, worker, frame);
   });
   return frame;
 }

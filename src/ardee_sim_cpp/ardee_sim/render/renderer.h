@@ -33,9 +33,9 @@ class Renderer {
   Frame shoot(const Camera& camera, const FrameParts& parts, const RenderOptions& options) const;
 
  private:
-  /// Calls `work(tile, shader)` for each tile of the picture, in parallel.
+  /// Calls `work(tile, worker)` for each tile of the picture, in parallel.
   static void for_each_tile(const Camera& camera, int threads,
-                            const std::function<void(const TileArea&, Shader&)>& work);
+                            const std::function<void(const TileArea&, TileWorker&)>& work);
 
   const RayScene& rays_;
   const Looks& looks_;

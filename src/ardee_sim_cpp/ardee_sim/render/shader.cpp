@@ -15,6 +15,8 @@ constexpr double kOffset_m = 1e-4;
 /// So many transparent surfaces one behind the other are looked through.
 constexpr int kMaxLayers = 8;
 constexpr float kOpaque = 0.999f;
+/// So many looks go through all that is known of them while it is in the fastest memory.
+constexpr std::size_t kAtOnce = 64;
 
 /// Share of the light on the far side of a two-sided sheet that comes through, beside what it
 /// would reflect on the near side: leaves pass less visible light than they reflect.
@@ -50,21 +52,22 @@ void Shader::clear() {
   samples_.clear();
   rays_.clear();
   owners_.clear();
-  seen_.clear();
-  glances_.clear();
+  triangles_.clear();
 }
 
-void Shader::send(const GlanceRay& ray, float stretch, const Glance& glance,
-                  const Neighbours& neighbours) {
+void Shader::send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps) {
   Sample& sample = samples_.emplace_back();
-  sample.travelled_m = ray.near_m;
-  sample.stretch = stretch;
-  seen_.push_back({glance, neighbours});
-  glances_.push_back(glance);
-  const Eigen::Vector3d direction_W = ray.direction_W.cast<double>();
+  const Eigen::Vector3d direction_W = glances.direction_W(ray).cast<double>();
+  if (!glances.met(ray)) {
+    sample.light = sky_color(s_->scene, direction_W);
+    return;
+  }
+  sample.travelled_m = static_cast<double>(glances.near_m[ray]);
+  sample.lamps = lamps;
   rays_.push_back({s_->camera.X_WC.p + sample.travelled_m * direction_W, direction_W,
-                   static_cast<double>(ray.far_m) - sample.travelled_m});
+                   static_cast<double>(glances.far_m[ray]) - sample.travelled_m});
   owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
+  triangles_.push_back(glances.triangle[ray]);
 }
 
 void Shader::send(double x_px, double y_px) {
@@ -82,18 +85,14 @@ void Shader::send(double x_px, double y_px) {
 }
 
 void Shader::gather() {
+  points_.resize(kAtOnce);
   for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
-    if (points_.size() < rays_.size()) points_.resize(rays_.size());
-    if (layer == 0 && !glances_.empty()) {
-      s_->rays.look_closer(s_->camera.X_WC.p, rays_.data(), glances_.data(), rays_.size(),
-                           points_.data());
-      glances_.clear();
-    } else if (s_->options.quickly) {
-      s_->rays.look_quickly(rays_.data(), rays_.size(), points_.data());
-    } else {
-      s_->rays.look(rays_.data(), rays_.size(), points_.data());
+    const bool glanced = layer == 0 && !triangles_.empty();
+    for (std::size_t begin = 0; begin < rays_.size(); begin += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, rays_.size() - begin);
+      find_points(begin, count, glanced);
+      for (std::size_t k = 0; k < count; ++k) shade(points_[k], begin + k, layer);
     }
-    shade_layer(layer == 0, layer + 1 == kMaxLayers);
     add_unshadowed();
     rays_.swap(next_rays_);
     owners_.swap(next_owners_);
@@ -102,56 +101,48 @@ void Shader::gather() {
   }
 }
 
-void Shader::shade_layer(bool first, bool last) {
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    Sample& sample = samples_[owners_[i]];
-    const SurfacePoint& point = points_[i];
-    if (!point.met()) {
-      sample.light += sample.rest * sky_color(s_->scene, rays_[i].direction_W);
-      continue;
-    }
-    sample.travelled_m += point.range_m;
-    const double slant = std::max(std::abs(point.smooth_normal_W.dot(rays_[i].direction_W)), 0.05);
-    const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
-    const Look look = s_->looks.at(point, footprint_m, memo_);
-    const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
-    const Eigen::Vector3d at_W = rays_[i].origin_W + point.range_m * rays_[i].direction_W;
-    const float share = sample.rest * opacity;
-    Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
-    if (is_sheet(point)) {
-      ambient +=
-          static_cast<float>(kSheetTransmission) * ambient_light(s_->scene, -point.smooth_normal_W);
-    }
-    sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
-    for (std::size_t k = 0; k < s_->lights.size(); ++k) {
-      send_to_lamp(k, at_W, point, share * look.diffuse, i, first);
-    }
-    sample.rest *= 1.0f - opacity;
-    if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, i);
+void Shader::find_points(std::size_t begin, std::size_t count, bool glanced) {
+  const SceneRay* rays = rays_.data() + begin;
+  if (glanced) {
+    s_->rays.look_closer(s_->camera.X_WC.p, rays, triangles_.data() + begin, count, points_.data());
+  } else if (s_->options.quickly) {
+    s_->rays.look_quickly(rays, count, points_.data());
+  } else {
+    s_->rays.look(rays, count, points_.data());
   }
 }
 
-Shader::Opinion Shader::opinion(std::size_t sample, std::uint32_t lamp_bit) const {
-  Opinion found = Opinion::kNone;
-  const Seen& mine = seen_[sample];
-  for (const std::uint32_t each : mine.neighbours.samples) {
-    if (each == Neighbours::kNone) break;
-    const Seen& other = seen_[each];
-    if (!same_surface(mine.glance, other.glance)) continue;
-    const float apart_m = std::abs(mine.glance.range_m - other.glance.range_m);
-    if (apart_m > kSameRange * mine.glance.range_m) continue;
-    if ((other.known & lamp_bit) == 0) return Opinion::kNone;
-    const bool dark = (other.in_shadow & lamp_bit) != 0;
-    const Opinion theirs = dark ? Opinion::kInShadow : Opinion::kLit;
-    if (found != Opinion::kNone && found != theirs) return Opinion::kNone;
-    found = theirs;
-  }
-  return found;
-}
-
-void Shader::look_on(const Eigen::Vector3d& from_W, std::size_t i) {
+void Shader::shade(const SurfacePoint& point, std::size_t i, int layer) {
+  Sample& sample = samples_[owners_[i]];
   const SceneRay& ray = rays_[i];
-  next_rays_.push_back({from_W, ray.direction_W, ray.reach_m - points_[i].range_m});
+  if (!point.met()) {
+    sample.light += sample.rest * sky_color(s_->scene, ray.direction_W);
+    return;
+  }
+  sample.travelled_m += point.range_m;
+  const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), 0.05);
+  const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
+  const Look look = s_->looks.at(point, footprint_m, memo_);
+  const bool last = layer + 1 == kMaxLayers;
+  const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
+  const Eigen::Vector3d at_W = ray.origin_W + point.range_m * ray.direction_W;
+  const float share = sample.rest * opacity;
+  Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
+  if (is_sheet(point)) {
+    ambient +=
+        static_cast<float>(kSheetTransmission) * ambient_light(s_->scene, -point.smooth_normal_W);
+  }
+  sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
+  for (std::size_t k = 0; k < s_->lights.size(); ++k) {
+    send_to_lamp(k, at_W, point, share * look.diffuse, i, layer == 0);
+  }
+  sample.rest *= 1.0f - opacity;
+  if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, point.range_m, i);
+}
+
+void Shader::look_on(const Eigen::Vector3d& from_W, double range_m, std::size_t i) {
+  const SceneRay& ray = rays_[i];
+  next_rays_.push_back({from_W, ray.direction_W, ray.reach_m - range_m});
   next_owners_.push_back(owners_[i]);
 }
 
@@ -173,14 +164,13 @@ void Shader::send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const S
   if (lit_side_W.dot(found->to_light_W) <= 0.0) return;
   const Eigen::Vector3f arriving = static_cast<float>(cosine) * diffuse.cwiseProduct(found->color);
   const bool shadows = s_->options.shadows && s_->scene.shadows && light.cast_shadows;
-  const std::uint32_t lamp_bit = first && !seen_.empty() ? bit_of(lamp) : 0u;
-  const Opinion known = shadows && lamp_bit != 0 ? opinion(owners_[i], lamp_bit) : Opinion::kNone;
-  if (!shadows || known == Opinion::kLit) samples_[owners_[i]].light += arriving;
-  if (known != Opinion::kNone) {
-    seen_[owners_[i]].known |= lamp_bit;
-    if (known == Opinion::kInShadow) seen_[owners_[i]].in_shadow |= lamp_bit;
+  const std::uint32_t lamp_bit = first ? bit_of(lamp) : 0u;
+  Sample& sample = samples_[owners_[i]];
+  const bool is_known = !shadows || (sample.lamps.known & lamp_bit) != 0;
+  if (is_known) {
+    if (!shadows || (sample.lamps.in_shadow & lamp_bit) == 0) sample.light += arriving;
+    return;
   }
-  if (!shadows || known != Opinion::kNone) return;
   const double reach_m = std::min(found->distance_m, s_->options.max_range_m);
   shadow_rays_.push_back({at_W + kOffset_m * lit_side_W, found->to_light_W, reach_m - kOffset_m});
   waiting_.push_back({owners_[i], arriving, lamp_bit});
@@ -198,10 +188,13 @@ void Shader::add_unshadowed() {
   }
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     const Waiting& each = waiting_[i];
-    if (!in_shadow_[i]) samples_[each.sample].light += each.light;
-    if (each.lamp_bit == 0) continue;
-    seen_[each.sample].known |= each.lamp_bit;
-    if (in_shadow_[i]) seen_[each.sample].in_shadow |= each.lamp_bit;
+    Sample& sample = samples_[each.sample];
+    sample.lamps.known |= each.lamp_bit;
+    if (in_shadow_[i]) {
+      sample.lamps.in_shadow |= each.lamp_bit;
+    } else {
+      sample.light += each.light;
+    }
   }
   shadow_rays_.clear();
   waiting_.clear();

@@ -32,33 +32,19 @@ struct TileShading {
   const RenderOptions& options;
 };
 
+/// Of the first lamps, a bit each: whether they shine on a place.
+struct LampKnowledge {
+  std::uint32_t known = 0;
+  std::uint32_t in_shadow = 0;
+};
+
 /// One look through a pixel: what it has gathered, and what of the light is still to come.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};
   float rest = 1.0f;
   double travelled_m = 0.0;
   double stretch = 1.0;  // length of the way for each metre along the camera's axis
-};
-
-/// Normals of a surface within this cosine are of a place where it is smooth.
-constexpr float kSmooth = 0.85f;
-
-/// Whether two rays of a picture have met one surface, where it is smooth; or both nothing.
-inline bool same_surface(const Glance& a, const Glance& b) {
-  if (a.surface != b.surface || a.surface == 0) return a.surface == b.surface;
-  if (a.geometry != Glance::kOutside && a.primitive == b.primitive) return true;
-  const float along = a.normal_W.dot(b.normal_W);
-  return along > 0.0f &&
-         along * along >= kSmooth * kSmooth * a.normal_W.squaredNorm() * b.normal_W.squaredNorm();
-}
-
-/// Ranges along one surface that differ by more, as a share, are not next to each other.
-constexpr float kSameRange = 0.02f;
-
-/// Samples next to a new one whose light has been gathered; kNone: fewer.
-struct Neighbours {
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-  std::uint32_t samples[4] = {kNone, kNone, kNone, kNone};
+  LampKnowledge lamps;   // at what is met first
 };
 
 /// Sends looks through a picture and gathers their light in waves: what all of them meet, which of
@@ -70,16 +56,9 @@ class Shader {
 
   /// A look through (x, y) in pixels; one without a ray where the lens lets no light through.
   void send(double x_px, double y_px);
-  /// One whose first meeting was glanced at: from `near_m` on along `direction_W`, of that length
-  /// for each metre along the camera's axis. It takes shadows from those of its neighbours that
-  /// have met the same surface, if they are of one opinion.
-  void send(const GlanceRay& ray, float stretch, const Glance& glance,
-            const Neighbours& neighbours);
-  /// One that sees nothing, among glanced ones.
-  void send_dark() {
-    samples_.emplace_back();
-    seen_.emplace_back();
-  }
+  /// One whose first meeting was glanced at by a ray of a block, where some lamps' shadows are
+  /// known.
+  void send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps);
   /// Forgets the looks.
   void clear();
   /// The light of all looks that were sent since the last call.
@@ -97,18 +76,12 @@ class Shader {
     Eigen::Vector3f light;
     std::uint32_t lamp_bit;  // of the first lamps; 0: another
   };
-  /// Of a sample that was glanced at.
-  struct Seen {
-    Glance glance;
-    Neighbours neighbours;
-    std::uint32_t known = 0;      // a bit a lamp: whether it shines here is known,
-    std::uint32_t in_shadow = 0;  // and it does not
-  };
-  enum class Opinion { kLit, kInShadow, kNone };
 
-  void shade_layer(bool first, bool last);
-  Opinion opinion(std::size_t sample, std::uint32_t lamp_bit) const;
-  void look_on(const Eigen::Vector3d& from_W, std::size_t i);
+  /// What `count` rays from number `begin` on meet, into the first of points_.
+  void find_points(std::size_t begin, std::size_t count, bool glanced);
+  /// The light of ray `i`, but for what depends on shadows or lies behind.
+  void shade(const SurfacePoint& point, std::size_t i, int layer);
+  void look_on(const Eigen::Vector3d& from_W, double range_m, std::size_t i);
   void send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const SurfacePoint& point,
                     const Eigen::Vector3f& diffuse, std::size_t i, bool first);
   void add_unshadowed();
@@ -118,11 +91,10 @@ class Shader {
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
-  std::vector<Seen> seen_;       // of each sample, or of none
-  std::vector<Glance> glances_;  // of each ray, or of none
+  std::vector<std::uint32_t> triangles_;  // that each ray has met by a glance; or empty
   std::vector<SceneRay> rays_;
   std::vector<std::uint32_t> owners_;  // the sample of each ray
-  std::vector<SurfacePoint> points_;   // as many as ever were needed
+  std::vector<SurfacePoint> points_;   // of some rays
   std::vector<SceneRay> next_rays_;
   std::vector<std::uint32_t> next_owners_;
   std::vector<SceneRay> shadow_rays_;
