@@ -14,7 +14,7 @@
 namespace ardee {
 namespace {
 
-constexpr int kTileSide_px = 32;
+constexpr int kTileSide_px = QuickTile::kMostSide_px;
 
 int tiles_along(int pixels) { return (pixels + kTileSide_px - 1) / kTileSide_px; }
 
