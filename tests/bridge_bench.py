@@ -47,6 +47,18 @@ def resident_mb(pid: int) -> float:
     return int(re.search(r"VmRSS:\s+(\d+) kB", status).group(1)) / 1e3
 
 
+def frame_processes(server: int) -> Set[int]:
+    """Those for images and clouds that a sensor server, by its process, has started and that run."""
+    found = set()
+    for path in pathlib.Path(f"/proc/{server}/task").glob("*/children"):
+        for pid in path.read_text().split():
+            with contextlib.suppress(OSError):
+                words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
+                if b"ardee_bridge.frames" in words:
+                    found.add(int(pid))
+    return found
+
+
 class State(NamedTuple):
     """Where the robot is and how fast, by its odometry."""
 
@@ -141,15 +153,9 @@ class Bench:
         os.killpg(self.simulator.pid, signal.SIGKILL)
         self.simulator.wait()
 
-    def kill_frame_processes(self) -> List[int]:
+    def kill_frame_processes(self) -> Set[int]:
         """End the server's processes for images and clouds as a crash does: which they were."""
-        found = []
-        for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
-            pid = int(path.parent.name)
-            with contextlib.suppress(OSError):
-                words = path.read_bytes().split(b"\0")
-                if b"ardee_bridge.frames" in words and os.getpgid(pid) == self.server.pid:
-                    found.append(pid)
+        found = frame_processes(self.server.pid)
         for pid in found:
             os.kill(pid, signal.SIGKILL)
         return found
