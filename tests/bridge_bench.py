@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """For the tests of the UDP bridge: simulator, robot, both nodes and clients without ROS, each a process of its own."""
-import contextlib
 import os
 import pathlib
 import re
@@ -47,16 +46,20 @@ def resident_mb(pid: int) -> float:
     return int(re.search(r"VmRSS:\s+(\d+) kB", status).group(1)) / 1e3
 
 
+def _read(path: pathlib.Path) -> bytes:
+    """A file of /proc; empty if its thread or process has ended meanwhile."""
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""
+
+
 def frame_processes(server: int) -> Set[int]:
     """Those for images and clouds that a sensor server, by its process, has started and that run."""
-    found = set()
-    for path in pathlib.Path(f"/proc/{server}/task").glob("*/children"):
-        for pid in path.read_text().split():
-            with contextlib.suppress(OSError):
-                words = pathlib.Path(f"/proc/{pid}/cmdline").read_bytes().split(b"\0")
-                if b"ardee_bridge.frames" in words:
-                    found.add(int(pid))
-    return found
+    children = pathlib.Path(f"/proc/{server}/task").glob("*/children")
+    pids = [int(pid) for path in children for pid in _read(path).split()]
+    words = {pid: _read(pathlib.Path(f"/proc/{pid}/cmdline")).split(b"\0") for pid in pids}
+    return {pid for pid in pids if b"ardee_bridge.frames" in words[pid]}
 
 
 class State(NamedTuple):

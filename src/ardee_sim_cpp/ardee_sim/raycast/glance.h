@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 
 namespace ardee {
 
@@ -14,7 +13,7 @@ struct GlanceBlock {
   static constexpr int kRays = 16;
   /// In place of a surface: nothing was met.
   static constexpr std::uint32_t kNothing = 0;
-  /// Surfaces from here up to this bit are a scene's own.
+  /// A draft's own surfaces begin here; 1 is left to the caller, for pixels without a ray.
   static constexpr std::uint32_t kFirstSurface = 2;
   /// The bit of surfaces and triangles that are not in a draft.
   static constexpr std::uint32_t kOutside = 0x80000000u;
