@@ -191,16 +191,15 @@ void QuickTile::fill_middles(const Lattice& lattice, float most) {
     const std::size_t row = static_cast<std::size_t>(k) * lattice.row;
     const std::size_t corner = lattice.corner + row;
     const std::size_t lower = corner + lattice.row;
-    // In a coarse lattice the corners are too far off to know of shadows.
     fill(lattice, lattice.middle + row,
          {corner, corner + lattice.column, lower, lower + lattice.column}, lattice.columns, most,
-         !lattice.has_end);
+         !lattice.coarse);
   }
 }
 
 void QuickTile::fill_sides(const Lattice& lattice, float most) {
   const std::size_t column = lattice.column;
-  for (int k = 0; k < lattice.rows + (lattice.has_end ? 1 : 0); ++k) {
+  for (int k = 0; k < lattice.rows + (lattice.coarse ? 1 : 0); ++k) {
     const std::size_t row = static_cast<std::size_t>(k) * lattice.row;
     const std::size_t corner = lattice.corner + row;
     const std::size_t middle = lattice.middle + row;
@@ -219,7 +218,7 @@ void QuickTile::fill_sides(const Lattice& lattice, float most) {
     fill(lattice, left, {corner, lower, corner, lower}, 1, most, true);
     fill(lattice, left + column, {corner + column, lower + column, middle, middle + column},
          lattice.columns - 1, most, true);
-    if (!lattice.has_end) continue;
+    if (!lattice.coarse) continue;
     const std::size_t end = static_cast<std::size_t>(lattice.columns) * column;
     fill(lattice, left + end, {corner + end, lower + end, corner + end, lower + end}, 1, most,
          true);
@@ -239,17 +238,7 @@ void QuickTile::fill(const Lattice& lattice, std::size_t first, const Neighbours
 template <std::size_t kColumn>
 void QuickTile::fill_row(std::size_t first, const Neighbours& around, int count, float most,
                          bool ask_for_shadows) {
-  const float* const x_W = pixels_.normal_x_W.data();
-  const float* const y_W = pixels_.normal_y_W.data();
-  const float* const z_W = pixels_.normal_z_W.data();
-  const float* const range_m = pixels_.range_m.data();
-  const float* const red = pixels_.red.data();
-  const float* const green = pixels_.green.data();
-  const float* const blue = pixels_.blue.data();
-  const std::uint32_t* const surface = pixels_.surface.data();
-  const std::uint32_t* const triangle = pixels_.triangle.data();
-  const std::uint32_t* const lamps_known = pixels_.known.data();
-  const std::uint32_t* const lamps_in_shadow = pixels_.in_shadow.data();
+  const Pixels& p = pixels_;
   float reds[kInRow], greens[kInRow], blues[kInRow];
   std::uint32_t known[kInRow], in_shadow[kInRow], even[kInRow];
   for (int i = 0; i < count; ++i) {
@@ -260,21 +249,23 @@ void QuickTile::fill_row(std::size_t first, const Neighbours& around, int count,
     std::uint32_t lit = 0, dark = 0, unknown = 0;
     const auto add = [&](std::size_t start) {
       const std::size_t other = start + static_cast<std::size_t>(i) * kColumn;
-      const float along = x_W[mine] * x_W[other] + y_W[mine] * y_W[other] + z_W[mine] * z_W[other];
+      const float along = p.normal_x_W[mine] * p.normal_x_W[other] +
+                          p.normal_y_W[mine] * p.normal_y_W[other] +
+                          p.normal_z_W[mine] * p.normal_z_W[other];
       const std::uint32_t same =
-          all_if(surface[mine] == surface[other]) &
-          (all_if(triangle[mine] == triangle[other]) | all_if(along >= kSmooth));
+          all_if(p.surface[mine] == p.surface[other]) &
+          (all_if(p.triangle[mine] == p.triangle[other]) | all_if(along >= kSmooth));
       const float share = same != 0 ? 1.0f : 0.0f;
-      of_red.add(red[other], share);
-      of_green.add(green[other], share);
-      of_blue.add(blue[other], share);
+      of_red.add(p.red[other], share);
+      of_green.add(p.green[other], share);
+      of_blue.add(p.blue[other], share);
       shares += share;
-      const float farther_m = range_m[other] - range_m[mine];
+      const float farther_m = p.range_m[other] - p.range_m[mine];
       off_m += share * farther_m;
-      const std::uint32_t near = same & all_if(std::abs(farther_m) <= kSameRange * range_m[mine]);
-      lit |= near & lamps_known[other] & ~lamps_in_shadow[other];
-      dark |= near & lamps_known[other] & lamps_in_shadow[other];
-      unknown |= near & ~lamps_known[other];
+      const std::uint32_t near = same & all_if(std::abs(farther_m) <= kSameRange * p.range_m[mine]);
+      lit |= near & p.known[other] & ~p.in_shadow[other];
+      dark |= near & p.known[other] & p.in_shadow[other];
+      unknown |= near & ~p.known[other];
     };
     add(around[0]);
     add(around[1]);
@@ -288,7 +279,7 @@ void QuickTile::fill_row(std::size_t first, const Neighbours& around, int count,
     in_shadow[i] = dark & known[i];
     even[i] = all_if(shares > 0.0f) & all_if(of_red.spread() <= most) &
               all_if(of_green.spread() <= most) & all_if(of_blue.spread() <= most) &
-              all_if(std::abs(off_m) <= kSameRange * range_m[mine] * shares);
+              all_if(std::abs(off_m) <= kSameRange * p.range_m[mine] * shares);
   }
   for (int i = 0; i < count; ++i) {
     const std::size_t mine = first + static_cast<std::size_t>(i) * kColumn;
