@@ -251,6 +251,16 @@ static void receive(int fd, Ardee_Msg_Data_Header *header, int *has_header, Seen
   describe(header, datagram, sensor->last, sizeof sensor->last);
 }
 
+static double share_of_limit(const char *text) {
+  char *rest;
+  const double share = strtod(text, &rest);
+  if (rest == text || *rest || !(share >= -1.0 && share <= 1.0)) {
+    fprintf(stderr, "ardee_client: found %s, expected a share of the limit, -1 to 1\n", text);
+    exit(2);
+  }
+  return share;
+}
+
 static Options parse(int argc, char **argv) {
   Options options = {"127.0.0.1", 30000, 0, 35555, 0.0, 0.0, 5.0, 0};
   int letter;
@@ -269,10 +279,10 @@ static Options parse(int argc, char **argv) {
         options.controls_port = atoi(optarg);
         break;
       case 'v':
-        options.speed = atof(optarg), options.drives = 1;
+        options.speed = share_of_limit(optarg), options.drives = 1;
         break;
       case 'w':
-        options.yaw_rate = atof(optarg), options.drives = 1;
+        options.yaw_rate = share_of_limit(optarg), options.drives = 1;
         break;
       case 't':
         options.seconds = atof(optarg);

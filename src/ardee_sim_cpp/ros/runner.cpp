@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "ros/runner.h"
 
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
+
+#include "ros/waiting_callbacks.h"
 
 namespace ardee::node {
 namespace {
@@ -32,7 +33,7 @@ void Runner::run() {
 }
 
 void Runner::serve(double timeout_s) {
-  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(timeout_s));
+  call_waiting(*ros::getGlobalCallbackQueue(), timeout_s);
   if (Clock::now() < next_chores_) return;
   chores_();
   if (paused_) outlets_.clock.publish(simulation_.now_ns());

@@ -2,15 +2,33 @@
 #include "ardee_sim/core/time.h"
 
 #include <cmath>
+#include <limits>
 
 namespace ardee {
+namespace {
 
-TimeNs nanoseconds(double time_s) { return std::llround(time_s * kNsPerSecond); }
+/// Long double keeps whole nanoseconds over centuries, so that a grid of times does not drift.
+TimeNs round_within_range(long double time_ns) {
+  constexpr TimeNs kLast_ns = std::numeric_limits<TimeNs>::max();
+  constexpr auto kEnd_ns = static_cast<long double>(kLast_ns);
+  if (time_ns >= kEnd_ns) return kLast_ns;
+  if (time_ns <= -kEnd_ns) return -kLast_ns;
+  return std::llroundl(time_ns);
+}
+
+}  // namespace
+
+TimeNs nanoseconds(double time_s) {
+  return round_within_range(static_cast<long double>(time_s * kNsPerSecond));
+}
+
+RateTimer::RateTimer(double rate_hz, TimeNs offset_ns)
+    : rate_hz_(rate_hz <= kNsPerSecond ? rate_hz : 0.0), offset_ns_(offset_ns) {}
 
 TimeNs RateTimer::firing_time(std::uint64_t index) const {
-  // Long double keeps whole nanoseconds over centuries, so the grid does not drift.
-  return offset_ns_ +
-         std::llroundl(static_cast<long double>(index) * 1e9L / static_cast<long double>(rate_hz_));
+  return round_within_range(static_cast<long double>(offset_ns_) +
+                            static_cast<long double>(index) * 1e9L /
+                                static_cast<long double>(rate_hz_));
 }
 
 bool RateTimer::due(TimeNs now_ns) {

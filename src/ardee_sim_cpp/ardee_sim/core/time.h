@@ -12,7 +12,7 @@ constexpr double kNsPerSecond = 1e9;
 
 inline double seconds(TimeNs time_ns) { return static_cast<double>(time_ns) / kNsPerSecond; }
 
-/// Nearest whole nanosecond.
+/// Nearest whole nanosecond; the ends of what TimeNs holds, 292 years away, for times beyond.
 TimeNs nanoseconds(double time_s);
 
 /// Says at which steps something of a given rate is due. The k-th firing is at the first step at or
@@ -20,10 +20,9 @@ TimeNs nanoseconds(double time_s);
 /// does is exactly periodic.
 class RateTimer {
  public:
-  /// rate_hz <= 0: due at each step. All firings come `offset_ns` later than those of a timer
-  /// without.
-  explicit RateTimer(double rate_hz = 0.0, TimeNs offset_ns = 0)
-      : rate_hz_(rate_hz), offset_ns_(offset_ns) {}
+  /// rate_hz <= 0, or above one a nanosecond: due at each step. All firings come `offset_ns` later
+  /// than those of a timer without.
+  explicit RateTimer(double rate_hz = 0.0, TimeNs offset_ns = 0);
 
   /// True if a firing falls due at `now_ns`; missed firings (rate above the step's) are skipped,
   /// not made up for.
@@ -31,7 +30,6 @@ class RateTimer {
   /// Firings so far, missed ones counted: the index of the frame that due() has just announced is
   /// count() - 1.
   std::uint64_t count() const { return next_; }
-  double rate_hz() const { return rate_hz_; }
   void reset() { next_ = 0; }
   /// Continues at `now_ns` as if it had run from time zero (a robot spawned later keeps the same
   /// grid of times).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "ardee_sim/core/time.h"
@@ -49,6 +50,21 @@ TEST(RateTimer, ZeroMeansEachStepAndARateAboveTheStepsIsNotMadeUpFor) {
   EXPECT_EQ(firings(5000.0, kMillisecond, 100 * kMillisecond).size(), 100u);
 }
 
+TEST(RateTimer, AnyRateAboveTheStepsIsEachStep) {
+  for (const double rate_hz : {1e9, 1e25, 1e300}) {
+    EXPECT_EQ(firings(rate_hz, kMillisecond, 100 * kMillisecond).size(), 100u) << rate_hz;
+  }
+}
+
+TEST(RateTimer, APeriodOfMoreThanCenturiesNeverEnds) {
+  for (const double rate_hz : {1e-10, 1e-300}) {
+    EXPECT_TRUE(firings(rate_hz, kMillisecond, 100 * kMillisecond).empty()) << rate_hz;
+    RateTimer timer(rate_hz, kMillisecond);
+    EXPECT_TRUE(timer.due(kMillisecond));
+    EXPECT_FALSE(timer.due(2 * kMillisecond)) << rate_hz;
+  }
+}
+
 TEST(RateTimer, StartingLaterKeepsTheGrid) {
   RateTimer timer(10.0);
   timer.start_at(123 * kMillisecond);
@@ -60,6 +76,14 @@ TEST(RateTimer, StartingLaterKeepsTheGrid) {
 TEST(Time, RoundsToTheNearestNanosecond) {
   EXPECT_EQ(nanoseconds(0.005), 5 * kMillisecond);
   EXPECT_EQ(nanoseconds(0.1 + 0.2), 300 * kMillisecond);
+}
+
+TEST(Time, HasNoEndBeyondCenturies) {
+  constexpr TimeNs kLast = std::numeric_limits<TimeNs>::max();
+  EXPECT_EQ(nanoseconds(1e10), kLast);
+  EXPECT_EQ(nanoseconds(std::numeric_limits<double>::infinity()), kLast);
+  EXPECT_EQ(nanoseconds(-1e300), -kLast);
+  EXPECT_EQ(nanoseconds(9e9), 9000000000000000000);
 }
 
 TEST(RateTimer, offset_moves_all_firings) {
