@@ -36,6 +36,7 @@ class Bad(NamedTuple):
 
 
 TEXTS = {
+    "no.plots": "<robot />",
     "not_xml.geofence": "a fence about a field",
     "crossed.geofence": "<geofence><field_gps_noise_characteristics><biomass_height_noise_coefficient>"
     "<r1>tall</r1><r2>1</r2><mean>1</mean><variance>1</variance></biomass_height_noise_coefficient>"
@@ -81,6 +82,12 @@ BAD = {
         'plots_file="/nowhere/plots.xacro"',
         "ardee/bad",
         ("/nowhere/plots.xacro",),
+    ),
+    "empty_plots": Bad(
+        "gps_with_dropout",
+        'plots_file="{folder}/no.plots"',
+        "ardee/bad",
+        ("no.plots:1: <robot>", "found nothing in it", "periodic_noise_box"),
     ),
     "broken_geofence": Bad(
         "gps_with_dropout",

@@ -30,6 +30,16 @@ def test_each_name_starts_alone_on_loopback_and_ends_by_ctrl_c(
     assert node.wait(20.0) == 0, node.output()
 
 
+def test_a_multicast_that_nobody_else_gets_is_told(shared_graph: RosGraph) -> None:
+    parameters = ("_port:=0", "_peers:=[{address: 239.7.7.7, port: 30000, data_types: [imu]}]")
+    node = shared_graph.spawn("rosrun", "ardee_bridge", "sensor_server_node", *parameters)
+    said = "messages to 239.7.7.7 stay on this computer: found bind_address 127.0.0.1"
+    wait_until(lambda: said in node.output(), "the warning")
+    node.interrupt()
+    assert node.wait(20.0) == 0, node.output()
+    shared_graph.run("rosparam", "delete", "/sensor_server_node")
+
+
 def policies(pid: int) -> List[int]:
     """Of the threads of a process: how they are scheduled, the first thread's first."""
     threads = sorted(int(path.name) for path in pathlib.Path(f"/proc/{pid}/task").iterdir())

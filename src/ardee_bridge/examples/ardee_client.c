@@ -4,17 +4,18 @@
  *
  *   cc -std=c11 -O2 -I../include -o ardee_client ardee_client.c
  *   ./ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT]
- *                  [-v SPEED] [-w YAW_RATE] [-t SECONDS]
+ *                  [-g GROUP] [-v SPEED] [-w YAW_RATE] [-t SECONDS]
  *
  *   -i  address of the simulation's computer, default 127.0.0.1
  *   -p  port to listen at, default 30000; 0: any free one, to be used with -a
  *   -a  ask the sensor server at this port, usually 30001, for all sensors and time stamps
  *   -c  port of the controls client, default 35555
+ *   -g  multicast group to join, on the interface that leads to the simulator
  *   -v  speed, -1...1 of the robot's limit; without -v and -w the robot is not driven
  *   -w  yaw rate, -1...1 of the robot's limit
  *   -t  how long, default 5 s
  */
-#define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE /* POSIX, and struct ip_mreq */
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <poll.h>
@@ -31,7 +32,7 @@
 enum { MAX_DATAGRAM = 65535, COMMAND_HZ = 20, LEASE_S = 5, MULTIPLIER = 1000000, MAX_SEEN = 64 };
 
 typedef struct Options {
-  const char *simulator;
+  const char *simulator, *group;
   int port, server_port, controls_port;
   double speed, yaw_rate, seconds;
   int drives;
@@ -262,9 +263,9 @@ static double share_of_limit(const char *text) {
 }
 
 static Options parse(int argc, char **argv) {
-  Options options = {"127.0.0.1", 30000, 0, 35555, 0.0, 0.0, 5.0, 0};
+  Options options = {"127.0.0.1", NULL, 30000, 0, 35555, 0.0, 0.0, 5.0, 0};
   int letter;
-  while ((letter = getopt(argc, argv, "i:p:a:c:v:w:t:")) != -1) {
+  while ((letter = getopt(argc, argv, "i:p:a:c:g:v:w:t:")) != -1) {
     switch (letter) {
       case 'i':
         options.simulator = optarg;
@@ -277,6 +278,9 @@ static Options parse(int argc, char **argv) {
         break;
       case 'c':
         options.controls_port = atoi(optarg);
+        break;
+      case 'g':
+        options.group = optarg;
         break;
       case 'v':
         options.speed = share_of_limit(optarg), options.drives = 1;
@@ -294,9 +298,28 @@ static Options parse(int argc, char **argv) {
   return options;
 }
 
+/* Let in what is sent to a multicast group. Without a default route the system cannot choose the
+ * interface. */
+static void join(int fd, const char *group, const struct sockaddr_in *simulator) {
+  struct sockaddr_in interface;
+  socklen_t size = sizeof interface;
+  const int towards = socket(AF_INET, SOCK_DGRAM, 0); /* to connect it sends nothing */
+  if (towards < 0 || connect(towards, (const struct sockaddr *)simulator, sizeof *simulator) < 0 ||
+      getsockname(towards, (struct sockaddr *)&interface, &size) < 0) {
+    perror("ardee_client: simulator");
+    exit(2);
+  }
+  close(towards);
+  const struct ip_mreq member = {address_of(group, 0).sin_addr, interface.sin_addr};
+  if (setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &member, sizeof member) < 0) {
+    perror("ardee_client: group");
+    exit(2);
+  }
+}
+
 static int open_socket(const Options *options) {
   const int fd = socket(AF_INET, SOCK_DGRAM, 0);
-  const int is_local = strncmp(options->simulator, "127.", 4) == 0;
+  const int is_local = strncmp(options->simulator, "127.", 4) == 0 && !options->group;
   const struct sockaddr_in here = address_of(is_local ? "127.0.0.1" : "0.0.0.0", options->port);
   const int buffer_bytes = 4 << 20;
   setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &buffer_bytes, sizeof buffer_bytes);
@@ -319,6 +342,7 @@ int main(int argc, char **argv) {
   const struct sockaddr_in controls = address_of(options.simulator, options.controls_port);
   const struct sockaddr_in server = address_of(options.simulator, options.server_port);
   const int fd = open_socket(&options);
+  if (options.group) join(fd, options.group, &controls);
   signal(SIGINT, end);
   Ardee_Msg_Data_Header header;
   memset(&header, 0, sizeof header);

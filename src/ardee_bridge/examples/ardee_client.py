@@ -31,6 +31,9 @@ def options() -> argparse.Namespace:
     parser.add_argument("--simulator", default="127.0.0.1", help="address of its computer")
     parser.add_argument("--port", type=int, default=30000, help="to listen at; 0: any, with --ask")
     parser.add_argument(
+        "--group", help="multicast group to join, on the interface that leads to the simulator"
+    )
+    parser.add_argument(
         "--ask",
         type=int,
         metavar="PORT",
@@ -42,6 +45,15 @@ def options() -> argparse.Namespace:
     parser.add_argument("--control", choices=[code.name for code in codec.ControlCode])
     parser.add_argument("--seconds", type=float, default=5.0)
     return parser.parse_args()
+
+
+def join(opened: socket.socket, group: str, simulator: str) -> None:
+    """Let in what is sent to a multicast group. Without a default route the system cannot choose the interface."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as towards:
+        towards.connect((simulator, 9))  # sends nothing
+        interface = towards.getsockname()[0]
+    member = socket.inet_aton(group) + socket.inet_aton(interface)
+    opened.setsockopt(socket.IPPROTO_IP, socket.IP_ADD_MEMBERSHIP, member)
 
 
 class Client:
@@ -110,10 +122,15 @@ def main() -> int:
     found = options()
     controls, server = (found.simulator, found.controls), (found.simulator, found.ask)
     drives = found.speed is not None or found.yaw_rate is not None
-    here = "127.0.0.1" if found.simulator.startswith("127.") else "0.0.0.0"
+    is_local = found.simulator.startswith("127.") and not found.group
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
-        opened.bind((here, found.port))
+        opened.bind(("127.0.0.1" if is_local else "0.0.0.0", found.port))
+        if found.group:
+            try:
+                join(opened, found.group, found.simulator)
+            except OSError as error:
+                sys.exit(f"ardee_client: group {found.group}: {error.strerror or error}")
         client = Client(opened)
         if found.control:
             client.send(codec.encode_control(codec.ControlCode[found.control]), controls)

@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 from ardee_bridge import codec
-from ardee_bridge.settings import SettingError, read_controls, read_server
+from ardee_bridge.settings import SettingError, kept_here, read_controls, read_server
 
 
 def shipped(package, name):
@@ -21,6 +21,18 @@ def test_shipped_defaults_are_those_of_the_thesis(package):
     assert (controls.bind_address, controls.port) == ("127.0.0.1", 35555)
     assert controls.max_yaw_rate_rad_s == pytest.approx(codec.MAX_YAW_RATE_RAD_S)
     assert controls.max_speed_m_s == codec.MAX_SPEED_M_S
+
+
+def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
+    def peer(address):
+        return dict(address=address, port=1, data_types=["imu"])
+
+    values = shipped(package, "sensor_server.yaml")
+    values["peers"] = [peer("127.0.0.1"), peer("239.7.7.7")]
+    assert kept_here(read_server(values)) == ["239.7.7.7"]
+    values["peers"] = [peer("239.7.7.7")]
+    for address in ("192.168.1.1", "0.0.0.0"):
+        assert kept_here(read_server(dict(values, bind_address=address))) == []
 
 
 @pytest.mark.parametrize(

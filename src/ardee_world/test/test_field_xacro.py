@@ -75,6 +75,17 @@ def test_plots_have_the_listings_elements_and_the_fields_numbers(generate_field,
         assert value["z"] == pytest.approx(plants["z_m"][mine].mean(), abs=1e-3)
 
 
+def test_a_plot_of_single_plants_is_as_long_as_they_stand_apart(generate_field, tmp_path):
+    shape = ("--rows", 2, "--stalks-per-row", 1, "--stalk-spacing", 0.2, "--terrain", "ground")
+    assert generate_field(*BASE, *shape, "--output", tmp_path)[0] == 0
+    plot = ElementTree.parse(tmp_path / "field" / "plots.xacro").getroot().find("plot")
+    value = {e.tag: float(e.text) for e in plot}
+    assert (value["row_count"], value["row_width"], value["row_length"]) == (2, 0.762, 0.2)
+    plants = json.loads((tmp_path / "field" / "truth.json").read_text())["plants"]
+    area_m2 = 2 * 0.762 * 0.2
+    assert value["average_density"] == pytest.approx(len(plants["plot"]) / area_m2, rel=1e-3)
+
+
 def test_clutter_reaches_model_and_truth(generate_field, models, tmp_path):
     for name in MODELS:
         write_clutter_model(name, tmp_path / "clutter")

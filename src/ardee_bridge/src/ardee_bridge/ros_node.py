@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
 import http.client
+import signal
 import sys
 import threading
 import xmlrpc.client
@@ -105,6 +106,19 @@ class MasterWatch:
         rospy.signal_shutdown("forgotten by the master")
 
 
+def _end_by_signals_in_a_thread() -> None:
+    """Instead of rospy's handlers, which run in this thread.
+
+    Where they interrupt a call to the master, the first line of the log for one, they wait for its lock for ever.
+    """
+
+    def end(number: int, _: object) -> None:
+        threading.Thread(target=rospy.signal_shutdown, args=(f"signal {number}",)).start()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+
+
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
@@ -112,6 +126,7 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """
     priority.share_fairly()
     rospy.init_node(name, disable_rostime=True)
+    _end_by_signals_in_a_thread()
     try:
         watch = MasterWatch()
         step = body()

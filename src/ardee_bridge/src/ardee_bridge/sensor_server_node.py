@@ -9,7 +9,7 @@ from ardee_bridge.counters import Counters
 from ardee_bridge.frames import FrameProcesses, Shared
 from ardee_bridge.reader import Reader
 from ardee_bridge.sensor_server import SensorServer
-from ardee_bridge.settings import Source, read_server
+from ardee_bridge.settings import Source, kept_here, read_server
 from ardee_bridge.subscriptions import Subscriptions
 from ardee_bridge.udp import PairLock, open_socket
 
@@ -48,6 +48,12 @@ def _make() -> Callable[[float], None]:
     peers = ", ".join(f"{peer.address}:{peer.port}" for peer in settings.destinations)
     here = "%s:%d" % opened.getsockname()
     rospy.loginfo("sensors leave %s for %s", here, peers or "whoever asks by SET_PORT")
+    for group in kept_here(settings):
+        rospy.logwarn(
+            "messages to %s stay on this computer: found bind_address %s, expected that of an interface towards others",
+            group,
+            settings.bind_address,
+        )
     if settings.realtime_priority and not priority.go_first(settings.realtime_priority):
         rospy.loginfo("no real-time priority is granted: where all cores are busy, messages wait")
     return step

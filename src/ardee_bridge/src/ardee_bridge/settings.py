@@ -275,6 +275,14 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
     return settings
 
 
+def kept_here(settings: ServerSettings) -> List[str]:
+    """Multicast groups whose messages reach this computer alone, for they leave from loopback."""
+    if not ipaddress.IPv4Address(settings.bind_address).is_loopback:
+        return []
+    addresses = [peer.address for peer in settings.destinations]
+    return [each for each in addresses if ipaddress.IPv4Address(each).is_multicast]
+
+
 def _check_unique(sources: Tuple[Source, ...]) -> None:
     """Sources are told apart by their names here, and by kind and component on the wire."""
     places = [(source.data_type, source.component_id) for source in sources]

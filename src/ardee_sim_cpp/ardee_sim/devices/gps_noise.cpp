@@ -38,11 +38,11 @@ void NoiseBands::add(const Element& element, Log& log) {
   bands_.push_back(band);
 }
 
-GpsNoise NoiseBands::at(double value) const {
+const GpsNoise* NoiseBands::find(double value) const {
   for (const Band& band : bands_) {
-    if (value >= band.low && value < band.high) return band.noise;
+    if (value >= band.low && value < band.high) return &band.noise;
   }
-  return {};
+  return nullptr;
 }
 
 GpsNoise PeriodicNoise::at(TimeNs now_ns, const CounterRng& stream) const {

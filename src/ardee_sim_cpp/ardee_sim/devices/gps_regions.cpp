@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <sstream>
 
 #include "ardee_sim/readers/resource_locator.h"
 #include "ardee_sim/readers/text_file.h"
@@ -28,12 +30,24 @@ double required(Parameters& parameters, const char* key, double low, double high
   return parameters.number(key, 0.0, low, high);
 }
 
+double side(Parameters& parameters, const char* key) {
+  const double length_m = required(parameters, key, 0.0, kFarthest_m);
+  if (length_m == 0.0) throw parameters.error(key, "expected more than 0 m");
+  return length_m;
+}
+
+GpsNoise noise_of(const NoiseBands& bands, double value) {
+  const GpsNoise* found = bands.find(value);
+  return found ? *found : GpsNoise{};
+}
+
 }  // namespace
 
 /// What files and plugins say, before the bands are known for all plots.
 struct GpsRegions::Parts {
   struct Plot {
     GpsRegion region;
+    Source source;
     double height_m = 0.0;
     double density_per_m2 = 0.0;
   };
@@ -62,6 +76,7 @@ struct GpsRegions::Parts {
     Parameters parameters(element);
     Plot plot;
     plot.region.name = "plot " + parameters.required_text("plot_id");
+    plot.source = element.source;
     const auto place = [&](const char* key) {
       return required(parameters, key, -kFarthest_m, kFarthest_m);
     };
@@ -69,8 +84,8 @@ struct GpsRegions::Parts {
     const double turn_rad = place("rotation");
     parameters.required_text("row_count");
     const int rows = parameters.integer("row_count", 1, 1, 1000000);
-    const double row_width_m = required(parameters, "row_width", 0.0, kFarthest_m);
-    const double row_length_m = required(parameters, "row_length", 0.0, kFarthest_m);
+    const double row_width_m = side(parameters, "row_width");
+    const double row_length_m = side(parameters, "row_length");
     plot.height_m = required(parameters, "average_height", 0.0, 100.0);
     plot.density_per_m2 = parameters.number("average_density", 0.0, 0.0);
     parameters.ignore({"plot_range_index", "plot_crossrange_index"});
@@ -94,7 +109,7 @@ struct GpsRegions::Parts {
     box.pose.q = quaternion_from_rpy({0.0, 0.0, place("rot")});
     for (int axis = 0; axis < 3; ++axis) {
       static constexpr const char* kSides[] = {"w", "l", "h"};
-      box.size_m[axis] = required(parameters, kSides[axis], 0.0, kFarthest_m);
+      box.size_m[axis] = side(parameters, kSides[axis]);
     }
     PeriodicNoise noise;
     noise.period_s = required(parameters, "nps", 1e-3, kMost);
@@ -107,10 +122,20 @@ struct GpsRegions::Parts {
     boxes.push_back(box);
   }
 
+  /// An id stands for one plot of its file; fields each number their own.
   void add_all(const Element& parent, Log& log) {
+    std::map<std::string, int> ids;  // and their lines
     for (const Element& child : parent.children) {
       if (child.name == kBands) add_bands(child, log);
-      if (child.name == kPlot) add_plot(child, log);
+      if (child.name == kPlot) {
+        add_plot(child, log);
+        const Element& id = *child.child("plot_id");
+        const auto [first, is_new] = ids.emplace(id.text, id.source.line);
+        if (!is_new) {
+          throw Error(id.source, "found '" + id.text + "' again, expected an id of its own: line " +
+                                     std::to_string(first->second) + " has it");
+        }
+      }
       if (child.name == kBox) add_box(child, log);
     }
   }
@@ -119,6 +144,10 @@ struct GpsRegions::Parts {
   void add_file(const std::string& path, const Source& source, Log& log) {
     const XmlFile file = XmlFile::read(path, source);
     const Element root = file.root().to_element();
+    if (root.children.empty()) {
+      throw Error(root.source, std::string("found nothing in it, expected ") + kBands + ", " +
+                                   kPlot + " or " + kBox);
+    }
     for (const Element& child : root.children) {
       if (!is_part(child.name)) {
         throw Error(child.source, "found <" + child.name + ">, expected " + kBands + ", " + kPlot +
@@ -126,6 +155,15 @@ struct GpsRegions::Parts {
       }
     }
     add_all(root, log);
+  }
+
+  void add_plots_file(const std::string& path, const Source& source, Log& log) {
+    const std::size_t before = plots.size() + boxes.size();
+    add_file(path, source, log);
+    if (plots.size() + boxes.size() == before) {
+      throw Error(Source{path, 0, ""}, std::string("found no <") + kPlot + "> and no <" + kBox +
+                                           ">, expected one or more");
+    }
   }
 
   void add_plots_beside(const std::vector<std::string>& scenery_files, const Source& source,
@@ -137,7 +175,7 @@ struct GpsRegions::Parts {
     for (const std::string& folder : folders) {
       const std::string path = (std::filesystem::path(folder) / "plots.xacro").string();
       std::error_code error;
-      if (std::filesystem::is_regular_file(path, error)) add_file(path, source, log);
+      if (std::filesystem::is_regular_file(path, error)) add_plots_file(path, source, log);
     }
   }
 
@@ -150,6 +188,38 @@ struct GpsRegions::Parts {
     }
     add_file(path, source, log);
   }
+
+  /// In one message: a field has hundreds of plots that are alike.
+  void warn_outside(const NoiseBands& bands, const char* band, double Plot::*quantity,
+                    const char* unit, Log& log) const {
+    constexpr std::size_t kMostNamed = 3;
+    std::vector<const Plot*> outside;
+    for (const Plot& plot : plots) {
+      if (!bands.find(plot.*quantity)) outside.push_back(&plot);
+    }
+    if (outside.empty()) return;
+    std::ostringstream text;
+    text << outside.front()->source.to_string() << ": found ";
+    for (std::size_t i = 0; i < std::min(outside.size(), kMostNamed); ++i) {
+      text << (i > 0 ? ", " : "") << outside[i]->region.name << " of " << (*outside[i]).*quantity
+           << " " << unit;
+    }
+    if (outside.size() > kMostNamed) text << " and " << outside.size() - kMostNamed << " more";
+    text << " in no <" << band << ">, expected a band for it; "
+         << (density_bands.empty() ? "the noise is the open sky's there"
+                                   : "it adds no noise there");
+    log.warn(text.str());
+  }
+
+  /// Bands of density are for those who want them.
+  void warn_of_plots_in_no_band(Log& log) const {
+    if (!height_bands.empty() || density_bands.empty()) {
+      warn_outside(height_bands, kHeightBand, &Plot::height_m, "m", log);
+    }
+    if (!density_bands.empty()) {
+      warn_outside(density_bands, kDensityBand, &Plot::density_per_m2, "plants/m2", log);
+    }
+  }
 };
 
 GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files,
@@ -157,10 +227,11 @@ GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& sc
   Parts parts;
   parts.add_all(plugin, log);
   const ResourceLocator locator = ResourceLocator::from_environment();
-  for (const char* key : {"geofenceFile", "plotsFile"}) {
-    const Element* named = plugin.child(key);
-    if (!named) continue;
+  if (const Element* named = plugin.child("geofenceFile")) {
     parts.add_file(locator.resolve(named->text, named->source), named->source, log);
+  }
+  if (const Element* named = plugin.child("plotsFile")) {
+    parts.add_plots_file(locator.resolve(named->text, named->source), named->source, log);
   }
   if (parts.plots.empty() && !plugin.child("plotsFile")) {
     parts.add_plots_beside(scenery_files, plugin.source, log);
@@ -168,10 +239,11 @@ GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& sc
   if (!parts.plots.empty() && !parts.has_bands) {
     parts.add_default_bands(locator, plugin.source, log);
   }
+  parts.warn_of_plots_in_no_band(log);
   regions_ = std::move(parts.boxes);
   for (Parts::Plot& plot : parts.plots) {
-    plot.region.noise =
-        combined(parts.height_bands.at(plot.height_m), parts.density_bands.at(plot.density_per_m2));
+    plot.region.noise = combined(noise_of(parts.height_bands, plot.height_m),
+                                 noise_of(parts.density_bands, plot.density_per_m2));
     regions_.push_back(plot.region);
   }
 }

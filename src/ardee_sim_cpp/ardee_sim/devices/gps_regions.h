@@ -28,8 +28,9 @@ GpsNoise combined(const GpsNoise& one, const GpsNoise& other);
 class NoiseBands {
  public:
   void add(const Element& band, Log& log);
-  /// None where no band is.
-  GpsNoise at(double value) const;
+  /// Of the first band that holds the value; nullptr: none does.
+  const GpsNoise* find(double value) const;
+  bool empty() const { return bands_.empty(); }
 
  private:
   struct Band {
@@ -71,7 +72,7 @@ class GpsRegions {
   /// <plotsFile> with the same. Without plots of its own, those beside `scenery_files`
   /// (plots.xacro); if there are plots but no bands, GAZEBO_RESOURCE_PATH's
   /// custom_gps_behavior.geofence, else default_gps_behavior.geofence. Throws Error for what is
-  /// missing or malformed.
+  /// missing or malformed; warns of plots that lie in no band.
   GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files, Log& log);
 
   /// The first that contains the point, boxes of periodic noise before plots; nullptr: open sky.

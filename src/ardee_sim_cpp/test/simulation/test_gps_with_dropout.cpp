@@ -1,59 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <optional>
+#include <cmath>
+#include <numeric>
 
 #include "../statistics.h"
-#include "../temp_folder.h"
-#include "ardee_sim/devices/geodesy.h"
-#include "motion_rig.h"
+#include "gps_rig.h"
 
 namespace ardee {
 namespace {
 
 using Eigen::Vector3d;
-
-std::string gps(const std::string& keys) {
-  return plugin("gazebo_ros_gps_with_dropout",
-                "<topicName>gps/fix</topicName><updateRate>10</updateRate>" + keys);
-}
-
-std::string band(const std::string& r1, const std::string& r2, const std::string& rest) {
-  return "<biomass_height_noise_coefficient><r1>" + r1 + "</r1><r2>" + r2 + "</r2>" + rest +
-         "</biomass_height_noise_coefficient>";
-}
-
-std::string bands(const std::string& all) {
-  return "<field_gps_noise_characteristics>" + all + "</field_gps_noise_characteristics>";
-}
-
-/// 20 m along its rows, 6 m across.
-std::string plot(const std::string& id, double x, double height_m, double rotation_rad = 0.0) {
-  return "<plot><plot_id>" + id + "</plot_id><plot_range_index>0</plot_range_index>" +
-         "<plot_crossrange_index>0</plot_crossrange_index><x>" + std::to_string(x) +
-         "</x><y>0</y><z>0</z><rotation>" + std::to_string(rotation_rad) +
-         "</rotation><row_count>8</row_count><row_width>0.75</row_width>"
-         "<row_length>20</row_length><average_height>" +
-         std::to_string(height_m) + "</average_height><average_density>7</average_density></plot>";
-}
-
-Pose at(double x, double y = 0.0, double z = 0.5) {
-  return Pose::from_xyz_rpy({x, y, z}, {0, 0, 0});
-}
-
-std::vector<GpsQualityReading> quality(TestWorld& world) {
-  return world.recorder().on<GpsQualityReading>("/gps/data");
-}
-
-/// Quality readings of a robot that stands still for a number of samples.
-std::vector<GpsQualityReading> stand(const std::string& keys, const Pose& pose, std::size_t count) {
-  TestWorld world(free_space(0.0), 0.1);
-  world.spawn(still(gps(keys)), "ball", pose);
-  for (const std::string& message : world.messages()) ADD_FAILURE() << message;
-  for (std::size_t i = 0; i < count; ++i) world->step();
-  return quality(world);
-}
 
 std::string region_at(const std::string& keys, const Pose& pose) {
   return stand(keys, pose, 1).back().region;
@@ -64,10 +21,6 @@ std::vector<double> east_errors(const std::vector<GpsQualityReading>& readings) 
   for (const GpsQualityReading& each : readings) values.push_back(each.error_m.x());
   return values;
 }
-
-const std::string kTwoPlots = plot("7", 0.0, 1.5) + plot("8", 30.0, 2.5);
-const std::string kBands = bands(band("0", "2", "<mean>1</mean><variance>4</variance>") +
-                                 band("2", "-1", "<mean>1</mean><variance>25</variance>"));
 
 TEST(GpsRegions, a_plot_is_its_rows_from_below_the_ground_to_the_crops_height) {
   const std::string keys = kBands + plot("3", 5.0, 1.5) + "<gaussianNoise>1</gaussianNoise>";
@@ -269,90 +222,6 @@ TEST(GpsRegions, same_seed_same_errors) {
                                                   "<mean>1</mean><variance>2</variance>"
                                                   "<correlated_std>1</correlated_std>"));
   EXPECT_EQ(east_errors(stand(keys, at(0), 50)), east_errors(stand(keys, at(0), 50)));
-}
-
-/// GAZEBO_RESOURCE_PATH as long as this lives.
-class ResourcePath {
- public:
-  explicit ResourcePath(const std::string& path) {
-    const char* before = std::getenv(kName);
-    if (before) before_ = before;
-    setenv(kName, path.c_str(), 1);
-  }
-  ~ResourcePath() { before_ ? setenv(kName, before_->c_str(), 1) : unsetenv(kName); }
-
- private:
-  static constexpr const char* kName = "GAZEBO_RESOURCE_PATH";
-  std::optional<std::string> before_;
-};
-
-TEST(GpsFiles, elements_name_them) {
-  const TempFolder folder;
-  folder.write("my.geofence", "<robot>" + kBands + "</robot>");
-  const std::string plots = folder.write("plots.xacro", "<robot>" + kTwoPlots + "</robot>");
-  const ResourcePath path(folder.path());
-  const std::string keys = "<geofenceFile>file://my.geofence</geofenceFile><plotsFile>" + plots +
-                           "</plotsFile><gaussianNoise>0.1</gaussianNoise>";
-  EXPECT_NEAR(stand(keys, at(30), 1).back().position_std_m, 0.5, 1e-9);
-}
-
-TEST(GpsFiles, plots_of_the_worlds_field_and_the_geofence_on_the_path) {
-  const TempFolder folder;
-  folder.write_model("field", "<static>true</static><link name='l'/>");
-  folder.write("field/plots.xacro", "<robot>" + kTwoPlots + "</robot>");
-  folder.write("default_gps_behavior.geofence", "<robot>" + kBands + "</robot>");
-  const ResourcePath path(folder.path());
-  const auto std_in_corn = [&folder] {
-    TestWorld world(free_space(0.0) + "<include><uri>file://field</uri></include>", 0.1);
-    world.spawn(still(gps("<gaussianNoise>0.1</gaussianNoise>")), "ball", at(30));
-    world.run(0.1);
-    for (const std::string& message : world.messages()) ADD_FAILURE() << message;
-    return quality(world).back().position_std_m;
-  };
-  EXPECT_NEAR(std_in_corn(), 0.5, 1e-9);
-  folder.write(
-      "custom_gps_behavior.geofence",
-      "<robot>" + bands(band("0", "-1", "<mean>1</mean><variance>100</variance>")) + "</robot>");
-  EXPECT_NEAR(std_in_corn(), 1.0, 1e-9);
-}
-
-TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
-  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + std::string(ARDEE_TEST_DATA) +
-                           "/../../../ardee_geofence/default_gps_behavior.geofence</geofenceFile>";
-  EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 1.37, 1e-9);
-}
-
-TEST(GpsFiles, what_is_wrong_is_said_once_with_its_line_and_the_robot_spawns) {
-  const TempFolder folder;
-  const auto geofence = [&folder](const std::string& name, const std::string& text) {
-    return "<geofenceFile>" + folder.write(name, text) + "</geofenceFile>";
-  };
-  const std::string one = "\n<robot>\n" + bands("\n" + band("0", "-1", "X")) + "</robot>";
-  const auto with = [&one](const std::string& inside) {
-    std::string text = one;
-    return text.replace(text.find('X'), 1, inside);
-  };
-  const struct {
-    std::string keys;
-    std::string expected;
-  } cases[] = {
-      {"<plotsFile>file://nowhere/plots.xacro</plotsFile>", "nowhere/plots.xacro"},
-      {geofence("a", "<robot>\n<field_gps"), "a:"},
-      {geofence("b", with("<mean>1</mean><variance>-4</variance>")), "b:4"},
-      {geofence("c", with("<mean>1</mean>")), "c:4"},
-      {geofence("d", with("<mean>${m}</mean><variance>1</variance>")), "d:4"},
-      {geofence("e", "<robot>\n<plots/></robot>"), "e:2"},
-      {bands(band("2", "1", "<mean>1</mean><variance>1</variance>")), "ball.urdf:1"},
-      {bands("<band/>"), "ball.urdf:1"},
-      {kBands + "<plot><plot_id>1</plot_id></plot>", "<x>"},
-      {"<correlationTime>0</correlationTime>", "ball.urdf:1"},
-  };
-  for (const auto& each : cases) {
-    TestWorld world(free_space(0.0));
-    EXPECT_TRUE(world.spawn(ball(gps(each.keys)), "ball").devices.empty()) << each.keys;
-    ASSERT_EQ(world.messages().size(), 1u) << each.keys;
-    EXPECT_NE(world.messages()[0].find(each.expected), std::string::npos) << world.messages()[0];
-  }
 }
 
 }  // namespace

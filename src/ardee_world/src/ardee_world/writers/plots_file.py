@@ -65,9 +65,9 @@ def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotR
     pose, plots = layout.config.world_pose, layout.config.plots
     world = to_world(middle[None], pose)[0]
     width = (np.ptp(beside) + plots.row_spacing_m) / len(rows)
-    length = float(np.ptp(along))
+    length = max(float(np.ptp(along)), plots.stalk_spacing_m)  # of rows of one plant too
     heights = layout.height_m[members]
-    area = max(width * len(rows) * length, 1e-9)
+    area = width * len(rows) * length
     turn = np.arctan2(forward[1], forward[0]) + pose[2]
     return PlotRegion(
         plot_id=plot,

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""Multicast and broadcast from one host to another: two network namespaces with a cable, and no default route."""
+import contextlib
+import ctypes
+import os
+import subprocess
+import sys
+
+import pytest
+from sensor_msgs.msg import Imu
+
+from ardee_bridge.counters import Counters
+from ardee_bridge.sensor_server import SensorServer
+from ardee_bridge.settings import read_server
+from ardee_bridge.udp import open_socket
+
+CLONE_NEWNET = 0x40000000  # <sched.h>
+PORT, GROUP = 30000, "239.7.7.7"
+SIMULATOR, TARGET, BROADCAST = "10.77.0.1", "10.77.0.2", "10.77.0.255"
+EVERYBODY = "255.255.255.255"
+
+
+def ip(*arguments):
+    """Run ip(8); what it says against it is why the tests are skipped."""
+    try:
+        done = subprocess.run(["ip", *arguments], capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        pytest.skip("no network namespaces: ip (iproute2) is not installed")
+    if done.returncode:
+        pytest.skip(f"no network namespaces (they need root): {done.stderr.strip()}")
+
+
+@pytest.fixture(scope="module")
+def hosts():
+    """Names of two namespaces, the simulator's and the target's."""
+    names = [f"ardee_{os.getpid()}_{role}" for role in ("simulator", "target")]
+    made = []
+    try:
+        for name in names:
+            ip("netns", "add", name)
+            made.append(name)
+        ends = [("netns", name, "name", "cable") for name in names]
+        ip("link", "add", *ends[0][2:], *ends[0][:2], "type", "veth", "peer", *ends[1])
+        for name, address in zip(names, (SIMULATOR, TARGET)):
+            ip(
+                "-n",
+                name,
+                "address",
+                "add",
+                f"{address}/24",
+                "broadcast",
+                BROADCAST,
+                "dev",
+                "cable",
+            )
+            ip("-n", name, "link", "set", "cable", "up")
+        yield names
+    finally:
+        for name in made:
+            ip("netns", "delete", name)
+
+
+@contextlib.contextmanager
+def inside(host):
+    """Sockets that this thread opens meanwhile are the host's."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    with open("/proc/thread-self/ns/net") as home, open(f"/run/netns/{host}") as there:
+        assert libc.setns(there.fileno(), CLONE_NEWNET) == 0, os.strerror(ctypes.get_errno())
+        try:
+            yield
+        finally:
+            assert libc.setns(home.fileno(), CLONE_NEWNET) == 0
+
+
+@pytest.fixture(scope="module")
+def clients(package, tmp_path_factory):
+    """Commands of the two example clients for a second, with and without a group to join."""
+    compiled = tmp_path_factory.mktemp("client") / "ardee_client"
+    source, include = package / "examples" / "ardee_client.c", package / "include"
+    subprocess.run(["cc", "-std=c11", "-I", include, "-o", compiled, source], check=True)
+    python = (sys.executable, package / "examples" / "ardee_client.py")
+    return {
+        "C": (compiled, "-t", "1", "-i", SIMULATOR, "-g"),
+        "Python": (*python, "--seconds", "1", "--simulator", SIMULATOR, "--group"),
+    }
+
+
+def sent_to(peer, hosts, command):
+    """What a client on the target says, while the server sends IMU messages to a peer; what was not sent."""
+    values = dict(bind_address=SIMULATOR, port=0, allowed_clients=[TARGET], max_clients=0)
+    values.update(client_lease_s=30.0, multicast_ttl=1, realtime_priority=0)
+    peers = [dict(address=peer, port=PORT, data_types=["imu"])]
+    sources = [dict(name="imu", kind="imu", topic="imu")]
+    settings = read_server(dict(values, peers=peers, sources=sources))
+    counters = Counters(lambda text: None)
+    with inside(hosts[0]):
+        opened = open_socket(SIMULATOR, 0)
+    with opened:
+        server = SensorServer(settings, opened, counters, lambda: None)
+        entered = ["ip", "netns", "exec", hosts[1], *map(str, command)]
+        with subprocess.Popen(entered, stdout=subprocess.PIPE, text=True) as client:
+            while client.poll() is None:
+                server.publish(settings.sources[0], Imu())
+                server.receive(0.02)
+            return client.stdout.read(), counters.dropped()
+
+
+@pytest.mark.parametrize("language", ["C", "Python"])
+def test_a_target_on_another_host_gets_what_is_sent_to_many(hosts, clients, language):
+    joining = (*clients[language], GROUP)
+    for peer, command in (
+        (GROUP, joining),
+        (BROADCAST, clients[language][:-1]),
+        (EVERYBODY, clients[language][:-1]),
+    ):
+        said, dropped = sent_to(peer, hosts, command)
+        assert said.startswith("imu 0 count ") and not dropped, (peer, said, dropped)
+
+
+def test_who_has_not_joined_gets_nothing(hosts, clients):
+    assert sent_to(GROUP, hosts, clients["C"][:-1]) == ("", {})
