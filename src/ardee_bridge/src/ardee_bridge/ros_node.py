@@ -3,6 +3,7 @@
 import http.client
 import sys
 import threading
+import time
 import xmlrpc.client
 from pathlib import Path
 from typing import Any, Callable, Dict
@@ -105,13 +106,32 @@ class MasterWatch:
         rospy.signal_shutdown("forgotten by the master")
 
 
+def enter(name: str, **options: Any) -> bool:
+    """rospy.init_node with these options, once there is a master; False: Ctrl-C came first.
+
+    rospy itself waits for one only where no private parameter stands on the command line.
+    """
+    if not rosgraph.is_master_online():
+        uri = rosgraph.get_master_uri()
+        print(f"{name}: waiting for the ROS master at {uri}", file=sys.stderr, flush=True)
+        while not rosgraph.is_master_online():
+            time.sleep(POLL_S)
+    try:
+        rospy.init_node(name, **options)
+    except rospy.ROSInitException:
+        if not rospy.is_shutdown():
+            raise
+    return not rospy.is_shutdown()
+
+
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
     Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
     """
     priority.share_fairly()
-    rospy.init_node(name, disable_rostime=True)
+    if not enter(name, disable_rostime=True):
+        return 0
     try:
         watch = MasterWatch()
         step = body()
