@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import signal
 import time
 from typing import List
 
@@ -38,6 +39,45 @@ def test_a_multicast_that_nobody_else_gets_is_told(shared_graph: RosGraph) -> No
     node.interrupt()
     assert node.wait(20.0) == 0, node.output()
     shared_graph.run("rosparam", "delete", "/sensor_server_node")
+
+
+WAITING = [*NODES, ("ardee_navigation", "row_follower")]
+
+
+@pytest.mark.parametrize("package, name", WAITING)
+def test_ctrl_c_before_there_is_a_master_ends_it_with_the_line_that_it_waits(
+    shared_graph: RosGraph, package: str, name: str
+) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    node = shared_graph.spawn("rosrun", package, name, "_a:=1", ROS_MASTER_URI=uri)
+    line = f"{name}: waiting for the ROS master at {uri}\n"
+    wait_until(lambda: node.output() == line, f"only {line!r}")
+    node.interrupt()
+    assert (node.wait(20.0), node.output()) == (-signal.SIGINT, line)
+
+
+@pytest.mark.parametrize("package, name", NODES)
+def test_a_node_with_parameters_starts_once_there_is_a_master(
+    graph: RosGraph, package: str, name: str
+) -> None:
+    graph.end_master()
+    node = graph.spawn("rosrun", package, name, "_port:=0")
+    wait_until(lambda: "waiting for the ROS master" in node.output(), "it waits")
+    graph.start_master()
+    wait_until(lambda: "127.0.0.1:" in node.output().partition("\n")[2], "a socket")
+    assert "Traceback" not in node.output()
+
+
+@pytest.mark.parametrize("package, name", WAITING)
+def test_ctrl_c_amid_the_imports_ends_it_without_a_word(
+    graph: RosGraph, package: str, name: str, tmp_path: pathlib.Path
+) -> None:
+    (tmp_path / "rospy.py").write_text(
+        "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
+    )
+    path = f"{tmp_path}:{graph.env.get('PYTHONPATH', '')}"
+    node = graph.spawn("rosrun", package, name, PYTHONPATH=path)
+    assert (node.wait(20.0), node.output()) == (-signal.SIGINT, "")
 
 
 def policies(pid: int) -> List[int]:

@@ -139,6 +139,18 @@ def test_report_has_all_files_and_the_same_bytes(tmp_path: Path) -> None:
     assert (tmp_path / "one" / "run_00.csv").read_text().splitlines()[0] == ",".join(COLUMNS)
 
 
+def test_a_folder_holds_the_runs_of_its_report_alone(tmp_path: Path) -> None:
+    records = [run(lambda along: (0.01, 0.0), number=number)[0] for number in (0, 1)]
+    for record in records:
+        write_run(record, tmp_path)
+    write_report(records, "run_experiment ...", tmp_path)
+    (tmp_path / "run_notes.txt").write_text("mine")
+    write_run(records[0], tmp_path)
+    write_report(records[:1], "run_experiment ...", tmp_path)
+    kept = ["report.md", "run_00.csv", "run_00_errors.png", "run_00_lidar.png", "run_notes.txt"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [*kept, "runs.csv"]
+
+
 def test_runs_that_never_came_between_the_rows_are_reported(tmp_path: Path) -> None:
     astray, _ = run(lambda along: (0.39, 0.0), scans=60)  # set back 60 times before the first plant
     astray.end = "given up"

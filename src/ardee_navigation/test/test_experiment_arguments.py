@@ -11,9 +11,12 @@ from ardee_navigation import run_experiment, simulation
 @pytest.mark.parametrize(
     "words, message",
     [
-        (["--runs", "x"], "argument --runs: found x, expected 1 to 10000"),
-        (["--runs", "0"], "argument --runs: found 0, expected 1 to 10000"),
-        (["--seed", "1.5"], "argument --seed: found 1.5, expected 0 to 2147483647"),
+        (["--runs", "x"], "argument --runs: found x, expected a whole number from 1 to 10000"),
+        (["--runs", "0"], "argument --runs: found 0, expected a whole number from 1 to 10000"),
+        (
+            ["--seed", "1.5"],
+            "argument --seed: found 1.5, expected a whole number from 0 to 2147483647",
+        ),
     ],
 )
 def test_numbers(words, message, monkeypatch, capsys):

@@ -4,6 +4,7 @@ import http.client
 import signal
 import sys
 import threading
+import time
 import xmlrpc.client
 from pathlib import Path
 from typing import Any, Callable, Dict
@@ -106,6 +107,25 @@ class MasterWatch:
         rospy.signal_shutdown("forgotten by the master")
 
 
+def enter(name: str, **options: Any) -> bool:
+    """rospy.init_node with these options, once there is a master; False: the node was ended first.
+
+    rospy itself waits for one only where no private parameter stands on the command line.
+    """
+    if not rosgraph.is_master_online():
+        uri = rosgraph.get_master_uri()
+        print(f"{name}: waiting for the ROS master at {uri}", file=sys.stderr, flush=True)
+        while not rosgraph.is_master_online():
+            time.sleep(POLL_S)
+    try:
+        rospy.init_node(name, disable_signals=True, **options)
+    except rospy.ROSInitException:
+        if not rospy.is_shutdown():
+            raise
+    _end_by_signals_in_a_thread()
+    return not rospy.is_shutdown()
+
+
 def _end_by_signals_in_a_thread() -> None:
     """Instead of rospy's handlers, which run in this thread.
 
@@ -125,8 +145,8 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
     Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
     """
     priority.share_fairly()
-    rospy.init_node(name, disable_rostime=True)
-    _end_by_signals_in_a_thread()
+    if not enter(name, disable_rostime=True):
+        return 0
     try:
         watch = MasterWatch()
         step = body()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
+import re
 from pathlib import Path
 from typing import Callable, List, Sequence, Tuple
 
@@ -130,8 +131,18 @@ def write_run(record: Record, folder: Path) -> None:
     figures.errors(record, folder / f"{stem}_errors.png")
 
 
+def _drop_other_runs(records: Sequence[Record], folder: Path) -> None:
+    """An earlier experiment in the same folder may have had more runs."""
+    stems = {_stem(record) for record in records}
+    for path in folder.glob("run_*"):
+        named = re.fullmatch(r"(run_\d{2,})(\.csv|_lidar\.png|_errors\.png)", path.name)
+        if named and named[1] not in stems:
+            path.unlink()
+
+
 def write_report(records: Sequence[Record], command: str, folder: Path) -> Path:
-    """What all runs have in common into the folder of `write_run`; the path of report.md."""
+    """What all runs have in common into the folder of `write_run`, rid of others' runs; the path of report.md."""
+    _drop_other_runs(records, folder)
     pictures = ""
     for record in records:
         stem = _stem(record)

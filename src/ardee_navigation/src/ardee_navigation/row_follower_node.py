@@ -12,6 +12,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
+from ardee_bridge.ros_node import enter
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
@@ -129,7 +130,8 @@ def _parameters(settings: Settings) -> Parameters:
 
 def main() -> int:
     """Exit code: 2 for bad parameters."""
-    rospy.init_node("row_follower")
+    if not enter("row_follower"):
+        return 0
     try:
         settings = read_settings(rospy.get_param("~", {}))
         node = Node(settings, _parameters(settings))

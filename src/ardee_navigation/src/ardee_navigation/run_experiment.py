@@ -27,7 +27,9 @@ def _whole(text: str, least: int, most: int) -> int:
     except ValueError:
         value = least - 1
     if not least <= value <= most:
-        raise argparse.ArgumentTypeError(f"found {text}, expected {least} to {most}")
+        raise argparse.ArgumentTypeError(
+            f"found {text}, expected a whole number from {least} to {most}"
+        )
     return value
 
 
