@@ -6,8 +6,9 @@ from pathlib import Path
 
 import yaml
 
-from ardee_bridge.frames import FrameProcess, Job, Shared
-from ardee_bridge.sensor_server import Target
+from ardee_bridge.counters import Counters
+from ardee_bridge.frames import FrameProcess, FrameProcesses, Job, Shared
+from ardee_bridge.sensor_server import SensorServer, Target
 from ardee_bridge.settings import read_server
 from ardee_bridge.udp import PairLock, open_socket
 
@@ -36,3 +37,21 @@ def test_one_that_ends_before_it_has_its_job_is_started_again(monkeypatch):
         assert said == ["frames has ended: exit code 1"]
         process.stop()
         assert said == ["frames has ended: exit code 1"] * 2
+
+
+def test_none_is_started_once_they_have_ended(monkeypatch):
+    values = yaml.safe_load(SHIPPED.read_text())
+    peer = {"address": "127.0.0.1", "port": 9, "data_types": ["image"]}
+    settings = read_server({**values, "sources": [SOURCE], "peers": [peer]})
+    started = []
+    monkeypatch.setattr(FrameProcess, "serve", lambda self, *_: started.append(self.name))
+    with open_socket("127.0.0.1", 0) as opened:
+        lock = PairLock.make()
+        server = SensorServer(settings, opened, Counters(print), lambda: None, lock=lock)
+        frames = FrameProcesses("server", settings, None, Shared(opened, lock, print))
+        frames.serve(server)
+        assert started == ["server_frames"]
+        frames.stop()
+        frames.serve(server)
+        frames.follow(server)
+        assert started == ["server_frames"]

@@ -164,29 +164,37 @@ class FrameProcesses:
         self._plain = frozenset(source.name for source in plain)
         self._cameras = CameraTopics(cameras, reader)
         self._choice = Choice(frozenset(), frozenset())
+        self._lock = threading.RLock()  # a node may be ended by any of its threads
+        self._is_ended = False
 
     def serve(self, server: SensorServer) -> None:
         """Tell them what the server's targets want, and where it comes from."""
-        self._choice = self._cameras.choice(server.wanted())
-        for process in self._frames:
-            process.serve(server.clients(), self._plain | self._choice.compressed)
-        for process in self._jpeg:
-            process.serve(server.clients(), self._choice.raw)
+        with self._lock:
+            if self._is_ended:
+                return
+            self._choice = self._cameras.choice(server.wanted())
+            for process in self._frames:
+                process.serve(server.clients(), self._plain | self._choice.compressed)
+            for process in self._jpeg:
+                process.serve(server.clients(), self._choice.raw)
 
     def follow(self, server: SensorServer) -> None:
         """The same, if a camera's publishers have come or gone, or a process has ended."""
-        has_ended = any(process.has_ended() for process in self._frames + self._jpeg)
-        if has_ended or self._cameras.choice(server.wanted()) != self._choice:
-            self.serve(server)
+        with self._lock:
+            has_ended = any(process.has_ended() for process in self._frames + self._jpeg)
+            if has_ended or self._cameras.choice(server.wanted()) != self._choice:
+                self.serve(server)
 
     def counts(self) -> Dict[str, Counts]:
         """What each has done, by name."""
         return {process.name: process.counts() for process in self._frames + self._jpeg}
 
     def stop(self) -> None:
-        """End them."""
-        for process in self._frames + self._jpeg:
-            process.stop()
+        """End them for good."""
+        with self._lock:
+            self._is_ended = True
+            for process in self._frames + self._jpeg:
+                process.stop()
 
 
 def main() -> None:

@@ -22,6 +22,9 @@ from ardee_bridge.settings import SettingError
 DIAGNOSTICS_PERIOD_S = 1.0
 POLL_S = 0.2
 MASTER_PERIOD_S = 2.0
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+_asked_to_end = threading.Event()
 
 
 def read_parameters(file_name: str) -> Dict[str, Any]:
@@ -122,21 +125,28 @@ def enter(name: str, **options: Any) -> bool:
     except rospy.ROSInitException:
         if not rospy.is_shutdown():
             raise
-    _end_by_signals_in_a_thread()
+    _end_by_signals()
     return not rospy.is_shutdown()
 
 
-def _end_by_signals_in_a_thread() -> None:
-    """Instead of rospy's handlers, which run in this thread.
+def _end_by_signals() -> None:
+    """Instead of rospy's handlers: where they interrupt a call to the master, the first line of the log for one, they
+    wait for its lock for ever. The second signal ends the process as it is."""
 
-    Where they interrupt a call to the master, the first line of the log for one, they wait for its lock for ever.
-    """
+    def end(_: int, __: object) -> None:
+        _asked_to_end.set()
+        for number in SIGNALS:
+            signal.signal(number, signal.SIG_DFL)
 
-    def end(number: int, _: object) -> None:
-        threading.Thread(target=rospy.signal_shutdown, args=(f"signal {number}",)).start()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in SIGNALS:
         signal.signal(number, end)
+
+
+def loop(step: Callable[[float], None]) -> None:
+    """Call `step` again and again, with a time to wait [s], until the node is to end; then end it."""
+    while not rospy.is_shutdown() and not _asked_to_end.is_set():
+        step(POLL_S)
+    rospy.signal_shutdown("asked to end")
 
 
 def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
@@ -154,6 +164,5 @@ def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 2
     priority.keep_what_there_is()
-    while not rospy.is_shutdown():
-        step(POLL_S)
+    loop(step)
     return 3 if watch.is_forgotten else 0

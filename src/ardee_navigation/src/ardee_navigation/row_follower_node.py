@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """ROS node `row_follower`: scans in, commands out, and what it sees for rviz."""
 import sys
+import time
 from pathlib import Path as FilePath
 from typing import List, Optional
 
@@ -12,7 +13,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ardee_bridge.ros_node import enter
+from ardee_bridge.ros_node import enter, loop
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
@@ -139,5 +140,5 @@ def main() -> int:
         print(f"row_follower: {error}", file=sys.stderr)
         return 2
     rospy.on_shutdown(node.stop)
-    rospy.spin()
+    loop(time.sleep)
     return 0
