@@ -49,7 +49,7 @@ class QuickTile {
     std::size_t corner, middle, upper, left;
     std::size_t column, row;
     int columns, rows;
-    bool coarse;  // its last corners' sides belong to it, and its corners do not know of shadows
+    bool coarse;  // its last corners' sides belong to it; too far apart to tell of shadows
   };
   /// Where the first of some pixels in a row has its neighbours; those of the others are next to
   /// them.
