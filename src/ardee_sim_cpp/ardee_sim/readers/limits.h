@@ -5,6 +5,8 @@
 
 namespace ardee {
 
+/// Files of a newer SDF version are read as this one.
+constexpr double kNewestSdf = 1.7;
 /// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
 constexpr double kAbsurd = 1e9;
 /// Of one instance of a model.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/package_index.h"
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
@@ -58,8 +59,6 @@ double sdf_version(const Node& sdf) {
   return end == version.c_str() ? 0.0 : value;
 }
 
-constexpr double kNewestVersion = 1.6;
-
 /// The file name that a model.config gives for the newest version that we read, else its last.
 std::string choose_sdf(const Node& config) {
   std::optional<Node> best;
@@ -67,7 +66,7 @@ std::string choose_sdf(const Node& config) {
   config.each("sdf", [&](const Node& candidate) {
     last = candidate;
     const double version = sdf_version(candidate);
-    if (version <= kNewestVersion && (!best || version > sdf_version(*best))) best = candidate;
+    if (version <= kNewestSdf && (!best || version > sdf_version(*best))) best = candidate;
   });
   if (!last) throw config.error("found no <sdf>, expected one with the name of the model's file");
   return (best ? *best : *last).required_text();

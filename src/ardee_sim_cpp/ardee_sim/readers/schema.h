@@ -24,7 +24,7 @@ class Schema {
   std::unordered_map<std::string, std::set<std::string, std::less<>>> children_;
 };
 
-/// SDF 1.2 to 1.6 and ARDEE's own elements. Sensors and plugins are left to their own parsers.
+/// SDF 1.2 to 1.7 and ARDEE's own elements. Sensors and plugins are left to their own parsers.
 const Schema& sdf_schema();
 /// URDF without <gazebo> blocks.
 const Schema& urdf_schema();

@@ -81,7 +81,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   ModelFile file;
   const Scope scope{read_version(root), make_static};
   sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
-  if (const auto model = root.child("model")) file.model = read_model(*model, scope);
+  if (const auto model = root.child("model")) file.model = read_own_model(*model, scope);
   root.each("light", [&file](const Node& light) { file.lights.push_back(read_sdf_light(light)); });
   if (!file.model && file.lights.empty()) {
     throw root.error("found no <model> and no <light>, expected one");
@@ -89,14 +89,13 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   return files_[key] = std::move(file);
 }
 
-Instance SdfReader::read_include(const Node& include, const ModelFile& file,
-                                 UniqueNames& names) const {
+Instance SdfReader::read_include(const Node& include, const ModelFile& file, UniqueNames& names,
+                                 const SdfFrames& frames) const {
   Instance made;
   made.model = file.model;
   const auto name = include.child("name");
   made.name = names.claim(name ? name->required_text() : file.model->name);
-  const auto pose = include.child("pose");
-  made.pose = pose ? pose->to_pose() : file.model->own_pose;
+  made.pose = include.child("pose") ? frames.pose(include) : file.model->own_pose;
   made.is_static = file.model->is_static;
   if (const auto scale = include.child("ardee:scale")) {
     made.scale = scale->to_number(0.0, kMaxScale);

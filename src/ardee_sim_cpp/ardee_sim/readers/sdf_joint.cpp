@@ -28,17 +28,14 @@ JointType joint_type(const Node& joint) {
                     "', expected fixed, revolute, prismatic, ball, universal, revolute2 or screw");
 }
 
-/// SDF 1.7 says expressed_in='__model__' where older files have <use_parent_model_frame>.
-bool in_model_frame(const Node& axis, double sdf_version) {
+/// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say
+/// <use_parent_model_frame>; empty: the joint's.
+std::string frame_of_axis(const Node& axis, double sdf_version) {
   constexpr double kFirstInJointFrame = 1.5;
-  const Node xyz = axis.required("xyz");
-  const std::string frame = xyz.attribute("expressed_in");
-  if (frame == "__model__") return true;
-  if (!frame.empty()) {
-    throw xyz.error("found expressed_in='" + frame +
-                    "', expected __model__, or none for the joint");
-  }
-  return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame);
+  const std::string named = axis.required("xyz").attribute("expressed_in");
+  if (!named.empty()) return named;
+  return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame) ? "__model__"
+                                                                                  : "";
 }
 
 /// SDF says "no limit" by a negative value.
@@ -71,29 +68,49 @@ JointAxis read_axis(const Node& axis) {
   return made;
 }
 
+/// The link that a frame moves with.
+std::string link_of(const std::string& frame, const SdfFrames& frames, const Model& model) {
+  const std::string body = frames.body_of(frame);
+  return body.empty() ? model.canonical_link : body;
+}
+
+/// Puts the joint where its <pose> says, in the frame of its child by default, and returns how it
+/// is turned in the model.
+Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFrames& frames,
+                         const Model& model, Joint& joint) {
+  const std::string& held = joint.child == "world" ? joint.parent : joint.child;
+  const Link* link = model.find_link(held);
+  if (!link) throw Error(joint.source, unknown_link(held, model));
+  const Pose& X_ML = link->X_ML;
+  if (joint.child == "world") {
+    // The pose of such a joint is given in the model's frame.
+    const Pose X_MJ = frames.pose(node);
+    joint.X_CJ = X_ML.inverse() * X_MJ;
+    std::swap(joint.parent, joint.child);
+    joint.axis.axis = -joint.axis.axis;
+    joint.axis2.axis = -joint.axis2.axis;
+    return X_MJ.q;
+  }
+  joint.X_CJ = child == joint.child ? frames.pose_in(child, node)
+                                    : X_ML.inverse() * frames.pose(node, child);
+  return X_ML.q * joint.X_CJ.q;
+}
+
 }  // namespace
 
-SdfJoint read_sdf_joint(const Node& node, double sdf_version) {
-  SdfJoint made;
-  Joint& joint = made.joint;
+Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& frames,
+                     const Model& model) {
+  Joint joint;
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);
   joint.source = node.source();
-  joint.parent = node.required("parent").required_text();
-  joint.child = node.required("child").required_text();
-  joint.X_CJ = node.pose();
+  const std::string child = node.required("child").required_text();
+  joint.parent = link_of(node.required("parent").required_text(), frames, model);
+  joint.child = link_of(child, frames, model);
   const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
   const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
-  if (!free) {
-    const Node axis = node.required("axis");
-    joint.axis = read_axis(axis);
-    made.axis_in_model = in_model_frame(axis, sdf_version);
-  }
-  if (two) {
-    const Node axis2 = node.required("axis2");
-    joint.axis2 = read_axis(axis2);
-    made.axis2_in_model = in_model_frame(axis2, sdf_version);
-  }
+  if (!free) joint.axis = read_axis(node.required("axis"));
+  if (two) joint.axis2 = read_axis(node.required("axis2"));
   const bool unlimited = std::isinf(joint.axis.lower) && std::isinf(joint.axis.upper);
   if (joint.type == JointType::kRevolute && unlimited) joint.type = JointType::kContinuous;
   if (joint.type == JointType::kScrew) {
@@ -104,26 +121,13 @@ SdfJoint read_sdf_joint(const Node& node, double sdf_version) {
   }
   joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
   joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
-  return made;
-}
-
-Joint finish_sdf_joint(const SdfJoint& read, const Model& model) {
-  Joint joint = read.joint;
-  const std::string& held = joint.child == "world" ? joint.parent : joint.child;
-  const Link* link = model.find_link(held);
-  if (!link) throw Error(joint.source, unknown_link(held, model));
-  const Pose& X_MC = link->X_ML;
-  Eigen::Quaterniond q_MJ = X_MC.q * joint.X_CJ.q;
-  if (joint.child == "world") {
-    // The pose of such a joint is given in the model's frame.
-    q_MJ = joint.X_CJ.q;
-    joint.X_CJ = X_MC.inverse() * joint.X_CJ;
-    std::swap(joint.parent, joint.child);
-    joint.axis.axis = -joint.axis.axis;
-    joint.axis2.axis = -joint.axis2.axis;
-  }
-  if (read.axis_in_model) joint.axis.axis = q_MJ.conjugate() * joint.axis.axis;
-  if (read.axis2_in_model) joint.axis2.axis = q_MJ.conjugate() * joint.axis2.axis;
+  const Eigen::Quaterniond q_MJ = place(node, child, frames, model, joint);
+  const auto turn = [&](const char* name, Eigen::Vector3d& axis) {
+    const std::string frame = frame_of_axis(node.required(name), sdf_version);
+    if (!frame.empty()) axis = q_MJ.conjugate() * (frames.find(frame, node).q * axis);
+  };
+  if (!free) turn("axis", joint.axis.axis);
+  if (two) turn("axis2", joint.axis2.axis);
   return joint;
 }
 

@@ -11,14 +11,14 @@ constexpr int kMaxContacts = 100000;
 constexpr double kMaxStiffness = 1e20;
 
 /// SDF's defaults: one kilogram, unit inertia.
-Inertial read_inertial(const Node& link) {
+Inertial read_inertial(const Node& link, const SdfFrames& frames, const std::string& name) {
   Inertial made;
   made.mass_kg = 1.0;
   made.inertia_kg_m2 = Eigen::Matrix3d::Identity();
   const auto inertial = link.child("inertial");
   if (!inertial) return made;
   made.mass_kg = inertial->number("mass", 1.0);
-  made.X_LI = inertial->pose();
+  made.X_LI = frames.pose_in(name, *inertial);
   if (const auto inertia = inertial->child("inertia")) {
     const double xy = inertia->number("ixy", 0.0);
     const double xz = inertia->number("ixz", 0.0);
@@ -39,20 +39,20 @@ void read_contact(const Node& contact, Surface& surface) {
   surface.min_depth_m = contact.number("ode/min_depth", surface.min_depth_m);
 }
 
-Collision read_collision(const Node& node, Geometry geometry) {
+Collision read_collision(const Node& node, const Pose& X_LC, Geometry geometry) {
   Collision made;
   made.name = node.required_attribute("name");
-  made.X_LC = node.pose();
+  made.X_LC = X_LC;
   made.geometry = std::move(geometry);
   made.surface = read_sdf_surface(node);
   made.laser_retro = node.number("laser_retro", 0.0);
   return made;
 }
 
-Visual read_visual(const Node& node, Geometry geometry, Assets& assets) {
+Visual read_visual(const Node& node, const Pose& X_LV, Geometry geometry, Assets& assets) {
   Visual made;
   made.name = node.required_attribute("name");
-  made.X_LV = node.pose();
+  made.X_LV = X_LV;
   made.geometry = std::move(geometry);
   if (const auto material = node.child("material")) {
     made.material = read_sdf_material(*material, assets);
@@ -89,7 +89,7 @@ PluginDescription read_plugin(const Node& plugin) {
   return made;
 }
 
-SensorDescription read_sensor(const Node& sensor) {
+SensorDescription read_sensor(const Node& sensor, const Pose& X_LS) {
   SensorDescription made;
   made.name = sensor.required_attribute("name");
   made.type = sensor.required_attribute("type");
@@ -98,29 +98,31 @@ SensorDescription read_sensor(const Node& sensor) {
   } catch (const Error&) {
     made.update_rate_hz = 0.0;  // whoever makes the sensor reads it again, says so and goes on
   }
-  made.X_LS = sensor.pose();
+  made.X_LS = X_LS;
   made.element = sensor.to_element();
   sensor.each("plugin", [&made](const Node& node) { made.plugins.push_back(read_plugin(node)); });
   return made;
 }
 
-Link read_sdf_link(const Node& link, Assets& assets) {
+Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets) {
   Link made;
   made.name = link.required_attribute("name");
   made.source = link.source();
-  made.X_ML = link.pose();
-  made.inertial = read_inertial(link);
+  made.X_ML = frames.pose(link);
+  made.inertial = read_inertial(link, frames, made.name);
+  const auto X_L = [&](const Node& node) { return frames.pose_in(made.name, node); };
   link.each("collision", [&](const Node& node) {
     if (auto geometry = read_sdf_geometry(node, assets)) {
-      made.collisions.push_back(read_collision(node, std::move(*geometry)));
+      made.collisions.push_back(read_collision(node, X_L(node), std::move(*geometry)));
     }
   });
   link.each("visual", [&](const Node& node) {
     if (auto geometry = read_sdf_geometry(node, assets)) {
-      made.visuals.push_back(read_visual(node, std::move(*geometry), assets));
+      made.visuals.push_back(read_visual(node, X_L(node), std::move(*geometry), assets));
     }
   });
-  link.each("sensor", [&](const Node& node) { made.sensors.push_back(read_sensor(node)); });
+  link.each("sensor",
+            [&](const Node& node) { made.sensors.push_back(read_sensor(node, X_L(node))); });
   for (const char* name : {"projector", "audio_source", "audio_sink", "light", "battery"}) {
     if (const auto node = link.child(name)) {
       assets.log().warn(node->source().to_string() + ": not supported in a link, left out");

@@ -3,17 +3,18 @@
 
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/readers/assets.h"
+#include "ardee_sim/readers/sdf_frames.h"
 #include "ardee_sim/readers/xml.h"
 
 namespace ardee {
 
-/// An SDF <link> with all it holds. Throws Error with file and line.
-Link read_sdf_link(const Node& link, Assets& assets);
+/// An SDF <link> with all it holds, one of the model's `frames`. Throws Error with file and line.
+Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets);
 
 /// `made` with what a <collision>'s <surface> and <max_contacts> say.
 Surface read_sdf_surface(const Node& collision, Surface made = {});
 
-SensorDescription read_sensor(const Node& sensor);
+SensorDescription read_sensor(const Node& sensor, const Pose& X_LS);
 PluginDescription read_plugin(const Node& plugin);
 
 }  // namespace ardee

@@ -9,25 +9,34 @@
 namespace ardee {
 namespace {
 
-constexpr double kNewestVersion = 1.6;
 constexpr std::size_t kMaxLinks = 100'000;
+
+/// The one named by the attribute, else the first.
+void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& model) {
+  if (model.links.empty()) return;
+  const std::string named = node.attribute("canonical_link");
+  model.canonical_link = named.empty() ? model.links.front().name : frames.body_of(named);
+  if (model.find_link(model.canonical_link) == nullptr) {
+    throw node.error(unknown_link(named, model));
+  }
+}
 
 }  // namespace
 
 double SdfReader::read_version(const Node& root) {
   const std::string text = root.attribute("version");
   if (text.empty()) {
-    assets_.log().warn_once(root.source().to_string() + ": found no version, read as SDF 1.6");
-    return kNewestVersion;
+    assets_.log().warn_once(root.source().to_string() + ": found no version, read as SDF 1.7");
+    return kNewestSdf;
   }
   char* end = nullptr;
   const double version = std::strtod(text.c_str(), &end);
   if (end == text.c_str() || *end != '\0' || !(version >= 1.0 && version < 100.0)) {
-    throw root.error("found version '" + text + "', expected 1.2 to 1.6");
+    throw root.error("found version '" + text + "', expected 1.2 to 1.7");
   }
-  if (version > kNewestVersion + 1e-9) {
+  if (version > kNewestSdf + 1e-9) {
     assets_.log().warn_once(root.source().to_string() + ": found version " + text +
-                            ", read as SDF 1.6");
+                            ", read as SDF 1.7");
   }
   return version;
 }
@@ -44,30 +53,38 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
     model = included_file(*include, std::nullopt).model;
     if (!model) throw include->error("found a light, expected a model");
   } else {
-    model = read_model((world && !root.child("model") ? *world : root).required("model"), scope);
+    model =
+        read_own_model((world && !root.child("model") ? *world : root).required("model"), scope);
   }
   reading_.clear();
   return model;
 }
 
-std::shared_ptr<const Model> SdfReader::read_model(const Node& node, const Scope& scope) {
+std::shared_ptr<const Model> SdfReader::read_own_model(const Node& node, const Scope& scope) {
+  const auto made = read_model(node, scope);
+  made->own_pose = node.pose();
+  return made;
+}
+
+std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scope) {
   auto made = std::make_shared<Model>();
   made->name = node.required_attribute("name");
   made->source = node.source();
-  made->own_pose = node.pose();
   made->is_static = scope.make_static.value_or(node.boolean("static", false));
   made->self_collide = node.boolean("self_collide", false);
+  SdfFrames frames("__model__");
+  frames.add_children(node);
   node.each("link", [&](const Node& link) {
-    made->links.push_back(read_sdf_link(link, assets_));
+    made->links.push_back(read_sdf_link(link, frames, assets_));
     if (made->self_collide) made->links.back().self_collide = true;
   });
   node.each("plugin", [&](const Node& plugin) { made->plugins.push_back(read_plugin(plugin)); });
   UniqueNames names;
   read_nested(node, {scope.version, made->is_static ? std::optional<bool>(true) : std::nullopt},
-              names, *made);
-  if (!made->links.empty()) made->canonical_link = made->links.front().name;
+              names, frames, *made);
+  choose_canonical_link(node, frames, *made);
   node.each("joint", [&](const Node& joint) {
-    made->joints.push_back(finish_sdf_joint(read_sdf_joint(joint, scope.version), *made));
+    made->joints.push_back(read_sdf_joint(joint, scope.version, frames, *made));
   });
   validate_model(*made, assets_.log());
   count_placements(*made, made->source);
@@ -75,7 +92,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& node, const Scope
 }
 
 void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& names,
-                            Model& made) {
+                            SdfFrames& frames, Model& made) {
   model.each([&](const Node& child) {
     if (child.name() == "include") {
       const ModelFile& file = included_file(child, scope.make_static);
@@ -84,13 +101,17 @@ void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& 
                                 ": a light within a model is not supported, left out");
         return;
       }
-      add_nested(read_include(child, file, names), made);
+      Instance nested = read_include(child, file, names, frames);
+      frames.add(nested.name, nested.pose);
+      frames.add_links(nested.name, nested.model);
+      add_nested(std::move(nested), made);
     } else if (child.name() == "model") {
       Instance nested;
       nested.model = read_model(child, scope);
       nested.name = names.claim(nested.model->name);
-      nested.pose = nested.model->own_pose;
+      nested.pose = frames.pose(child);
       nested.is_static = nested.model->is_static;
+      frames.add_links(nested.name, nested.model);
       add_nested(std::move(nested), made);
     } else if (child.name() == "ardee:instances") {
       read_instances(child, names, made);

@@ -10,12 +10,13 @@
 
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/readers/assets.h"
+#include "ardee_sim/readers/sdf_frames.h"
 #include "ardee_sim/readers/unique_names.h"
 #include "ardee_sim/readers/xml.h"
 
 namespace ardee {
 
-/// Reads SDF 1.2-1.6. Included model files are read once and kept for later worlds and models.
+/// Reads SDF 1.2-1.7. Included model files are read once and kept for later worlds and models.
 class SdfReader {
  public:
   explicit SdfReader(Assets& assets) : assets_(assets) {}
@@ -38,8 +39,12 @@ class SdfReader {
   };
   class Reading;
 
-  std::shared_ptr<const Model> read_model(const Node& model, const Scope& scope);
-  void read_nested(const Node& model, const Scope& scope, UniqueNames& names, Model& made);
+  /// A file's own model; its pose is relative to nothing.
+  std::shared_ptr<const Model> read_own_model(const Node& model, const Scope& scope);
+  /// But for its own pose, which depends on what holds it.
+  std::shared_ptr<Model> read_model(const Node& model, const Scope& scope);
+  void read_nested(const Node& model, const Scope& scope, UniqueNames& names, SdfFrames& frames,
+                   Model& made);
   void add_nested(Instance nested, Model& made);
   void read_instances(const Node& node, UniqueNames& names, Model& made);
   const ModelFile& included_file(const Node& include, std::optional<bool> make_static);
@@ -47,7 +52,8 @@ class SdfReader {
                                  std::optional<bool> make_static);
   const ModelFile& read_file(const std::string& path, const Source& source,
                              std::optional<bool> make_static);
-  Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names) const;
+  Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names,
+                        const SdfFrames& frames) const;
   void read_world_models(const Node& world, const Scope& scope, World& made);
   double read_version(const Node& root);
   std::size_t count_placements(const Model& model, const Source& source);

@@ -49,6 +49,8 @@ World SdfReader::read_world(const Node& root) {
 void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
   UniqueNames names;
   UniqueNames light_names;
+  SdfFrames frames("world");
+  frames.add_children(world);
   const auto add_light = [&](Light light) {
     light.name = light_names.claim(light.name);
     made.lights.push_back(std::move(light));
@@ -58,7 +60,10 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
     if (kind == "include") {
       const ModelFile& file = included_file(child, std::nullopt);
       for (const Light& light : file.lights) add_light(light);
-      if (file.model) made.models.push_back(read_include(child, file, names));
+      if (!file.model) return;
+      made.models.push_back(read_include(child, file, names, frames));
+      frames.add(made.models.back().name, made.models.back().pose);
+      frames.add_links(made.models.back().name, file.model);
     } else if (kind == "model") {
       Instance instance;
       instance.model = read_model(child, scope);
@@ -67,7 +72,8 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
         assets_.log().warn(child.source().to_string() + ": a second model '" +
                            instance.model->name + "' is named '" + instance.name + "'");
       }
-      instance.pose = instance.model->own_pose;
+      instance.pose = frames.pose(child);
+      frames.add_links(instance.name, instance.model);
       instance.is_static = instance.model->is_static;
       made.models.push_back(std::move(instance));
     } else if (kind == "light") {

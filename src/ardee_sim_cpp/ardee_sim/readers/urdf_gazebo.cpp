@@ -82,7 +82,7 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
   if (rule != surface_rules().end()) {
     each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
   } else if (name == "sensor") {
-    link.sensors.push_back(read_sensor(node));
+    link.sensors.push_back(read_sensor(node, node.pose()));
   } else if (name == "material") {
     set_material(node, link, assets);
   } else if (name == "visual") {
@@ -140,7 +140,9 @@ bool apply_to_model(const Node& node, Model& model) {
   } else if (name == "joint") {
     // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
     constexpr double kSdfVersion = 1.6;
-    model.joints.push_back(finish_sdf_joint(read_sdf_joint(node, kSdfVersion), model));
+    SdfFrames frames("__model__");
+    for (const Link& link : model.links) frames.add(link.name, link.X_ML);
+    model.joints.push_back(read_sdf_joint(node, kSdfVersion, frames, model));
   } else if (name == "static") {
     model.is_static = node.to_boolean();
   } else if (name == "selfCollide" || name == "self_collide") {

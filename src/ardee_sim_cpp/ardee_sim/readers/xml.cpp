@@ -160,9 +160,6 @@ Eigen::Vector3d Node::to_vector3() const {
 }
 
 Pose Node::to_pose() const {
-  if (has_attribute("relative_to") && !attribute("relative_to").empty()) {
-    throw error("found attribute 'relative_to', expected SDF 1.6 or older, which has none");
-  }
   double v[6];
   parse_numbers(v, 6, "six finite numbers (x y z roll pitch yaw)");
   for (const double value : v) {
@@ -170,7 +167,9 @@ Pose Node::to_pose() const {
       throw error("found " + quoted(text()) + ", " + bounds(-kAbsurd, kAbsurd));
     }
   }
-  return Pose::from_xyz_rpy({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
+  const std::string unit = attribute("degrees", "false");
+  const double rad = unit == "true" || unit == "1" ? M_PI / 180.0 : 1.0;
+  return Pose::from_xyz_rpy({v[0], v[1], v[2]}, {v[3] * rad, v[4] * rad, v[5] * rad});
 }
 
 Color Node::to_color() const {
@@ -209,6 +208,10 @@ Eigen::Vector3d Node::vector3(std::string_view path, const Eigen::Vector3d& fall
 
 Pose Node::pose() const {
   const auto node = child("pose");
+  if (node && !node->attribute("relative_to").empty()) {
+    throw node->error("found relative_to='" + node->attribute("relative_to") +
+                      "', expected none here");
+  }
   return node && !node->text().empty() ? node->to_pose() : Pose{};  // <pose/> is no pose
 }
 

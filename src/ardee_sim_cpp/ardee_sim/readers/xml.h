@@ -61,6 +61,7 @@ class Node {
   bool to_boolean() const;
   Eigen::Vector2d to_vector2() const;
   Eigen::Vector3d to_vector3() const;
+  /// In whatever frame the attribute relative_to names (SdfFrames).
   Pose to_pose() const;
   Color to_color() const;
 
@@ -71,7 +72,8 @@ class Node {
   int integer(std::string_view path, int fallback, int low, int high) const;
   bool boolean(std::string_view path, bool fallback) const;
   Eigen::Vector3d vector3(std::string_view path, const Eigen::Vector3d& fallback) const;
-  Pose pose() const;  // of <pose>; none or an empty one is the identity
+  /// Of <pose>; none or an empty one is the identity. An Error if it is relative to another frame.
+  Pose pose() const;
   Color color(std::string_view path, const Color& fallback) const;
 
   /// The element and all below it as plain data.

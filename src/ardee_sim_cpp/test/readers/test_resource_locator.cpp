@@ -78,7 +78,7 @@ TEST_F(Locator, ChoosesTheNewestSdfUpTo16) {
     folder_.write("models/a/" + std::string(name) + ".sdf", "");
   EXPECT_EQ(locator_.resolve_model("model://a", {}), folder_.path() + "/models/a/model.sdf");
   folder_.write("models/b/model.config",
-                "<model><sdf version='1.7'>x.sdf</sdf><sdf version='1.9'>y.sdf</sdf></model>");
+                "<model><sdf version='1.8'>x.sdf</sdf><sdf version='1.9'>y.sdf</sdf></model>");
   folder_.write("models/b/y.sdf", "");
   EXPECT_EQ(locator_.resolve_model("model://b", {}), folder_.path() + "/models/b/y.sdf");
 }

@@ -47,7 +47,9 @@ TEST_F(SdfJointTest, AnAxisMaySayInWhichFrameItIs) {
   };
   expect_near(with("__model__").axis.axis, {0, -1, 0});
   expect_near(with("").axis.axis, {1, 0, 0});
-  EXPECT_HAS(error_of([&] { with("b"); }), "found expressed_in='b', expected __model__");
+  expect_near(with("a").axis.axis, {0, -1, 0});
+  expect_near(with("b").axis.axis, {1, 0, 0});
+  EXPECT_HAS(error_of([&] { with("c"); }), "found frame 'c', expected one of __model__, a, b, j");
 }
 
 TEST_F(SdfJointTest, TheJointsOwnPoseTurnsAModelAxisToo) {

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/sdf_frames.h"
+
+#include <set>
+
+namespace ardee {
+namespace {
+
+/// So many frames may lie one in the other; more are taken for a circle.
+constexpr std::size_t kDeepest = 1000;
+/// So many names are listed in a message.
+constexpr std::size_t kListed = 10;
+
+/// The <pose> that says something.
+std::optional<Node> pose_of(const Node& element) {
+  const auto pose = element.child("pose");
+  if (!pose || (pose->text().empty() && pose->attribute("relative_to").empty())) return {};
+  return pose;
+}
+
+Pose own_pose(const std::optional<Node>& pose) {
+  return pose && !pose->text().empty() ? pose->to_pose() : Pose{};
+}
+
+std::string relative_to(const std::optional<Node>& pose) {
+  return pose ? pose->attribute("relative_to") : "";
+}
+
+/// "model::link" at the first pair of colons; the second part is empty if there is none.
+std::pair<std::string, std::string> split_scope(const std::string& name) {
+  const std::size_t colons = name.find("::");
+  if (colons == std::string::npos) return {name, ""};
+  return {name.substr(0, colons), name.substr(colons + 2)};
+}
+
+}  // namespace
+
+void SdfFrames::add(const Node& element, const std::string& name, const std::string& base,
+                    const std::string& body) {
+  const auto pose = pose_of(element);
+  const std::string other = relative_to(pose);
+  frames_.emplace(name, Frame{own_pose(pose), other.empty() ? base : other, body});
+}
+
+void SdfFrames::add_children(const Node& parent) {
+  parent.each([&](const Node& child) {
+    const std::string name = child.attribute("name");
+    if (child.name() == "link" || child.name() == "model") {
+      add(child, name, root_);
+    } else if (child.name() == "include" && child.child("name") && child.child("pose")) {
+      add(child, child.text("name", ""), root_);
+    } else if (child.name() == "frame") {
+      const std::string attached_to = child.attribute("attached_to", root_);
+      add(child, name, attached_to, attached_to);
+    } else if (child.name() == "joint") {
+      const std::string held = child.text("child", "");
+      add(child, name, held, held);
+    }
+  });
+}
+
+void SdfFrames::add(const std::string& name, const Pose& X_R) {
+  frames_.emplace(name, Frame{X_R, root_, ""});
+}
+
+void SdfFrames::add_links(const std::string& name, std::shared_ptr<const Model> model) {
+  models_.emplace(name, std::move(model));
+}
+
+Pose SdfFrames::pose(const Node& element, const std::string& base) const {
+  const auto pose = pose_of(element);
+  const std::string other = relative_to(pose);
+  const std::string& from = other.empty() ? base : other;
+  return from == root_ ? own_pose(pose) : find(from, pose ? *pose : element) * own_pose(pose);
+}
+
+Pose SdfFrames::pose_in(const std::string& base, const Node& element) const {
+  const auto pose = pose_of(element);
+  const std::string other = relative_to(pose);
+  if (other.empty() || other == base) return own_pose(pose);
+  return find(base, element).inverse() * this->pose(element);
+}
+
+Pose SdfFrames::find(const std::string& name, const Node& asker) const {
+  return find(name, asker, 0);
+}
+
+Pose SdfFrames::find(const std::string& name, const Node& asker, std::size_t depth) const {
+  if (name == root_) return {};
+  const auto found = frames_.find(name);
+  if (found == frames_.end()) return link_of(name, asker, depth);
+  if (depth > kDeepest) {
+    throw asker.error("found that frame '" + name + "' lies in itself, or in more than " +
+                      std::to_string(kDeepest) + " others, expected fewer");
+  }
+  const Frame& frame = found->second;
+  return frame.base == root_ ? frame.pose : find(frame.base, asker, depth + 1) * frame.pose;
+}
+
+Pose SdfFrames::link_of(const std::string& name, const Node& asker, std::size_t depth) const {
+  const auto [scope, rest] = split_scope(name);
+  const auto model = models_.find(scope);
+  const Link* link = model != models_.end() ? model->second->find_link(rest) : nullptr;
+  if (link != nullptr) return find(scope, asker, depth + 1) * link->X_ML;
+  std::string names = root_;
+  std::set<std::string> sorted;
+  for (const auto& each : frames_) sorted.insert(each.first);
+  std::size_t count = 0;
+  for (const std::string& each : sorted) {
+    names += ", " + (++count > kListed ? "..." : each);
+    if (count > kListed) break;
+  }
+  throw asker.error("found frame '" + name + "', expected one of " + names);
+}
+
+std::string SdfFrames::body_of(const std::string& name) const {
+  std::string body = name;
+  for (std::size_t steps = 0; steps <= kDeepest; ++steps) {
+    const auto model = models_.find(body);
+    if (model != models_.end()) return body + "::" + model->second->canonical_link;
+    const auto found = frames_.find(body);
+    if (found == frames_.end() || found->second.body.empty()) break;
+    body = found->second.body;
+  }
+  return body == root_ ? "" : body;
+}
+
+}  // namespace ardee

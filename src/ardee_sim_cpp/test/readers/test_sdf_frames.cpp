@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+constexpr const char* kQuarter = "1.5707963267948966";  // of a turn, rad
+
+/// Poses of SDF 1.7 relative to each other
+/// (http://sdformat.org/tutorials?tut=pose_frame_semantics).
+class SdfFramesTest : public ReadersTest {
+ protected:
+  std::shared_ptr<const Model> model(const std::string& body) {
+    return ReadersTest::model(body, "1.7");
+  }
+  World world(const std::string& body) { return ReadersTest::world(body, "1.7"); }
+
+  static std::string pose(const std::string& relative_to, const std::string& values) {
+    return "<pose relative_to='" + relative_to + "'>" + values + "</pose>";
+  }
+  static std::string turned(const std::string& xyz) { return xyz + " 0 0 " + kQuarter; }
+  static std::string link(const std::string& name, const std::string& inside = "") {
+    return "<link name='" + name + "'>" + inside + "</link>";
+  }
+  static std::string fixed(const std::string& parent, const std::string& child,
+                           const std::string& inside = "") {
+    return "<joint name='j_" + child + "' type='fixed'><parent>" + parent + "</parent><child>" +
+           child + "</child>" + inside + "</joint>";
+  }
+};
+
+TEST_F(SdfFramesTest, ALinkIsPlacedInAnotherWhateverTheirOrder) {
+  // a is turned, so one metre along its x is one along the model's y.
+  const auto m = model(link("b", pose("a", "1 0 0 0 0 0")) +
+                       link("a", "<pose>" + turned("1 2 3") + "</pose>"));
+  expect_near(m->find_link("b")->X_ML.p, {1, 3, 3});
+  expect_near(m->find_link("b")->X_ML.q * Eigen::Vector3d::UnitX(), {0, 1, 0});
+}
+
+TEST_F(SdfFramesTest, AFrameWithoutPlaceOfItsOwnIsWhereItIsAttached) {
+  const auto m = model(link("a", "<pose>" + turned("1 0 0") + "</pose>") +
+                       "<frame name='tip' attached_to='a'><pose>0.5 0 0 0 0 0</pose></frame>"
+                       "<frame name='same' attached_to='tip'/>"
+                       "<frame name='high'><pose>0 0 2 0 0 0</pose></frame>" +
+                       link("b", pose("same", "")) + link("c", pose("high", "1 0 0 0 0 0")));
+  expect_near(m->find_link("b")->X_ML.p, {1, 0.5, 0});
+  expect_near(m->find_link("c")->X_ML.p, {1, 0, 2});
+}
+
+TEST_F(SdfFramesTest, AJointIsInItsChildUnlessItSaysOtherwise) {
+  const std::string links = link("a") + link("b", "<pose>" + turned("1 0 0") + "</pose>");
+  const auto plain = model(links + fixed("a", "b", "<pose>1 0 0 0 0 0</pose>"));
+  expect_near(plain->joints[0].X_CJ.p, {1, 0, 0});
+  // The model's origin, as the turned link sees it.
+  const auto other = model(links + fixed("a", "b", pose("__model__", "0 0 0 0 0 0")));
+  expect_near(other->joints[0].X_CJ.p, {0, 1, 0});
+}
+
+TEST_F(SdfFramesTest, ALinkMayBePlacedInTheJointThatHoldsAnother) {
+  const auto m =
+      model(link("a") + link("b", "<pose>1 0 0 0 0 0</pose>") +
+            fixed("a", "b", "<pose>0 0 1 0 0 0</pose>") + link("c", pose("j_b", "0 1 0 0 0 0")));
+  expect_near(m->find_link("c")->X_ML.p, {1, 1, 1});
+}
+
+TEST_F(SdfFramesTest, AJointHoldsTheLinkThatItsFrameMovesWith) {
+  const auto m = model(link("a") + link("b", "<pose>1 0 0 0 0 0</pose>") +
+                       "<frame name='socket' attached_to='a'><pose>0 0 1 0 0 0</pose></frame>"
+                       "<frame name='plug' attached_to='b'><pose>0 0.5 0 0 0 0</pose></frame>"
+                       "<frame name='deep' attached_to='plug'/>" +
+                       fixed("socket", "deep", "<pose>0 0 0.25 0 0 0</pose>"));
+  EXPECT_EQ(m->joints[0].parent, "a");
+  EXPECT_EQ(m->joints[0].child, "b");
+  expect_near(m->joints[0].X_CJ.p, {0, 0.5, 0.25});
+}
+
+TEST_F(SdfFramesTest, AnAxisIsTurnedFromTheFrameThatItIsGivenIn) {
+  const auto m =
+      model(link("a") + link("b") + "<frame name='f'><pose>" + turned("5 5 5") + "</pose></frame>" +
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child>"
+            "<axis><xyz expressed_in='f'>1 0 0</xyz></axis></joint>");
+  expect_near(m->joints[0].axis.axis, {0, 1, 0});
+}
+
+TEST_F(SdfFramesTest, WhatALinkHoldsMayBePlacedElsewhere) {
+  const auto m =
+      model("<frame name='mast'><pose>0 0 2 0 0 0</pose></frame>" +
+            link("a", "<pose>" + turned("1 0 0") + "</pose>" + "<inertial>" +
+                          pose("mast", "0 0 0 0 0 0") + "<mass>1</mass></inertial>" +
+                          "<collision name='c'>" + pose("mast", "0 0 0 0 0 0") +
+                          "<geometry><sphere><radius>1</radius></sphere></geometry></collision>"
+                          "<visual name='v'>" +
+                          pose("a", "7 0 0 0 0 0") +
+                          "<geometry><sphere><radius>1</radius></sphere></geometry></visual>"
+                          "<sensor name='s' type='imu'>" +
+                          pose("__model__", "1 1 0 0 0 0") + "</sensor>"));
+  const Link& a = m->links[0];
+  expect_near(a.inertial->X_LI.p, {0, 1, 2});
+  expect_near(a.collisions[0].X_LC.p, {0, 1, 2});
+  expect_near(a.visuals[0].X_LV.p, {7, 0, 0});
+  expect_near(a.sensors[0].X_LS.p, {1, 0, 0});
+}
+
+TEST_F(SdfFramesTest, ANestedModelIsPlacedAndItsLinksPlaceOthers) {
+  const std::string nested = "<model name='n'>" + pose("a", "1 0 0 0 0 0") +
+                             link("tip", "<pose>0 0 1 0 0 0</pose>") + "</model>";
+  const auto m = model(link("a", "<pose>" + turned("1 0 0") + "</pose>") + nested +
+                       "<model name='k'>" + pose("n::tip", "0 0 1 0 0 0") + link("l") + "</model>" +
+                       fixed("a", "n::tip", pose("n::tip", "0 0 3 0 0 0")));
+  expect_near(m->find_link("n::tip")->X_ML.p, {1, 1, 1});
+  expect_near(m->find_link("k::l")->X_ML.p, {1, 1, 2});
+  expect_near(m->joints[0].X_CJ.p, {0, 0, 3});
+}
+
+TEST_F(SdfFramesTest, ModelsOfAWorldArePlacedInEachOther) {
+  folder_.write(
+      "box/model.sdf",
+      "<sdf version='1.7'><model name='box'><link name='lid'><pose>0 0 1 0 0 0</pose></link>"
+      "</model></sdf>");
+  const std::string uri = "<uri>model://box</uri>";
+  const World w = world("<frame name='yard'><pose>" + turned("10 0 0") + "</pose></frame>" +
+                        "<model name='m'>" + pose("first", "1 0 0 0 0 0") + link("l") + "</model>" +
+                        "<include>" + uri + "<name>first</name>" + pose("yard", "1 0 0 0 0 0") +
+                        "</include>" + "<include>" + uri + "<name>second</name>" +
+                        pose("first::lid", "0 0 1 0 0 0") + "</include>");
+  expect_near(w.models[0].pose.p, {10, 2, 0});
+  expect_near(w.models[1].pose.p, {10, 1, 0});
+  expect_near(w.models[2].pose.p, {10, 1, 2});
+}
+
+TEST_F(SdfFramesTest, TheCanonicalLinkMayBeNamed) {
+  EXPECT_EQ(model(link("a") + link("b"))->canonical_link, "a");
+  const auto named = [this](const std::string& name) {
+    return loader_.load_model_text("<sdf version='1.7'><model name='m' canonical_link='" + name +
+                                       "'>" + link("a") + link("b") + "</model></sdf>",
+                                   "test.sdf");
+  };
+  EXPECT_EQ(named("b")->canonical_link, "b");
+  EXPECT_HAS(error_of([&] { named("c"); }), "found link 'c', expected one of");
+}
+
+TEST_F(SdfFramesTest, DegreesAreTurnedIntoRadians) {
+  const auto m = model(link("a", "<pose degrees='true'>0 0 0 0 0 90</pose>"));
+  expect_near(m->links[0].X_ML.q * Eigen::Vector3d::UnitX(), {0, 1, 0});
+}
+
+TEST_F(SdfFramesTest, NamesWhatIsWrong) {
+  EXPECT_HAS(error_of([&] { model(link("a", pose("b", "")) + link("b", pose("a", ""))); }),
+             "lies in itself");
+  EXPECT_HAS(error_of([&] { model(link("a", pose("x", ""))); }),
+             "<pose>: found frame 'x', expected one of __model__, a");
+  EXPECT_HAS(
+      error_of([&] { model("<frame name='f' attached_to='f'/>" + link("a") + fixed("a", "f")); }),
+      "found link 'f'");
+  EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
+             "found frame 'x', expected one of world, m");
+  // Where no frames are known: the pose of a file's own model, and of a lamp.
+  EXPECT_HAS(error_of([&] {
+               loader_.load_model_text("<sdf version='1.7'><model name='m'>" +
+                                           pose("x", "0 0 0 0 0 0") + link("a") + "</model></sdf>",
+                                       "test.sdf");
+             }),
+             "found relative_to='x', expected none here");
+}
+
+TEST_F(SdfFramesTest, AnAbsurdlyDeepChainIsRefused) {
+  std::string frames = "<frame name='f0'/>";
+  for (int k = 1; k <= 100'000; ++k) {
+    frames +=
+        "<frame name='f" + std::to_string(k) + "' attached_to='f" + std::to_string(k - 1) + "'/>";
+  }
+  EXPECT_HAS(error_of([&] { model(frames + link("a", pose("f100000", ""))); }), "expected fewer");
+  EXPECT_HAS(error_of([&] { model(frames + link("a") + fixed("a", "f100000")); }), "found link 'f");
+  expect_near(model(frames + link("a", pose("f900", "1 0 0 0 0 0")))->links[0].X_ML.p, {1, 0, 0});
+}
+
+TEST_F(SdfFramesTest, GazebosNewestVersionIsReadWithoutAWarning) {
+  model(link("a"));
+  EXPECT_TRUE(warnings_->empty());
+  ReadersTest::model(link("a"), "1.8");
+  EXPECT_TRUE(warned("found version 1.8, read as SDF 1.7"));
+}
+
+}  // namespace
+}  // namespace ardee
