@@ -3,6 +3,7 @@
 
 import subprocess
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import pytest
 
@@ -14,6 +15,14 @@ def test_static_models_are_whole(share, name):
     config = ElementTree.parse(share / "models" / name / "model.config").getroot()
     sdf = ElementTree.parse(share / "models" / name / config.findtext("sdf")).getroot()
     assert config.findtext("name") == name == sdf[0].get("name")
+
+
+def test_static_models_are_found_by_what_the_package_exports(package):
+    """Worlds include them where a user's GAZEBO_MODEL_PATH takes the place of the hook's, too."""
+    manifest = ElementTree.parse(package / "package.xml").getroot()
+    exported = manifest.find("export/gazebo_ros").get("gazebo_model_path")
+    folder = exported.replace("${prefix}", str(package))
+    assert {"ground_plane", "sun"} <= {path.name for path in Path(folder).iterdir()}
 
 
 def test_ground_plane_grips_as_gazebos_does(share):
