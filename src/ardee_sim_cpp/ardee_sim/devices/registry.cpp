@@ -18,6 +18,7 @@
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/magnetometer.h"
+#include "ardee_sim/devices/planar_move.h"
 #include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
@@ -147,6 +148,7 @@ Registry builtin_registry() {
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
+  registry.add_model_plugin("libgazebo_ros_planar_move.so", PlanarMove::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
   registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
