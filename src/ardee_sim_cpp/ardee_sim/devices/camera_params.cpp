@@ -220,6 +220,11 @@ CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescript
     const bool is_right = several && own.find("right") != std::string::npos;
     const std::string suffix = !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
     read_plugin(plugin, kind, suffix, !is_left, of_sdf, camera, all, context);
+    for (const CameraParams& other : all.cameras) {
+      if (other.topics.image != camera.topics.image) continue;
+      throw Error(block.source, "found a second camera of topic " + camera.topics.image +
+                                    ", expected names that tell cameras apart");
+    }
     all.cameras.push_back(std::move(camera));
     if (!several) break;
   }

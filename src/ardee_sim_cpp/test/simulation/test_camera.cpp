@@ -261,6 +261,17 @@ TEST(CameraPlugin, AMulticameraHasALeftAndARightEye) {
   EXPECT_NEAR(world.recorder().on<CameraInfoReading>("/cam/left/camera_info").at(0).P[3], 0, 0);
 }
 
+// "left_front" and "left_rear" are both the left eye to Gazebo, whose topics have no other names.
+TEST(CameraPlugin, AMulticameraWithTwoOfOneTopicIsLeftOut) {
+  TestWorld world("");
+  const std::string eyes = "<camera name='left_front'/><camera name='left_rear'/>";
+  EXPECT_TRUE(
+      world.spawn(camera_post("multicamera", eyes, "", "multicamera"), "post").devices.empty());
+  ASSERT_EQ(world.messages().size(), 1u);
+  const std::string said = "found a second camera of topic /cam/left/image_raw, expected names";
+  EXPECT_NE(world.messages()[0].find(said), std::string::npos) << world.messages()[0];
+}
+
 TEST(CameraPlugin, WhatNobodyWantsIsNotMade) {
   TestWorld world("");
   Entity& post = world.spawn(
