@@ -78,3 +78,20 @@ def test_a_sensor_whose_topic_cannot_be_is_left_out(
     (line,) = errors(world, f"'{name}'")
     assert "'bad_sensor'" in line and said in line and "left out" in line
     assert world.call(probes.collect, f"/{name}/good", "sensor_msgs/Range", 2)
+
+
+IMU = """<xacro:sensor_imu_hector name="imu" parent="base_footprint">
+  <origin xyz="0 0 0" /></xacro:sensor_imu_hector>"""
+EYE = """<xacro:sensor_ueye_cp_gige name="eye" parent="base_footprint">
+  <origin xyz="0 0 0" /></xacro:sensor_ueye_cp_gige>"""
+
+
+def test_a_second_robot_of_one_namespace_is_told_once_of_services(world: RosGraph) -> None:
+    shared = '<xacro:property name="robot_namespace" value="/shared" />'
+    spawn(world, "first", IMU + EYE, shared)
+    spawn(world, "second", IMU + EYE, shared)
+    logs = world.logs()
+    assert "already advertised in this node" not in logs
+    (said,) = [line for line in logs.splitlines() if "WARN" in line and "'second'" in line]
+    assert "service /shared/ardee/imu/data/calibrate and 5 more are there already" in said
+    assert world.call(probes.collect, "/shared/ardee/imu/data", "sensor_msgs/Imu", 2)

@@ -2,6 +2,7 @@
 #include "compressed_publisher.h"
 
 #include <ros/console.h>
+#include <ros/service_manager.h>
 
 namespace compressed_image_transport {
 
@@ -12,6 +13,9 @@ void CompressedPublisher::advertiseImpl(
     const ros::VoidPtr& tracked_object, bool latch) {
   SimplePublisherPlugin::advertiseImpl(node, base_topic, queue_size, on_connect, on_disconnect,
                                        tracked_object, latch);
+  // Of two publishers of one topic in a node the first has the parameters.
+  if (ros::ServiceManager::instance()->lookupServicePublication(nh().resolveName("set_parameters")))
+    return;
   server_ = std::make_unique<dynamic_reconfigure::Server<Config>>(nh());
   server_->setCallback([this](const Config& config, std::uint32_t) {
     const std::lock_guard<std::mutex> lock(mutex_);

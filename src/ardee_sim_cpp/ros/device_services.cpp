@@ -3,6 +3,7 @@
 
 #include <hector_gazebo_plugins/SetBias.h>
 #include <hector_gazebo_plugins/SetReferenceGeoPose.h>
+#include <ros/service_manager.h>
 #include <std_msgs/Empty.h>
 #include <std_srvs/Empty.h>
 
@@ -21,14 +22,24 @@ GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
 }  // namespace
 
 void DeviceServices::add(const Device& device) {
-  for (const Service& service : device.services()) add(service);
+  for (const Service& service : device.services()) {
+    if (is_free(service.name)) add(service);
+  }
   for (const Trigger& trigger : device.triggers()) {
     servers_.listen<std_msgs::Empty>(trigger.topic, trigger.topic,
                                      [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
   }
   for (const Tuning& tuning : device.tunings()) {
-    tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
+    if (is_free(TuningServer::service_of(tuning))) {
+      tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
+    }
   }
+}
+
+bool DeviceServices::is_free(const std::string& name) {
+  if (!ros::ServiceManager::instance()->lookupServicePublication(name)) return true;
+  taken_.push_back(name);
+  return false;
 }
 
 void DeviceServices::add(const Service& service) {

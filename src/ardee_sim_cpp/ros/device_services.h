@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ardee_sim/devices/device.h"
@@ -19,13 +20,17 @@ class DeviceServices {
 
   /// `device` outlives this object.
   void add(const Device& device);
+  /// What was not added because the name is another's already.
+  const std::vector<std::string>& taken() const { return taken_; }
 
  private:
   void add(const Service& service);
+  bool is_free(const std::string& name);
 
   ros::NodeHandle node_;
   ServiceServers servers_;
   std::vector<std::unique_ptr<TuningServer>> tunings_;
+  std::vector<std::string> taken_;
 };
 
 }  // namespace ardee::node

@@ -67,6 +67,18 @@ class Complaint {
   ros::WallTime last_;
 };
 
+/// roscpp would say so of each, and not whose they are.
+void warn_of_taken(const std::vector<std::string>& services, const Robot& robot) {
+  if (services.empty()) return;
+  const std::size_t others = services.size() - 1;
+  ROS_WARN_STREAM(robot.model().source.to_string()
+                  << ": service " << services.front()
+                  << (others > 0 ? " and " + std::to_string(others) + " more are" : " is")
+                  << " there already and "
+                  << (others > 0 ? "stay what they were" : "stays what it was")
+                  << "; a namespace of its own gives a robot its own");
+}
+
 template <typename Message, typename OnMessage>
 ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
                              const OnMessage& on_message) {
@@ -159,6 +171,7 @@ void RobotTopics::add(Entity& entity) {
   devices.erase(std::remove_if(devices.begin(), devices.end(),
                                [&](const auto& device) { return left_out.count(device.get()); }),
                 devices.end());
+  warn_of_taken(topics.services->taken(), *entity.robot);
   const Topics& kept = topics_[entity.name()] = std::move(topics);
   for (const Route& route : kept.routes) routes_[route.output] = &route;
 }

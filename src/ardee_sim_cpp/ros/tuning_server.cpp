@@ -77,7 +77,7 @@ TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning)
       descriptions_(node.advertise<dynamic_reconfigure::ConfigDescription>(
           tuning.name + "/parameter_descriptions", 1, true)),
       updates_(node.advertise<Config>(tuning.name + "/parameter_updates", 1, true)),
-      service_(node.advertiseService(tuning.name + "/set_parameters", &TuningServer::set, this)) {
+      service_(node.advertiseService(service_of(tuning), &TuningServer::set, this)) {
   descriptions_.publish(describe(tuning_));
   updates_.publish(current());
 }

@@ -5,6 +5,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/node_handle.h>
 
+#include <string>
+
 #include "ardee_sim/devices/device.h"
 
 namespace ardee::node {
@@ -17,6 +19,7 @@ class TuningServer {
  public:
   /// `tuning` outlives the server.
   TuningServer(ros::NodeHandle& node, const Tuning& tuning);
+  static std::string service_of(const Tuning& tuning) { return tuning.name + "/set_parameters"; }
 
  private:
   dynamic_reconfigure::Config current() const;
