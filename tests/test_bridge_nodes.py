@@ -56,6 +56,19 @@ def test_ctrl_c_before_there_is_a_master_ends_it_with_the_line_that_it_waits(
     assert (node.wait(20.0), node.output()) == (-signal.SIGINT, line)
 
 
+@pytest.mark.parametrize("package, name", WAITING)
+def test_help_needs_no_master_and_a_word_that_is_none_of_ros_is_refused(
+    shared_graph: RosGraph, package: str, name: str
+) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    for word in ("-h", "--help"):
+        node = shared_graph.spawn("rosrun", package, name, "_port:=0", word, ROS_MASTER_URI=uri)
+        assert node.wait() == 0
+        assert node.output().startswith(f"usage: {name} [-h]") and "_PARAMETER" in node.output()
+    node = shared_graph.spawn("rosrun", package, name, "_port=0", ROS_MASTER_URI=uri)
+    assert (node.wait(), node.output()) == (2, f"{name}: unrecognized arguments: _port=0\n")
+
+
 @pytest.mark.parametrize("package, name", NODES)
 def test_a_node_with_parameters_starts_once_there_is_a_master(
     graph: RosGraph, package: str, name: str

@@ -78,6 +78,19 @@ def test_a_parameter_that_is_no_number_is_named(teleop, value):
         teleop.number("speed", value)
 
 
+@pytest.mark.parametrize("word", ["-h", "--help"])
+def test_help_needs_neither_terminal_nor_master(word):
+    done = subprocess.run(
+        ["/usr/bin/python3", str(SCRIPT), "_speed:=0.6", word],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0 and not done.stderr
+    assert done.stdout.startswith("usage: keyboard_teleop [-h]")
+    assert "~key_timeout" in done.stdout and "faster / slower by 10 %" in done.stdout
+
+
 def test_without_a_terminal_it_says_so():
     done = subprocess.run(
         ["/usr/bin/python3", str(SCRIPT)], stdin=subprocess.DEVNULL, capture_output=True, text=True

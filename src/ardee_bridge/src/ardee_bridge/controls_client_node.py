@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The controls client as a ROS node."""
+"""ROS node controls_client_node: drives the robot as target computers command over UDP.
+
+The parameters, such as _watchdog_s:=0.3, are the keys of config/controls_client.yaml in the package
+ardee_bridge; the defaults stand there.
+"""
 import threading
 from typing import Callable, Dict, Optional
 
@@ -94,4 +98,4 @@ def _make() -> Callable[[float], None]:
 
 def main(name: str = "controls_client_node") -> int:
     """Exit code of the node."""
-    return ros_node.run(name, _make)
+    return ros_node.run(name, __doc__, _make)

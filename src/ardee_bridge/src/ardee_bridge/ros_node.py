@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
+import argparse
 import http.client
 import signal
 import sys
@@ -7,7 +8,7 @@ import threading
 import time
 import xmlrpc.client
 from pathlib import Path
-from typing import Any, Callable, Dict
+from typing import Any, Callable, Dict, NoReturn
 
 import rosgraph
 import rospkg
@@ -71,6 +72,22 @@ def _diagnostics(counts: Dict[str, Counts], before: Dict[str, int]) -> Diagnosti
         status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
         array.status.append(status)
     return array
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def heed_arguments(name: str, about: str) -> None:
+    """Of the words that ROS leaves: -h and --help print what the node is `about` and end it, any other is refused."""
+    parser = _Parser(
+        prog=name,
+        usage="%(prog)s [-h] [_PARAMETER:=VALUE ...] [NAME:=OTHER_NAME ...]",
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.parse_args(rospy.myargv()[1:])
 
 
 class MasterWatch:
@@ -149,11 +166,14 @@ def loop(step: Callable[[float], None]) -> None:
     rospy.signal_shutdown("asked to end")
 
 
-def run(name: str, body: Callable[[], Callable[[float], None]]) -> int:
+def run(name: str, about: str, body: Callable[[], Callable[[float], None]]) -> int:
     """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
+
+    `about` is the text of -h.
 
     Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
     """
+    heed_arguments(name, about)
     priority.share_fairly()
     if not enter(name, disable_rostime=True):
         return 0

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The sensor server as a ROS node."""
+"""ROS node sensor_server_node: sends the robot's sensors to target computers over UDP.
+
+The parameters, such as _port:=30001, are the keys of config/sensor_server.yaml in the package
+ardee_bridge; the defaults stand there.
+"""
 from typing import Callable
 
 import rospy
@@ -61,4 +65,4 @@ def _make() -> Callable[[float], None]:
 
 def main(name: str = "sensor_server_node") -> int:
     """Exit code of the node."""
-    return ros_node.run(name, _make)
+    return ros_node.run(name, __doc__, _make)

@@ -1,5 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""ROS node `row_follower`: scans in, commands out, and what it sees for rviz."""
+"""ROS node row_follower: scans in, commands out, and what it sees for rviz.
+
+Parameters:
+  _scan:=ardee/hokuyo, _odom:=odom, _cmd:=cmd_vel   topics
+  _scenario:=NAME     the technique's parameters are those of this scenario
+  _parameters:=FILE   they are those of this YAML file instead
+  _drive:=true        false: send no commands, only show
+"""
 import sys
 import time
 from pathlib import Path as FilePath
@@ -13,7 +20,7 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ardee_bridge.ros_node import enter, loop
+from ardee_bridge.ros_node import enter, heed_arguments, loop
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
@@ -131,6 +138,7 @@ def _parameters(settings: Settings) -> Parameters:
 
 def main() -> int:
     """Exit code: 2 for bad parameters."""
+    heed_arguments("row_follower", __doc__)
     if not enter("row_follower"):
         return 0
     try:
