@@ -130,4 +130,6 @@ def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
     wait_until(
         lambda: "hil_row_follower: finished" in launched.output(), "the end of the row", 90.0
     )
+    for state in ("following", "finished"):
+        assert launched.output().count(f": {state}") == 1  # by who drives, not by who only shows
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))

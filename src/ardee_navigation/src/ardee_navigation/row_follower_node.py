@@ -101,7 +101,8 @@ class Node:
         if output.state.value != self._state:
             self._state = output.state.value
             self._status.publish(self._state)
-            rospy.loginfo("%s", self._state)
+            if self._drive:  # else whoever drives says it
+                rospy.loginfo("%s", self._state)
 
     def _on_odometry(self, odometry: Odometry) -> None:
         here, poses = odometry.pose.pose.position, self._path.poses
