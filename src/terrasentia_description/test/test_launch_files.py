@@ -155,3 +155,18 @@ def test_udp_nodes_start_when_asked_for():
     assert not udp & set(nodes(FILES[0]))
     assert udp <= set(nodes(FILES[0], "use_udp:=true"))
     assert udp & set(nodes(FILES[0], "use_udp:=true", "use_joy:=true")) == {"/sim_sensor_node"}
+
+
+@pytest.mark.parametrize(
+    "arguments, clients",
+    [
+        ([], ["127.0.0.1"]),
+        (["udp_target:=192.168.1.135"], ["127.0.0.1", "192.168.1.135"]),
+        (["udp_target:=239.7.7.7", "udp_clients:=[192.168.1.0/24]"], ["192.168.1.0/24"]),
+    ],
+)
+def test_who_may_ask_and_drive_by_udp(arguments: list, clients: list):
+    arguments = ["use_udp:=true", *arguments]
+    parameters = yaml.safe_load(roslaunch(FILES[1], "--dump-params", *arguments))
+    assert parameters["/sim_sensor_node/allowed_clients"] == clients
+    assert parameters["/udp_control_node/peers"] == clients
