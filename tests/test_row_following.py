@@ -64,6 +64,20 @@ def test_ctrl_c_ends_an_experiment_and_leaves_nothing(
     process.interrupt()
     assert process.wait() != 0 and "Traceback" not in process.output()
     assert not started & running() and not list(work.iterdir())
+    assert "run_experiment: no run had ended" in process.output()
+
+
+def test_ctrl_c_says_where_the_runs_are_that_had_ended(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    words = ("--scenario", "artificial", "--runs", "50", "--output", str(tmp_path))
+    process = graph.spawn("rosrun", "ardee_navigation", "run_experiment", *words)
+    wait_until(lambda: "1 of 50: " in process.output(), "the end of a run", 60.0)
+    process.interrupt()
+    assert process.wait() != 0
+    report = tmp_path / "report.md"
+    assert process.output().endswith(f"run_experiment: what had ended by then is in {report}\n")
+    assert "\n| 0 | 1 | end of the row |" in report.read_text()
 
 
 def running() -> Set[int]:

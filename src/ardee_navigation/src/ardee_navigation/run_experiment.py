@@ -6,7 +6,7 @@ import signal
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any, List, NoReturn
+from typing import Any, List, NoReturn, Optional
 
 from tqdm import tqdm
 
@@ -94,7 +94,7 @@ def _one_run(
             return drive(simulation, trial, scenario.parameters, judge, progress)
 
 
-def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
+def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     from ardee_navigation.report import in_short, table, write_report, write_run
     from ardee_navigation.simulation import Master, robot_urdf
 
@@ -103,7 +103,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
         scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
     output = args.output or Path("experiment_output") / args.scenario
     output.mkdir(parents=True, exist_ok=True)
-    master, records = Master(), []  # type: Any, List[Record]
+    master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
     try:
         urdf = robot_urdf(args.bot_model)
         for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
@@ -115,10 +115,16 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> Path:
             if not sys.stderr.isatty():  # no bar there
                 print(f"{number + 1} of {args.runs}: {in_short(records[-1])}", file=sys.stderr)
             shutil.rmtree(folder)
+    except BaseException as error:
+        if report:
+            tqdm.write(f"run_experiment: what had ended by then is in {report}", file=sys.stderr)
+        elif isinstance(error, SystemExit):
+            tqdm.write("run_experiment: no run had ended, none is reported", file=sys.stderr)
+        raise
     finally:
         master.stop()
     print(table(records), end="")
-    return report
+    print(report)
 
 
 def _stop_here(number: int, _frame: Any) -> NoReturn:
@@ -139,7 +145,7 @@ def main() -> int:
     work = Path(tempfile.mkdtemp(prefix="ardee_experiment_"))
     command = " ".join(["rosrun ardee_navigation run_experiment", *sys.argv[1:]])
     try:
-        print(_experiment(args, command, work))
+        _experiment(args, command, work)
     except GeneratorError as error:
         print(f"run_experiment: {error}", file=sys.stderr)
         return 2
