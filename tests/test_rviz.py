@@ -2,25 +2,27 @@
 """The saved rviz views of the README, drawn off-screen: every display is content, and the picture shows something."""
 import json
 import pathlib
+import time
 from typing import Any, Dict
 
 import numpy as np
 import probes
+from bridge_bench import free_port
 from PIL import Image
 from ros_graph import RosGraph
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 ROBOT_VIEW = ROOT / "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
 WORLD_VIEW = ROOT / "src/ardee_world/rviz/world.rviz"
+PICTURE = ROOT / "scripts/rviz_picture"
 MIN_COLOURS = 1000  # an empty 3-D view has one
 
 
 def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
     """Statuses of a view's displays by name; checks the picture's colours."""
     picture, status = graph.folder / "rviz.png", graph.folder / "rviz.json"
-    script = ROOT / "scripts" / "rviz_picture"
     graph.run(
-        str(script),
+        str(PICTURE),
         str(config),
         str(picture),
         "--status",
@@ -59,3 +61,13 @@ def test_world_alone(graph: RosGraph) -> None:
     displays = draw(graph, WORLD_VIEW)
     assert displays["Scenery"]["status"] == "Ok"
     assert displays["Scenery"]["messages"] > 0
+
+
+def test_without_a_master_it_ends_in_time(graph: RosGraph) -> None:
+    uri = f"http://127.0.0.1:{free_port()}"
+    picture, started_s = graph.folder / "none.png", time.monotonic()
+    command = (str(PICTURE), str(WORLD_VIEW), str(picture), "--timeout-s", "1")
+    process = graph.spawn(*command, ROS_MASTER_URI=uri)
+    assert process.wait(60.0) == 1 and time.monotonic() - started_s > 1.0
+    assert process.output() == f"rviz_picture: found no ROS master at {uri} within 1 s\n"
+    assert not picture.exists()
