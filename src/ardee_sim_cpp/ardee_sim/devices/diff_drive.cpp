@@ -135,10 +135,8 @@ OdometryReading DiffDrive::odometry(TimeNs now_ns) const {
   reading.child_frame_id = params_.base_frame;
   reading.pose_covariance = kCovariance;
   if (params_.source == OdometrySource::kWorld) {
-    const Twist twist_W = robot_.twist();
     reading.pose = robot_.pose();
-    reading.twist.linear = reading.pose.q.conjugate() * twist_W.linear;
-    reading.twist.angular = reading.pose.q.conjugate() * twist_W.angular;
+    reading.twist = robot_.own_twist();
     return reading;
   }
   const auto rim_speed = [&](Wheel wheel) {

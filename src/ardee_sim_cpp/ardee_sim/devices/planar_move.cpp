@@ -2,7 +2,6 @@
 #include "ardee_sim/devices/planar_move.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
@@ -16,11 +15,6 @@ constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-
 
 double bounded(double speed) { return std::clamp(speed, -kFastest, kFastest); }
 
-double yaw(const Eigen::Quaterniond& q) {
-  const Eigen::Vector3d ahead = q * Eigen::Vector3d::UnitX();
-  return std::atan2(ahead.y(), ahead.x());
-}
-
 PlanarMove::Params read(const PluginDescription& plugin, DeviceContext& context) {
   Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
@@ -32,7 +26,7 @@ PlanarMove::Params read(const PluginDescription& plugin, DeviceContext& context)
   params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
   params.odometry_frame = plugin_frame(parameters, "odometryFrame", "odom", space, context);
   params.base_frame = plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
-  parameters.ignore({"alwaysOn", "updateRate"});
+  parameters.ignore({"alwaysOn"});
   parameters.finish(context.log);
   return params;
 }
@@ -60,7 +54,8 @@ PlanarMove::PlanarMove(const std::string& name, const Params& params, Robot& rob
 
 void PlanarMove::before_step(TimeNs now_ns) {
   const Twist& command = command_.at(now_ns);
-  const Eigen::AngleAxisd heading(yaw(robot_.pose().q), Eigen::Vector3d::UnitZ());
+  const double yaw = rpy_from_quaternion(robot_.pose().q).z();
+  const Eigen::AngleAxisd heading(yaw, Eigen::Vector3d::UnitZ());
   Twist twist_W;
   twist_W.linear =
       heading * Eigen::Vector3d(bounded(command.linear.x()), bounded(command.linear.y()), 0.0);
@@ -71,14 +66,12 @@ void PlanarMove::before_step(TimeNs now_ns) {
 
 void PlanarMove::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (odometry_output_ == nullptr || !odometry_timer_.due(now_ns)) return;
-  const Twist twist_W = robot_.twist();
   OdometryReading reading;
   reading.header = {now_ns, params_.odometry_frame};
   reading.child_frame_id = params_.base_frame;
   reading.pose_covariance = kCovariance;
   reading.pose = robot_.pose();
-  reading.twist.linear = reading.pose.q.conjugate() * twist_W.linear;
-  reading.twist.angular = reading.pose.q.conjugate() * twist_W.angular;
+  reading.twist = robot_.own_twist();
   sink.on_reading(*tf_output_,
                   TransformReading{reading.header, reading.child_frame_id, reading.pose});
   if (odometry_output_->demanded) sink.on_reading(*odometry_output_, reading);

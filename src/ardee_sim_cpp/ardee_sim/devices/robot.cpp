@@ -43,6 +43,12 @@ Twist Robot::twist() const {
   return twist_W;
 }
 
+Twist Robot::own_twist() const {
+  const Eigen::Quaterniond q_MW = pose().q.conjugate();
+  const Twist twist_W = twist();
+  return {q_MW * twist_W.linear, q_MW * twist_W.angular};
+}
+
 std::size_t Robot::link_index(const std::string& link_name, const Source& source) const {
   return index_of(model_->links, link_name, "link", source);
 }

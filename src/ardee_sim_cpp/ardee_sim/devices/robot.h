@@ -35,6 +35,8 @@ class Robot {
   Twist link_twist(std::size_t link) const;
   /// Velocity of the model's frame, which moves with the canonical link; axes of the world.
   Twist twist() const;
+  /// The same in the model's own axes.
+  Twist own_twist() const;
   std::size_t link_index(const std::string& link_name, const Source& source) const;
   std::size_t joint_index(const std::string& joint_name, const Source& source) const;
 

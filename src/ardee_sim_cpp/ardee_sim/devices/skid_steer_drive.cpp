@@ -140,15 +140,12 @@ void SkidSteerDrive::integrate_wheels() {
 
 OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
   const PhysicsModel& dynamics = robot_.dynamics();
-  const Pose X_WM = robot_.pose();
-  const Twist twist_W = robot_.twist();
   OdometryReading reading;
   reading.header = {now_ns, params_.odometry_frame};
   reading.child_frame_id = params_.base_frame;
   if (params_.source == OdometrySource::kWorld) {
-    reading.pose = X_WM;
-    reading.twist.linear = X_WM.q.conjugate() * twist_W.linear;
-    reading.twist.angular = X_WM.q.conjugate() * twist_W.angular;
+    reading.pose = robot_.pose();
+    reading.twist = robot_.own_twist();
   } else {
     const double radius = params_.wheel_diameter_m / 2.0;
     const auto side = [&](Wheel front, Wheel rear) {

@@ -167,8 +167,7 @@ Pose Node::to_pose() const {
       throw error("found " + quoted(text()) + ", " + bounds(-kAbsurd, kAbsurd));
     }
   }
-  const std::string unit = attribute("degrees", "false");
-  const double rad = unit == "true" || unit == "1" ? M_PI / 180.0 : 1.0;
+  const double rad = parse_boolean(attribute("degrees", "false"), source()) ? M_PI / 180.0 : 1.0;
   return Pose::from_xyz_rpy({v[0], v[1], v[2]}, {v[3] * rad, v[4] * rad, v[5] * rad});
 }
 

@@ -142,6 +142,8 @@ TEST_F(SdfFramesTest, TheCanonicalLinkMayBeNamed) {
 TEST_F(SdfFramesTest, DegreesAreTurnedIntoRadians) {
   const auto m = model(link("a", "<pose degrees='true'>0 0 0 0 0 90</pose>"));
   expect_near(m->links[0].X_ML.q * Eigen::Vector3d::UnitX(), {0, 1, 0});
+  EXPECT_HAS(error_of([&] { model(link("a", "<pose degrees='yes'>0 0 0 0 0 90</pose>")); }),
+             "<pose>: found 'yes'");
 }
 
 TEST_F(SdfFramesTest, NamesWhatIsWrong) {
