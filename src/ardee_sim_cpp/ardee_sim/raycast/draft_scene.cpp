@@ -2,6 +2,7 @@
 #include "ardee_sim/raycast/draft_scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace ardee {
@@ -15,6 +16,11 @@ bool is_careful(const BodySurface& surface) {
 
 /// Ground is met from below, too: nobody takes a picture of it from there.
 bool is_careful_ground(const BodySurface& surface) { return !surface.casts_shadows; }
+
+std::uint64_t next_number() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
 
 float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -40,7 +46,7 @@ Eigen::Vector3d normal_of(const BodySurface& surface, std::uint32_t vertex) {
 
 DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
                        const Eigen::Vector3d& origin_W)
-    : origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
+    : number_(next_number()), origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
   for (const DraftBody& body : bodies) {
     add_triangles(*body.placed);
     for (const std::uint32_t patch : body.patches) {
@@ -73,7 +79,8 @@ void DraftScene::add_triangles(const PlacedBody& placed) {
     const BodySurface& surface = body.surfaces[from.surface];
     const std::size_t kind = is_careful(surface) ? 1 : 0;
     Part& part = parts_[kind];
-    Triangle triangle{{}, first_surface + from.surface, 0.0f};
+    Triangle triangle{};
+    triangle.surface = first_surface + from.surface;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t vertex = from.vertices[k];
       std::uint32_t& number = numbers[kind][vertex];
@@ -99,6 +106,7 @@ void DraftScene::add_triangles(const PlacedBody& placed) {
           cross(part.vertices[corners[1]].uv - uv, part.vertices[corners[2]].uv - uv);
       triangle.uv_per_m = std::max(std::sqrt(std::abs(on_texture) / area), 1e-12f);
     }
+    measure(part, triangle);
     part.triangles.push_back(triangle);
   }
 }
@@ -130,10 +138,31 @@ void DraftScene::add_patch(const PlacedBody& placed, const TerrainPatch& patch) 
     for (std::uint32_t column = 0; column < columns; ++column) {
       const std::uint32_t v00 = first + row * (columns + 1) + column;
       const std::uint32_t v01 = v00 + columns + 1;
-      part.triangles.push_back({{v00, v00 + 1, v01 + 1}, surface, 0.0f});
-      part.triangles.push_back({{v00, v01 + 1, v01}, surface, 0.0f});
+      for (const auto& corners :
+           {std::array{v00, v00 + 1, v01 + 1}, std::array{v00, v01 + 1, v01}}) {
+        Triangle triangle{};
+        std::copy(corners.begin(), corners.end(), triangle.corners);
+        triangle.surface = surface;
+        measure(part, triangle);
+        part.triangles.push_back(triangle);
+      }
     }
   }
+}
+
+/// Turns the corners so that the longest side comes first.
+void DraftScene::measure(Part& part, Triangle& triangle) {
+  const auto side = [&](int k) -> Eigen::Vector3f {
+    return part.places[triangle.corners[(k + 1) % 3]] - part.places[triangle.corners[k]];
+  };
+  int longest = 0;
+  for (const int k : {1, 2}) {
+    if (side(k).squaredNorm() > side(longest).squaredNorm()) longest = k;
+  }
+  std::rotate(triangle.corners, triangle.corners + longest, triangle.corners + 3);
+  const Eigen::Vector3f base = side(0);
+  const Eigen::Vector3f to_top = -side(2);
+  triangle.cut = CutTriangle(base, to_top);
 }
 
 void DraftScene::attach(const EmbreeDevice& device, Part& part, bool careful) {
@@ -231,6 +260,7 @@ void DraftScene::glance(const Eigen::Vector3f& eye, GlanceBlock& block) const {
     packet.ray.flags[i] = 0;
     packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    packet.hit.u[i] = packet.hit.v[i] = 0.0f;
     packet.hit.Ng_x[i] = packet.hit.Ng_y[i] = packet.hit.Ng_z[i] = 0.0f;
   }
   RTCIntersectContext context;
@@ -251,6 +281,8 @@ void DraftScene::glance(const Eigen::Vector3f& eye, GlanceBlock& block) const {
     const bool met = geometry != RTC_INVALID_GEOMETRY_ID;
     block.surface[i] = GlanceBlock::kNothing;
     block.triangle[i] = 0;
+    block.u[i] = packet.hit.u[i];
+    block.v[i] = packet.hit.v[i];
     block.range_m[i] = std::numeric_limits<float>::infinity();
     if (!met) continue;
     const std::uint32_t primitive = packet.hit.primID[i];
@@ -282,17 +314,22 @@ DraftScene::Meeting DraftScene::meeting(const Part& part, const Triangle& triang
 }
 
 void DraftScene::fill(const Met& met, SurfacePoint& point) const {
-  const Part& part = parts_[met.triangle >> kPartBit];
-  const Triangle& triangle = part.triangles[met.triangle & ((1u << kPartBit) - 1)];
+  const auto [part, triangle] = find(met.triangle);
+  const Meeting meets = meeting(part, triangle, met);
+  fill(part, triangle, meets, met.direction, met.origin + meets.t * met.direction, point);
+}
+
+void DraftScene::fill(const Part& part, const Triangle& triangle, const Meeting& meets,
+                      const Eigen::Vector3f& direction, const Eigen::Vector3f& at,
+                      SurfacePoint& point) const {
   const Surface& of_scene = surfaces_[triangle.surface];
   const PlacedBody& placed = *of_scene.placed;
   const BodySurface& surface = *of_scene.of_body;
-  const Meeting meets = meeting(part, triangle, met);
   const Vertex* corners[3];
   for (int k = 0; k < 3; ++k) corners[k] = &part.vertices[triangle.corners[k]];
   const float w = 1.0f - meets.u - meets.v;
   Eigen::Vector3f normal = meets.normal.normalized();
-  if (normal.dot(met.direction) > 0.0f) normal = -normal;
+  if (normal.dot(direction) > 0.0f) normal = -normal;
   Eigen::Vector3f smooth =
       w * corners[0]->normal + meets.u * corners[1]->normal + meets.v * corners[2]->normal;
   const float length = smooth.norm();
@@ -314,10 +351,26 @@ void DraftScene::fill(const Met& met, SurfacePoint& point) const {
   point.point_S.setZero();
   if (of_scene.terrain == nullptr) return;
   const Terrain& terrain = *of_scene.terrain;
-  const Eigen::Vector3f at = met.origin + meets.t * met.direction;
   const Eigen::Vector3d at_B =
       placed.q.conjugate() * (at.cast<double>() + origin_W_ - placed.p) / placed.scale;
   point.point_S = terrain.R_BS.transpose() * (at_B - terrain.p_BS);
+}
+
+SurfaceCell DraftScene::cell(const CellRequest& request) const {
+  return find(request.triangle).second.cut.cell(request);
+}
+
+void DraftScene::fill(const SurfaceCell& cell, Eigen::Vector3f& at, SurfacePoint& point) const {
+  const auto [part, triangle] = find(cell.triangle);
+  const Eigen::Vector3f& a = part.places[triangle.corners[0]];
+  const Eigen::Vector3f ab = part.places[triangle.corners[1]] - a;
+  const Eigen::Vector3f ac = part.places[triangle.corners[2]] - a;
+  Meeting middle;
+  triangle.cut.middle(cell, middle.u, middle.v);
+  middle.t = 0.0f;
+  middle.normal = ab.cross(ac);
+  at = a + middle.u * ab + middle.v * ac;
+  fill(part, triangle, middle, cell.from_behind ? middle.normal : -middle.normal, at, point);
 }
 
 std::size_t DraftScene::bytes() const {

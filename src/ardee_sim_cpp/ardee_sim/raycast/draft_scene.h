@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "ardee_sim/raycast/ray_query.h"
+#include "ardee_sim/raycast/surface_cell.h"
 
 namespace ardee {
 
@@ -44,6 +46,13 @@ class DraftScene {
   /// processor's instructions. A mesh's point_S is left out.
   void fill(const Met& met, SurfacePoint& point) const;
 
+  /// No other draft of this process has the same.
+  std::uint64_t number() const { return number_; }
+  /// The cell where a ray has met this draft.
+  SurfaceCell cell(const CellRequest& request) const;
+  /// As `fill`, of a cell's middle looked at along the normal; `at` is in the scene's coordinates.
+  void fill(const SurfaceCell& cell, Eigen::Vector3f& at, SurfacePoint& point) const;
+
   std::size_t bytes() const;
 
  private:
@@ -59,6 +68,7 @@ class DraftScene {
     std::uint32_t corners[3];
     std::uint32_t surface;
     float uv_per_m;
+    CutTriangle cut;  // its longest side is that from the first corner to the second
   };
   struct Vertex {
     Eigen::Vector3f normal{0, 0, 0};  // in the world; zero: that of the triangle
@@ -82,13 +92,21 @@ class DraftScene {
 
   void add_triangles(const PlacedBody& placed);
   void add_patch(const PlacedBody& placed, const TerrainPatch& patch);
+  static void measure(Part& part, Triangle& triangle);
   void attach(const EmbreeDevice& device, Part& part, bool careful);
+  std::pair<const Part&, const Triangle&> find(std::uint32_t triangle) const {
+    const Part& part = parts_[triangle >> kPartBit];
+    return {part, part.triangles[triangle & ((1u << kPartBit) - 1)]};
+  }
   static Meeting meeting(const Part& part, const Triangle& triangle, const Met& met);
   static void sort_out_hits(const RTCFilterFunctionNArguments* args);
   static void sort_out_shadows(const RTCFilterFunctionNArguments* args);
+  void fill(const Part& part, const Triangle& triangle, const Meeting& meets,
+            const Eigen::Vector3f& direction, const Eigen::Vector3f& at, SurfacePoint& point) const;
   template <typename Keep>
   static void filter(const RTCFilterFunctionNArguments* args, const Keep& keep);
 
+  const std::uint64_t number_;
   const Eigen::Vector3d origin_W_;
   std::vector<Surface> surfaces_;
   Part parts_[2];  // met by all; to be looked at

@@ -26,6 +26,8 @@ struct GlanceBlock {
 
   alignas(64) std::uint32_t surface[kRays];   // the same for points of one surface
   alignas(64) std::uint32_t triangle[kRays];  // the same for points of one triangle of a draft
+  alignas(64) float u[kRays];                 // where on it: the shares of its second corner
+  alignas(64) float v[kRays];                 // and of its third
   alignas(64) float range_m[kRays];           // from the eye; +inf: nothing
   alignas(64) float normal_x_W[kRays];        // unit, to either side; 0: nothing
   alignas(64) float normal_y_W[kRays];

@@ -12,6 +12,9 @@ namespace {
 /// Against rounding in the box test only.
 constexpr double kBoxMargin_m = 1e-6;
 
+/// Of a ball's radius, for floats.
+constexpr double kRounding = 1.0 + 1e-4;
+
 /// Whether a ray touches a box at t in [0, reach]. Zero components are infinite in `inverse`: 0 *
 /// infinity gives NaN, which the order of the comparisons lets pass.
 bool touches(const Bounds& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse,
@@ -85,6 +88,21 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
     entry.box_table_W.add(entry.boxes_W[k]);
     entry.box_W.add(entry.boxes_W[k]);
   }
+  if (entry.placed.empty()) return;
+  entry.center_W = entry.box_W.center().cast<float>();
+  entry.radius_m = static_cast<float>(entry.box_W.radius() * kRounding + kBoxMargin_m);
+}
+
+bool MovingModels::may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                             float about_m) const {
+  for (const auto& [entity, entry] : entries_) {
+    if (entry.boxes_W.empty()) continue;
+    const float radius_m = entry.radius_m + about_m;
+    const Eigen::Vector3f to_center = entry.center_W - at_W;
+    const float along_m = std::max(0.0f, to_center.dot(to_lamp_W));
+    if ((to_center - along_m * to_lamp_W).squaredNorm() <= radius_m * radius_m) return true;
+  }
+  return false;
 }
 
 bool MovingModels::touches_any(const Ray& ray_W, double reach_m) const {

@@ -10,7 +10,7 @@ namespace {
 /// Of one entry with its share of Embree's tree (measured: README).
 constexpr std::size_t kBytesPerEntry = 120;
 /// Of a triangle of the draft with its share of Embree's tree (nominal).
-constexpr std::size_t kBytesPerDraftTriangle = 130;
+constexpr std::size_t kBytesPerDraftTriangle = 140;
 /// Bodies wider than this are taken in piece by piece.
 constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;

@@ -8,6 +8,8 @@ namespace {
 
 /// From higher up, floats would be too coarse.
 constexpr double kHighest_m = 1000.0;
+/// Cells begin so far inside a region, for their rays start off the surface.
+constexpr double kOffBorder_m = 1e-2;
 /// Of a ray that needs nothing more.
 constexpr double kDone = -1.0;
 
@@ -169,6 +171,37 @@ void QuickLook::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::s
       glance_at_others(eye_W, number, block);
     }
   }
+}
+
+std::uint64_t QuickLook::find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
+                                    const CellRequest* requests, std::size_t count,
+                                    SurfaceCell* cells) const {
+  const DraftScene& draft = *region_->draft();
+  const double depth_m = region_->depth_m(eye_W) - kOffBorder_m;
+  for (std::size_t k = 0; k < count; ++k) {
+    const CellRequest& request = requests[k];
+    cells[k].triangle = SurfaceCell::kNone;
+    if (!(request.range_m > 0.0f) || (request.triangle & GlanceBlock::kOutside) != 0) continue;
+    const double width_m = 2.0 * std::abs(static_cast<double>(request.width_m));
+    const auto range_m = static_cast<double>(request.range_m);
+    if (range_m + width_m > depth_m) {
+      const Eigen::Vector3d way_W =
+          blocks[request.ray / GlanceBlock::kRays]
+              .direction_W(static_cast<int>(request.ray % GlanceBlock::kRays))
+              .cast<double>();
+      if (region_->depth_m(eye_W + range_m * way_W) < width_m + kOffBorder_m) continue;
+    }
+    cells[k] = draft.cell(request);
+  }
+  return draft.number();
+}
+
+void QuickLook::look_at(const SurfaceCell& cell, SceneRay& ray, SurfacePoint& point) const {
+  Eigen::Vector3f at;
+  region_->draft()->fill(cell, at, point);
+  point.range_m = 1.0;
+  ray.direction_W = -point.normal_W;
+  ray.origin_W = region_->origin_W() + at.cast<double>() + point.normal_W;
 }
 
 void QuickLook::look_closer(const SceneRay& ray, std::uint32_t triangle,

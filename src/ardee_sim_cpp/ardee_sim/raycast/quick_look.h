@@ -27,6 +27,14 @@ class QuickLook {
   /// What a ray that was glanced at has met in the draft.
   void look_closer(const SceneRay& ray, std::uint32_t triangle, SurfacePoint& point) const;
 
+  /// The cells where rays of blocks from such a point have met the draft; none where they met
+  /// something else, or where rays from the cell might not start in it. Returns the draft's number.
+  std::uint64_t find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
+                           const CellRequest* requests, std::size_t count,
+                           SurfaceCell* cells) const;
+  /// A ray from a metre off the cell's middle, along its normal, and what it meets.
+  void look_at(const SurfaceCell& cell, SceneRay& ray, SurfacePoint& point) const;
+
  private:
   /// False if a ray starts outside.
   bool load(const SceneRay* rays, int count, RayPacket& packet) const;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -94,6 +95,16 @@ struct RayScene::Impl {
   }
   QuickLook quick_look(const Eigen::Vector3d& eye_W) const {
     return {regions.find(eye_W), scenery, moving};
+  }
+
+  void find_shadows(const QuickLook& quick, const SceneRay* rays, std::size_t count,
+                    bool* in_shadow) const {
+    cast(
+        rays, count, RayQuery::Purpose::kShadow,
+        [&](std::size_t first, int packet) {
+          return quick.find_shadows(rays + first, packet, in_shadow + first);
+        },
+        [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
   }
 
   /// Calls cast_some(first, count, queries) for packets of rays by all threads, and keeps what they
@@ -260,13 +271,7 @@ void RayScene::look_quickly(const SceneRay* rays, std::size_t count, SurfacePoin
 
 void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
                                     bool* in_shadow) const {
-  const QuickLook quick = impl_->quick_look(rays, count);
-  impl_->cast(
-      rays, count, RayQuery::Purpose::kShadow,
-      [&](std::size_t first, int packet) {
-        return quick.find_shadows(rays + first, packet, in_shadow + first);
-      },
-      [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
+  impl_->find_shadows(impl_->quick_look(rays, count), rays, count, in_shadow);
 }
 
 void RayScene::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const {
@@ -298,6 +303,33 @@ void RayScene::look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
       look_quickly(rays + i, 1, points + i);
     }
   }
+}
+
+std::uint64_t RayScene::find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
+                                   const CellRequest* requests, std::size_t count,
+                                   SurfaceCell* cells) const {
+  const QuickLook quick = impl_->quick_look(eye_W);
+  if (quick.starts_at(eye_W)) return quick.find_cells(eye_W, blocks, requests, count, cells);
+  std::fill_n(cells, count, SurfaceCell{});
+  return 0;
+}
+
+void RayScene::look_at_cells(const Eigen::Vector3d& eye_W, const SurfaceCell* cells,
+                             std::size_t count, SceneRay* rays, SurfacePoint* points) const {
+  const QuickLook quick = impl_->quick_look(eye_W);
+  for (std::size_t k = 0; k < count; ++k) quick.look_at(cells[k], rays[k], points[k]);
+}
+
+void RayScene::find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                                     std::size_t count, bool* in_shadow) const {
+  impl_->find_shadows(impl_->quick_look(eye_W), rays, count, in_shadow);
+}
+
+bool RayScene::has_models() const { return !impl_->moving.empty(); }
+
+bool RayScene::may_be_shaded(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                             float about_m) const {
+  return impl_->moving.may_shade(at_W, to_lamp_W, about_m);
 }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {

@@ -10,6 +10,7 @@
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/raycast/bounds.h"
 #include "ardee_sim/raycast/glance.h"
+#include "ardee_sim/raycast/surface_cell.h"
 #include "ardee_sim/raycast/surface_point.h"
 
 namespace ardee {
@@ -97,6 +98,21 @@ class RayScene {
   /// start at their near_m. `triangles` are those of the glances.
   void look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
                    const std::uint32_t* triangles, std::size_t count, SurfacePoint* points) const;
+  /// The cells where rays of `eye_W` have met a draft by a glance, or none. Returns the draft's
+  /// number, which no other one has: cells are its own, and it may be gone after prepare().
+  std::uint64_t find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
+                           const CellRequest* requests, std::size_t count,
+                           SurfaceCell* cells) const;
+  /// Rays that look straight at the middles of such cells from a metre off, and what they meet.
+  void look_at_cells(const Eigen::Vector3d& eye_W, const SurfaceCell* cells, std::size_t count,
+                     SceneRay* rays, SurfacePoint* points) const;
+  /// find_shadows_quickly() for rays that start on cells found from that eye.
+  void find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRay* rays, std::size_t count,
+                             bool* in_shadow) const;
+  bool has_models() const;
+  /// Whether a moving model may stand in the way from about a place (within `about_m`) to a lamp.
+  bool may_be_shaded(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                     float about_m) const;
   /// The same without the look: range, entity, label and normal.
   void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.

@@ -12,40 +12,16 @@ constexpr int kCoarsest_px = 4;
 /// Light of pixels two pixels apart is taken for what lies between if it differs by less; of those
 /// farther apart it may differ by a quarter of it.
 constexpr float kSameLight = 0.1f;
-/// Normals of a surface within this cosine are of a place where it is smooth.
-constexpr float kSmooth = 0.85f;
-/// Ranges along one surface that differ by more, as a share, are not next to each other.
-constexpr float kSameRange = 0.02f;
+/// Surfaces seen at a slant of which the sine is less are taken for this steep.
+constexpr float kLeastSlant = 0.05f;
 /// In place of a surface where the lens lets no light through.
 constexpr std::uint32_t kDark = 1;
-/// Brighter than anything.
-constexpr float kGlare = 1e30f;
 
 /// Pixels of even columns and rows: of each row, and in all. The lattice ends one beyond the tile.
 constexpr std::size_t kInRow = QuickTile::kMostSide_px / 2 + 1;
 constexpr std::size_t kInAll = kInRow * kInRow;
 
 int whole_blocks(int pixels) { return (pixels + kCoarsest_px - 1) / kCoarsest_px * kCoarsest_px; }
-
-std::uint32_t all_if(bool condition) { return condition ? ~0u : 0u; }
-
-/// One colour of some pixels' light.
-struct Channel {
-  float sum = 0.0f;
-  float least = kGlare;
-  float greatest = -kGlare;
-
-  /// `share` is 1 if the pixel counts, else 0.
-  void add(float light, float share) {
-    const float glare = (1.0f - share) * kGlare;
-    const float low = light + glare;
-    const float high = light - glare;
-    sum += share * light;
-    least = low < least ? low : least;
-    greatest = high > greatest ? high : greatest;
-  }
-  float spread() const { return greatest - least; }
-};
 
 }  // namespace
 
@@ -67,6 +43,7 @@ void QuickTile::shade(const TileShading& shading, const TileArea& area, Shader& 
   s_ = &shading;
   shader_ = &shader;
   area_ = area;
+  cell_width_ = CellLight::width_m(shading);
   const int width = whole_blocks(area.width);
   const int height = whole_blocks(area.height);
   if (width != width_ || height != height_) lay_out(width, height);
@@ -107,7 +84,7 @@ void QuickTile::lay_out(int width, int height) {
     block.places[i] = static_cast<std::uint32_t>(place(pixels[k].x(), pixels[k].y()));
   }
   blocks_.resize(layout_.size());
-  pixels_.resize(4 * kInAll);
+  pixels_.resize(4 * kInAll + EvenLight::kMost);
 }
 
 void QuickTile::glance_all() {
@@ -227,95 +204,73 @@ void QuickTile::fill_sides(const Lattice& lattice, float most) {
 
 void QuickTile::fill(const Lattice& lattice, std::size_t first, const Neighbours& around, int count,
                      float most, bool ask_for_shadows) {
-  if (lattice.column == 1) {
-    fill_row<1>(first, around, count, most, ask_for_shadows);
-  } else {
-    fill_row<2>(first, around, count, most, ask_for_shadows);
-  }
-}
-
-/// Without branches: neighbours differ as they like, and several pixels can go together.
-template <std::size_t kColumn>
-void QuickTile::fill_row(std::size_t first, const Neighbours& around, int count, float most,
-                         bool ask_for_shadows) {
   const Pixels& p = pixels_;
-  float reds[kInRow], greens[kInRow], blues[kInRow];
-  std::uint32_t known[kInRow], in_shadow[kInRow], even[kInRow];
-  for (int i = 0; i < count; ++i) {
-    const std::size_t mine = first + static_cast<std::size_t>(i) * kColumn;
-    Channel of_red, of_green, of_blue;
-    float shares = 0.0f;
-    float off_m = 0.0f;
-    std::uint32_t lit = 0, dark = 0, unknown = 0;
-    const auto add = [&](std::size_t start) {
-      const std::size_t other = start + static_cast<std::size_t>(i) * kColumn;
-      const float along = p.normal_x_W[mine] * p.normal_x_W[other] +
-                          p.normal_y_W[mine] * p.normal_y_W[other] +
-                          p.normal_z_W[mine] * p.normal_z_W[other];
-      const std::uint32_t same =
-          all_if(p.surface[mine] == p.surface[other]) &
-          (all_if(p.triangle[mine] == p.triangle[other]) | all_if(along >= kSmooth));
-      const float share = same != 0 ? 1.0f : 0.0f;
-      of_red.add(p.red[other], share);
-      of_green.add(p.green[other], share);
-      of_blue.add(p.blue[other], share);
-      shares += share;
-      const float farther_m = p.range_m[other] - p.range_m[mine];
-      off_m += share * farther_m;
-      const std::uint32_t near = same & all_if(std::abs(farther_m) <= kSameRange * p.range_m[mine]);
-      lit |= near & p.known[other] & ~p.in_shadow[other];
-      dark |= near & p.known[other] & p.in_shadow[other];
-      unknown |= near & ~p.known[other];
-    };
-    add(around[0]);
-    add(around[1]);
-    add(around[2]);
-    add(around[3]);
-    const float scale = 1.0f / shares;
-    reds[i] = scale * of_red.sum;
-    greens[i] = scale * of_green.sum;
-    blues[i] = scale * of_blue.sum;
-    known[i] = (lit ^ dark) & ~unknown;
-    in_shadow[i] = dark & known[i];
-    even[i] = all_if(shares > 0.0f) & all_if(of_red.spread() <= most) &
-              all_if(of_green.spread() <= most) & all_if(of_blue.spread() <= most) &
-              all_if(std::abs(off_m) <= kSameRange * p.range_m[mine] * shares);
-  }
-  for (int i = 0; i < count; ++i) {
-    const std::size_t mine = first + static_cast<std::size_t>(i) * kColumn;
-    pixels_.red[mine] = reds[i];
-    pixels_.green[mine] = greens[i];
-    pixels_.blue[mine] = blues[i];
-    pixels_.known[mine] = known[i];
-    pixels_.in_shadow[mine] = in_shadow[i];
-    if (even[i] != 0) continue;
-    send(mine, ask_for_shadows ? LampKnowledge{known[i], in_shadow[i]} : LampKnowledge{});
+  const EvenLight::Lists lists{p.normal_x_W.data(), p.normal_y_W.data(), p.normal_z_W.data(),
+                               p.range_m.data(),    p.red.data(),        p.green.data(),
+                               p.blue.data(),       p.surface.data(),    p.triangle.data(),
+                               p.known.data(),      p.in_shadow.data()};
+  EvenLight of_row;
+  of_row.find(lists, first, around, most);
+  for (int k = 0; k < count; ++k) {
+    const std::size_t i = static_cast<std::size_t>(k) * lattice.column;
+    const std::size_t mine = first + i;
+    pixels_.red[mine] = of_row.red[i];
+    pixels_.green[mine] = of_row.green[i];
+    pixels_.blue[mine] = of_row.blue[i];
+    pixels_.known[mine] = of_row.known[i];
+    pixels_.in_shadow[mine] = of_row.in_shadow[i];
+    if (of_row.even[i] != 0) continue;
+    send(mine,
+         ask_for_shadows ? LampKnowledge{of_row.known[i], of_row.in_shadow[i]} : LampKnowledge{});
   }
 }
 
 void QuickTile::send(std::size_t place, const LampKnowledge& lamps) {
   if (pixels_.surface[place] == kDark) {
-    pixels_.red[place] = pixels_.green[place] = pixels_.blue[place] = 0.0f;
+    set(place, Eigen::Vector3f::Zero(), {});
     return;
   }
+  sent_.push_back({place, lamps});
   const std::uint32_t ray = pixels_.ray[place];
-  shader_->send(blocks_[ray / GlanceBlock::kRays], static_cast<int>(ray % GlanceBlock::kRays),
-                lamps);
-  sent_.push_back(place);
+  const GlanceBlock& block = blocks_[ray / GlanceBlock::kRays];
+  const std::size_t i = ray % GlanceBlock::kRays;
+  const float slant = block.x_W[i] * block.normal_x_W[i] + block.y_W[i] * block.normal_y_W[i] +
+                      block.z_W[i] * block.normal_z_W[i];
+  const float steep = std::max(std::abs(slant), kLeastSlant);
+  const float width_m = cell_width_ * block.range_m[i] / std::sqrt(steep);
+  requests_.push_back({block.triangle[i], block.u[i], block.v[i], pixels_.range_m[place],
+                       std::copysign(width_m, -slant), ray});
 }
 
 void QuickTile::gather() {
-  shader_->gather();
+  const auto& of_cells = cell_light_.gather(*s_, blocks_, requests_, *shader_);
+  looked_at_.clear();
   for (std::size_t k = 0; k < sent_.size(); ++k) {
+    if (of_cells[k].met) {
+      set(sent_[k].place, of_cells[k].light, {});
+      continue;
+    }
+    const std::uint32_t ray = requests_[k].ray;
+    shader_->send(blocks_[ray / GlanceBlock::kRays], static_cast<int>(ray % GlanceBlock::kRays),
+                  sent_[k].lamps);
+    looked_at_.push_back(sent_[k].place);
+  }
+  shader_->gather();
+  for (std::size_t k = 0; k < looked_at_.size(); ++k) {
     const Sample& sample = shader_->samples()[k];
-    pixels_.red[sent_[k]] = sample.light.x();
-    pixels_.green[sent_[k]] = sample.light.y();
-    pixels_.blue[sent_[k]] = sample.light.z();
-    pixels_.known[sent_[k]] = sample.lamps.known;
-    pixels_.in_shadow[sent_[k]] = sample.lamps.in_shadow;
+    set(looked_at_[k], sample.light, sample.lamps);
   }
   sent_.clear();
+  requests_.clear();
   shader_->clear();
+}
+
+void QuickTile::set(std::size_t place, const Eigen::Vector3f& light, const LampKnowledge& lamps) {
+  pixels_.red[place] = light.x();
+  pixels_.green[place] = light.y();
+  pixels_.blue[place] = light.z();
+  pixels_.known[place] = lamps.known;
+  pixels_.in_shadow[place] = lamps.in_shadow;
 }
 
 void QuickTile::write(Frame& frame) const {

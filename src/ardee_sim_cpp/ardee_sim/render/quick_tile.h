@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "ardee_sim/raycast/glance.h"
+#include "ardee_sim/render/cell_light.h"
+#include "ardee_sim/render/even_light.h"
 #include "ardee_sim/render/frame.h"
 #include "ardee_sim/render/shader.h"
 
@@ -43,6 +45,11 @@ class QuickTile {
 
     void resize(std::size_t count);
   };
+  /// A pixel whose light is wanted, and what its neighbours know of shadows there.
+  struct Sent {
+    std::size_t place;
+    LampKnowledge lamps;
+  };
   /// A lattice to be made finer: where its first corner lies, and the first middle of a square, of
   /// an upper and of a left side; how far it is to the next ones; how many squares there are.
   struct Lattice {
@@ -53,7 +60,7 @@ class QuickTile {
   };
   /// Where the first of some pixels in a row has its neighbours; those of the others are next to
   /// them.
-  using Neighbours = std::array<std::size_t, 4>;
+  using Neighbours = EvenLight::Neighbours;
 
   static std::size_t place(int x, int y);
   /// Which pixels are seen through the rays of each block: squares, then what the lattice ends
@@ -68,23 +75,25 @@ class QuickTile {
   void fill_sides(const Lattice& lattice, float most);
   void fill(const Lattice& lattice, std::size_t first, const Neighbours& around, int count,
             float most, bool ask_for_shadows);
-  template <std::size_t kColumn>
-  void fill_row(std::size_t first, const Neighbours& around, int count, float most,
-                bool ask_for_shadows);
   void send(std::size_t place, const LampKnowledge& lamps);
   /// The light of those that were sent.
   void gather();
+  void set(std::size_t place, const Eigen::Vector3f& light, const LampKnowledge& lamps);
   void write(Frame& frame) const;
 
   const TileShading* s_ = nullptr;
   Shader* shader_ = nullptr;
   TileArea area_;
-  int width_ = 0;  // in whole blocks
+  float cell_width_ = 0.0f;  // for each metre away
+  int width_ = 0;            // in whole blocks
   int height_ = 0;
   std::vector<BlockLayout> layout_;
   std::vector<GlanceBlock> blocks_;
   Pixels pixels_;
-  std::vector<std::size_t> sent_;  // the place of each sample
+  std::vector<Sent> sent_;
+  std::vector<CellRequest> requests_;   // of each that was sent
+  std::vector<std::size_t> looked_at_;  // the place of each sample
+  CellLight cell_light_;
 };
 
 }  // namespace ardee

@@ -9,6 +9,7 @@
 #include "ardee_sim/readers/image.h"
 #include "ardee_sim/render/camera.h"
 #include "ardee_sim/render/frame.h"
+#include "ardee_sim/render/light_store.h"
 #include "ardee_sim/render/looks.h"
 #include "ardee_sim/render/tile.h"
 
@@ -23,6 +24,8 @@ class Renderer {
   /// `rays` (of the visual scene, prepared) and `looks` are kept by reference.
   Renderer(const RayScene& rays, const Looks& looks, const Scene& scene, std::vector<Light> lights)
       : rays_(rays), looks_(looks), scene_(scene), lights_(std::move(lights)) {}
+
+  const RayScene& rays() const { return rays_; }
 
   /// Eight bits of red, green, blue and opacity. Empty if `progress` stopped it.
   Image render(const Camera& camera, const RenderOptions& options,
@@ -41,6 +44,7 @@ class Renderer {
   const Looks& looks_;
   const Scene scene_;
   const std::vector<Light> lights_;
+  mutable LightStore store_;
 };
 
 }  // namespace ardee

@@ -53,6 +53,7 @@ void Shader::clear() {
   rays_.clear();
   owners_.clear();
   triangles_.clear();
+  cells_.clear();
 }
 
 void Shader::send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps) {
@@ -84,6 +85,30 @@ void Shader::send(double x_px, double y_px) {
   owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
 }
 
+void Shader::send(const SurfaceCell& cell, double footprint_m) {
+  samples_.emplace_back().footprint_m = footprint_m;
+  rays_.emplace_back();
+  owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
+  cells_.push_back(cell);
+}
+
+bool Shader::may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const {
+  for (std::size_t lamp = 0; lamp < s_->lights.size(); ++lamp) {
+    const Light& light = s_->lights[lamp];
+    if (!light.cast_shadows) continue;
+    Eigen::Vector3f to_lamp_W;
+    if (light.type != Light::Type::kDirectional) {
+      to_lamp_W = (light.pose.p - at_W.cast<double>()).normalized().cast<float>();
+    } else if (distant_[lamp]) {
+      to_lamp_W = distant_[lamp]->to_light_W.cast<float>();
+    } else {
+      continue;
+    }
+    if (s_->rays.may_be_shaded(at_W, to_lamp_W, about_m)) return true;
+  }
+  return false;
+}
+
 void Shader::gather() {
   points_.resize(kAtOnce);
   for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
@@ -103,7 +128,10 @@ void Shader::gather() {
 
 void Shader::find_points(std::size_t begin, std::size_t count, bool glanced) {
   const SceneRay* rays = rays_.data() + begin;
-  if (glanced) {
+  if (!cells_.empty()) {
+    s_->rays.look_at_cells(s_->camera.X_WC.p, cells_.data() + begin, count, rays_.data() + begin,
+                           points_.data());
+  } else if (glanced) {
     s_->rays.look_closer(s_->camera.X_WC.p, rays, triangles_.data() + begin, count, points_.data());
   } else if (s_->options.quickly) {
     s_->rays.look_quickly(rays, count, points_.data());
@@ -120,11 +148,15 @@ void Shader::shade(const SurfacePoint& point, std::size_t i, int layer) {
     return;
   }
   sample.travelled_m += point.range_m;
+  const bool of_cell = !cells_.empty();
   const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), 0.05);
-  const double footprint_m = sample.travelled_m * pixel_rad_ / std::sqrt(slant);
+  const double footprint_m =
+      of_cell ? sample.footprint_m : sample.travelled_m * pixel_rad_ / std::sqrt(slant);
   const Look look = s_->looks.at(point, footprint_m, memo_);
   const bool last = layer + 1 == kMaxLayers;
   const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
+  sample.see_through = of_cell && opacity < 1.0f;
+  if (sample.see_through) return;
   const Eigen::Vector3d at_W = ray.origin_W + point.range_m * ray.direction_W;
   const float share = sample.rest * opacity;
   Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
@@ -181,7 +213,10 @@ void Shader::add_unshadowed() {
     room_for_shadows_ = shadow_rays_.size();
     in_shadow_ = std::make_unique<bool[]>(room_for_shadows_);
   }
-  if (s_->options.quickly) {
+  if (!cells_.empty()) {
+    s_->rays.find_shadows_of_cells(s_->camera.X_WC.p, shadow_rays_.data(), shadow_rays_.size(),
+                                   in_shadow_.get());
+  } else if (s_->options.quickly) {
     s_->rays.find_shadows_quickly(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
   } else {
     s_->rays.find_shadows(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());

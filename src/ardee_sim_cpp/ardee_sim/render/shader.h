@@ -8,6 +8,7 @@
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/raycast/ray_scene.h"
 #include "ardee_sim/render/camera.h"
+#include "ardee_sim/render/light_store.h"
 #include "ardee_sim/render/lights.h"
 #include "ardee_sim/render/looks.h"
 
@@ -30,6 +31,7 @@ struct TileShading {
   const std::vector<Light>& lights;
   const Camera& camera;
   const RenderOptions& options;
+  LightStore& store;  // of this scene, these lights and looks
 };
 
 /// Of the first lamps, a bit each: whether they shine on a place.
@@ -43,8 +45,10 @@ struct Sample {
   Eigen::Vector3f light{0, 0, 0};
   float rest = 1.0f;
   double travelled_m = 0.0;
-  double stretch = 1.0;  // length of the way for each metre along the camera's axis
-  LampKnowledge lamps;   // at what is met first
+  double stretch = 1.0;      // length of the way for each metre along the camera's axis
+  LampKnowledge lamps;       // at what is met first
+  double footprint_m = 0.0;  // of a cell
+  bool see_through = false;  // a cell that cannot be looked at without what is behind
 };
 
 /// Sends looks through a picture and gathers their light in waves: what all of them meet, which of
@@ -59,6 +63,11 @@ class Shader {
   /// One whose first meeting was glanced at by a ray of a block, where some lamps' shadows are
   /// known.
   void send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps);
+  /// One straight at a cell's middle, `footprint_m` about it: what it gathers depends on nothing
+  /// else. Cells and other looks are not gathered together.
+  void send(const SurfaceCell& cell, double footprint_m);
+  /// Whether moving models may shade what is about a place.
+  bool may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const;
   /// Forgets the looks.
   void clear();
   /// The light of all looks that were sent since the last call.
@@ -92,6 +101,7 @@ class Shader {
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
   std::vector<std::uint32_t> triangles_;  // that each ray has met by a glance; or empty
+  std::vector<SurfaceCell> cells_;        // that each ray looks at; or empty
   std::vector<SceneRay> rays_;
   std::vector<std::uint32_t> owners_;  // the sample of each ray
   std::vector<SurfacePoint> points_;   // of some rays

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/simulation/picture_maker.h"
 
-#include "ardee_sim/render/renderer.h"
-
 namespace ardee {
 
 void PictureMaker::look_at_models() {
@@ -15,6 +13,7 @@ void PictureMaker::look_at_models() {
       last = placement.model.get();
     }
   }
+  renderer_.reset();
   current_ = true;
 }
 
@@ -24,8 +23,10 @@ Frame PictureMaker::take(const Camera& camera, const FrameParts& parts) {
   options.threads = threads_;
   options.quickly = true;
   const RayScene& rays = parts.light ? scenes_.for_pictures() : scenes_.now(SceneKind::kVisual);
-  const Renderer renderer(rays, looks_, world_.scene, world_.lights);
-  return renderer.shoot(camera, parts, options);
+  if (!renderer_ || &renderer_->rays() != &rays) {
+    renderer_.emplace(rays, looks_, world_.scene, world_.lights);
+  }
+  return renderer_->shoot(camera, parts, options);
 }
 
 }  // namespace ardee

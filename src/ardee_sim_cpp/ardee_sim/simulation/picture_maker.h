@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/render/looks.h"
+#include "ardee_sim/render/renderer.h"
 #include "ardee_sim/simulation/entity.h"
 
 namespace ardee {
@@ -30,6 +32,7 @@ class PictureMaker : public Pictures {
   const std::vector<std::unique_ptr<Entity>>& entities_;
   RayScenes& scenes_;
   Looks looks_;
+  std::optional<Renderer> renderer_;  // of those looks
   bool current_ = false;
 };
 

@@ -102,26 +102,100 @@ TEST(QuickPictures, SeeThroughALensAsThoroughOnesDo) {
   EXPECT_LE(pair.different(1e-3f), 50);
 }
 
-TEST(QuickPictures, AreTheSameWithAnyNumberOfThreadsAndWhateverCameBefore) {
-  const TestStage stage = boxes();
-  Looks looks((Log()));
-  RayScene rays(SceneKind::kVisual, {}, Log());
-  for (const Placement& placement : stage.placements) looks.add(placement.model);
-  rays.add_scenery(0, stage.placements);
-  rays.prepare({ahead(1, 1).X_WC.p}, true);
-  const Renderer renderer(rays, looks, stage.scene, stage.lights);
-  FrameParts light;
-  light.light = true;
-  RenderOptions options;
-  options.quickly = true;
-  std::vector<Frame> frames;
-  for (const int threads : {1, 2, 5}) {
+/// Quick pictures of a stage, one after the other, by one renderer.
+class Studio {
+ public:
+  explicit Studio(const TestStage& stage) : looks_((Log())), rays_(SceneKind::kVisual, {}, Log()) {
+    for (const Placement& placement : stage.placements) looks_.add(placement.model);
+    rays_.add_scenery(0, stage.placements);
+    renderer_.emplace(rays_, looks_, stage.scene, stage.lights);
+  }
+
+  void add_model(const std::shared_ptr<const Model>& model) {
+    looks_.add(model);
+    rays_.add_model(kMoving, model);
+  }
+  void move(const Eigen::Vector3d& to_W) {
+    rays_.set_link_poses(kMoving, {{to_W, Eigen::Quaterniond::Identity()}});
+  }
+  Frame shoot(const Camera& camera, int threads = 0, bool quickly = true) {
+    rays_.prepare({camera.X_WC.p}, true);
+    FrameParts light;
+    light.light = true;
+    RenderOptions options;
+    options.quickly = quickly;
     options.threads = threads;
-    frames.push_back(renderer.shoot(ahead(150, 110), light, options));
+    return renderer_->shoot(camera, light, options);
   }
-  for (std::size_t k = 1; k < frames.size(); ++k) {
-    EXPECT_EQ(frames[0].light, frames[k].light);
+
+ private:
+  static constexpr std::uint32_t kMoving = 5000;
+  Looks looks_;
+  RayScene rays_;
+  std::optional<Renderer> renderer_;
+};
+
+Camera moved(Camera camera, double x_m) {
+  camera.X_WC.p.x() += x_m;
+  return camera;
+}
+
+TEST(QuickPictures, AreTheSameWithAnyNumberOfThreads) {
+  Studio one(boxes());
+  const Frame expected = one.shoot(ahead(150, 110), 1);
+  for (const int threads : {2, 5}) {
+    Studio other(boxes());
+    EXPECT_EQ(other.shoot(ahead(150, 110), threads).light, expected.light) << threads;
   }
+}
+
+TEST(QuickPictures, AreTheSameWhateverCameBefore) {
+  // What is kept of earlier pictures is what would be worked out now.
+  Studio fresh(boxes());
+  const Frame expected = fresh.shoot(ahead(150, 110), 1);
+  EXPECT_EQ(fresh.shoot(ahead(150, 110), 1).light, expected.light);
+  Studio driving(boxes());
+  for (const double x_m : {-0.5, -0.4, -0.1, 0.05, -0.01}) {
+    driving.shoot(moved(ahead(150, 110), x_m), 5);
+  }
+  EXPECT_EQ(driving.shoot(ahead(150, 110), 5).light, expected.light);
+}
+
+TEST(QuickPictures, HaveTheShadowsOfModelsWhereTheyAreNow) {
+  TestStage stage = boxes();
+  stage.placements.push_back(
+      placed(model_of(mesh_of({box_mesh("ground", {12, 12, 0.02f})}), {}, matt(0.5f)),
+             Pose::from_xyz_rpy({3, 0, 0.01}, {0, 0, 0})));
+  const auto model = model_of(mesh_of({box_mesh("box", {0.4f, 0.4f, 0.4f})}), {}, matt(0.7f));
+  Studio driving(stage);
+  driving.add_model(model);
+  for (const double y_m : {-0.6, 0.0, 0.7}) {
+    driving.move({1.8, y_m, 0.6});
+    const Frame now = driving.shoot(ahead(320, 240));
+    Studio fresh(stage);
+    fresh.add_model(model);
+    fresh.move({1.8, y_m, 0.6});
+    EXPECT_EQ(now.light, fresh.shoot(ahead(320, 240)).light) << y_m;
+    const Pair pair{now, fresh.shoot(ahead(320, 240), 0, false)};
+    EXPECT_LE(pair.different(0.05f), 800) << y_m;
+    fresh.move({1.8, y_m, 50.0});
+    const Pair moved_away{now, fresh.shoot(ahead(320, 240))};
+    EXPECT_GT(moved_away.different(0.05f), 1000) << y_m;
+  }
+}
+
+TEST(QuickPictures, SeeWhatIsBehindGlass) {
+  TestStage stage = boxes();
+  Material glass = matt(0.3f);
+  glass.diffuse[3] = 0.4f;
+  glass.two_sided = true;
+  const auto pane = model_of(mesh_of({box_mesh("pane", {0.01f, 1.5f, 1.0f})}), {}, glass);
+  stage.placements.push_back(placed(pane, Pose::from_xyz_rpy({1.5, 0, 0.8}, {0, 0, 0})));
+  Studio studio(stage);
+  const Frame first = studio.shoot(ahead(160, 120));
+  EXPECT_EQ(studio.shoot(ahead(160, 120)).light, first.light);
+  const Pair pair{first, studio.shoot(ahead(160, 120), 0, false)};
+  EXPECT_LE(pair.different(0.02f), 300);
 }
 
 }  // namespace

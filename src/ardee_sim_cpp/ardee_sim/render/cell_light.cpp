@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/render/cell_light.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "ardee_sim/core/rng.h"
+
+namespace ardee {
+namespace {
+
+/// Cells are at most so many pixels wide, and at least half as many.
+constexpr float kMost_px = 1.5f;
+
+/// Of all that the light of a draft's cells depends on, beside what the store is of.
+std::uint64_t seed_of(std::uint64_t draft, const RenderOptions& options) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &options.max_range_m, sizeof bits);
+  return mix_bits(draft ^ mix_bits(bits << 1 | (options.shadows ? 1u : 0u)));
+}
+
+LightStore::Name name_of(const SurfaceCell& cell, std::uint64_t seed) {
+  const auto size = static_cast<std::uint16_t>(cell.size);
+  const std::uint64_t side =
+      std::uint64_t{cell.triangle} << 32 | std::uint64_t{size} << 1 | (cell.from_behind ? 1u : 0u);
+  return {mix_bits(seed ^ side), std::uint64_t{cell.row} * cell.columns + cell.column};
+}
+
+}  // namespace
+
+float CellLight::width_m(const TileShading& shading) {
+  return kMost_px / static_cast<float>(shading.camera.focal_length_px());
+}
+
+const std::vector<CellLight::Found>& CellLight::gather(const TileShading& shading,
+                                                       const std::vector<GlanceBlock>& blocks,
+                                                       const std::vector<CellRequest>& requests,
+                                                       Shader& shader) {
+  find_cells(shading, blocks, requests, shader);
+  found_.resize(requests.size());
+  missed_.clear();
+  for (std::size_t k = 0; k < requests.size(); ++k) {
+    found_[k].met = false;
+    if (cells_[k].none()) continue;
+    LightStore::Kept kept;
+    if (shading.store.find(names_[k], kept)) {
+      found_[k] = {kept.light, !kept.see_through};
+    } else {
+      missed_.push_back(k);
+    }
+  }
+  if (!missed_.empty()) shade_missed(shading, shader);
+  return found_;
+}
+
+void CellLight::find_cells(const TileShading& shading, const std::vector<GlanceBlock>& blocks,
+                           const std::vector<CellRequest>& requests, const Shader& shader) {
+  cells_.resize(requests.size());
+  names_.resize(requests.size());
+  const Eigen::Vector3d& eye_W = shading.camera.X_WC.p;
+  const std::uint64_t draft = shading.rays.find_cells(eye_W, blocks.data(), requests.data(),
+                                                      requests.size(), cells_.data());
+  const std::uint64_t seed = seed_of(draft, shading.options);
+  const bool models = shading.rays.has_models();
+  for (std::size_t k = 0; k < requests.size(); ++k) {
+    if (cells_[k].none()) continue;
+    if (models) {
+      const CellRequest& request = requests[k];
+      const GlanceBlock& block = blocks[request.ray / GlanceBlock::kRays];
+      const int i = static_cast<int>(request.ray % GlanceBlock::kRays);
+      const Eigen::Vector3f at_W = eye_W.cast<float>() + request.range_m * block.direction_W(i);
+      if (shader.may_be_shaded(at_W, 2.0f * std::abs(request.width_m))) {
+        cells_[k] = {};
+        continue;
+      }
+    }
+    names_[k] = name_of(cells_[k], seed);
+    shading.store.prefetch(names_[k]);
+  }
+}
+
+void CellLight::shade_missed(const TileShading& shading, Shader& shader) {
+  shader.clear();
+  for (const std::size_t k : missed_) {
+    shader.send(cells_[k], std::ldexp(M_SQRT2, cells_[k].size) / static_cast<double>(kMost_px));
+  }
+  shader.gather();
+  for (std::size_t i = 0; i < missed_.size(); ++i) {
+    const std::size_t k = missed_[i];
+    const Sample& sample = shader.samples()[i];
+    const LightStore::Kept kept = LightStore::rounded({sample.light, sample.see_through});
+    shading.store.keep(names_[k], kept);
+    found_[k] = {kept.light, !kept.see_through};
+  }
+  shader.clear();
+}
+
+}  // namespace ardee
