@@ -111,6 +111,10 @@ class Studio {
     renderer_.emplace(rays_, looks_, stage.scene, stage.lights);
   }
 
+  void replace_scenery(const TestStage& stage) {
+    rays_.remove_scenery(0);
+    rays_.add_scenery(0, stage.placements);
+  }
   void add_model(const std::shared_ptr<const Model>& model) {
     looks_.add(model);
     rays_.add_model(kMoving, model);
@@ -182,6 +186,39 @@ TEST(QuickPictures, HaveTheShadowsOfModelsWhereTheyAreNow) {
     const Pair moved_away{now, fresh.shoot(ahead(320, 240))};
     EXPECT_GT(moved_away.different(0.05f), 1000) << y_m;
   }
+}
+
+TEST(QuickPictures, SeeEachSideOfALeafInItsOwnLight) {
+  SubMesh leaf;
+  leaf.name = "leaf";
+  leaf.vertices = {{2, -1, 0}, {2, 1, 0}, {2, 1, 2}, {2, -1, 2}};
+  leaf.triangles = {{0, 1, 2}, {0, 2, 3}};
+  Material green = matt(0.5f);
+  green.two_sided = true;
+  TestStage stage;
+  stage.placements = {placed(model_of(mesh_of({leaf}), {}, green))};
+  stage.lights = {sun({0.8, 0.1, -0.6})};
+  Camera behind = ahead(320, 240);
+  behind.X_WC = Pose::from_xyz_rpy({4, 0, 1}, {0, 0.15, kPi});
+  Studio studio(stage);
+  const Frame lit = studio.shoot(ahead(320, 240));
+  const Frame dim = studio.shoot(behind);
+  EXPECT_EQ(studio.shoot(ahead(320, 240)).light, lit.light);
+  EXPECT_EQ(Studio(stage).shoot(behind).light, dim.light);
+  const std::size_t middle = lit.index(160, 120);
+  EXPECT_NEAR(lit.light[middle].x(), 0.5f * 0.8f / std::sqrt(1.01f), 1e-3f);
+  EXPECT_NEAR(dim.light[middle].x(), 0.4f * lit.light[middle].x(), 1e-3f);
+}
+
+TEST(QuickPictures, ForgetWhatHasGone) {
+  const TestStage stage = boxes();
+  TestStage other = stage;
+  other.placements.erase(other.placements.begin() + 1);
+  Studio studio(stage);
+  studio.shoot(ahead(150, 110));
+  studio.replace_scenery(other);
+  Studio fresh(other);
+  EXPECT_EQ(studio.shoot(ahead(150, 110)).light, fresh.shoot(ahead(150, 110)).light);
 }
 
 TEST(QuickPictures, SeeWhatIsBehindGlass) {
