@@ -13,18 +13,24 @@ struct EvenLight {
   static constexpr int kMost = 16;
   /// What is known of all pixels of a tile, by their places.
   struct Lists {
-    const float *normal_x_W, *normal_y_W, *normal_z_W;
-    const float *range_m;
-    const float *red, *green, *blue;
-    const std::uint32_t *surface, *triangle;
-    const std::uint32_t *known, *in_shadow;  // lamps
+    const float* normal_x_W;
+    const float* normal_y_W;
+    const float* normal_z_W;
+    const float* range_m;
+    const float* red;
+    const float* green;
+    const float* blue;
+    const std::uint32_t* surface;
+    const std::uint32_t* triangle;
+    const std::uint32_t* known;  // lamps, a bit each
+    const std::uint32_t* in_shadow;
   };
   /// Where the first pixel has its neighbours; those of the others are next to them.
   using Neighbours = std::array<std::size_t, 4>;
 
   /// Of kMost pixels side by side. Neighbours on the same smooth surface count, and are even if no
   /// colour differs by more than `most`.
-  void find(const Lists &lists, std::size_t first, const Neighbours &around, float most);
+  void find(const Lists& lists, std::size_t first, const Neighbours& around, float most);
 
   float red[kMost], green[kMost], blue[kMost];  // mean
   std::uint32_t known[kMost], in_shadow[kMost];

@@ -12,14 +12,13 @@ constexpr int kCoarsest_px = 4;
 /// Light of pixels two pixels apart is taken for what lies between if it differs by less; of those
 /// farther apart it may differ by a quarter of it.
 constexpr float kSameLight = 0.1f;
-/// Surfaces seen at a slant of which the sine is less are taken for this steep.
-constexpr float kLeastSlant = 0.05f;
 /// In place of a surface where the lens lets no light through.
 constexpr std::uint32_t kDark = 1;
 
 /// Pixels of even columns and rows: of each row, and in all. The lattice ends one beyond the tile.
 constexpr std::size_t kInRow = QuickTile::kMostSide_px / 2 + 1;
 constexpr std::size_t kInAll = kInRow * kInRow;
+static_assert(EvenLight::kMost == QuickTile::kMostSide_px / 2, "a row of a lattice goes at once");
 
 int whole_blocks(int pixels) { return (pixels + kCoarsest_px - 1) / kCoarsest_px * kCoarsest_px; }
 
@@ -236,7 +235,7 @@ void QuickTile::send(std::size_t place, const LampKnowledge& lamps) {
   const std::size_t i = ray % GlanceBlock::kRays;
   const float slant = block.x_W[i] * block.normal_x_W[i] + block.y_W[i] * block.normal_y_W[i] +
                       block.z_W[i] * block.normal_z_W[i];
-  const float steep = std::max(std::abs(slant), kLeastSlant);
+  const float steep = std::max(std::abs(slant), static_cast<float>(kLeastSlant));
   const float width_m = cell_width_ * block.range_m[i] / std::sqrt(steep);
   requests_.push_back({block.triangle[i], block.u[i], block.v[i], pixels_.range_m[place],
                        std::copysign(width_m, -slant), ray});

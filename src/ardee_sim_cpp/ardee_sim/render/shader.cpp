@@ -149,7 +149,7 @@ void Shader::shade(const SurfacePoint& point, std::size_t i, int layer) {
   }
   sample.travelled_m += point.range_m;
   const bool of_cell = !cells_.empty();
-  const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), 0.05);
+  const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), kLeastSlant);
   const double footprint_m =
       of_cell ? sample.footprint_m : sample.travelled_m * pixel_rad_ / std::sqrt(slant);
   const Look look = s_->looks.at(point, footprint_m, memo_);

@@ -40,6 +40,10 @@ struct LampKnowledge {
   std::uint32_t in_shadow = 0;
 };
 
+/// Surfaces seen at a slant of which the sine is less are taken for this steep (nominal): the part
+/// that a pixel covers grows beyond all bounds.
+constexpr double kLeastSlant = 0.05;
+
 /// One look through a pixel: what it has gathered, and what of the light is still to come.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};

@@ -104,6 +104,19 @@ inline RayPattern random_pattern(int count, std::uint64_t seed) {
   return pattern;
 }
 
+/// Rays of a picture in those directions, each from `near_m` to `far_m`; whole blocks of them.
+inline std::vector<GlanceBlock> blocks_of(const RayPattern& pattern, float near_m, float far_m) {
+  std::vector<GlanceBlock> blocks(pattern.directions_S.size() / GlanceBlock::kRays);
+  for (std::size_t k = 0; k < blocks.size() * GlanceBlock::kRays; ++k) {
+    GlanceBlock& block = blocks[k / GlanceBlock::kRays];
+    const int i = static_cast<int>(k % GlanceBlock::kRays);
+    block.set_direction(i, pattern.directions_S[k].normalized());
+    block.near_m[i] = near_m;
+    block.far_m[i] = far_m;
+  }
+  return blocks;
+}
+
 inline RayOptions instances_only() {
   RayOptions options;
   options.flatten = false;

@@ -286,17 +286,13 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
     test.scene.add_model(5000, box);
     test.scene.set_link_poses(5000, {{{107.5, 57, 0.7}, Eigen::Quaterniond::Identity()}});
     test.scene.prepare({eye_W}, pictures);
-    std::vector<GlanceBlock> blocks(200);
+    std::vector<GlanceBlock> blocks = blocks_of(random_pattern(3200, 5), 0.2f, 30.0f);
     std::vector<SceneRay> whole;
-    const std::vector<Eigen::Vector3f> directions = random_pattern(3200, 5).directions_S;
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-      GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-      const int i = static_cast<int>(k % GlanceBlock::kRays);
-      block.set_direction(i, directions[k].normalized());
-      block.near_m[i] = 0.2f;
-      block.far_m[i] = 30.0f;
-      const Eigen::Vector3d way_W = block.direction_W(i).cast<double>();
-      whole.push_back({eye_W + 0.2 * way_W, way_W, 29.8});
+    for (const GlanceBlock& block : blocks) {
+      for (int i = 0; i < GlanceBlock::kRays; ++i) {
+        const Eigen::Vector3d way_W = block.direction_W(i).cast<double>();
+        whole.push_back({eye_W + 0.2 * way_W, way_W, 29.8});
+      }
     }
     test.scene.glance(eye_W, blocks.data(), blocks.size());
     std::vector<SurfacePoint> looks(whole.size());

@@ -33,15 +33,7 @@ std::vector<Placement> shards() {
 
 struct Glances {
   Glances(const RayScene& scene, const Eigen::Vector3d& eye_W, int count)
-      : eye(eye_W), blocks(static_cast<std::size_t>(count) / GlanceBlock::kRays) {
-    const std::vector<Eigen::Vector3f> directions = random_pattern(count, 11).directions_S;
-    for (std::size_t k = 0; k < directions.size(); ++k) {
-      GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-      const int i = static_cast<int>(k % GlanceBlock::kRays);
-      block.set_direction(i, directions[k].normalized());
-      block.near_m[i] = 0.01f;
-      block.far_m[i] = 30.0f;
-    }
+      : eye(eye_W), blocks(blocks_of(random_pattern(count, 11), 0.01f, 30.0f)) {
     scene.glance(eye, blocks.data(), blocks.size());
   }
 
