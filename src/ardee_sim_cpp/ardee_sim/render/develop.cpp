@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "ardee_sim/core/normal_table.h"
+#include "ardee_sim/core/vector_clones.h"
 #include "ardee_sim/render/tone.h"
 
 namespace ardee {
@@ -26,7 +27,7 @@ constexpr int kEvery = 4;  // each so many pixels, both ways, are metered
 constexpr std::size_t kPiece = 64;  // pixels of a row that are worked on together; an even number
 
 template <std::size_t kEach>  // values a pixel
-using Values = Eigen::Array<float, int{kEach * kPiece}, 1>;
+using Values = std::array<float, kEach * kPiece>;
 
 using Colors = std::array<int, 2>;  // of the even and the odd pixels of a row
 
@@ -44,15 +45,30 @@ Colors bayer(PixelFormat format, int row) {
   }
 }
 
+/// What is done to light.
+struct Exposure {
+  float gain;
+  float mean;  // of the noise, in shares of full brightness
+  float std;
+};
+
+/// Of light, what is stored if rounded down: brightness with noise, of which full is `most`.
+ARDEE_VECTOR_CLONES void expose(const Exposure& how, float most, const float* normals,
+                                std::size_t count, float* values) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const float noisy = tone(how.gain * values[k]) + how.mean + how.std * normals[k];
+    const float from_black = noisy > 0.0f ? noisy : 0.0f;
+    values[k] = most * (from_black < 1.0f ? from_black : 1.0f) + 0.5f;
+  }
+}
+
 /// Writes pieces of the rows of one frame; noise is drawn by the number of the pixel.
 class Writer {
  public:
   Writer(const Development& how, const CounterRng& noise, float gain)
       : format_(how.format),
         noise_(noise),
-        gain_(gain),
-        mean_(static_cast<float>(how.noise_mean)),
-        std_(static_cast<float>(how.noise_std)) {}
+        exposure_{gain, static_cast<float>(how.noise_mean), static_cast<float>(how.noise_std)} {}
 
   /// `count` pixels from `pixel` on, whose column is even.
   void write(const Eigen::Vector3f* light, int row, std::size_t pixel, std::size_t count,
@@ -73,7 +89,7 @@ class Writer {
   void write_colors(const Eigen::Vector3f* light, std::size_t pixel, std::size_t count,
                     std::uint8_t* out) const {
     static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-    Values<3> values = Values<3>::Zero();
+    Values<3> values{};
     std::memcpy(values.data(), light, count * sizeof(Eigen::Vector3f));
     auto bytes = numbers<std::uint8_t, 3>(values, pixel, {0, 0});
     if (format_ == PixelFormat::kBgr8) {
@@ -84,8 +100,8 @@ class Writer {
 
   void write_grey(const Eigen::Vector3f* light, std::size_t pixel, std::size_t count,
                   std::uint8_t* out) const {
-    Values<1> values = Values<1>::Zero();
-    for (std::size_t k = 0; k < count; ++k) values.data()[k] = kLuma.dot(light[k]);
+    Values<1> values{};
+    for (std::size_t k = 0; k < count; ++k) values[k] = kLuma.dot(light[k]);
     if (format_ == PixelFormat::kMono8) {
       std::memcpy(out, numbers<std::uint8_t, 1>(values, pixel, {0, 0}).data(), count);
       return;
@@ -99,40 +115,28 @@ class Writer {
 
   void write_bayer(const Eigen::Vector3f* light, const Colors& colors, std::size_t pixel,
                    std::size_t count, std::uint8_t* out) const {
-    Values<1> values = Values<1>::Zero();
-    for (std::size_t k = 0; k < count; ++k) values.data()[k] = light[k][colors[k % 2]];
+    Values<1> values{};
+    for (std::size_t k = 0; k < count; ++k) values[k] = light[k][colors[k % 2]];
     std::memcpy(out, numbers<std::uint8_t, 1>(values, pixel, colors).data(), count);
   }
 
-  /// From light to what is stored: loops of constant length, of which Eigen and GCC make vector
-  /// instructions. `draws`: see normals().
+  /// From light to what is stored. `draws`: see draw_normals().
   template <typename Number, std::size_t kEach>
   std::array<Number, kEach * kPiece> numbers(Values<kEach>& values, std::size_t pixel,
                                              const Colors& draws) const {
-    values = Values<kEach>::Zero().max(gain_ * values);
-    if (values.maxCoeff() > kToneKnee) {
-      values = values.unaryExpr([](float light) { return tone(light); });
-    }
-    const auto scale = [&](const auto& noisy) {
-      constexpr float kFull = std::numeric_limits<Number>::max();
-      values = kFull * noisy.max(0.0f).min(1.0f) + 0.5f;
-    };
-    if (std_ > 0.0f) {
-      scale(values + mean_ + std_ * normals<kEach>(pixel, draws));
-    } else {
-      scale(values + mean_);
-    }
+    Values<kEach> normals{};
+    if (exposure_.std > 0.0f) draw_normals<kEach>(pixel, draws, normals);
+    expose(exposure_, std::numeric_limits<Number>::max(), normals.data(), values.size(),
+           values.data());
     std::array<Number, kEach * kPiece> rounded;
-    for (std::size_t k = 0; k < rounded.size(); ++k) {
-      rounded[k] = static_cast<Number>(values.data()[k]);
-    }
+    for (std::size_t k = 0; k < rounded.size(); ++k) rounded[k] = static_cast<Number>(values[k]);
     return rounded;
   }
 
   /// A pixel has four draws of sixteen bits; those of its values start with number draws[0] in even
   /// columns, draws[1] in odd ones.
   template <std::size_t kEach>
-  Values<kEach> normals(std::size_t pixel, const Colors& draws) const {
+  void draw_normals(std::size_t pixel, const Colors& draws, Values<kEach>& normals) const {
     std::array<std::uint16_t, kEach * kPiece + 3> bits;
     const auto draw = [&](std::size_t k, int first) {
       const std::uint64_t four = noise_.bits(pixel + k) >> (16 * first);
@@ -143,16 +147,12 @@ class Writer {
       draw(k, draws[0]);
       draw(k + 1, draws[1]);
     }
-    Values<kEach> found;
-    normals_.look_up<kEach * kPiece>(bits.data(), found.data());
-    return found;
+    normals_.look_up<kEach * kPiece>(bits.data(), normals.data());
   }
 
   const PixelFormat format_;
   const CounterRng noise_;
-  const float gain_;
-  const float mean_;
-  const float std_;
+  const Exposure exposure_;
   const NormalTable& normals_ = NormalTable::get();
 };
 

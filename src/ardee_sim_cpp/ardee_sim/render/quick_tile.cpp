@@ -229,7 +229,10 @@ void QuickTile::send(std::size_t place, const LampKnowledge& lamps) {
     set(place, Eigen::Vector3f::Zero(), {});
     return;
   }
-  sent_.push_back({place, lamps});
+  Sent& sent = sent_.emplace_back();
+  sent.place = place;
+  sent.lamps.known = lamps.known;
+  sent.lamps.in_shadow = lamps.in_shadow;
   const std::uint32_t ray = pixels_.ray[place];
   const GlanceBlock& block = blocks_[ray / GlanceBlock::kRays];
   const std::size_t i = ray % GlanceBlock::kRays;
@@ -237,8 +240,13 @@ void QuickTile::send(std::size_t place, const LampKnowledge& lamps) {
                       block.z_W[i] * block.normal_z_W[i];
   const float steep = std::max(std::abs(slant), static_cast<float>(kLeastSlant));
   const float width_m = cell_width_ * block.range_m[i] / std::sqrt(steep);
-  requests_.push_back({block.triangle[i], block.u[i], block.v[i], pixels_.range_m[place],
-                       std::copysign(width_m, -slant), ray});
+  CellRequest& request = requests_.emplace_back();
+  request.triangle = block.triangle[i];
+  request.u = block.u[i];
+  request.v = block.v[i];
+  request.range_m = pixels_.range_m[place];
+  request.width_m = std::copysign(width_m, -slant);
+  request.ray = ray;
 }
 
 void QuickTile::gather() {
@@ -275,11 +283,11 @@ void QuickTile::set(std::size_t place, const Eigen::Vector3f& light, const LampK
 void QuickTile::write(Frame& frame) const {
   for (int y = 0; y < area_.height; ++y) {
     Eigen::Vector3f* row = &frame.light[frame.index(area_.left, area_.upper + y)];
-    for (const int first : {0, 1}) {
-      std::size_t k = place(first, y);
-      for (int x = first; x < area_.width; x += 2, ++k) {
-        row[x] = {pixels_.red[k], pixels_.green[k], pixels_.blue[k]};
-      }
+    const std::size_t even = place(0, y);
+    const std::size_t odd = place(1, y);
+    for (int x = 0; x < area_.width; ++x) {
+      const std::size_t k = (x % 2 == 0 ? even : odd) + static_cast<std::size_t>(x) / 2;
+      row[x] = {pixels_.red[k], pixels_.green[k], pixels_.blue[k]};
     }
   }
 }
