@@ -192,7 +192,7 @@ CameraInfoReading CameraParams::info() const {
   info.P = {taken.fx_px,
             taken.skew_px,
             lens.cx_prime_px.value_or(taken.cx_px),
-            -taken.fx_px * lens.baseline_m,
+            0.0 - taken.fx_px * lens.baseline_m,
             0,
             taken.fy_px,
             taken.cy_px,

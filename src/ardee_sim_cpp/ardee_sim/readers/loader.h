@@ -10,7 +10,7 @@
 
 namespace ardee {
 
-/// Reads worlds and models, SDF 1.3-1.6 or URDF, into plain descriptions. What is read once (model
+/// Reads worlds and models, SDF 1.2-1.7 or URDF, into plain descriptions. What is read once (model
 /// files, meshes, heightmap images, material scripts) is shared by all that refer to it. Throws
 /// Error; on a throw nothing is kept.
 class Loader {

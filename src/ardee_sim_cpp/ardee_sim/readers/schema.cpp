@@ -12,6 +12,8 @@ constexpr const char* kSdf = R"(
 sdf: world model light actor
 gazebo: world model light
 world: audio wind include gravity magnetic_field atmosphere gui physics scene light frame model actor plugin road spherical_coordinates state population joint
+population: model pose frame box cylinder model_count distribution
+distribution: type rows cols step
 include: uri pose name static frame plugin ardee:scale ardee:label
 physics: provide_feedback max_step_size real_time_factor real_time_update_rate update_rate max_contacts gravity magnetic_field ode bullet simbody dart
 ode: solver constraints mu mu2 fdir1 slip1 slip2 soft_cfm soft_erp kp kd max_vel min_depth provide_feedback cfm_damping implicit_spring_damper fudge_factor cfm erp bounce max_force velocity limit suspension

@@ -55,6 +55,8 @@ class SdfReader {
   Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names,
                         const SdfFrames& frames) const;
   void read_world_models(const Node& world, const Scope& scope, World& made);
+  void add_population(const Node& population, const Scope& scope, UniqueNames& names,
+                      const SdfFrames& frames, World& made);
   double read_version(const Node& root);
   std::size_t count_placements(const Model& model, const Source& source);
 

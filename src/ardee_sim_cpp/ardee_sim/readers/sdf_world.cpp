@@ -3,6 +3,7 @@
 
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
+#include "ardee_sim/readers/sdf_population.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/sdf_scene.h"
 
@@ -80,10 +81,28 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       add_light(read_sdf_light(child));
     } else if (kind == "plugin") {
       made.plugins.push_back(read_plugin(child));
-    } else if (kind == "actor" || kind == "road" || kind == "population" || kind == "joint") {
+    } else if (kind == "population") {
+      add_population(child, scope, names, frames, made);
+    } else if (kind == "actor" || kind == "road" || kind == "joint") {
       assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
     }
   });
+}
+
+/// Copies are named as Gazebo does it.
+void SdfReader::add_population(const Node& population, const Scope& scope, UniqueNames& names,
+                               const SdfFrames& frames, World& made) {
+  const std::vector<Eigen::Vector3d> places = read_population(population);
+  const Pose X_WP = frames.pose(population);
+  Instance instance;
+  instance.model = read_model(population.required("model"), scope);
+  instance.is_static = instance.model->is_static;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    instance.name = names.claim(instance.model->name + "_clone_" + std::to_string(k));
+    instance.pose = X_WP;
+    instance.pose.p += X_WP.q * places[k];
+    made.models.push_back(instance);
+  }
 }
 
 }  // namespace ardee

@@ -176,6 +176,7 @@ TEST(CameraPlugin, OtherProjectionsAreSaidOnce) {
               "", &messages);
   EXPECT_EQ(info.K[0], 480.0);
   EXPECT_EQ(info.P[0], 480.0);
+  EXPECT_FALSE(std::signbit(info.P[3]));
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NE(messages[0].find("found <type> custom <custom_function> <projection>, expected"),
             std::string::npos)
