@@ -223,10 +223,9 @@ void NearRegion::meet_entry(const RTCIntersectFunctionNArguments* args) {
         {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
         {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
         RTCRayN_tfar(rays, n, i)};
-    std::int32_t marks[kBlockLanes];
-    if (!sort_out(*entry.block, frame.place, entry.center, ray, region.slack_m_, marks)) {
-      return false;
-    }
+    const std::uint32_t marks =
+        sort_out(*entry.block, frame.place, entry.center, ray, region.slack_m_);
+    if (marks == 0) return false;
     query.enter(*frame.placed);
     query.meet_marked(*entry.block, marks);
     return true;

@@ -52,10 +52,10 @@ bool RayQuery::is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weig
   return body.surfaces[triangle.surface].mask->is_hole(uv);
 }
 
-void RayQuery::meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]) {
+void RayQuery::meet_marked(const TriangleBlock& block, std::uint32_t marks) {
   const Body& body = *entered_->body;
-  for (std::uint32_t lane = 0; lane < block.count; ++lane) {
-    if (marks[lane] == 0) continue;
+  for (std::uint32_t lane = 0; lane < block.count && marks >> lane != 0; ++lane) {
+    if ((marks >> lane & 1u) == 0) continue;
     const BodyTriangle& triangle = body.triangles[block.first + lane];
     TriangleHit hit;
     if (meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
@@ -84,8 +84,7 @@ void RayQuery::meet_block(const TriangleBlock& block) {
   ray.t_high = static_cast<float>(std::min(best_t_ - t_near, t_radius));
   ray.slack_m = static_cast<float>(kBlockSlack * static_cast<double>(block.radius) +
                                    1e-7 * (1.0 + origin.norm()));
-  std::int32_t marks[kBlockLanes];
-  if (sort_out(block, ray, marks)) meet_marked(block, marks);
+  meet_marked(block, sort_out(block, ray));
 }
 
 void RayQuery::meet_solid(const Solid& solid) {

@@ -51,7 +51,7 @@ class RayQuery {
   void meet_body(const PlacedBody& placed, double t_low);
   void meet_piece(const Piece& piece);
   void meet_block(const TriangleBlock& block);
-  void meet_marked(const TriangleBlock& block, const std::int32_t marks[kBlockLanes]);
+  void meet_marked(const TriangleBlock& block, std::uint32_t marks);
   void meet_solid(const Solid& solid);
 
   void fill(RayHit& hit) const;

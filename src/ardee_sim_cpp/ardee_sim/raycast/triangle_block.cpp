@@ -14,14 +14,14 @@ constexpr float kBlockSlack = 2e-6f;
 
 /// Möller and Trumbore (1997) for all lanes, with slack at each comparison. A block is fetched more
 /// often than it is hit, so what follows from its edges is worked out, not fetched.
-__attribute__((always_inline)) inline bool mark(const TriangleBlock& block, const BlockRay& ray,
-                                                std::int32_t marks[kBlockLanes]) {
+__attribute__((always_inline)) inline std::uint32_t mark(const TriangleBlock& block,
+                                                         const BlockRay& ray) {
   const float ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
   const float dx = ray.direction[0], dy = ray.direction[1], dz = ray.direction[2];
   const float slack = ray.slack_m;
   const float uv_slack = slack * (std::abs(dx) + std::abs(dy) + std::abs(dz)) * block.longest;
   const float t_slack = slack * block.longest * block.longest;
-  std::int32_t any = 0;
+  std::uint32_t marks = 0;
   for (int i = 0; i < kBlockLanes; ++i) {
     const float cx = block.vertex[0][i] - ox;
     const float cy = block.vertex[1][i] - oy;
@@ -44,22 +44,19 @@ __attribute__((always_inline)) inline bool mark(const TriangleBlock& block, cons
                           ((u + v) * sign <= steep + 2.0f * uv_slack) &
                           (height * sign >= ray.t_low * steep - t_slack) &
                           (height * sign <= ray.t_high * steep + t_slack);
-    marks[i] = may_meet ? 1 : 0;
-    any |= marks[i];
+    marks |= may_meet ? 1u << i : 0u;
   }
-  return any != 0;
+  return marks;
 }
 
 }  // namespace
 
 ARDEE_VECTOR_CLONES
-bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]) {
-  return mark(block, ray, marks);
-}
+std::uint32_t sort_out(const TriangleBlock& block, const BlockRay& ray) { return mark(block, ray); }
 
 ARDEE_VECTOR_CLONES
-bool sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
-              const RegionRay& ray, float slack_m, std::int32_t marks[kBlockLanes]) {
+std::uint32_t sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
+                       const RegionRay& ray, float slack_m) {
   // From the point of the ray that is nearest to the centre: there floats are of the block's size.
   const float* d = ray.direction;
   const float cx = center[0] - ray.origin[0];
@@ -80,7 +77,7 @@ bool sort_out(const TriangleBlock& block, const BlockPlace& place, const float c
   local.t_low = t_near < t_radius ? -t_near : -t_radius;
   local.t_high = t_left < t_radius ? t_left : t_radius;
   local.slack_m = slack_m / place.scale + kBlockSlack * block.radius;
-  return mark(block, local, marks);
+  return mark(block, local);
 }
 
 ARDEE_VECTOR_CLONES

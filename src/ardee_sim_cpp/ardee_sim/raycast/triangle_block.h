@@ -35,8 +35,8 @@ struct BlockRay {
   float slack_m;  // how far the ray may be off
 };
 
-/// Marks the triangles that the ray may meet: all that it does meet are among them. False: none.
-bool sort_out(const TriangleBlock& block, const BlockRay& ray, std::int32_t marks[kBlockLanes]);
+/// The triangles that the ray may meet, a bit each: all that it does meet are among them.
+std::uint32_t sort_out(const TriangleBlock& block, const BlockRay& ray);
 
 /// Where a block stands in a region: its centre, and what turns (and scales) the region's axes into
 /// the block's.
@@ -53,8 +53,8 @@ struct RegionRay {
 };
 
 /// The same for a placed block; `slack_m` is how far the region's floats may be off.
-bool sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
-              const RegionRay& ray, float slack_m, std::int32_t marks[kBlockLanes]);
+std::uint32_t sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
+                       const RegionRay& ray, float slack_m);
 
 /// The box about a block, turned and scaled by `m`, its centre moved to `center`.
 void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],
