@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/readers/limits.h"
 
 namespace ardee {
 namespace {
-
-constexpr int kMost = 1'000'000;  // of models in one population
 
 /// A box, or the upright cylinder within it.
 struct Region {
@@ -53,8 +52,8 @@ double mirrored(int number, int base) {
 }
 
 std::vector<Eigen::Vector3d> in_grid(const Node& distribution) {
-  const int rows = distribution.integer("rows", 1, 1, kMost);
-  const int columns = distribution.integer("cols", 1, 1, kMost / rows);
+  const int rows = distribution.integer("rows", 1, 1, kMaxPopulation);
+  const int columns = distribution.integer("cols", 1, 1, kMaxPopulation / rows);
   const Eigen::Vector3d step_m = distribution.vector3("step", {0.5, 0.5, 0.0});
   std::vector<Eigen::Vector3d> places;
   for (int row = 0; row < rows; ++row) {
@@ -74,10 +73,10 @@ std::vector<Eigen::Vector3d> read_population(const Node& population) {
   const Node type = distribution.required("type");
   const std::string how = type.required_text();
   if (how == "grid") return in_grid(distribution);
-  const int count = population.integer("model_count", 1, 1, kMost);
+  const int count = population.integer("model_count", 1, 1, kMaxPopulation);
   const CounterRng random(stream_key(0, "population " + population.required_attribute("name")));
-  std::vector<Eigen::Vector3d> places;
   const auto fill = [&](const auto& shares_of) {
+    std::vector<Eigen::Vector3d> places;
     for (int k = 0; k < count; ++k) places.push_back(region.at(shares_of(k)));
     return places;
   };
@@ -98,6 +97,7 @@ std::vector<Eigen::Vector3d> read_population(const Node& population) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (how != std::string("linear-") + "xyz"[axis]) continue;
+    std::vector<Eigen::Vector3d> places;
     for (int k = 0; k < count; ++k) {
       const double share = count > 1 ? static_cast<double>(k) / (count - 1) - 0.5 : 0.0;
       places.push_back(share * region.size_m[axis] * Eigen::Vector3d::Unit(axis));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <unordered_map>
 
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_population.h"
@@ -93,6 +94,10 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
 void SdfReader::add_population(const Node& population, const Scope& scope, UniqueNames& names,
                                const SdfFrames& frames, World& made) {
   const std::vector<Eigen::Vector3d> places = read_population(population);
+  if (made.models.size() + places.size() > std::size_t{kMaxPopulation}) {
+    throw population.error("found more than " + std::to_string(kMaxPopulation) +
+                           " models with those before, expected fewer");
+  }
   const Pose X_WP = frames.pose(population);
   Instance instance;
   instance.model = read_model(population.required("model"), scope);

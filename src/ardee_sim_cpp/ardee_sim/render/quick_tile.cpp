@@ -229,6 +229,8 @@ void QuickTile::send(std::size_t place, const LampKnowledge& lamps) {
     set(place, Eigen::Vector3f::Zero(), {});
     return;
   }
+  // Number by number where they stay: what is put together first and then copied whole has to wait
+  // until it is written.
   Sent& sent = sent_.emplace_back();
   sent.place = place;
   sent.lamps.known = lamps.known;

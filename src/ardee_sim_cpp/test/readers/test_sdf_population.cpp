@@ -103,6 +103,14 @@ TEST_F(SdfPopulation, WhatCannotBeIsSaidWithItsPlace) {
   EXPECT_TRUE(has(error(kBox + how("grid", "<rows>2000</rows><cols>2000</cols>")), "<cols>"));
   EXPECT_TRUE(has(error(kBox + ("<model_count>0</model_count>" + how("random"))), "model_count"));
   EXPECT_TRUE(has(error("<box><size>-1 1 1</size></box>" + how("random")), "below 0 m"));
+  const std::string many = std::string(kBox) + "<model_count>600000</model_count>" + how("random");
+  EXPECT_TRUE(has(error(many +
+                        "</population><population name='more'><model name='stalk'>"
+                        "<link name='l'/></model>" +
+                        many),
+                  "<population>"));
+  populate(std::string(kBox) + "<modelcount>3</modelcount>" + how("random"));
+  EXPECT_TRUE(warned("<modelcount>"));
 }
 
 }  // namespace

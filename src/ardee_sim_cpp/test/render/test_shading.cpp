@@ -94,6 +94,11 @@ TEST(Shading, ToneKeepsOrderAndNeverExceedsWhite) {
   EXPECT_FLOAT_EQ(tone(0.5f), 0.5f);
   EXPECT_GT(tone(1.0f), tone(0.9f));
   EXPECT_LE(tone(50.0f), 1.0f);
+  EXPECT_NEAR(tone(1.0f), 0.8 + 0.2 * (1.0 - std::pow(16.0 / 17.0, 16)), 1e-6);
+  for (double light = 0.8; light < 5.0; light += 0.01) {
+    const double exponential = 0.8 + 0.2 * (1.0 - std::exp(-(light - 0.8) / 0.2));
+    EXPECT_NEAR(tone(static_cast<float>(light)), exponential, 1.0 / 255.0) << light;
+  }
   EXPECT_FLOAT_EQ(tone(-1.0f), 0.0f);
 }
 
