@@ -127,8 +127,12 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     print(report)
 
 
+class _Stopped(SystemExit, KeyboardInterrupt):
+    """Ends the program with its code; rospy's wait_for_service lets nothing through but a KeyboardInterrupt."""
+
+
 def _stop_here(number: int, _frame: Any) -> NoReturn:
-    raise SystemExit(128 + number)
+    raise _Stopped(128 + number)
 
 
 def main() -> int:
