@@ -41,7 +41,7 @@ struct BareRegion::Impl {
     if (!options.flatten) return;
     region = std::make_unique<NearRegion>(device, store, eye.head<2>(),
                                           kSpare * options.flattened_radius_m,
-                                          options.flattened_budget_bytes);
+                                          RegionBudget{options.flattened_budget_bytes});
   }
 
   EmbreeDevice device;

@@ -7,24 +7,39 @@
 namespace ardee {
 namespace {
 
-/// Of one entry with its share of Embree's tree (measured: README).
-constexpr std::size_t kBytesPerEntry = 120;
-/// Of a triangle of the draft with its share of Embree's tree (nominal).
-constexpr std::size_t kBytesPerDraftTriangle = 140;
 /// Bodies wider than this are taken in piece by piece.
 constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
-constexpr double kShrink = 0.8;
 constexpr double kSmallest_m = 0.5;
 constexpr double kFloatSlack = 2e-6;
+
+bool is_wide(const PlacedBody& placed) {
+  return placed.body->bounds.radius() * placed.scale > kWide_m;
+}
+
+Bounds piece_bounds_W(const PlacedBody& placed, std::size_t piece) {
+  return placed.body->piece_bounds[piece].transformed(placed.q.toRotationMatrix() * placed.scale,
+                                                      placed.p);
+}
+
+/// Half the side of the smallest square about `center` that touches the box, m.
+double reach_m(const Eigen::Vector2d& center, const Bounds& box) {
+  return (box.lower.head<2>() - center).cwiseMax(center - box.upper.head<2>()).maxCoeff();
+}
+
+std::size_t triangles_of(const Body& body, const Piece& piece) {
+  if (piece.kind != Piece::Kind::kPatch) return 0;
+  const HeightPatch& cells = body.patches[piece.index].cells;
+  return static_cast<std::size_t>(2 * cells.rows * cells.columns);
+}
 
 }  // namespace
 
 NearRegion::NearRegion(const EmbreeDevice& device, const SceneryStore& store,
                        const Eigen::Vector2d& center_W, double half_size_m,
-                       std::size_t budget_bytes)
-    : center_W_(center_W), half_size_m_(half_size_m) {
-  choose_size(store, budget_bytes);
+                       const RegionBudget& budget)
+    : center_W_(center_W), half_size_m_(half_size_m), for_pictures_(budget.draft > 0) {
+  choose_size(store, budget);
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
   const Bounds& all = store.bounds_W();
   origin_W_ << center_W_, all.empty() ? 0.0 : all.center().z();
@@ -45,15 +60,48 @@ NearRegion::NearRegion(const EmbreeDevice& device, const SceneryStore& store,
       device, entries_.size(),
       [this](std::size_t index, float* lower, float* upper) { entry_bounds(index, lower, upper); },
       &meet_entry, this, BuildQuality::kMedium);
+  if (for_pictures_) add_draft(device, budget.draft);
 }
 
-void NearRegion::choose_size(const SceneryStore& store, std::size_t budget_bytes) {
-  for (; half_size_m_ > kSmallest_m; half_size_m_ *= kShrink) {
-    const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_);
-    std::size_t entries = 0;
-    store.find(center_W_ - half, center_W_ + half,
-               [&](std::size_t index) { entries += store.places()[index]->body->pieces.size(); });
-    if (entries * kBytesPerEntry <= budget_bytes) return;
+/// Takes what there is from the middle outwards, as long as it fits.
+void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budget) {
+  struct Part {
+    double reach_m;
+    std::size_t entries;
+    std::size_t triangles;
+  };
+  std::vector<Part> parts;
+  std::size_t wide_triangles = 0;  // in the draft whatever the size
+  const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
+  store.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
+    const PlacedBody& placed = *store.places()[index];
+    const Body& body = *placed.body;
+    if (!is_wide(placed)) {
+      std::size_t triangles = body.triangle_count();
+      for (const Piece& piece : body.pieces) triangles += triangles_of(body, piece);
+      parts.push_back({reach_m(center_W_, placed.bounds_W()), body.pieces.size(), triangles});
+      return;
+    }
+    wide_triangles += body.triangle_count();
+    for (std::size_t k = 0; k < body.pieces.size(); ++k) {
+      const double reach = reach_m(center_W_, piece_bounds_W(placed, k));
+      if (reach > half_size_m_) continue;
+      parts.push_back({reach, 1, triangles_of(body, body.pieces[k])});
+    }
+  });
+  std::sort(parts.begin(), parts.end(),
+            [](const Part& a, const Part& b) { return a.reach_m < b.reach_m; });
+  const std::size_t most_entries = budget.entries / kBytesPerEntry;
+  const std::size_t most_triangles = budget.draft / kBytesPerDraftTriangle;
+  const bool has_draft = wide_triangles < most_triangles;
+  std::size_t entries = 0;
+  std::size_t triangles = wide_triangles;
+  for (const Part& part : parts) {
+    entries += part.entries;
+    triangles += part.triangles;
+    if (entries <= most_entries && (!has_draft || triangles <= most_triangles)) continue;
+    half_size_m_ = std::clamp(part.reach_m - 2.0 * kEdge_m, kSmallest_m, half_size_m_);
+    return;
   }
 }
 
@@ -69,16 +117,10 @@ void NearRegion::add(const PlacedBody& placed) {
   }
   const auto frame_index = static_cast<std::uint32_t>(frames_.size());
   frames_.push_back(frame);
-  const bool wide = body.bounds.radius() * placed.scale > kWide_m;
-  const double reach = half_size_m_ + kEdge_m;
+  const bool wide = is_wide(placed);
   for (std::uint32_t k = 0; k < body.pieces.size(); ++k) {
     const Bounds& box_B = body.piece_bounds[k];
-    if (wide) {
-      const Bounds box = box_B.transformed(R_WB * placed.scale, placed.p);
-      const bool apart = (box.lower.head<2>() - center_W_).maxCoeff() > reach ||
-                         (center_W_ - box.upper.head<2>()).maxCoeff() > reach;
-      if (apart) continue;
-    }
+    if (wide && reach_m(center_W_, piece_bounds_W(placed, k)) > half_size_m_ + kEdge_m) continue;
     const Eigen::Vector3d center = placed.p + R_WB * (placed.scale * box_B.center()) - origin_W_;
     Entry entry{};
     for (int i = 0; i < 3; ++i) entry.center[i] = static_cast<float>(center[i]);
@@ -129,8 +171,6 @@ double NearRegion::exit_t(const Ray& ray_W) const {
 }
 
 void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes) {
-  tried_draft_ = true;
-  if (scene_ == nullptr) return;
   std::vector<DraftBody> bodies(frames_.size());
   std::size_t triangles = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
@@ -144,8 +184,7 @@ void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes)
     const Body& body = *bodies[entries_[k].frame].placed->body;
     const Piece& piece = body.pieces[entries_[k].piece];
     if (piece.kind == Piece::Kind::kPatch) {
-      const HeightPatch& cells = body.patches[piece.index].cells;
-      const auto more = static_cast<std::size_t>(2 * cells.rows * cells.columns);
+      const std::size_t more = triangles_of(body, piece);
       if ((triangles + more) * kBytesPerDraftTriangle <= budget_bytes) {
         triangles += more;
         bodies[entries_[k].frame].patches.push_back(piece.index);

@@ -9,16 +9,24 @@
 
 namespace ardee {
 
+/// What a region may take [bytes].
+struct RegionBudget {
+  std::size_t entries;
+  std::size_t draft = 0;  // 0: it is not for pictures
+};
+
 /// The pieces of all scenery in a square of ground, side by side in one Embree scene: a ray that
 /// starts in the square needs nothing else until it leaves it.
 class NearRegion {
  public:
-  /// A draft takes at most so many times the room of the entries that the budget counts.
-  static constexpr std::size_t kDraftOfEntries = 15;
+  /// Of one entry with its share of Embree's tree (measured: README).
+  static constexpr std::size_t kBytesPerEntry = 120;
+  /// Of a triangle of the draft with its share of Embree's tree (nominal).
+  static constexpr std::size_t kBytesPerDraftTriangle = 140;
 
-  /// Shrinks the square until it fits into the budget.
+  /// The square is smaller than asked for where what is in it goes beyond the budget.
   NearRegion(const EmbreeDevice& device, const SceneryStore& store, const Eigen::Vector2d& center_W,
-             double half_size_m, std::size_t budget_bytes);
+             double half_size_m, const RegionBudget& budget);
 
   bool holds_all() const { return holds_all_; }
   const Eigen::Vector2d& center_W() const { return center_W_; }
@@ -32,10 +40,8 @@ class NearRegion {
   /// All hits, each query up to its t_high (negative: not at all).
   void meet(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
-  /// Makes the draft for pictures, unless it would take more than `budget_bytes`.
-  void add_draft(const EmbreeDevice& device, std::size_t budget_bytes);
-  bool has_tried_draft() const { return tried_draft_; }
-  /// The triangles, as seen from origin_W(); or nullptr.
+  bool is_for_pictures() const { return for_pictures_; }
+  /// The triangles, as seen from origin_W(); nullptr where they do not fit into the budget.
   const DraftScene* draft() const { return draft_.get(); }
   const Eigen::Vector3d& origin_W() const { return origin_W_; }
   /// What the draft leaves out, as `meet` would.
@@ -68,7 +74,8 @@ class NearRegion {
                      Passage passages[kPacketRays]) const;
   static void meet_rest_entry(const RTCIntersectFunctionNArguments* args);
   static void meet_entry(const RTCIntersectFunctionNArguments* args);
-  void choose_size(const SceneryStore& store, std::size_t budget_bytes);
+  void choose_size(const SceneryStore& store, const RegionBudget& budget);
+  void add_draft(const EmbreeDevice& device, std::size_t budget_bytes);
   void add(const PlacedBody& placed);
   void entry_bounds(std::size_t index, float* lower, float* upper) const;
 
@@ -83,7 +90,7 @@ class NearRegion {
   std::vector<Frame> frames_;
   std::vector<Entry> entries_;
   std::unique_ptr<EmbreeScene> scene_;
-  bool tried_draft_ = false;
+  bool for_pictures_;
   std::unique_ptr<DraftScene> draft_;
   Rest rest_;
   std::unique_ptr<EmbreeScene> rest_scene_;

@@ -34,19 +34,14 @@ double reserve_m(const NearRegion& region) {
 double NearRegions::slack_m() const { return kSpareShare * options_.flattened_radius_m; }
 
 std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) const {
-  const std::size_t budget = options_.flattened_budget_bytes / kBudgetShare;
-  if (!drafts_) {
-    return std::make_unique<NearRegion>(device_, store_, center_W,
-                                        options_.flattened_radius_m + slack_m(), budget);
+  RegionBudget budget{options_.flattened_budget_bytes / kBudgetShare};
+  double radius_m = options_.flattened_radius_m;
+  if (drafts_) {
+    // A picture sees farther than a scan, but the triangles take the most room.
+    radius_m = std::max(radius_m, kPictureRadius_m);
+    budget.draft = options_.flattened_budget_bytes / 2;
   }
-  // A picture sees farther than a scan, but the triangles take the most room.
-  const double half_size_m = std::max(options_.flattened_radius_m, kPictureRadius_m) + slack_m();
-  const std::size_t draft_budget = options_.flattened_budget_bytes / 2;
-  auto made =
-      std::make_unique<NearRegion>(device_, store_, center_W, half_size_m,
-                                   std::min(budget, draft_budget / NearRegion::kDraftOfEntries));
-  made->add_draft(device_, draft_budget);
-  return made;
+  return std::make_unique<NearRegion>(device_, store_, center_W, radius_m + slack_m(), budget);
 }
 
 void NearRegions::clear() {
@@ -99,7 +94,7 @@ void NearRegions::collect() {
 
 void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   const NearRegion* region = find(eye_W);
-  if (region == nullptr || (drafts_ && !region->has_tried_draft())) {
+  if (region == nullptr || (drafts_ && !region->is_for_pictures())) {
     keep(make(eye_W.head<2>()));
     return;
   }
@@ -107,7 +102,7 @@ void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
     if (kept.region.get() == region) kept.last_used = tick_;
   }
   if (next_.valid() || std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-        if (drafts_ && !kept.region->has_tried_draft()) return false;
+        if (drafts_ && !kept.region->is_for_pictures()) return false;
         return kept.region->holds_all() ||
                way_from(*kept.region, eye_W).norm() <= reserve_m(*kept.region);
       })) {

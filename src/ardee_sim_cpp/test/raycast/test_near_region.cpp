@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "ardee_sim/raycast/near_region.h"
+#include "scenes.h"
+
+namespace ardee::test {
+namespace {
+
+constexpr std::size_t kPlenty = 1u << 30;
+constexpr double kBox_m = 0.2;
+constexpr std::size_t kTriangles = 12;  // of a box
+
+/// What `count` boxes take in a draft; a byte less than one more does.
+std::size_t draft_of(std::size_t count) {
+  return (count + 1) * kTriangles * NearRegion::kBytesPerDraftTriangle - 1;
+}
+
+/// Boxes a metre apart, one at each whole place up to 10 m each way: (2 n + 1)^2 of them touch the
+/// square that reaches n metres and no farther than the next ones.
+class NearRegionTest : public testing::Test {
+ protected:
+  NearRegionTest() {
+    const auto box = model_of(mesh_of({box_mesh("box", Eigen::Vector3f::Constant(kBox_m))}));
+    std::vector<Placement> placements;
+    for (int x = -10; x <= 10; ++x) {
+      for (int y = -10; y <= 10; ++y) {
+        placements.push_back(
+            placed(box, {Eigen::Vector3d(x, y, 0), Eigen::Quaterniond::Identity()}));
+      }
+    }
+    store_.add(0, placements);
+  }
+
+  NearRegion region(const RegionBudget& budget) {
+    store_.commit();
+    return NearRegion(device_, store_, {0, 0}, 8.5, budget);
+  }
+
+  EmbreeDevice device_;
+  AlphaMasks masks_{Log()};
+  SceneryStore store_{device_, masks_, SceneKind::kVisual};
+};
+
+TEST_F(NearRegionTest, ReachesAsFarAsAskedWhereAllFits) {
+  const NearRegion made = region({kPlenty, kPlenty});
+  EXPECT_EQ(made.half_size_m(), 8.5);
+  EXPECT_EQ(made.triangles(), 17 * 17 * kTriangles);
+  EXPECT_NE(made.draft(), nullptr);
+  EXPECT_FALSE(made.holds_all());
+}
+
+TEST_F(NearRegionTest, ReachesAsFarAsTheEntriesFit) {
+  // 7 x 7 fit, 9 x 9 do not: the square ends before the boxes about 4 m.
+  const NearRegion made = region({60 * NearRegion::kBytesPerEntry});
+  EXPECT_NEAR(made.half_size_m(), 4.0 - kBox_m / 2, 0.05);
+  EXPECT_EQ(made.triangles(), 49 * kTriangles);
+  EXPECT_FALSE(made.is_for_pictures());
+  EXPECT_EQ(made.draft(), nullptr);
+}
+
+TEST_F(NearRegionTest, ReachesAsFarAsTheDraftFits) {
+  const NearRegion exact = region({kPlenty, draft_of(49)});
+  EXPECT_NEAR(exact.half_size_m(), 4.0 - kBox_m / 2, 0.05);
+  EXPECT_NE(exact.draft(), nullptr);
+  const NearRegion one_less = region({kPlenty, draft_of(48)});
+  EXPECT_NEAR(one_less.half_size_m(), 3.0 - kBox_m / 2, 0.05);
+  EXPECT_EQ(one_less.triangles(), 25 * kTriangles);
+  EXPECT_NE(one_less.draft(), nullptr);
+}
+
+TEST_F(NearRegionTest, DoesNotShrinkForADraftThatCannotFit) {
+  // A wide mesh is in the draft as a whole: 50 boxes in one.
+  std::vector<SubMesh> parts;
+  for (int k = 0; k < 50; ++k) {
+    parts.push_back(box_mesh("part", {0.1f, 40.0f, 0.1f}, {0.2f * static_cast<float>(k), 0, -3}));
+  }
+  store_.add(1000, {placed(model_of(mesh_of(parts)))});
+  const NearRegion made = region({kPlenty, draft_of(49)});
+  EXPECT_EQ(made.half_size_m(), 8.5);
+  EXPECT_TRUE(made.is_for_pictures());
+  EXPECT_EQ(made.draft(), nullptr);
+}
+
+TEST_F(NearRegionTest, CountsTheCellsOfAWideGroundByPatches) {
+  // Patches of 0.8 m, 128 triangles each: 10 x 10 of them touch a square that reaches 4 m, and
+  // 9 x 9 boxes.
+  auto grid = std::make_shared<HeightGrid>();
+  grid->columns = grid->rows = 401;
+  grid->size_m = {40.0, 40.0};
+  grid->heights_m.assign(401u * 401u, -1.0f);
+  Heightmap ground;
+  ground.grid = grid;
+  store_.add(1000, {placed(model_of(ground))});
+  const std::size_t triangles = 100 * 128 + 81 * kTriangles;
+  const NearRegion made = region({kPlenty, triangles * NearRegion::kBytesPerDraftTriangle});
+  EXPECT_NEAR(made.half_size_m(), 4.0, 0.05);
+  EXPECT_NE(made.draft(), nullptr);
+  EXPECT_FALSE(made.has_rest());
+}
+
+}  // namespace
+}  // namespace ardee::test
