@@ -277,7 +277,8 @@ def point_cloud(message: Any) -> Frame:
     with np.errstate(all="ignore"):  # what is not finite is left out
         for start in range(0, fields.size, _BLOCK_POINTS):
             found = _point_counts(fields[start : start + _BLOCK_POINTS], block)
-            counts[end : end + found.shape[1]] = found.T
+            for column, row in zip(counts.T, found):
+                column[end : end + row.size] = row
             end += found.shape[1]
     return Frame(head, memoryview(counts).cast("B")[: end * codec.Point.size])
 

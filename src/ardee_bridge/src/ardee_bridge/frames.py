@@ -209,6 +209,7 @@ def main() -> None:
 
 def _serve(pipe: Connection, job: Job, opened: socket.socket, lock_file: int) -> None:
     priority.share_fairly()
+    priority.keep_memory()
     said: Deque[str] = deque(maxlen=100)
     counters, has_to_end = Counters(said.append), threading.Event()
     goes_first = job.settings.realtime_priority if job.goes_first else 0

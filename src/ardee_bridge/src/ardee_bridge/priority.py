@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What keeps threads that send from waiting: for other programs, for Python's lock, for its collector."""
+"""What keeps threads that send from waiting: for other programs, for Python's lock and collector, for memory."""
+import ctypes
 import gc
 import os
 import sys
@@ -7,6 +8,9 @@ import threading
 
 # A thread that computes lets another one run after this time, not after Python's 5 ms.
 SWITCH_INTERVAL_S = 0.0005
+# mallopt(3): its numbers, and the most that it takes as the first; several frames at once fit the second.
+M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
+MOST_MMAP_THRESHOLD_BYTES, TRIM_THRESHOLD_BYTES = 32 << 20, 256 << 20
 
 
 def share_fairly() -> None:
@@ -18,6 +22,13 @@ def keep_what_there_is() -> None:
     """Python's collector looks no more at what has been made so far, which stays: at the end of a start."""
     gc.collect()
     gc.freeze()
+
+
+def keep_memory() -> None:
+    """What is freed stays with the process: new pages of the system for each image take up to a millisecond."""
+    mallopt = ctypes.CDLL(None).mallopt
+    mallopt(M_MMAP_THRESHOLD, MOST_MMAP_THRESHOLD_BYTES)
+    mallopt(M_TRIM_THRESHOLD, TRIM_THRESHOLD_BYTES)
 
 
 def go_first(priority: int) -> bool:
