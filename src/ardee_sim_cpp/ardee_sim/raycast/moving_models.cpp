@@ -125,14 +125,21 @@ bool MovingModels::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBloc
   }
   const auto spread = static_cast<double>(std::sqrt(spread2));
   const Eigen::Vector3d way_W = rays.direction_W(0).cast<double>();
+  const RayBundle bundle(eye_W, rays);
+  thread_local std::vector<double> entries;
+  thread_local std::vector<double> exits;
+  thread_local std::vector<std::uint32_t> near;
   for (const auto& [entity, entry] : entries_) {
     if (entry.boxes_W.empty()) continue;
     const Eigen::Vector3d to_box = entry.box_W.center() - eye_W;
     const double radius_m = entry.box_W.radius();
-    if (to_box.norm() <= radius_m) return true;
     const double along_m = std::max(0.0, to_box.dot(way_W));
     const double apart_m = (to_box - along_m * way_W).norm();
-    if (apart_m <= radius_m + spread * (along_m + radius_m)) return true;
+    if (apart_m > radius_m + spread * (along_m + radius_m)) continue;
+    // A camera's own robot is always about it.
+    near.clear();
+    bundle.find(entry.box_table_W, entries, exits, near);
+    if (!near.empty()) return true;
   }
   return false;
 }

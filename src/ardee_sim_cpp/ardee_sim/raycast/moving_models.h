@@ -22,7 +22,8 @@ class MovingModels {
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
   bool empty() const { return entries_.empty(); }
-  /// Whether one of the rays, close together, may touch the box about one of them.
+  /// Whether one of the rays, close together, may touch the box about a link before what it has
+  /// met.
   bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& rays) const;
   /// Whether one of them may stand in the way from about a place (within `about_m`) to a lamp.
   bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,

@@ -35,6 +35,24 @@ RayBundle::RayBundle(const RayQuery* queries, int count)
   }
 }
 
+RayBundle::RayBundle(const Eigen::Vector3d& eye_W, const GlanceBlock& block)
+    : origin_low_(eye_W), origin_high_(eye_W) {
+  Eigen::Array3f low = block.direction_W(0);
+  Eigen::Array3f high = low;
+  float start_m = block.near_m[0];
+  float reach_m = 0.0f;
+  for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    low = low.min(block.direction_W(i).array());
+    high = high.max(block.direction_W(i).array());
+    start_m = std::min(start_m, block.near_m[i]);
+    reach_m = std::max(reach_m, std::min(block.far_m[i], block.range_m[i]));
+  }
+  direction_low_ = low.cast<double>();
+  direction_high_ = high.cast<double>();
+  start_ = static_cast<double>(start_m);
+  reach_ = static_cast<double>(reach_m);
+}
+
 // Along each axis the rays are at t between origin_low + t direction_low and origin_high + t
 // direction_high; they are beside the box unless the former is below its upper side and the latter
 // above its lower one. A direction of zero has an infinite inverse, of the sign that makes it a
@@ -42,7 +60,7 @@ RayBundle::RayBundle(const RayQuery* queries, int count)
 void RayBundle::find(const BoxTable& boxes, std::vector<double>& entries,
                      std::vector<double>& exits, std::vector<std::uint32_t>& near) const {
   const std::size_t count = boxes.size();
-  entries.assign(count, 0.0);
+  entries.assign(count, start_);
   exits.assign(count, reach_);
   double* const t_in = entries.data();
   double* const t_out = exits.data();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardee_sim/raycast/bounds.h"
+#include "ardee_sim/raycast/glance.h"
 #include "ardee_sim/raycast/ray_query.h"
 
 namespace ardee {
@@ -25,6 +26,8 @@ struct BoxTable {
 class RayBundle {
  public:
   RayBundle(const RayQuery* queries, int count);
+  /// Of a picture's rays from the eye, as far as they have met nothing.
+  RayBundle(const Eigen::Vector3d& eye_W, const GlanceBlock& block);
 
   /// Appends to `near` the boxes that one of the rays may touch: none that it does touch is left
   /// out. `entries` and `exits` are room for the work.
@@ -34,6 +37,7 @@ class RayBundle {
  private:
   Eigen::Array3d origin_low_, origin_high_;
   Eigen::Array3d direction_low_, direction_high_;
+  double start_ = 0.0;
   double reach_ = 0.0;
 };
 

@@ -93,6 +93,71 @@ TEST(RayBundle, NamesForOneRayTheBoxesOnItsWay) {
   }
 }
 
+/// Of a picture's rays: from near to what they have met.
+TEST(RayBundle, LooksAtRaysOfAPictureFromNearToWhatTheyHaveMet) {
+  int visited = 0;
+  int left_out = 0;
+  for (std::uint64_t number = 0; number < 120; ++number) {
+    const Case some = make_case(number);
+    const CounterRng rng(stream_key(number, "block"));
+    const Eigen::Vector3d eye = some.queries[0].ray_W().origin;
+    GlanceBlock block{};
+    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+      const RayQuery& query = some.queries[i % kRays];
+      const auto n = static_cast<std::uint64_t>(3 * i);
+      block.set_direction(i, query.ray_W().direction.cast<float>());
+      block.near_m[i] = static_cast<float>(0.1 + 0.1 * rng.uniform(n));
+      block.far_m[i] = static_cast<float>(0.5 + 2.0 * rng.uniform(n + 1));
+      block.range_m[i] = static_cast<float>(0.5 + 2.0 * rng.uniform(n + 2));
+    }
+    BoxTable table;
+    for (const Bounds& box : some.boxes) table.add(box);
+    std::vector<double> entries;
+    std::vector<double> exits;
+    std::vector<std::uint32_t> near;
+    RayBundle(eye, block).find(table, entries, exits, near);
+    for (std::uint32_t k = 0; k < kBoxes; ++k) {
+      bool met = false;
+      for (int i = 0; i < GlanceBlock::kRays && !met; ++i) {
+        const auto from = static_cast<double>(block.near_m[i]);
+        const auto to = static_cast<double>(std::min(block.far_m[i], block.range_m[i]));
+        const Eigen::Vector3d way = block.direction_W(i).cast<double>();
+        RayQuery query;
+        query.start({eye + from * way, way}, to - from, kNoEntity, 0);
+        met = visits(some.boxes[k], query);
+      }
+      visited += met ? 1 : 0;
+      const auto named = std::count(near.begin(), near.end(), k);
+      left_out += named == 0 ? 1 : 0;
+      EXPECT_GE(named, met ? 1 : 0) << number << " box " << k;
+    }
+  }
+  EXPECT_GT(visited, 100);
+  EXPECT_GT(left_out, 1000);
+}
+
+TEST(RayBundle, LeavesOutWhatAPictureIsTakenFromWithin) {
+  GlanceBlock block{};
+  for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    block.set_direction(i, {1, 0, 0});
+    block.near_m[i] = 0.05f;
+    block.far_m[i] = 10.0f;
+    block.range_m[i] = i == 3 ? 2.0f : 1.0f;
+  }
+  BoxTable table;
+  for (const double x : {0.0, 1.9, 2.2}) {  // about the eye, before and behind what is met
+    Bounds box;
+    box.add(Eigen::Vector3d(x - 0.04, -0.04, -0.04));
+    box.add(Eigen::Vector3d(x + 0.04, 0.04, 0.04));
+    table.add(box);
+  }
+  std::vector<double> entries;
+  std::vector<double> exits;
+  std::vector<std::uint32_t> near;
+  RayBundle({0, 0, 0}, block).find(table, entries, exits, near);
+  EXPECT_EQ(near, std::vector<std::uint32_t>{1});
+}
+
 TEST(RayBundle, LeavesOutWhatLiesAside) {
   Case some = make_case(1);  // along x
   some.boxes = {Bounds{}, Bounds{}, Bounds{}};
