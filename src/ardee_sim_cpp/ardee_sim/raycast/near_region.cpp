@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ardee {
 namespace {
@@ -71,7 +72,6 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
     std::size_t triangles;
   };
   std::vector<Part> parts;
-  std::size_t wide_triangles = 0;  // in the draft whatever the size
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
   store.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
     const PlacedBody& placed = *store.places()[index];
@@ -82,7 +82,8 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
       parts.push_back({reach_m(center_W_, placed.bounds_W()), body.pieces.size(), triangles});
       return;
     }
-    wide_triangles += body.triangle_count();
+    // A draft has all triangles of a mesh, whatever the size.
+    parts.push_back({-std::numeric_limits<double>::infinity(), 0, body.triangle_count()});
     for (std::size_t k = 0; k < body.pieces.size(); ++k) {
       const double reach = reach_m(center_W_, piece_bounds_W(placed, k));
       if (reach > half_size_m_) continue;
@@ -91,18 +92,25 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
   });
   std::sort(parts.begin(), parts.end(),
             [](const Part& a, const Part& b) { return a.reach_m < b.reach_m; });
+  const auto largest_m = [&](std::size_t most_entries, std::size_t most_triangles) {
+    std::size_t entries = 0;
+    std::size_t triangles = 0;
+    for (const Part& part : parts) {
+      entries += part.entries;
+      triangles += part.triangles;
+      if (entries > most_entries || triangles > most_triangles) {
+        return part.reach_m - 2.0 * kEdge_m;
+      }
+    }
+    return half_size_m_;
+  };
+  constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   const std::size_t most_entries = budget.entries / kBytesPerEntry;
-  const std::size_t most_triangles = budget.draft / kBytesPerDraftTriangle;
-  const bool has_draft = wide_triangles < most_triangles;
-  std::size_t entries = 0;
-  std::size_t triangles = wide_triangles;
-  for (const Part& part : parts) {
-    entries += part.entries;
-    triangles += part.triangles;
-    if (entries <= most_entries && (!has_draft || triangles <= most_triangles)) continue;
-    half_size_m_ = std::clamp(part.reach_m - 2.0 * kEdge_m, kSmallest_m, half_size_m_);
-    return;
-  }
+  double largest = kSmallest_m;
+  if (for_pictures_) largest = largest_m(most_entries, budget.draft / kBytesPerDraftTriangle);
+  // A draft that does not fit however small the square is left out.
+  if (largest <= kSmallest_m) largest = largest_m(most_entries, kNoLimit);
+  half_size_m_ = std::min(half_size_m_, std::max(largest, kSmallest_m));
 }
 
 void NearRegion::add(const PlacedBody& placed) {

@@ -69,11 +69,16 @@ TEST_F(NearRegionTest, ReachesAsFarAsTheDraftFits) {
   EXPECT_NE(one_less.draft(), nullptr);
 }
 
-TEST_F(NearRegionTest, DoesNotShrinkForADraftThatCannotFit) {
-  // A wide mesh is in the draft as a whole: 50 boxes in one.
+class DraftTooLarge : public NearRegionTest, public testing::WithParamInterface<float> {};
+
+INSTANTIATE_TEST_SUITE_P(NearRegion, DraftTooLarge, testing::Values(40.0f, 0.5f));
+
+TEST_P(DraftTooLarge, DoesNotShrinkTheSquare) {
+  // 50 boxes in one mesh at the middle; a wide one is in the draft as a whole.
   std::vector<SubMesh> parts;
   for (int k = 0; k < 50; ++k) {
-    parts.push_back(box_mesh("part", {0.1f, 40.0f, 0.1f}, {0.2f * static_cast<float>(k), 0, -3}));
+    const float x = 0.01f * static_cast<float>(k);
+    parts.push_back(box_mesh("part", {0.005f, GetParam(), 0.1f}, {x, 0, -3}));
   }
   store_.add(1000, {placed(model_of(mesh_of(parts)))});
   const NearRegion made = region({kPlenty, draft_of(49)});
