@@ -54,6 +54,8 @@ DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>&
     }
   }
   for (const bool careful : {false, true}) attach(device, parts_[careful ? 1 : 0], careful);
+  // Else some of the rays that meet a common side of two triangles go through between them.
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcCommitScene(scene_);
   try {
     device.check();

@@ -137,6 +137,55 @@ TEST(Models, IdsOfInstancesNearAndFar) {
   }
 }
 
+/// A camera in its housing looks along x, with a picture of 64 x 64 pixels and 90 degrees, at an
+/// arm of its robot before a wall: pixels no more than 3.5 aside, of 32 a metre at 1 m, see the
+/// arm's face of 0.1 m at 0.45 m.
+TEST(Models, LinksOfTheCamerasOwnRobotAreInItsPicture) {
+  constexpr int kSide_px = 64;
+  const auto carrier = model_of(Box{{0.08, 0.08, 0.08}});
+  for (int k = 0; k < 2; ++k) {
+    Link link = carrier->links[0];
+    link.name = k == 0 ? "arm" : "mast";
+    link.visuals[0].geometry = Box{{0.1, 0.1, k == 0 ? 0.1 : 1.0}};
+    carrier->links.push_back(link);
+  }
+  const auto wall = model_of(mesh_of({box_mesh("wall", {1.0f, 20.0f, 20.0f})}));
+  TestScene test(SceneKind::kVisual, {}, 0, {placed(wall, at(3.5, 0, 0))});
+  test.scene.add_model(5, carrier);
+  for (const bool in_sight : {true, false}) {
+    const Pose arm = in_sight ? at(0.5, 0, 0) : at(0.5, 0.7, 0);
+    test.scene.set_link_poses(5, {at(0, 0, 0), arm, at(-0.3, 0, 0.2)});
+    test.scene.prepare({Vector3d::Zero()}, true);
+    std::vector<GlanceBlock> blocks(kSide_px * kSide_px / GlanceBlock::kRays);
+    const auto slope = [](std::size_t px) {
+      return (static_cast<float>(px) + 0.5f) / (kSide_px / 2) - 1.0f;
+    };
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      for (std::size_t i = 0; i < GlanceBlock::kRays; ++i) {
+        const std::size_t x = k % (kSide_px / 4) * 4 + i % 4;
+        const std::size_t y = k / (kSide_px / 4) * 4 + i / 4;
+        const auto ray = static_cast<int>(i);
+        blocks[k].set_direction(ray, Eigen::Vector3f(1, slope(x), slope(y)).normalized());
+        blocks[k].near_m[i] = 0.08f;
+        blocks[k].far_m[i] = 100.0f;
+      }
+    }
+    test.scene.glance(Vector3d::Zero(), blocks.data(), blocks.size());
+    int of_arm = 0;
+    for (const GlanceBlock& block : blocks) {
+      for (int i = 0; i < GlanceBlock::kRays; ++i) {
+        const Eigen::Vector3f way = block.direction_W(i);
+        const float aside = std::max(std::abs(way.y()), std::abs(way.z())) / way.x();
+        const bool sees_arm = in_sight && aside * 0.45f < 0.05f;
+        of_arm += sees_arm ? 1 : 0;
+        EXPECT_EQ((block.surface[i] & GlanceBlock::kOutside) != 0, sees_arm);
+        EXPECT_NEAR(block.range_m[i], (sees_arm ? 0.45f : 3.0f) / way.x(), 1e-5f);
+      }
+    }
+    EXPECT_EQ(of_arm, in_sight ? 8 * 8 : 0);
+  }
+}
+
 TEST(Models, EmptySceneAndEmptyPattern) {
   TestScene scene(SceneKind::kVisual);
   EXPECT_EQ(scene.one({0, 0, 0}, {1, 0, 0}).range_m, kInfinity);

@@ -320,5 +320,28 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
   }
 }
 
+/// A wall without a gap, whose two triangles meet where rays of the same slope to the side and
+/// upwards go.
+TEST(QuickLooks, DoNotSlipBetweenTriangles) {
+  const auto wall = model_of(mesh_of({box_mesh("wall", {1.0f, 20.0f, 20.0f})}));
+  TestScene test(SceneKind::kVisual, {}, 0,
+                 {placed(wall, {{3.5, 0, 0}, Eigen::Quaterniond::Identity()})});
+  test.scene.prepare({Eigen::Vector3d::Zero()}, true);
+  RayPattern diagonals;
+  for (int k = 0; k < 1024; ++k) {
+    const float slope = (static_cast<float>(k) + 0.5f) / 1024.0f;
+    for (const float sign : {-1.0f, 1.0f}) {
+      diagonals.directions_S.emplace_back(Eigen::Vector3f(1, slope, sign * slope).normalized());
+    }
+  }
+  std::vector<GlanceBlock> blocks = blocks_of(diagonals, 0.05f, 30.0f);
+  test.scene.glance(Eigen::Vector3d::Zero(), blocks.data(), blocks.size());
+  for (const GlanceBlock& block : blocks) {
+    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+      EXPECT_NEAR(block.range_m[i], 3.0f / block.x_W[i], 1e-5f);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ardee::test
