@@ -7,7 +7,7 @@ import socket
 import numpy as np
 import pytest
 from PIL import Image as Picture
-from sensor_msgs.msg import Image, Imu, LaserScan, PointCloud2, PointField
+from sensor_msgs.msg import Image, Imu, LaserScan
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
@@ -330,39 +330,6 @@ def test_malformed_images_are_refused(change, message):
         setattr(bad, name, value)
     with pytest.raises(convert.ConvertError, match=message):
         convert.image(bad, "raw", 80)
-
-
-def cloud(points, height=1, pad=0):
-    kind = np.dtype(
-        [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("ring", "<u2"), ("intensity", "<f4")]
-    )
-    array = np.zeros(len(points), kind)
-    for name, column in zip(("x", "y", "z", "intensity"), np.array(points).T):
-        array[name] = column
-    width = len(points) // height
-    message = PointCloud2(width=width, height=height, point_step=18, row_step=18 * width + pad)
-    rows = array.reshape(height, width)
-    message.data = b"".join(row.tobytes() + b"\xee" * pad for row in rows)
-    fields = (("x", 0, 7), ("y", 4, 7), ("z", 8, 7), ("ring", 12, 4), ("intensity", 14, 7))
-    message.fields = [PointField(name, offset, kind, 1) for name, offset, kind in fields]
-    return message
-
-
-@pytest.mark.parametrize("height, pad", [(1, 0), (2, 6)])
-def test_point_cloud(height, pad):
-    points = [(1.0, -2.5, 0.125, 7.0), (math.nan, 0, 0, 0), (0, 0, math.inf, 1), (3.5, 4, 5, 0.5)]
-    frame = convert.point_cloud(cloud(points, height, pad))
-    assert chunks.points_si(frame.payload) == [points[0], points[3]]
-
-
-def test_malformed_clouds_are_refused():
-    good = cloud([(1, 2, 3, 4)] * 4)
-    good.data = good.data[:-1]
-    with pytest.raises(convert.ConvertError, match="does not fit"):
-        convert.point_cloud(good)
-    good.fields = good.fields[1:]
-    with pytest.raises(convert.ConvertError, match="without field x"):
-        convert.point_cloud(good)
 
 
 def test_a_message_that_does_not_fit_is_counted_and_nothing_is_sent(bench):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
+import functools
 import io
 import math
 import re
 import struct
-from typing import Any, Callable, Dict, NamedTuple, Optional
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 from PIL import Image
@@ -231,28 +232,27 @@ def _stamped(message: Any) -> codec.Chunk:
 
 # Converted at a time: what a processor's second cache holds.
 _BLOCK_POINTS = 4096
+_POINT_FIELDS = tuple(leaf.path for leaf in codec.Point.leaves)
+(_POINT_SCALE,) = {leaf.scale.counts_per_unit for leaf in codec.Point.leaves}
 # sensor_msgs/PointField.datatype -> numpy
 _POINT_TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 
 
 def _point_fields(message: Any) -> np.ndarray:
-    """(height, width) structured array over the message's bytes, with x, y, z and maybe intensity."""
-    order = ">" if message.is_bigendian else "<"
-    wanted = {f.name: f for f in message.fields if f.name in ("x", "y", "z", "intensity")}
+    """(height, width) structured array over the message's bytes, of _point_type."""
+    wanted = {f.name: f for f in message.fields if f.name in _POINT_FIELDS}
     missing = {"x", "y", "z"} - set(wanted)
     if missing:
         raise ConvertError(f"a point cloud without field {sorted(missing)[0]}, expected x, y, z")
     if any(f.datatype not in _POINT_TYPES for f in wanted.values()):
         raise ConvertError("a point cloud with a field of unknown type, expected types 1 to 8")
+    for f in wanted.values():  # numpy's own check overflows
+        if f.offset + int(_POINT_TYPES[f.datatype][1:]) > message.point_step:
+            found = f"a point cloud with field {f.name} at byte {f.offset}"
+            raise ConvertError(f"{found}, expected it within the {message.point_step} of a point")
+    places = tuple((f.name, f.datatype, f.offset) for f in wanted.values())
     try:
-        kind = np.dtype(
-            {
-                "names": list(wanted),
-                "formats": [order + _POINT_TYPES[f.datatype] for f in wanted.values()],
-                "offsets": [f.offset for f in wanted.values()],
-                "itemsize": message.point_step,
-            }
-        )
+        kind = _point_type(places, bool(message.is_bigendian), message.point_step)
         shape, strides = (message.height, message.width), (message.row_step, message.point_step)
         if message.row_step < message.width * message.point_step:
             raise ValueError("rows overlap")
@@ -260,6 +260,21 @@ def _point_fields(message: Any) -> np.ndarray:
     except (TypeError, ValueError) as error:
         found = f"{len(message.data)} bytes, {message.width}x{message.height} points"
         raise ConvertError(f"a point cloud of {found} that does not fit: {error}") from None
+
+
+@functools.lru_cache(maxsize=16)
+def _point_type(
+    fields: Tuple[Tuple[str, int, int], ...], is_bigendian: bool, point_step: int
+) -> np.dtype:
+    """Of fields that are given by name, datatype and offset: x, y, z, maybe intensity; or all four as one, "floats"."""
+    names, types, offsets = zip(*fields)
+    in_a_row = tuple(range(offsets[0], offsets[0] + 16, 4))
+    if (names, types, offsets, is_bigendian) == (_POINT_FIELDS, (7,) * 4, in_a_row, False):
+        return np.dtype(
+            dict(names=["floats"], formats=["V16"], offsets=offsets[:1], itemsize=point_step)
+        )
+    formats = [(">" if is_bigendian else "<") + _POINT_TYPES[number] for number in types]
+    return np.dtype(dict(names=names, formats=formats, offsets=offsets, itemsize=point_step))
 
 
 def point_cloud(message: Any) -> Frame:
@@ -272,26 +287,30 @@ def point_cloud(message: Any) -> Frame:
         most = MAX_TOTAL // codec.Point.size
         raise ConvertError(f"a point cloud of {points} points, expected at most {most}")
     fields = _point_fields(message).reshape(-1)
-    counts = np.empty((fields.size, len(codec.Point.leaves)), "<i4")
-    block, end = np.zeros((len(codec.Point.leaves), min(_BLOCK_POINTS, fields.size))), 0
+    counts = np.empty((fields.size, len(_POINT_FIELDS)), "<i4")
+    block, end = np.empty((min(_BLOCK_POINTS, fields.size), len(_POINT_FIELDS))), 0
     with np.errstate(all="ignore"):  # what is not finite is left out
         for start in range(0, fields.size, _BLOCK_POINTS):
             found = _point_counts(fields[start : start + _BLOCK_POINTS], block)
-            for column, row in zip(counts.T, found):
-                column[end : end + row.size] = row
-            end += found.shape[1]
+            counts[end : end + len(found)] = found
+            end += len(found)
     return Frame(head, memoryview(counts).cast("B")[: end * codec.Point.size])
 
 
 def _point_counts(fields: np.ndarray, block: np.ndarray) -> np.ndarray:
-    """A row for each of codec.Point's fields, of the finite points alone; made in the block, whose other rows are 0."""
-    points, limit = block[:, : fields.size], INT32.limits[1]
-    for row, leaf in zip(points, codec.Point.leaves):
-        if leaf.path in (fields.dtype.names or ()):
-            np.multiply(fields[leaf.path], leaf.scale.counts_per_unit, out=row, dtype=np.float64)
-    if points.min() >= -limit and points.max() <= limit:  # which NaN is not, either
+    """A row for each of the finite points; made in the block."""
+    points, limit = block[: fields.size], INT32.limits[1]
+    numbers = points.reshape(-1)  # of all points as one: numpy is slow with rows of four
+    if fields.dtype.names == ("floats",):
+        numbers[:] = np.ascontiguousarray(fields["floats"]).view("<f4")
+    else:
+        for column, name in zip(points.T, _POINT_FIELDS):
+            column[:] = fields[name] if name in fields.dtype.names else 0.0
+    np.multiply(numbers, _POINT_SCALE, out=numbers)
+    if numbers.min() >= -limit and numbers.max() <= limit:  # which NaN is not, either
         return np.rint(points, out=points)
-    return _counts(points[:, np.isfinite(points[:3]).all(axis=0)])
+    x, y, z = np.isfinite(points.T[:3])
+    return _counts(points[x & y & z])
 
 
 def stamp_s(message: Any) -> float:
