@@ -1,35 +1,69 @@
 # SPDX-License-Identifier: MIT
 """Latency and losses of the UDP bridge on loopback, as lines below the table."""
 import json
+import math
+import statistics
 import subprocess
-from typing import Any, Dict, List
+from typing import Any, Callable, Dict, List, Sequence
 
 P99_BUDGET_MS = 2.0
 # The floor, measured beside the bridge: it has no budget.
 FLOOR = "bare forwarder"
-# A simulated robot's frames are few where its cameras are to be drawn first.
+# A simulated robot's frames are few where its cameras are to be drawn first: 3 depth images a second on 2 cores.
 LEAST_FRAMES_S = 8.0
+# A row of which no message arrived, or that a repetition has not: a camera that was not there.
+NOTHING = dict(p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan, sent=0, lost=0)
 
 
-def measure(seconds: float, loss_s: float) -> Dict[str, Any]:
-    """What ardee_bridge's own benchmark measures in so many seconds: messages at full rates, a simulated robot's.
+def measure(
+    seconds: float, loss_s: float, repeat: int, say: Callable[[str], None]
+) -> Dict[str, Any]:
+    """What ardee_bridge's own benchmark measures in so many seconds: small messages at full rates, a simulated robot's.
 
     And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them, with the images as JPEG and as
-    they are: is a message lost? Beside each of them the floor.
+    they are, of both: is a message lost? Beside each of them the floor. All of it as often as `repeat` says.
     """
-    frames_s = max(3 * seconds, LEAST_FRAMES_S)
-    figures = _run(seconds)
+    frames_s = max(loss_s, LEAST_FRAMES_S)
+    sensors = ("--only", "sensors")
     runs = {
-        "simulated ": (seconds, "--simulator"),
-        "simulated beside JPEG images, ": (frames_s, "--simulator", "--cameras", "jpeg"),
-        "simulated beside raw images, ": (frames_s, "--simulator", "--cameras", "raw"),
-        "beside cameras, ": (loss_s, "--cameras", "jpeg"),
-        "beside raw images, ": (loss_s, "--cameras", "raw"),
+        "": (seconds,),
+        "simulated ": (seconds, *sensors, "--simulator"),
+        "simulated beside JPEG images, ": (frames_s, *sensors, "--simulator", "--cameras", "jpeg"),
+        "simulated beside raw images, ": (frames_s, *sensors, "--simulator", "--cameras", "raw"),
+        "beside cameras, ": (loss_s, *sensors, "--cameras", "jpeg"),
+        "beside raw images, ": (loss_s, *sensors, "--cameras", "raw"),
     }
-    for prefix, (run_s, *options) in runs.items():
-        found = _run(run_s, "--only", "sensors", *options)
-        figures.update((prefix + name, f) for name, f in found.items())
+    repetitions = []
+    for number in range(1, repeat + 1):
+        figures = {}  # type: Dict[str, Any]
+        for prefix, (run_s, *options) in runs.items():
+            say(f"bridge: {prefix}{run_s:g} s, {number} of {repeat}")
+            found = _run(run_s, *options)
+            figures.update((prefix + name, f) for name, f in found.items())
+        repetitions.append(figures)
+    return medians(repetitions)
+
+
+def medians(repetitions: Sequence[Dict[str, Any]]) -> Dict[str, Any]:
+    """Of each row: medians of both percentiles, and the 99th's range; the longest; sums of what was sent and lost."""
+    figures = {}
+    for name in dict.fromkeys(name for found in repetitions for name in found):
+        runs = [found.get(name, NOTHING) for found in repetitions]
+        columns = {figure: [run[figure] for run in runs] for figure in NOTHING}
+        figures[name] = {
+            "p50_ms": _or_nan(statistics.median, columns["p50_ms"]),
+            "p99_ms": _or_nan(statistics.median, columns["p99_ms"]),
+            "p99_range_ms": [_or_nan(choose, columns["p99_ms"]) for choose in (min, max)],
+            "max_ms": _or_nan(max, columns["max_ms"]),
+            "sent": sum(columns["sent"]),
+            "lost": sum(columns["lost"]),
+        }
     return figures
+
+
+def _or_nan(choose: Callable[[List[float]], float], values: List[float]) -> float:
+    """NaN where one of them is."""
+    return math.nan if any(map(math.isnan, values)) else choose(values)
 
 
 def _run(seconds: float, *options: str) -> Dict[str, Any]:
@@ -52,11 +86,13 @@ def lines(figures: Dict[str, Any]) -> List[str]:
     """One line a kind of message, with a mark where its budget is missed or a message lost."""
     found = []
     for name, f in figures.items():
+        least, most = (f"{value:.2f}" for value in f["p99_range_ms"])
+        tails = "" if least == most else f" of {least} to {most}"
         budget = "" if FLOOR in name else f" (<= {P99_BUDGET_MS:.2f})"
         missed = budget and not f["p99_ms"] <= P99_BUDGET_MS  # so is one of no message at all
         mark = " !" if f["lost"] or missed else ""
         found.append(
-            f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f} ms{budget}, "
+            f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f}{tails} ms{budget}, "
             f"most {f['max_ms']:.2f} ms, {f['lost']} of {f['sent']} lost{mark}"
         )
     return found

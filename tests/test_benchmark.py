@@ -4,6 +4,7 @@ import json
 import math
 import pathlib
 import subprocess
+from typing import Dict
 
 import benchmark_bridge
 import benchmark_field
@@ -70,8 +71,13 @@ def test_medians_and_missed_budgets() -> None:
     assert start.cell(200, {}, {}) == "-"
 
 
+def spread_of(p99_ms: float, lost: int = 0) -> Dict[str, float]:
+    """A bridge's row of one run."""
+    return dict(p50_ms=0.5, p99_ms=p99_ms, max_ms=p99_ms + 0.5, sent=100, lost=lost)
+
+
 def test_the_floor_has_no_budget() -> None:
-    late = dict(p50_ms=0.5, p99_ms=2.5, max_ms=3.0, sent=100, lost=0)
+    late = benchmark_bridge.medians([{"": spread_of(2.5)}])[""]
     names = ("imu message to datagram", "simulated bare forwarder message to datagram")
     imu, floor = benchmark_bridge.lines({name: late for name in names})
     assert "99th percentile 2.50 ms (<= 2.00), most" in imu and imu.endswith("lost !")
@@ -79,6 +85,22 @@ def test_the_floor_has_no_budget() -> None:
 
 
 def test_a_bridge_row_without_messages_is_missed() -> None:
-    nothing = dict(p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan, sent=0, lost=0)
-    (imu,) = benchmark_bridge.lines({"imu message to datagram": nothing})
-    assert imu.endswith("0 of 0 lost !")
+    nothing = {"imu": benchmark_bridge.NOTHING}
+    early, late = {"imu": spread_of(0.8)}, {"imu": spread_of(0.9)}
+    for runs in ([nothing], [late, nothing, early], [nothing, late], [late, {}, early]):
+        found = benchmark_bridge.medians(runs)
+        tails = [found["imu"]["p99_ms"], *found["imu"]["p99_range_ms"], found["imu"]["max_ms"]]
+        assert all(map(math.isnan, tails))
+        (imu,) = benchmark_bridge.lines(found)
+        assert imu.endswith(" lost !")
+
+
+def test_repeated_bridge_rows_are_medians_over_all_losses() -> None:
+    runs = [spread_of(0.9), spread_of(4.0, lost=1), spread_of(1.1)]
+    found = benchmark_bridge.medians([{"imu": run} for run in runs])
+    assert found["imu"] == dict(
+        p50_ms=0.5, p99_ms=1.1, p99_range_ms=[0.9, 4.0], max_ms=4.5, sent=300, lost=1
+    )
+    (line,) = benchmark_bridge.lines(found)
+    assert "99th percentile 1.10 of 0.90 to 4.00 ms (<= 2.00), most 4.50 ms" in line
+    assert line.endswith("1 of 300 lost !")

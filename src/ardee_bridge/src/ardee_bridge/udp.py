@@ -11,6 +11,7 @@ Sender = Tuple[str, int]
 
 # Linux's numbers, which Python's socket module does not name.
 SO_RXQ_OVFL = 40
+SO_RCVBUFFORCE = 33
 BUFFER_BYTES = 4 << 20
 MAX_DATAGRAM = 65535
 

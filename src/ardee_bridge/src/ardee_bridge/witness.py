@@ -35,9 +35,18 @@ def timestamp_ns(extras: Sequence[Any]) -> Optional[int]:
 
 
 def go_first(priority: int = 1) -> None:
-    """What is measured with must not wait for what is measured, where that is granted."""
+    """Run before programs without real-time priority, where that is granted."""
     with contextlib.suppress(PermissionError):
         os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(priority))
+
+
+def go_next() -> bool:
+    """Run after those with real-time priority and before all others; False where that is not granted."""
+    try:
+        os.setpriority(os.PRIO_PROCESS, 0, -20)
+    except PermissionError:
+        return False
+    return True
 
 
 class Connection:
