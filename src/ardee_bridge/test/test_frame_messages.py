@@ -44,6 +44,18 @@ def a_compressed_image(rng):
     return message
 
 
+def assert_same(found, sent):
+    """All that was read, by the names of the message; and that is all but these."""
+    if not hasattr(found, "_fields"):
+        assert found == sent
+        return
+    assert set(sent.__slots__) - set(found._fields) <= {"seq", "frame_id", "is_dense"}
+    for name in found._fields:
+        mine, genpys = getattr(found, name), getattr(sent, name)
+        for each in zip(mine, genpys) if name == "fields" else [(mine, genpys)]:
+            assert_same(*each)
+
+
 KINDS = [(an_image, frame_messages.image), (a_cloud, frame_messages.point_cloud)]
 KINDS += [(a_compressed_image, frame_messages.compressed_image)]
 
@@ -54,8 +66,7 @@ def test_as_genpy_reads_them(make, read):
     for _ in range(50):
         sent = make(rng)
         found = read(memoryview(serialized(sent)))
-        found.data = bytes(found.data)
-        assert found == sent
+        assert_same(found, sent)
 
 
 @pytest.mark.parametrize("make, read", KINDS)

@@ -257,14 +257,15 @@ def encode(
     data_type: DataType, component_id: int, data: bytes, count: Optional[int] = None
 ) -> Datagrams:
     """Header and data datagram of a sensor's message; `count` for measurements of several values."""
-    header = Header(
-        component_id=component_id,
-        msg_type=MESSAGE_TYPE_OF[data_type],
-        data_type=data_type,
-        measurement_type=MeasurementType.SINGLE if count is None else MeasurementType.MULTIPLE,
-        measurement_length=1 if count is None else count,
+    is_one = count is None
+    header = Header.pack_values(
+        component_id,
+        MESSAGE_TYPE_OF[data_type],
+        data_type,
+        MeasurementType.SINGLE if is_one else MeasurementType.MULTIPLE,
+        1 if is_one else count,
     )
-    return header.pack(), data
+    return header, data
 
 
 def _encode_request(msg_type: MessageType, component_id: int, data: CStruct) -> Datagrams:

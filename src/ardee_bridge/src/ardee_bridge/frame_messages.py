@@ -2,15 +2,72 @@
 """Images and point clouds of a connection's bytes, without a copy of their pixels and points.
 
 The layout is ROS 1's (https://wiki.ros.org/ROS/Technical%20Overview, "Message serialization") of the definitions of
-sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings after their length as uint32.
+sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings after their length as uint32. What is
+made of it has the names of sensor_msgs, but no more fields than the bridge needs: each costs time, before a frame that
+is on its way, in which a processor has done something else since the last one.
 """
 import struct
-from typing import Any
+from typing import NamedTuple, Tuple
 
-from sensor_msgs.msg import CompressedImage, Image, PointCloud2, PointField
+_ONE, _TWO, _THREE = struct.Struct("<I"), struct.Struct("<II"), struct.Struct("<III")
+_FLAG, _FLAG_ONE, _FLAG_TWO = struct.Struct("<B"), struct.Struct("<BI"), struct.Struct("<BII")
+_FIELD = struct.Struct("<IBI")  # of a PointField, after its name
+_LEAST_FIELD_BYTES = 4 + _FIELD.size
 
-_U8, _U32 = struct.Struct("<B"), struct.Struct("<I")
-_LEAST_FIELD_BYTES = 4 + 4 + 1 + 4  # an empty name, offset, datatype, count
+
+class Stamp(NamedTuple):
+    """genpy.Time."""
+
+    secs: int
+    nsecs: int
+
+
+class Header(NamedTuple):
+    """std_msgs/Header."""
+
+    stamp: Stamp
+
+
+class Image(NamedTuple):
+    """sensor_msgs/Image."""
+
+    header: Header
+    height: int
+    width: int
+    encoding: str
+    is_bigendian: int
+    step: int
+    data: memoryview
+
+
+class CompressedImage(NamedTuple):
+    """sensor_msgs/CompressedImage."""
+
+    header: Header
+    format: str
+    data: memoryview
+
+
+class PointField(NamedTuple):
+    """sensor_msgs/PointField."""
+
+    name: str
+    offset: int
+    datatype: int
+    count: int
+
+
+class PointCloud2(NamedTuple):
+    """sensor_msgs/PointCloud2."""
+
+    header: Header
+    height: int
+    width: int
+    fields: Tuple[PointField, ...]
+    is_bigendian: int
+    point_step: int
+    row_step: int
+    data: memoryview
 
 
 class _Cursor:
@@ -19,71 +76,54 @@ class _Cursor:
     def __init__(self, data: memoryview) -> None:
         self._data, self._at = data, 0
 
-    def _number(self, kind: struct.Struct) -> int:
-        (value,) = kind.unpack(self.block(kind.size))
-        return value
-
-    def u8(self) -> int:
-        return self._number(_U8)
-
-    def u32(self) -> int:
-        return self._number(_U32)
-
-    def block(self, size: int) -> memoryview:
-        """So many bytes."""
-        self._at += size
+    def _pass(self, size: int) -> int:
+        """Where a block of this size begins; the cursor is moved to its end."""
+        begin, self._at = self._at, self._at + size
         if self._at > len(self._data):
             raise ValueError(f"{len(self._data)} bytes, expected {self._at} or more")
-        return self._data[self._at - size : self._at]
+        return begin
+
+    def numbers(self, kind: struct.Struct) -> Tuple[int, ...]:
+        """As many as the struct has."""
+        return kind.unpack_from(self._data, self._pass(kind.size))
 
     def array(self) -> memoryview:
         """Bytes after their number."""
-        return self.block(self.u32())
+        (size,) = self.numbers(_ONE)
+        begin = self._pass(size)
+        return self._data[begin : self._at]
 
     def text(self) -> str:
         return str(self.array(), "utf-8", "replace")
 
-    def header(self, message: Any) -> None:
-        """std_msgs/Header."""
-        message.header.seq = self.u32()
-        message.header.stamp.secs, message.header.stamp.nsecs = self.u32(), self.u32()
-        message.header.frame_id = self.text()
+    def header(self) -> Header:
+        _, secs, nsecs = self.numbers(_THREE)
+        self.array()  # frame_id
+        return Header(Stamp(secs, nsecs))
 
 
 def image(data: memoryview) -> Image:
-    """sensor_msgs/Image; its data is a part of the bytes."""
-    message, cursor = Image(), _Cursor(data)
-    cursor.header(message)
-    message.height, message.width = cursor.u32(), cursor.u32()
-    message.encoding = cursor.text()
-    message.is_bigendian = cursor.u8()
-    message.step = cursor.u32()
-    message.data = cursor.array()
-    return message
+    """Its data is a part of the bytes."""
+    cursor = _Cursor(data)
+    header, (height, width) = cursor.header(), cursor.numbers(_TWO)
+    encoding, (is_bigendian, step) = cursor.text(), cursor.numbers(_FLAG_ONE)
+    return Image(header, height, width, encoding, is_bigendian, step, cursor.array())
 
 
 def compressed_image(data: memoryview) -> CompressedImage:
-    """sensor_msgs/CompressedImage; its data is a part of the bytes."""
-    message, cursor = CompressedImage(), _Cursor(data)
-    cursor.header(message)
-    message.format = cursor.text()
-    message.data = cursor.array()
-    return message
+    """Its data is a part of the bytes."""
+    cursor = _Cursor(data)
+    return CompressedImage(cursor.header(), cursor.text(), cursor.array())
 
 
 def point_cloud(data: memoryview) -> PointCloud2:
-    """sensor_msgs/PointCloud2; its data is a part of the bytes."""
-    message, cursor = PointCloud2(), _Cursor(data)
-    cursor.header(message)
-    message.height, message.width = cursor.u32(), cursor.u32()
-    count = cursor.u32()
+    """Its data is a part of the bytes."""
+    cursor = _Cursor(data)
+    header, (height, width, count) = cursor.header(), cursor.numbers(_THREE)
     if count * _LEAST_FIELD_BYTES > len(data):
         raise ValueError(f"{len(data)} bytes, expected {count} fields")
-    message.fields = [
-        PointField(cursor.text(), cursor.u32(), cursor.u8(), cursor.u32()) for _ in range(count)
-    ]
-    message.is_bigendian = bool(cursor.u8())
-    message.point_step, message.row_step = cursor.u32(), cursor.u32()
-    message.data = cursor.array()
-    message.is_dense = bool(cursor.u8())
-    return message
+    fields = tuple(PointField(cursor.text(), *cursor.numbers(_FIELD)) for _ in range(count))
+    is_bigendian, point_step, row_step = cursor.numbers(_FLAG_TWO)
+    points = cursor.array()
+    cursor.numbers(_FLAG)  # is_dense
+    return PointCloud2(header, height, width, fields, is_bigendian, point_step, row_step, points)

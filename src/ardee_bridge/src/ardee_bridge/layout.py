@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Structs as C compilers lay them out on x86-64 and ARM: little-endian, each member at its natural alignment."""
 import math
+import operator
 import struct
 from typing import (
     Any,
@@ -106,6 +107,14 @@ class CStruct:
             offset += kind.size
         cls.leaves, cls.size = tuple(leaves), _padded(offset, cls.alignment)
         cls._struct = struct.Struct(cls._format())
+        cls._plain = {
+            name: 0 if isinstance(kind, Scalar) else ()
+            for name, kind in cls.FIELDS
+            if isinstance(kind, (Scalar, Array))
+        }
+        cls._structs = tuple(field for field in cls.FIELDS if field[0] not in cls._plain)
+        cls._has_arrays = any(isinstance(leaf.kind, Array) for leaf in leaves)
+        cls._fields = operator.attrgetter(*(leaf.path for leaf in leaves))
 
     @classmethod
     def _format(cls) -> str:
@@ -118,25 +127,21 @@ class CStruct:
         return text + "x" * (cls.size - offset)
 
     def __init__(self, **values: Any) -> None:
-        for name, kind in self.FIELDS:
-            if name in values:
-                setattr(self, name, values.pop(name))
-            elif isinstance(kind, Scalar):
-                setattr(self, name, 0)
-            else:
-                setattr(self, name, () if isinstance(kind, Array) else kind())
-        if values:
-            known = ", ".join(name for name, _ in self.FIELDS)
-            raise TypeError(f"{self.C_NAME} has no field {', '.join(values)}; it has {known}")
+        fields = self.__dict__
+        fields.update(self._plain)
+        fields.update(values)
+        for name, kind in self._structs:
+            if name not in values:
+                fields[name] = kind()
+        if len(fields) > len(self.FIELDS):
+            known = [name for name, _ in self.FIELDS]
+            unknown = ", ".join(name for name in values if name not in known)
+            raise TypeError(f"{self.C_NAME} has no field {unknown}; it has {', '.join(known)}")
 
-    def _values(self) -> Iterator[Any]:
+    def _values(self) -> Tuple[Any, ...]:
         """Scalars and arrays in the order of the leaves."""
-        for name, kind in self.FIELDS:
-            value = getattr(self, name)
-            if isinstance(kind, (Scalar, Array)):
-                yield value
-            else:
-                yield from value._values()
+        values = type(self)._fields(self)
+        return values if len(self.leaves) > 1 else (values,)
 
     @classmethod
     def _from_values(cls: Type[S], values: Iterator[Any]) -> S:
@@ -154,7 +159,17 @@ class CStruct:
         """The same as to_raw().pack()."""
         return self._pack(self._counts())
 
+    @classmethod
+    def pack_values(cls, *values: int) -> bytes:
+        """The bytes of raw values in the order of the leaves, an array's one by one; sooner than by fields."""
+        try:
+            return cls._struct.pack(*values)
+        except struct.error as error:
+            raise ValueError(f"{cls.C_NAME}: {error}") from None
+
     def _pack(self, values: Iterable[Any]) -> bytes:
+        if not self._has_arrays:
+            return self.pack_values(*values)
         flat = []  # type: List[int]
         for leaf, value in zip(self.leaves, values):
             if not isinstance(leaf.kind, Array):
@@ -165,10 +180,7 @@ class CStruct:
                 raise ValueError(f"{leaf.path}: {len(value)} values, at most {leaf.kind.length}")
             flat.extend(value)
             flat.extend((0,) * missing)
-        try:
-            return self._struct.pack(*flat)
-        except struct.error as error:
-            raise ValueError(f"{self.C_NAME}: {error}") from None
+        return self.pack_values(*flat)
 
     @classmethod
     def unpack(cls: Type[S], data: bytes) -> S:

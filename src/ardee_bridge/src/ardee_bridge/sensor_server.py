@@ -3,7 +3,7 @@
 import select
 import socket
 import time
-from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Set, Tuple
+from typing import Any, Callable, Dict, Iterable, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
@@ -41,6 +41,8 @@ class RateLimit:
 
     def admits(self, stamp_s: float) -> bool:
         """Is the message of this time let through?"""
+        if not self._period_s:
+            return True
         if stamp_s < self._last_s:  # the simulation was reset
             self._due_s = float("-inf")
         self._last_s = stamp_s
@@ -72,6 +74,8 @@ class SensorServer:
         self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
         self._sequences: Dict[str, int] = {}
         self._targets: Dict[Sender, Target] = {}
+        # name of a source: who wants it; of the present targets
+        self._wanting: Dict[str, Tuple[Target, ...]] = {}
         for peer in settings.destinations:
             address = (peer.address, peer.port)
             self._targets[address] = Target(address, peer.data_types, codec.ALL_COMPONENTS, None)
@@ -132,18 +136,21 @@ class SensorServer:
             source.data_type, source.component_id, frame.head, frame.payload, source.chunk_bytes
         )
 
-    def _targets_of(self, source: Source) -> List[Target]:
-        return [
-            target
-            for target in list(self._targets.values())
-            if target.wants(source.data_type, source.component_id)
-        ]
+    def _targets_of(self, source: Source) -> Tuple[Target, ...]:
+        wanting = self._wanting  # another takes its place when the targets change
+        if source.name not in wanting:
+            wanting[source.name] = tuple(
+                target
+                for target in list(self._targets.values())
+                if target.wants(source.data_type, source.component_id)
+            )
+        return wanting[source.name]
 
     def _send_all(
         self,
         source: Source,
         message: Any,
-        targets: List[Target],
+        targets: Tuple[Target, ...],
         messages: Iterable[codec.Pieces],
     ) -> None:
         stamp = _pieces(_stamp(source, message)) if _want_time(targets) else ()
@@ -206,7 +213,7 @@ class SensorServer:
             return
         self._counters.did("SET_PORT obeyed")
         self._send(sender, _pieces(codec.encode_ack(message.header)))
-        self._on_targets()
+        self._have_changed()
 
     def _register(self, address: Sender, request: codec.SetPort) -> bool:
         known = self._targets.get(address)
@@ -233,7 +240,11 @@ class SensorServer:
             del self._targets[address]
             self._counters.did("clients forgotten")
         if ended:
-            self._on_targets()
+            self._have_changed()
+
+    def _have_changed(self) -> None:
+        self._wanting = {}
+        self._on_targets()
 
     def clients(self) -> Tuple[Target, ...]:
         """Everybody who gets messages."""
@@ -242,6 +253,7 @@ class SensorServer:
     def set_clients(self, targets: Iterable[Target]) -> None:
         """Send to these from now on; for a server whose clients another process keeps."""
         self._targets = {target.address: target for target in targets}
+        self._wanting = {}
 
 
 def _pieces(pair: codec.Datagrams) -> codec.Pieces:
@@ -254,11 +266,6 @@ def _want_time(targets: Iterable[Target]) -> bool:
 
 
 def _stamp(source: Source, message: Any) -> codec.Datagrams:
-    stamp = message.header.stamp
-    data = codec.TimeStamp(
-        sec=stamp.secs,
-        nsec=stamp.nsecs,
-        data_type=source.data_type,
-        component_id=source.component_id,
-    )
-    return codec.encode(codec.DataType.TIME, source.component_id, data.pack())
+    stamp, what = message.header.stamp, source.component_id
+    data = codec.TimeStamp.pack_values(stamp.secs, stamp.nsecs, source.data_type, what)
+    return codec.encode(codec.DataType.TIME, what, data)
