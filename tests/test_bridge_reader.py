@@ -2,13 +2,20 @@
 """The sensor server's reader of topics: publishers that come, die, return, and publish something else; its node."""
 import os
 import signal
-from typing import Any, Callable, Iterator, List
+import socket
+import struct
+import threading
+import time
+from typing import Any, Callable, Iterator, List, Tuple
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 import rosgraph
 from ros_graph import Process, RosGraph, wait_until
+from rosgraph.network import encode_ros_handshake_header
 from std_msgs.msg import Float64, Int32
 
+from ardee_bridge import tcpros
 from ardee_bridge.reader import Kind, Reader
 
 NAME = "/reader_of_the_test"
@@ -123,6 +130,60 @@ def test_each_message_that_cannot_be_read_is_counted_and_the_others_are_read(
     wait_until(lambda: 7 in kept and len(bench.dropped) > 1, "both are heard")
     assert 5 not in kept and bench.said == []
     assert "a message that cannot be read: 4 bytes, expected 5" in bench.dropped[0]
+
+
+class SlowPublisher:
+    """A node that has a message of 60 MB, of which it writes as much as it is told to."""
+
+    def __init__(self, topic: str) -> None:
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self._server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+        place = ["TCPROS", *self._listening.getsockname()]
+        self._server.register_function(lambda *_: (1, "", place), "requestTopic")
+        threading.Thread(target=self._server.serve_forever, daemon=True).start()
+        uri = "http://%s:%d/" % self._server.server_address
+        rosgraph.Master("/slow").registerPublisher(topic, Int32._type, uri)
+        self._reader, _ = self._listening.accept()
+        self._reader.recv(4096)
+        said = dict(type=Int32._type, md5sum=Int32._md5sum)
+        self._reader.sendall(encode_ros_handshake_header(said) + struct.pack("<I", 60_000_000))
+
+    def write(self, count: int) -> None:
+        self._reader.sendall(bytes(count))
+
+    def close(self) -> None:
+        self._server.shutdown()
+        for each in (self._reader, self._listening, self._server.socket):
+            each.close()
+
+
+@pytest.fixture
+def slow(make: Callable[[], Bench]) -> Iterator[Tuple[Bench, SlowPublisher]]:
+    bench = make()
+    bench.keep("/slow")
+    publisher = SlowPublisher("/slow")
+    yield bench, publisher
+    publisher.close()
+
+
+def test_half_of_a_large_message_keeps_nobody_waiting(slow: Tuple[Bench, SlowPublisher]) -> None:
+    bench, publisher = slow
+    publisher.write(2 * tcpros.LARGE_PART_BYTES)
+    kept = bench.keep("/number")
+    bench.publish("/number", 7)
+    wait_until(lambda: len(kept) > 5, "messages of another publisher")
+
+
+def test_the_reader_sleeps_when_a_large_message_stops_coming(
+    slow: Tuple[Bench, SlowPublisher],
+) -> None:
+    _, publisher = slow
+    publisher.write(2 * tcpros.LARGE_PART_BYTES)
+    time.sleep(0.2)
+    begin_s, begin_cpu_s = time.monotonic(), time.process_time()
+    time.sleep(1.0)
+    busy_s = time.process_time() - begin_cpu_s
+    assert busy_s < 0.5 * (time.monotonic() - begin_s)
 
 
 def test_whoever_unsubscribes_is_called_no_more_and_the_master_knows(

@@ -74,6 +74,29 @@ def test_room_is_made_for_what_came_and_not_for_what_is_claimed():
     assert max(rooms) <= 2 * 200_004
 
 
+@pytest.mark.parametrize(
+    "parts, expected",
+    [
+        ((20_000, 20_000), [True, True]),
+        ((20_000, 80_004), [True, False]),  # which is the whole message
+        ((20_000, 100), [True, False]),
+        ((100, 20_000), [False, True]),
+        ((3, 3, 16_384, 16_383), [False, False, True, False]),
+        ((100_004, 4, 20_000), [False, False, True]),  # the next one after it
+    ],
+)
+def test_more_is_expected_after_large_parts_of_messages(parts, expected):
+    splitter, found = tcpros.Splitter(lambda message: None), []
+    before = Stream(framed([bytes(100_000)]), itertools.repeat(1 << 20))
+    while splitter.read(before.receive_into):
+        pass  # until there is room for a whole message
+    stream = Stream(framed([bytes(100_000)] * 2), iter(parts))
+    for _ in parts:
+        splitter.read(stream.receive_into)
+        found.append(splitter.is_arriving)
+    assert found == expected
+
+
 class Publisher:
     """A node that says these bytes to whoever connects."""
 

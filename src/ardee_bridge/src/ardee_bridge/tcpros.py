@@ -18,6 +18,7 @@ PATIENCE_S = 10.0
 MAX_HEADER_BYTES = 1 << 20
 MAX_MESSAGE_BYTES = 64 << 20
 READ_BYTES = 1 << 16
+LARGE_PART_BYTES = 1 << 14
 # As rospy has them: a publisher that vanishes without a word is noticed after two and a half minutes.
 KEEPALIVE = {socket.TCP_KEEPIDLE: 60, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 9}
 _LENGTH = struct.Struct("<I")
@@ -119,6 +120,8 @@ class Splitter:
     def __init__(self, take: Callable[[memoryview], None]) -> None:
         """`take` gets the bytes of each message, which are overwritten once it has returned."""
         self._take = take
+        # is more to be expected soon? What comes in small parts is not on its way in one go.
+        self.is_arriving = False
         self._room = memoryview(bytearray(READ_BYTES))
         self._filled = 0
 
@@ -126,6 +129,7 @@ class Splitter:
         """Receive, and hand on every message that is then complete; False at the end of the connection."""
         count = receive_into(self._room[self._filled :])
         self._filled += count
+        self.is_arriving = False
         at = 0
         while self._filled - at >= _LENGTH.size:
             (size,) = _LENGTH.unpack_from(self._room, at)
@@ -134,6 +138,7 @@ class Splitter:
             end = at + _LENGTH.size + size
             if end > self._filled:
                 self._make_room(at, end - at)
+                self.is_arriving = count >= LARGE_PART_BYTES
                 return count > 0
             self._take(self._room[at + _LENGTH.size : end])
             at = end
