@@ -5,7 +5,6 @@ import signal
 import socket
 import struct
 import threading
-import time
 from typing import Any, Callable, Iterator, List, Tuple
 from xmlrpc.server import SimpleXMLRPCServer
 
@@ -15,7 +14,7 @@ from ros_graph import Process, RosGraph, wait_until
 from rosgraph.network import encode_ros_handshake_header
 from std_msgs.msg import Float64, Int32
 
-from ardee_bridge import tcpros
+from ardee_bridge import reader, tcpros
 from ardee_bridge.reader import Kind, Reader
 
 NAME = "/reader_of_the_test"
@@ -137,6 +136,7 @@ class SlowPublisher:
 
     def __init__(self, topic: str) -> None:
         self._listening = socket.create_server(("127.0.0.1", 0))
+        self._listening.settimeout(30.0)
         self._server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
         place = ["TCPROS", *self._listening.getsockname()]
         self._server.register_function(lambda *_: (1, "", place), "requestTopic")
@@ -144,6 +144,7 @@ class SlowPublisher:
         uri = "http://%s:%d/" % self._server.server_address
         rosgraph.Master("/slow").registerPublisher(topic, Int32._type, uri)
         self._reader, _ = self._listening.accept()
+        self._reader.settimeout(30.0)
         self._reader.recv(4096)
         said = dict(type=Int32._type, md5sum=Int32._md5sum)
         self._reader.sendall(encode_ros_handshake_header(said) + struct.pack("<I", 60_000_000))
@@ -174,16 +175,39 @@ def test_half_of_a_large_message_keeps_nobody_waiting(slow: Tuple[Bench, SlowPub
     wait_until(lambda: len(kept) > 5, "messages of another publisher")
 
 
-def test_the_reader_sleeps_when_a_large_message_stops_coming(
-    slow: Tuple[Bench, SlowPublisher],
+class Polls:
+    """In the place of a reader's epoll: how long it was to wait, each time."""
+
+    def __init__(self, epoll: Any) -> None:
+        self._epoll, self.waits_s = epoll, []
+
+    def poll(self, wait_s: float) -> Any:
+        self.waits_s.append(wait_s)
+        return self._epoll.poll(wait_s)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._epoll, name)
+
+
+@pytest.mark.parametrize("processors_s", [50e-6, 0.0], ids=["several", "one"])
+def test_after_a_large_part_the_reader_is_awake_and_then_sleeps(
+    slow: Tuple[Bench, SlowPublisher], processors_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    _, publisher = slow
+    bench, publisher = slow
+    monkeypatch.setattr(reader, "AWAKE_S", processors_s)
+    polls = bench.reader._poll = Polls(bench.reader._poll)
+    wait_until(lambda: polls.waits_s, "it uses them")
+    publisher.write(100)
+    wait_until(lambda: len(polls.waits_s) > 3, "a small part is read")
+    assert 0.0 not in polls.waits_s
+    before = len(polls.waits_s)
     publisher.write(2 * tcpros.LARGE_PART_BYTES)
-    time.sleep(0.2)
-    begin_s, begin_cpu_s = time.monotonic(), time.process_time()
-    time.sleep(1.0)
-    busy_s = time.process_time() - begin_cpu_s
-    assert busy_s < 0.5 * (time.monotonic() - begin_s)
+    wait_until(lambda: len(polls.waits_s) > before, "a large part is read")
+    wait_until(lambda: polls.waits_s[-2:] == [reader.CLOSE_POLL_S] * 2, "it sleeps")
+    before = len(polls.waits_s)
+    wait_until(lambda: len(polls.waits_s) > before + 3, "it goes on")
+    assert (0.0 in polls.waits_s) == bool(processors_s)
+    assert 0.0 not in polls.waits_s[before:]
 
 
 def test_whoever_unsubscribes_is_called_no_more_and_the_master_knows(

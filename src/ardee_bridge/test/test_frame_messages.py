@@ -52,7 +52,9 @@ def assert_same(found, sent):
     assert set(sent.__slots__) - set(found._fields) <= {"seq", "frame_id", "is_dense"}
     for name in found._fields:
         mine, genpys = getattr(found, name), getattr(sent, name)
-        for each in zip(mine, genpys) if name == "fields" else [(mine, genpys)]:
+        are_many = name == "fields"
+        assert not are_many or len(mine) == len(genpys)
+        for each in zip(mine, genpys) if are_many else [(mine, genpys)]:
             assert_same(*each)
 
 

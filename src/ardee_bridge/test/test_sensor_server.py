@@ -13,7 +13,7 @@ from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
 from ardee_bridge.layout import NO_VALUE
 from ardee_bridge.pairing import Pairer
-from ardee_bridge.sensor_server import RateLimit, SensorServer
+from ardee_bridge.sensor_server import RateLimit, SensorServer, Target
 from ardee_bridge.settings import read_server
 from ardee_bridge.udp import open_socket
 from ardee_msgs.msg import Battery, Encoder
@@ -127,15 +127,47 @@ def test_a_port_other_than_the_sender_s(bench):
 
 def test_a_client_that_falls_silent_is_forgotten(bench):
     client = bench.listen()
+    bench.publish("imu", Imu())
     bench.ask(client, [D.ALL])
     bench.now_s = 29.0
     bench.ask(client, [D.ALL])
     bench.now_s = 58.0
     bench.server.receive(0.0)
     assert len(bench.server.clients()) == 1
+    bench.publish("imu", Imu())
+    assert acked(client) and acked(client) and receive(client)[0].header.data_type == D.IMU
     bench.now_s = 59.1
     bench.server.receive(0.0)
     assert bench.server.clients() == () and bench.server.wanted() == set()
+    bench.publish("imu", Imu())
+    assert nothing_came(client)
+
+
+def test_whoever_is_acked_has_what_he_asked_for_from_then_on(bench, monkeypatch):
+    client, send = bench.listen(), bench.server._send
+    bench.publish("imu", Imu())
+
+    def send_and_publish(address, datagrams):
+        send(address, datagrams)
+        monkeypatch.setattr(bench.server, "_send", send)
+        bench.publish("imu", Imu())  # of another thread, at once after the Ack
+
+    for wanted, expected in (([D.ALL], [D.NONE, D.IMU]), ([], [D.NONE])):
+        monkeypatch.setattr(bench.server, "_send", send_and_publish)
+        bench.ask(client, wanted)
+        found = receive(client, len(expected))
+        assert [message.header.data_type for message in found] == expected
+        assert nothing_came(client)
+
+
+def test_who_is_served_may_be_given(bench):
+    bench.publish("imu", Imu())
+    one, other = bench.listen(), bench.listen()
+    for client, silent in ((one, other), (other, one)):
+        bench.server.set_clients([Target(client.getsockname(), 1 << D.IMU, -1, None)])
+        assert bench.server.wanted() == {"imu"}
+        bench.publish("imu", Imu())
+        assert receive(client)[0].header.data_type == D.IMU and nothing_came(silent)
 
 
 def test_a_client_may_leave_and_places_are_bounded(bench):

@@ -3,8 +3,7 @@
 
 The layout is ROS 1's (https://wiki.ros.org/ROS/Technical%20Overview, "Message serialization") of the definitions of
 sensor_msgs 1.13: the fields in their order, little-endian, arrays and strings after their length as uint32. What is
-made of it has the names of sensor_msgs, but no more fields than the bridge needs: each costs time, before a frame that
-is on its way, in which a processor has done something else since the last one.
+made of it has the names of sensor_msgs, but only the fields that the bridge needs: a frame waits while they are read.
 """
 import struct
 from typing import NamedTuple, Tuple
@@ -103,7 +102,7 @@ class _Cursor:
 
 
 def image(data: memoryview) -> Image:
-    """Its data is a part of the bytes."""
+    """Its `data` shows these bytes and is no copy of them."""
     cursor = _Cursor(data)
     header, (height, width) = cursor.header(), cursor.numbers(_TWO)
     encoding, (is_bigendian, step) = cursor.text(), cursor.numbers(_FLAG_ONE)
@@ -111,13 +110,13 @@ def image(data: memoryview) -> Image:
 
 
 def compressed_image(data: memoryview) -> CompressedImage:
-    """Its data is a part of the bytes."""
+    """Its `data` shows these bytes and is no copy of them."""
     cursor = _Cursor(data)
     return CompressedImage(cursor.header(), cursor.text(), cursor.array())
 
 
 def point_cloud(data: memoryview) -> PointCloud2:
-    """Its data is a part of the bytes."""
+    """Its `data` shows these bytes and is no copy of them."""
     cursor = _Cursor(data)
     header, (height, width, count) = cursor.header(), cursor.numbers(_THREE)
     if count * _LEAST_FIELD_BYTES > len(data):

@@ -185,6 +185,7 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
         if not only_looks:
             witness.go_first()
         opened.setsockopt(socket.SOL_SOCKET, witness.SO_TIMESTAMPNS, 1)
+        _await_times(opened)
         pipe.send(opened.getsockname()[1])
         room, kept, word = memoryview(bytearray(MAX_DATAGRAM)), [], ""
         while word != "at once":
@@ -198,6 +199,17 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
             elif word:
                 break
         return kept
+
+
+def _await_times(opened: socket.socket) -> None:
+    """Linux begins to take times of arrival some moments after it was asked; until then it gives those of looking."""
+    looked_ns, at_ns = 0, 0
+    while at_ns >= looked_ns:
+        opened.sendto(b"", opened.getsockname())
+        time.sleep(LOOK_S)
+        looked_ns = time.time_ns()
+        _, extras, _, _ = opened.recvmsg(1, 256)
+        at_ns = witness.timestamp_ns(extras) or 0
 
 
 def _make_room(opened: socket.socket) -> bool:

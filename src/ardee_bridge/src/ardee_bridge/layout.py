@@ -161,7 +161,7 @@ class CStruct:
 
     @classmethod
     def pack_values(cls, *values: int) -> bytes:
-        """The bytes of raw values in the order of the leaves, an array's one by one; sooner than by fields."""
+        """The bytes of raw values in the order of the leaves, an array's one by one; no struct is made first."""
         try:
             return cls._struct.pack(*values)
         except struct.error as error:

@@ -211,9 +211,10 @@ class SensorServer:
         address = (sender[0], request.port or sender[1])
         if not self._register(address, request):
             return
+        self._wanting = {}
         self._counters.did("SET_PORT obeyed")
         self._send(sender, _pieces(codec.encode_ack(message.header)))
-        self._have_changed()
+        self._on_targets()
 
     def _register(self, address: Sender, request: codec.SetPort) -> bool:
         known = self._targets.get(address)
@@ -240,11 +241,8 @@ class SensorServer:
             del self._targets[address]
             self._counters.did("clients forgotten")
         if ended:
-            self._have_changed()
-
-    def _have_changed(self) -> None:
-        self._wanting = {}
-        self._on_targets()
+            self._wanting = {}
+            self._on_targets()
 
     def clients(self) -> Tuple[Target, ...]:
         """Everybody who gets messages."""

@@ -18,6 +18,8 @@ PATIENCE_S = 10.0
 MAX_HEADER_BYTES = 1 << 20
 MAX_MESSAGE_BYTES = 64 << 20
 READ_BYTES = 1 << 16
+# A program on this computer writes a message in parts of 64 KB and more, of which the last read gets what is there; a
+# network brings some packets of 1.5 KB at a time, with pauses.
 LARGE_PART_BYTES = 1 << 14
 # As rospy has them: a publisher that vanishes without a word is noticed after two and a half minutes.
 KEEPALIVE = {socket.TCP_KEEPIDLE: 60, socket.TCP_KEEPINTVL: 10, socket.TCP_KEEPCNT: 9}
@@ -120,16 +122,16 @@ class Splitter:
     def __init__(self, take: Callable[[memoryview], None]) -> None:
         """`take` gets the bytes of each message, which are overwritten once it has returned."""
         self._take = take
-        # is more to be expected soon? What comes in small parts is not on its way in one go.
+        # is more to be expected at once?
         self.is_arriving = False
         self._room = memoryview(bytearray(READ_BYTES))
         self._filled = 0
 
     def read(self, receive_into: Callable[[memoryview], int]) -> bool:
         """Receive, and hand on every message that is then complete; False at the end of the connection."""
+        self.is_arriving = False
         count = receive_into(self._room[self._filled :])
         self._filled += count
-        self.is_arriving = False
         at = 0
         while self._filled - at >= _LENGTH.size:
             (size,) = _LENGTH.unpack_from(self._room, at)
