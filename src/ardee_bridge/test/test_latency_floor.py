@@ -29,8 +29,7 @@ def test_a_forwarders_delay_and_losses_are_found() -> None:
                 if number % 4:
                     sender.sendto(data, ("127.0.0.1", target))
             end_ns = latency_floor.MESSAGE.unpack(data)[0]
-            pipe.send("end")
-            arrivals = latency.answer(writer, pipe, 30.0)
+            arrivals = latency.answer(writer, pipe, "end", 30.0)
     found = latency_floor.spread_within(arrivals, begin_ns, end_ns)
     assert (found.sent, found.lost) == (count, count // 4)
     assert 5.0 <= found.p50_ms <= found.p99_ms <= found.max_ms

@@ -21,8 +21,8 @@ def test_everything_is_received_with_its_time(
     monkeypatch.setattr(latency, "SILENCE_S", 0.2)
     monkeypatch.setattr(latency, "LOOK_S", 0.05)  # several datagrams wait for each look
     # it is a thread of the test, whose priority stays as it is
-    monkeypatch.setattr(latency.witness, "go_next", lambda: only_looks)
-    monkeypatch.setattr(latency.witness, "go_first", lambda: None)
+    monkeypatch.setattr(latency.priority, "go_next", lambda: only_looks)
+    monkeypatch.setattr(latency.priority, "hurry", lambda: None)
     monkeypatch.setattr(latency, "_make_room", lambda opened: True)
     ours, theirs = multiprocessing.Pipe()
     kept = []  # type: List[latency.Datagram]

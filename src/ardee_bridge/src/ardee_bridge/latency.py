@@ -16,7 +16,7 @@ import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple, Union
 
-from ardee_bridge import codec, witness
+from ardee_bridge import codec, kernel_clock, priority
 from ardee_bridge.pairing import Message
 from ardee_bridge.settings import KINDS, Source
 from ardee_bridge.udp import BUFFER_BYTES, MAX_DATAGRAM, SO_RCVBUFFORCE, open_socket
@@ -147,18 +147,26 @@ def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tup
 def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple[Any, ...]) -> None:
     os.environ.update(env)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    body(pipe, *args)
+    try:
+        body(pipe, *args)
+    except OSError as error:
+        pipe.send(error)
 
 
 def hear(pipe: Any, limit_s: float) -> Any:
-    """What a process says."""
+    """What a process says; the error that it ended with is raised."""
     if not pipe.poll(limit_s):
         raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
-    return pipe.recv()
+    said = pipe.recv()
+    if isinstance(said, Exception):
+        raise said
+    return said
 
 
-def answer(process: Any, pipe: Any, limit_s: float) -> Any:
-    """What a process says at its end."""
+def answer(process: Any, pipe: Any, word: str, limit_s: float) -> Any:
+    """What a process says at its end, which this word tells it."""
+    with contextlib.suppress(BrokenPipeError):  # it has ended, and said why
+        pipe.send(word)
     said = hear(pipe, limit_s)
     process.join(START_LIMIT_S)
     return said
@@ -181,11 +189,11 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
     a virtual machine. Each datagram has the kernel's time of its arrival, however late it is looked at.
     """
     with open_socket("127.0.0.1", 0) as opened:
-        only_looks = _make_room(opened) and witness.go_next()
+        only_looks = _make_room(opened) and priority.go_next()
         if not only_looks:
-            witness.go_first()
-        opened.setsockopt(socket.SOL_SOCKET, witness.SO_TIMESTAMPNS, 1)
-        _await_times(opened)
+            priority.hurry()
+        kernel_clock.use(opened)
+        kernel_clock.wait()
         pipe.send(opened.getsockname()[1])
         room, kept, word = memoryview(bytearray(MAX_DATAGRAM)), [], ""
         while word != "at once":
@@ -201,17 +209,6 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
         return kept
 
 
-def _await_times(opened: socket.socket) -> None:
-    """Linux begins to take times of arrival some moments after it was asked; until then it gives those of looking."""
-    looked_ns, at_ns = 0, 0
-    while at_ns >= looked_ns:
-        opened.sendto(b"", opened.getsockname())
-        time.sleep(LOOK_S)
-        looked_ns = time.time_ns()
-        _, extras, _, _ = opened.recvmsg(1, 256)
-        at_ns = witness.timestamp_ns(extras) or 0
-
-
 def _make_room(opened: socket.socket) -> bool:
     """Does the socket hold several frames now, which come between two looks?"""
     with contextlib.suppress(PermissionError):
@@ -225,7 +222,7 @@ def _arrived(opened: socket.socket, room: memoryview) -> Iterator[Datagram]:
         while True:
             size, extras, _, _ = opened.recvmsg_into([room], 256, socket.MSG_DONTWAIT)
             beginning = bytes(room[: size if size <= KEPT_WHOLE_BYTES else KEPT_BYTES])
-            yield Datagram(beginning, size, witness.timestamp_ns(extras) or 0)
+            yield Datagram(beginning, size, kernel_clock.arrival_ns(extras) or 0)
 
 
 def server_arguments(

@@ -9,6 +9,7 @@ from ardee_bridge.latency import (
     START_LIMIT_S,
     Spread,
     answer,
+    hear,
     in_process,
     node,
     own_master,
@@ -48,14 +49,11 @@ def measure_controls(seconds: float) -> Spread:
         probe.close()
         robot, from_robot = in_process(env, receive_commands, "/cmd_vel")
         with node(env, "controls_client_node", f"_port:={port}", "_max_speed_m_s:=1.0"):
-            if not from_robot.poll(START_LIMIT_S):
-                raise TimeoutError("the controls client does not publish")
-            from_robot.recv()
+            hear(from_robot, START_LIMIT_S)
             _wake(port, from_robot)
             sent = _send_commands(port, round(seconds * COMMAND_RATE_HZ))
             time.sleep(SETTLE_S)
-            from_robot.send("end")
-            arrivals = answer(robot, from_robot, START_LIMIT_S)
+            arrivals = answer(robot, from_robot, "end", START_LIMIT_S)
     found = [arrivals[serial] - at_ns for serial, at_ns in sent.items() if serial in arrivals]
     return spread(found, len(sent))
 
@@ -69,7 +67,7 @@ def _wake(port: int, from_robot: Any) -> None:
                 raise TimeoutError("no command arrives")
             for datagram in codec.encode_motion(0.0, 0.0):
                 opened.sendto(datagram, ("127.0.0.1", port))
-    from_robot.recv()
+    hear(from_robot, START_LIMIT_S)
 
 
 def _send_commands(port: int, count: int) -> Dict[int, int]:

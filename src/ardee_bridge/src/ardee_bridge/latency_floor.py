@@ -11,7 +11,7 @@ import struct
 import time
 from typing import Any, Callable, Dict, Iterator, Tuple
 
-from ardee_bridge import latency, priority, witness
+from ardee_bridge import kernel_clock, latency, priority
 from ardee_bridge.udp import open_socket
 
 NAME = "bare forwarder"
@@ -27,11 +27,12 @@ def write(pipe: Any) -> None:
 
     It receives too: a datagram's time is the kernel's, however late this process looks at it.
     """
-    witness.go_first()
+    priority.hurry()
     priority.keep_what_there_is()
     arrivals = {}  # type: Arrivals
     with socket.create_server((HOST, 0)) as listener, open_socket(HOST, 0) as receiver:
-        receiver.setsockopt(socket.SOL_SOCKET, witness.SO_TIMESTAMPNS, 1)
+        kernel_clock.use(receiver)
+        kernel_clock.wait()
         pipe.send((listener.getsockname()[1], receiver.getsockname()[1]))
         connection, _ = listener.accept()
         with connection:
@@ -53,13 +54,13 @@ def _receive(receiver: socket.socket, arrivals: Arrivals) -> None:
     with contextlib.suppress(BlockingIOError):
         while True:
             data, extras, _, _ = receiver.recvmsg(MESSAGE.size, 256, socket.MSG_DONTWAIT)
-            arrivals[MESSAGE.unpack(data)[0]] = witness.timestamp_ns(extras) or 0
+            arrivals[MESSAGE.unpack(data)[0]] = kernel_clock.arrival_ns(extras) or 0
 
 
 def forward(pipe: Any, source: int, target: int, realtime_priority: int) -> None:
     """Body of the second process: says when it is connected; from one port to another, until the connection ends."""
     if realtime_priority:
-        witness.go_first(realtime_priority)
+        priority.hurry(realtime_priority)
     priority.keep_what_there_is()
     with socket.create_connection((HOST, source)) as opened, open_socket(HOST, 0) as sender:
         pipe.send("connected")
@@ -76,8 +77,8 @@ def running(realtime_priority: int) -> Iterator[Callable[[int, int], latency.Spr
     processes = [writer]
 
     def took(begin_ns: int, end_ns: int) -> latency.Spread:
-        from_writer.send("end")
-        return spread_within(latency.hear(from_writer, latency.START_LIMIT_S), begin_ns, end_ns)
+        arrivals = latency.answer(writer, from_writer, "end", latency.START_LIMIT_S)
+        return spread_within(arrivals, begin_ns, end_ns)
 
     try:
         ports = latency.hear(from_writer, latency.START_LIMIT_S)  # type: Tuple[int, int]

@@ -4,7 +4,7 @@ import time
 import warnings
 from typing import Any, Dict, List, Sequence, Tuple
 
-from ardee_bridge import codec, latency_floor, priority, witness
+from ardee_bridge import codec, latency_floor, priority
 from ardee_bridge.latency import (
     CHUNKED,
     SETTLE_S,
@@ -121,7 +121,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
         if time.monotonic() > deadline:
             raise TimeoutError("the sensor server does not subscribe")
         time.sleep(0.05)
-    witness.go_first()
+    priority.hurry()
     priority.keep_memory()
     times = {stream.key: [] for stream in streams}  # type: Times
     start = time.monotonic() + SETTLE_S
@@ -151,7 +151,9 @@ def measure_sensors(
     streams = [stream for group in groups for stream in group]
     with own_master() as env, latency_floor.running(realtime_priority) as floor:
         receiver, from_receiver = in_process(env, receive_sensors)
-        peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: [all]}}"
+        peer = (
+            f"{{address: 127.0.0.1, port: {hear(from_receiver, START_LIMIT_S)}, data_types: [all]}}"
+        )
         parameters = server_arguments(peer, streams, realtime_priority)
         with node(env, "sensor_server_node", *parameters):
             running = [in_process(env, publish_sensors, group, seconds) for group in groups]
@@ -160,8 +162,9 @@ def measure_sensors(
                 times.update(hear(pipe, seconds + 2 * START_LIMIT_S))
             all_times = [at_ns for stream_times in times.values() for at_ns in stream_times]
             bare = floor(min(all_times), max(all_times))
-            from_receiver.send("when nothing comes any more")
-            arrivals = answer(receiver, from_receiver, 2 * START_LIMIT_S + seconds)
+            patience_s = 2 * START_LIMIT_S + seconds
+            word = "when nothing comes any more"
+            arrivals = answer(receiver, from_receiver, word, patience_s)
             for process, pipe in running:
                 pipe.send("end")
                 process.join(START_LIMIT_S)

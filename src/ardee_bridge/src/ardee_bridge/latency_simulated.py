@@ -1,30 +1,32 @@
 # SPDX-License-Identifier: MIT
 """Measures the bridge on the sensors of a simulated robot: from a message's arrival at a ROS socket to its datagram's.
 
-Both times are the kernel's: the first is taken by a witness that is connected to the simulator as the sensor server
-is, the second at the receiver. A message is found again by its stamp, which the wire carries as a time stamp message.
+Both times are the kernel's: the first is that of a captured packet, or where none can be captured is taken by a witness
+that is connected to the simulator as the sensor server is; the second is the receiver's. A message is found again by
+its stamp, which the wire carries as a time stamp message.
 """
 import contextlib
 import os
 import signal
 import subprocess
+import sys
 import time
-from typing import Any, Dict, Iterator, List
+from typing import Any, Callable, Dict, Iterator, List
 
 import rosgraph
 import rospkg
 
-from ardee_bridge import codec, latency, latency_floor, witness
+from ardee_bridge import capture, codec, latency, latency_floor, witness
+from ardee_bridge.capture import Times
 from ardee_bridge.pairing import Pairer
 from ardee_bridge.settings import KINDS, Source
 
 START_LIMIT_S = 120.0
 WARM_UP_S = 3.0
+WITNESSED = "witnessed "  # so begin the rows of times that the witness took
 WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
 SENSORS = "config/benchmark_sensors.urdf.xacro"
 ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
-
-Stamps = Dict[int, int]  # simulated time of a message [ns]: its arrival [ns]
 
 
 @contextlib.contextmanager
@@ -60,10 +62,10 @@ def _wait_for(env: Dict[str, str], name: str) -> None:
         time.sleep(0.2)
 
 
-def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Stamps]:
+def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Times]:
     """When each sensor's message arrived, by its time stamp; of frames the last chunk."""
     pairer, stamps = Pairer(), {}  # type: Pairer, Dict[latency.Key, int]
-    arrivals = {}  # type: Dict[latency.Key, Stamps]
+    arrivals = {}  # type: Dict[latency.Key, Times]
     for datagram in kept:
         message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
         if message is None:
@@ -84,11 +86,11 @@ def receive(pipe: Any) -> None:
     pipe.send(_arrivals(kept))
 
 
-def _within(stamps: Stamps, begin_ns: int, end_ns: int) -> Stamps:
+def _within(stamps: Times, begin_ns: int, end_ns: int) -> Times:
     return {stamp: at_ns for stamp, at_ns in stamps.items() if begin_ns <= at_ns <= end_ns}
 
 
-def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
+def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
     """Of a kind of sensor, over its components; from the first to the last message that both ends have."""
     found, sent = [], 0
     for before, after in zip(published, arrived):
@@ -99,22 +101,48 @@ def _spread(published: List[Stamps], arrived: List[Stamps]) -> latency.Spread:
     return latency.spread(found, sent)
 
 
-def _published(env: Dict[str, str], sources: List[Source]) -> List[Source]:
-    """Those sources that the robot has, once it has all small ones; it makes its topics known at one time."""
-    small = [source for source in sources if not source.is_frame]
+def _topic(source: Source) -> str:
+    """Where the sensor server reads it: the robot's cameras compress their images themselves."""
+    return "/" + (source.of_camera() if source.image_format == "jpeg" else source).topic
+
+
+def _await_robot(env: Dict[str, str], topics: List[str]) -> None:
+    """Until it publishes all of these, which it makes known one after the other."""
     deadline = time.monotonic() + START_LIMIT_S
-    while not all(witness.publisher(f"/{source.topic}", env) for source in small):
-        if time.monotonic() > deadline:
-            raise TimeoutError("the simulated robot does not publish")
-        time.sleep(0.2)
-    return [source for source in sources if witness.publisher(f"/{source.topic}", env)]
+    for topic in topics:
+        while not witness.publisher(topic, env):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"the simulated robot does not publish {topic}")
+            time.sleep(0.2)
 
 
-def _read(source: Source, env: Dict[str, str]) -> str:
-    """The topic that the sensor server takes it from."""
-    compressed = f"/{source.of_camera().topic}"
-    is_compressed = source.image_format == "jpeg" and witness.publisher(compressed, env)
-    return compressed if is_compressed else f"/{source.topic}"
+class _Watcher:
+    """Knows when messages arrive at the server, which is to be started after it."""
+
+    def __init__(self, env: Dict[str, str], topics: List[str], server: str) -> None:
+        self._topics, self._server = topics, server
+        self._start(env, capture.watch, server)
+        said = latency.hear(self._pipe, START_LIMIT_S)
+        self.captures = said == "listening"
+        if not self.captures:
+            print(
+                f"a witness takes the times, for packets are not captured: {said}", file=sys.stderr
+            )
+            self._process.join()
+            # publishers write to their subscribers in the order of their coming: the witness's before the server's
+            self._start(env, witness.watch, topics, START_LIMIT_S)
+            latency.hear(self._pipe, START_LIMIT_S)
+
+    def _start(self, env: Dict[str, str], body: Callable[..., None], *args: Any) -> None:
+        self._process, self._pipe = latency.in_process(env, body, *args)
+
+    def end(self) -> Dict[str, Times]:
+        """What arrived when, by topic."""
+        found = latency.answer(self._process, self._pipe, "end", START_LIMIT_S)
+        unread = [topic for topic in self._topics if topic not in found]
+        if unread:
+            raise TimeoutError(f"{self._server} does not read {', '.join(unread)}")
+        return found
 
 
 def measure(
@@ -134,7 +162,7 @@ def measure(
         floor = stack.enter_context(latency_floor.running(realtime_priority))
         receiver, from_receiver = latency.in_process(env, receive)
         wanted = "[all, time]" if image_format else "[imu, gps, lidar, encoder, battery, time]"
-        peer = f"{{address: 127.0.0.1, port: {from_receiver.recv()}, data_types: {wanted}}}"
+        peer = f"{{address: 127.0.0.1, port: {latency.hear(from_receiver, START_LIMIT_S)}, data_types: {wanted}}}"
         stack.enter_context(
             _launched(
                 env,
@@ -148,34 +176,32 @@ def measure(
         carried = f"sensors:={rospkg.RosPack().get_path('ardee_bridge')}/{SENSORS}"
         robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
         stack.enter_context(_launched(env, *robot))
-        sources = _published(env, sources)
-        topics = {source.name: _read(source, env) for source in sources}
-        watched_topics = list(topics.values())
-        watcher, from_watcher = latency.in_process(
-            env, witness.watch, watched_topics, START_LIMIT_S
-        )
-        if not from_watcher.poll(START_LIMIT_S):
-            raise TimeoutError("the simulated robot does not publish")
-        from_watcher.recv()
-        # publishers write to their subscribers in the order of their coming: the witness's before the server's
+        topics = {source.name: _topic(source) for source in sources}
+        _await_robot(env, list(topics.values()))
+        # all masters' nodes share the loopback that packets are captured on
+        name = f"/latency_server_{os.getpid()}"
+        watcher = _Watcher(env, list(topics.values()), name)
         server = latency.server_arguments(peer, sources, realtime_priority)
-        stack.enter_context(latency.node(env, "sensor_server_node", *server))
+        named = f"__name:={name[1:]}"
+        stack.enter_context(latency.node(env, "sensor_server_node", named, *server))
         time.sleep(WARM_UP_S)
         begin_ns = time.time_ns()
         end_ns = begin_ns + round(seconds * 1e9)
         time.sleep(seconds + latency.SETTLE_S)
         bare = floor(begin_ns, end_ns)
-        from_watcher.send("end")
-        watched = latency.answer(watcher, from_watcher, START_LIMIT_S)
+        watched = watcher.end()
         time.sleep(latency.SETTLE_S)
-        from_receiver.send("at once")
-        arrived = latency.answer(receiver, from_receiver, START_LIMIT_S + seconds)
+        patience_s = START_LIMIT_S + seconds
+        arrived = latency.answer(receiver, from_receiver, "at once", patience_s)
     published = {name: _within(watched[topic], begin_ns, end_ns) for name, topic in topics.items()}
-    return {**_by_row(sources, published, arrived), latency_floor.NAME: bare}
+    found = _by_row(sources, published, arrived)
+    if not watcher.captures:
+        found = {WITNESSED + row: figures for row, figures in found.items()}
+    return {**found, latency_floor.NAME: bare}
 
 
 def _by_row(
-    sources: List[Source], published: Dict[str, Stamps], arrived: Dict[latency.Key, Stamps]
+    sources: List[Source], published: Dict[str, Times], arrived: Dict[latency.Key, Times]
 ) -> Dict[str, latency.Spread]:
     found = {}
     for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):

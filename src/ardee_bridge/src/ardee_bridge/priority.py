@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What keeps threads that send from waiting: for other programs, for Python's lock and collector, for memory."""
+import contextlib
 import ctypes
 import gc
 import os
@@ -29,6 +30,21 @@ def keep_memory() -> None:
     mallopt = ctypes.CDLL(None).mallopt
     mallopt(M_MMAP_THRESHOLD, MOST_MMAP_THRESHOLD_BYTES)
     mallopt(M_TRIM_THRESHOLD, TRIM_THRESHOLD_BYTES)
+
+
+def hurry(priority: int = 1) -> None:
+    """Have this thread run before programs without real-time priority, where that is granted."""
+    with contextlib.suppress(PermissionError):
+        os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(priority))
+
+
+def go_next() -> bool:
+    """Run after those with real-time priority and before all others; False where that is not granted."""
+    try:
+        os.setpriority(os.PRIO_PROCESS, 0, -20)
+    except PermissionError:
+        return False
+    return True
 
 
 def go_first(priority: int) -> bool:

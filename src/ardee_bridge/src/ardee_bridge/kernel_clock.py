@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+"""For the benchmark: when data arrived, by the kernel's clock, however late a process looks at them."""
+import socket
+import struct
+import time
+from typing import Any, Optional, Sequence
+
+SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
+LOOK_S = 0.001
+
+
+def use(opened: socket.socket) -> None:
+    """Have recvmsg() of this socket say when what it returns arrived."""
+    opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
+
+
+def arrival_ns(extras: Sequence[Any]) -> Optional[int]:
+    """Of what recvmsg() returned with these ancillary data."""
+    for _, kind, value in extras:
+        if kind == SO_TIMESTAMPNS:
+            seconds, nanoseconds = struct.unpack("=qq", value)
+            return seconds * 10**9 + nanoseconds
+    return None
+
+
+def wait() -> None:
+    """Linux begins to take times of arrival some moments after a first socket asked; until then it says those of
+    looking."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
+        use(opened)
+        opened.bind(("127.0.0.1", 0))
+        looked_ns, at_ns = 0, 0
+        while at_ns >= looked_ns:
+            opened.sendto(b"", opened.getsockname())
+            time.sleep(LOOK_S)
+            looked_ns = time.time_ns()
+            _, extras, _, _ = opened.recvmsg(1, 256)
+            at_ns = arrival_ns(extras) or 0
