@@ -189,12 +189,12 @@ class Polls:
         return getattr(self._epoll, name)
 
 
-@pytest.mark.parametrize("processors_s", [50e-6, 0.0], ids=["several", "one"])
+@pytest.mark.parametrize("awake_s", [50e-6, 0.0], ids=["several", "one"])
 def test_after_a_large_part_the_reader_is_awake_and_then_sleeps(
-    slow: Tuple[Bench, SlowPublisher], processors_s: float, monkeypatch: pytest.MonkeyPatch
+    slow: Tuple[Bench, SlowPublisher], awake_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench, publisher = slow
-    monkeypatch.setattr(reader, "AWAKE_S", processors_s)
+    monkeypatch.setattr(reader, "AWAKE_S", awake_s)
     polls = bench.reader._poll = Polls(bench.reader._poll)
     wait_until(lambda: polls.waits_s, "it uses them")
     publisher.write(100)
@@ -206,7 +206,7 @@ def test_after_a_large_part_the_reader_is_awake_and_then_sleeps(
     wait_until(lambda: polls.waits_s[-2:] == [reader.CLOSE_POLL_S] * 2, "it sleeps")
     before = len(polls.waits_s)
     wait_until(lambda: len(polls.waits_s) > before + 3, "it goes on")
-    assert (0.0 in polls.waits_s) == bool(processors_s)
+    assert (0.0 in polls.waits_s) == bool(awake_s)
     assert 0.0 not in polls.waits_s[before:]
 
 

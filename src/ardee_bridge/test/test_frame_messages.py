@@ -49,7 +49,7 @@ def assert_same(found, sent):
     if not hasattr(found, "_fields"):
         assert found == sent
         return
-    assert set(sent.__slots__) - set(found._fields) <= {"seq", "frame_id", "is_dense"}
+    assert set(sent.__slots__) - set(found._fields) <= {"seq", "frame_id", "is_dense", "count"}
     for name in found._fields:
         mine, genpys = getattr(found, name), getattr(sent, name)
         are_many = name == "fields"

@@ -10,7 +10,7 @@ from typing import NamedTuple, Tuple
 
 _ONE, _TWO, _THREE = struct.Struct("<I"), struct.Struct("<II"), struct.Struct("<III")
 _FLAG, _FLAG_ONE, _FLAG_TWO = struct.Struct("<B"), struct.Struct("<BI"), struct.Struct("<BII")
-_FIELD = struct.Struct("<IBI")  # of a PointField, after its name
+_FIELD = struct.Struct("<IB4x")  # of a PointField, after its name; without its count
 _LEAST_FIELD_BYTES = 4 + _FIELD.size
 
 
@@ -53,7 +53,6 @@ class PointField(NamedTuple):
     name: str
     offset: int
     datatype: int
-    count: int
 
 
 class PointCloud2(NamedTuple):

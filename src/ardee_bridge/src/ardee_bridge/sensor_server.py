@@ -264,6 +264,6 @@ def _want_time(targets: Iterable[Target]) -> bool:
 
 
 def _stamp(source: Source, message: Any) -> codec.Datagrams:
-    stamp, what = message.header.stamp, source.component_id
-    data = codec.TimeStamp.pack_values(stamp.secs, stamp.nsecs, source.data_type, what)
-    return codec.encode(codec.DataType.TIME, what, data)
+    stamp, component_id = message.header.stamp, source.component_id
+    data = codec.TimeStamp.pack_values(stamp.secs, stamp.nsecs, source.data_type, component_id)
+    return codec.encode(codec.DataType.TIME, component_id, data)
