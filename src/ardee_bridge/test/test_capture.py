@@ -175,6 +175,14 @@ def test_of_two_connections_the_first_one_counts(capture: Capture) -> None:
     assert are_between(capture.times()["/image"], first + second[3:])
 
 
+def test_what_is_left_after_one_turn_counts(
+    capture: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "READ_AT_ONCE", 1)
+    times = sent_over_tcp(SERVER, 5)
+    assert are_between(capture.times()["/image"], times)
+
+
 def test_a_handshake_that_is_sent_again_loses_nothing(capture: Capture) -> None:
     asked = encode_ros_handshake_header(dict(topic="/image", callerid=SERVER, md5sum="*", type="*"))
     handshake = Segment(b"subscriber", b"publisher", 9 - len(asked), 5, asked)

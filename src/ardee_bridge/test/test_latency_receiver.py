@@ -19,7 +19,8 @@ def test_everything_is_received_with_its_time(
     only_looks: bool, word: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(latency, "SILENCE_S", 0.2)
-    monkeypatch.setattr(latency, "LOOK_S", 0.05)  # several datagrams wait for each look
+    # several datagrams wait for each look
+    monkeypatch.setattr(latency.kernel_clock, "LOOK_S", 0.05)
     # it is a thread of the test, whose priority stays as it is
     monkeypatch.setattr(latency.priority, "go_next", lambda: only_looks)
     monkeypatch.setattr(latency.priority, "hurry", lambda: None)

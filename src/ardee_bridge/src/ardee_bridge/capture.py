@@ -4,7 +4,6 @@
 As tcpdump sees them: nothing is sent beside what is measured. It takes the rights to capture packets and to keep many
 (CAP_NET_RAW and CAP_NET_ADMIN).
 """
-import contextlib
 import ctypes
 import socket
 import struct
@@ -18,7 +17,6 @@ from ardee_bridge.codec import Buffer
 from ardee_bridge.udp import SO_RCVBUFFORCE
 
 INTERFACE = "lo"
-LOOK_S = 1e-3
 BUFFER_BYTES = 64 << 20
 READ_AT_ONCE = 1000  # packets; then who waits for an answer has a turn
 # Packets that overtake each other, on the way through two processors, are few and soon in order again.
@@ -167,18 +165,21 @@ class Capture:
         kernel_clock.wait()
         self._socket.bind((INTERFACE, ETH_P_ALL))
 
-    def read(self) -> None:
-        """Take what has arrived. Missing where packets are."""
-        with contextlib.suppress(BlockingIOError):
-            for _ in range(READ_AT_ONCE):
+    def read(self) -> bool:
+        """Take what has arrived; is anything left? Missing where packets are."""
+        for _ in range(READ_AT_ONCE):
+            try:
                 size, extras, _, _ = self._socket.recvmsg_into(
                     [self._room], 256, socket.MSG_DONTWAIT
                 )
-                arrived, at_ns = segment(self._room[:size]), kernel_clock.arrival_ns(extras)
-                if at_ns is None:
-                    raise Missing("a packet came without a time")
-                if arrived is not None and len(arrived.data):
-                    self._take(arrived, at_ns)
+            except BlockingIOError:
+                return False
+            arrived, at_ns = segment(self._room[:size]), kernel_clock.arrival_ns(extras)
+            if at_ns is None:
+                raise Missing("a packet came without a time")
+            if arrived is not None and len(arrived.data):
+                self._take(arrived, at_ns)
+        return True
 
     def _take(self, arrived: Segment, at_ns: int) -> None:
         flow = self._open.get((arrived.source, arrived.destination))
@@ -205,12 +206,10 @@ class Capture:
     def times(self) -> Dict[str, Times]:
         """Of what has arrived, by topic; of several connections the first one's. Missing where packets are."""
         deadline = time.monotonic() + LATE_S
-        self.read()
-        while any(flow.is_waiting() for flow in self._flows):
+        while self.read() or any(flow.is_waiting() for flow in self._flows):
             if time.monotonic() > deadline:
-                raise Missing(f"a segment was not captured within {LATE_S} s")
-            time.sleep(LOOK_S)
-            self.read()
+                raise Missing(f"packets were missing, or came without end, for {LATE_S} s")
+            time.sleep(kernel_clock.LOOK_S)
         counts = self._socket.getsockopt(SOL_PACKET, PACKET_STATISTICS, 8)
         _, dropped = struct.unpack("=II", counts)
         if dropped:
@@ -237,7 +236,7 @@ def watch(pipe: Any, caller: str) -> None:
     priority.go_next()
     pipe.send("listening")
     while not pipe.poll():
-        time.sleep(LOOK_S)
+        time.sleep(kernel_clock.LOOK_S)
         capture.read()
     pipe.send(capture.times())
     capture.close()

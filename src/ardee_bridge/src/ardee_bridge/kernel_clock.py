@@ -6,7 +6,7 @@ import time
 from typing import Any, Optional, Sequence
 
 SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
-LOOK_S = 0.001
+LOOK_S = 0.001  # how often those who keep its times look at what has come
 
 
 def use(opened: socket.socket) -> None:

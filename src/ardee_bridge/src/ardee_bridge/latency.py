@@ -30,8 +30,6 @@ START_LIMIT_S = 30.0
 SETTLE_S = 0.5
 # Nothing for so long: no message is on its way any more, however busy the machine.
 SILENCE_S = 3.0
-# The receiver looks so often at what has come.
-LOOK_S = 0.001
 # Larger datagrams are parts of frames, of which only the head is looked at.
 CHUNKED = (codec.ImageChunk, codec.PointCloudChunk)
 KEPT_WHOLE_BYTES, KEPT_BYTES = 16384, 64
@@ -200,7 +198,7 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
             if pipe.poll():
                 word = pipe.recv()
             if only_looks:
-                time.sleep(LOOK_S)
+                time.sleep(kernel_clock.LOOK_S)
             limit_s = SILENCE_S if word else 0.0 if only_looks else 0.05
             if select.select([opened], [], [], limit_s)[0]:
                 kept.extend(_arrived(opened, room))
