@@ -60,11 +60,23 @@ def test_the_numbers_of_clouds_are_found_wherever_they_are(offsets, step, order)
     message.point_step, message.row_step, message.data = step, step * count, array.tobytes()
     found = np.frombuffer(convert.point_cloud(message).payload, "<i4").reshape(-1, 4)
     assert (found == 1000.0 * expected).all()
-    array["y"][[0, 5000]] = math.nan, 1e30
+    array["y"][[0, 5000]] = math.nan, 1e36
     message.data = array.tobytes()
     found = np.frombuffer(convert.point_cloud(message).payload, "<i4").reshape(-1, 4)
     expected[5000, 1] = (2**31 - 1) / 1000.0
     assert (found == np.rint(1000.0 * expected[1:])).all()
+
+
+def test_numbers_are_rounded_to_the_nearest_count_that_a_float_can_tell():
+    points = np.random.default_rng(1).uniform(-100, 100, (30_000, 4)).astype("<f4")
+    message = PointCloud2(width=len(points), height=1, point_step=16, row_step=points.nbytes)
+    names = ("x", "y", "z", "intensity")
+    message.fields = [PointField(name, 4 * at, 7, 1) for at, name in enumerate(names)]
+    message.data = points.tobytes()
+    found = np.frombuffer(convert.point_cloud(message).payload, "<i4").reshape(-1, 4)
+    exact = 1000.0 * points.astype(float)
+    # of a product of floats the rounding is half a unit in the last of 24 bits
+    assert (abs(found - exact) <= 0.5 + abs(exact) * 2.0**-24).all()
 
 
 def test_malformed_clouds_are_refused():

@@ -231,8 +231,9 @@ def _stamped(message: Any) -> codec.Chunk:
 
 
 # Converted at a time: what a processor's second cache holds.
-_BLOCK_POINTS = 4096
+_BLOCK_POINTS = 8192
 _POINT_FIELDS = tuple(leaf.path for leaf in codec.Point.leaves)
+# all four have the same
 (_POINT_SCALE,) = {leaf.scale.counts_per_unit for leaf in codec.Point.leaves}
 # sensor_msgs/PointField.datatype -> numpy
 _POINT_TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
@@ -288,7 +289,8 @@ def point_cloud(message: Any) -> Frame:
         raise ConvertError(f"a point cloud of {points} points, expected at most {most}")
     fields = _point_fields(message).reshape(-1)
     counts = np.empty((fields.size, len(_POINT_FIELDS)), "<i4")
-    block, end = np.empty((min(_BLOCK_POINTS, fields.size), len(_POINT_FIELDS))), 0
+    shape, kind = (min(_BLOCK_POINTS, fields.size), len(_POINT_FIELDS)), _precision(fields)
+    block, end = np.empty(shape, kind), 0
     with np.errstate(all="ignore"):  # what is not finite is left out
         for start in range(0, fields.size, _BLOCK_POINTS):
             found = _point_counts(fields[start : start + _BLOCK_POINTS], block)
@@ -297,20 +299,36 @@ def point_cloud(message: Any) -> Frame:
     return Frame(head, memoryview(counts).cast("B")[: end * codec.Point.size])
 
 
+def _precision(fields: np.ndarray) -> str:
+    """Of the numbers between a message's and the wire's: float32 is scaled as such, for what that rounds off is as
+    small as what it cannot tell apart."""
+    return "f4" if fields.dtype.names == ("floats",) else "f8"
+
+
 def _point_counts(fields: np.ndarray, block: np.ndarray) -> np.ndarray:
-    """A row for each of the finite points; made in the block."""
+    """A row for each of the finite points; made in the block, of this precision."""
     points, limit = block[: fields.size], INT32.limits[1]
     numbers = points.reshape(-1)  # of all points as one: numpy is slow with rows of four
-    if fields.dtype.names == ("floats",):
-        numbers[:] = np.ascontiguousarray(fields["floats"]).view("<f4")
-    else:
-        for column, name in zip(points.T, _POINT_FIELDS):
-            column[:] = fields[name] if name in fields.dtype.names else 0.0
-    np.multiply(numbers, _POINT_SCALE, out=numbers)
-    if numbers.min() >= -limit and numbers.max() <= limit:  # which NaN is not, either
+    _scale(fields, points)
+    # which NaN is not, either
+    if float(numbers.min()) >= -limit and float(numbers.max()) <= limit:
         return np.rint(points, out=points)
+    points = np.empty(points.shape)
+    _scale(fields, points)
     x, y, z = np.isfinite(points.T[:3])
     return _counts(points[x & y & z])
+
+
+def _scale(fields: np.ndarray, points: np.ndarray) -> None:
+    """Put the numbers there, in counts that are not rounded yet."""
+    numbers = points.reshape(-1)
+    if fields.dtype.names == ("floats",):
+        floats = np.ascontiguousarray(fields["floats"]).view("<f4")
+        np.multiply(floats, _POINT_SCALE, out=numbers, dtype=numbers.dtype)
+        return
+    for column, name in zip(points.T, _POINT_FIELDS):
+        column[:] = fields[name] if name in fields.dtype.names else 0.0
+    np.multiply(numbers, _POINT_SCALE, out=numbers)
 
 
 def stamp_s(message: Any) -> float:
