@@ -87,11 +87,11 @@ def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
 
 
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, says when each message's bytes were made, ends when told.
+    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
 
     It stands for a simulator whose `realtime_priority` is set. Its publishers have no queue: rospy would write to the
     socket in a thread of its own, without that priority, and the messages would wait for it. It keeps its memory, so
-    that making a message's bytes takes little more than the time of copying them.
+    that making a message's bytes takes the time of a copy.
     """
     import rospy
 
@@ -131,8 +131,8 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
         stream = streams[index]
         time.sleep(max(0.0, due[index] - time.monotonic()))
         latency_messages.number(stream.kind, messages[index], len(times[stream.key]))
+        times[stream.key].append(time.time_ns())
         publishers[index].publish(messages[index])
-        times[stream.key].append(messages[index].made_ns)
         if index in raw:
             raw[index][0].publish(raw[index][1])
         due[index] += 1.0 / stream.rate_hz
@@ -143,7 +143,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
 def measure_sensors(
     seconds: float, image_format: str = "", realtime_priority: int = 1
 ) -> Dict[str, Spread]:
-    """Sensor message's bytes made -> data datagram arrived, of frames the last, by kind of sensor.
+    """Sensor message published -> data datagram arrived, of frames the last, by kind of sensor.
 
     And the bare forwarder's in the same time. With cameras where a format of their images is given.
     """
