@@ -330,6 +330,26 @@ def test_raw_image_through_the_wire(bench):
     assert whole.head.encoding == codec.ImageEncoding.RGB8 and whole.head.chunk.count == 15
 
 
+def test_an_image_of_many_chunks_goes_to_all_that_can_be_reached(bench):
+    clients = [bench.listen(), bench.listen()]
+    for client in clients:
+        bench.ask(client, [D.IMAGE])
+        assert acked(client)
+    far = ("203.0.113.1", 9)  # the socket is bound to loopback: the system refuses
+    bench.server.set_clients(
+        (bench.server.clients()[0]._replace(address=far), *bench.server.clients())
+    )
+    message = picture(height=100)
+    bench.publish("camera", message)
+    for client in clients:
+        messages = receive(client, 48)
+        assert [codec.ImageChunk.unpack(data[:44]).chunk.index for _, data in messages] == list(
+            range(48)
+        )
+        assert b"".join(data[44:] for _, data in messages) == message.data and nothing_came(client)
+    assert bench.counters.dropped() == {"messages that could not be sent": 48}
+
+
 @pytest.mark.parametrize("encoding, first", [("rgb8", 0), ("bgr8", 2)])
 def test_jpeg_has_the_right_colours(encoding, first):
     message = Image(encoding=encoding, width=32, height=32, step=96)

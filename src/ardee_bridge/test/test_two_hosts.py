@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Multicast and broadcast from one host to another: two network namespaces with a cable, and no default route."""
+"""From one host to another: two network namespaces with a cable, and no default route."""
 import contextlib
 import ctypes
 import os
+import socket
 import subprocess
 import sys
 
 import pytest
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Image, Imu
 
 from ardee_bridge.counters import Counters
 from ardee_bridge.sensor_server import SensorServer
@@ -17,6 +18,7 @@ from ardee_bridge.udp import open_socket
 CLONE_NEWNET = 0x40000000  # <sched.h>
 PORT, GROUP = 30000, "239.7.7.7"
 SIMULATOR, TARGET, BROADCAST = "10.77.0.1", "10.77.0.2", "10.77.0.255"
+NOBODY = "10.77.0.3"
 EVERYBODY = "255.255.255.255"
 
 
@@ -85,13 +87,17 @@ def clients(package, tmp_path_factory):
     }
 
 
-def sent_to(peer, hosts, command):
-    """What a client on the target says, while the server sends IMU messages to a peer; what was not sent."""
+def settings_for(peer, source):
+    """Of a server that sends to this peer from this source."""
     values = dict(bind_address=SIMULATOR, port=0, allowed_clients=[TARGET], max_clients=0)
     values.update(client_lease_s=30.0, multicast_ttl=1, realtime_priority=0)
-    peers = [dict(address=peer, port=PORT, data_types=["imu"])]
-    sources = [dict(name="imu", kind="imu", topic="imu")]
-    settings = read_server(dict(values, peers=peers, sources=sources))
+    peers = [dict(address=peer, port=PORT, data_types=[source["kind"]])]
+    return read_server(dict(values, peers=peers, sources=[source]))
+
+
+def sent_to(peer, hosts, command):
+    """What a client on the target says, while the server sends IMU messages to a peer; what was not sent."""
+    settings = settings_for(peer, dict(name="imu", kind="imu", topic="imu"))
     counters = Counters(lambda text: None)
     with inside(hosts[0]):
         opened = open_socket(SIMULATOR, 0)
@@ -119,3 +125,21 @@ def test_a_target_on_another_host_gets_what_is_sent_to_many(hosts, clients, lang
 
 def test_who_has_not_joined_gets_nothing(hosts, clients):
     assert sent_to(GROUP, hosts, clients["C"][:-1]) == ("", {})
+
+
+def test_what_a_full_send_buffer_does_not_take_is_counted(hosts):
+    camera = dict(name="camera", kind="image", topic="camera", format="raw", chunk_bytes=1000)
+    settings, counters = settings_for(NOBODY, camera), Counters(lambda text: None)
+    with inside(hosts[0]):
+        opened = open_socket(SIMULATOR, 0)
+    image = Image(encoding="mono8", width=1000, height=1000, step=1000, data=bytes(1_000_000))
+    with opened:
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 50_000)
+        server = SensorServer(settings, opened, counters, lambda: None)
+        counts = []
+        for _ in range(2):
+            server.publish(settings.sources[0], image)
+            counts.append(sum(counters.dropped().values()))
+    assert list(counters.dropped()) == ["messages to a full send buffer"]
+    # the system keeps the first ones until it is sure that nobody answers
+    assert 900 < counts[0] < 1000 and counts[1] == counts[0] + 1000
