@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""The benchmark's messages: on a connection they are what genpy would write."""
+"""The benchmark's messages: on a connection they are what genpy would write, and their time begins before that."""
 import io
+import time
 from typing import Any
 
 import pytest
 from sensor_msgs.msg import CompressedImage, Image, PointCloud2
 
-from ardee_bridge import latency_messages
+from ardee_bridge import latency_messages, latency_sensors
 
 IMAGE, DEPTH = (latency_messages.make("image", topic) for topic in ("/camera", "/depth"))
 CLOUD = latency_messages.make("point_cloud", "/points")
@@ -30,3 +31,15 @@ def test_frames_are_written_as_genpy_does(message: Any, kind: Any) -> None:
         each.serialize(buffer)
     assert found.getvalue() == expected.getvalue() and found.tell() == expected.tell()
     assert isinstance(message, kind) and len(message.data) > 10_000
+
+
+def test_a_message_is_published_when_rospy_is_asked_to() -> None:
+    class Publisher:
+        called_ns = 0
+
+        def publish(self, message: Any) -> None:
+            self.called_ns = time.time_ns()
+            time.sleep(0.01)
+
+    publisher, before_ns = Publisher(), time.time_ns()
+    assert before_ns <= latency_sensors.publish_at(publisher, IMAGE) <= publisher.called_ns

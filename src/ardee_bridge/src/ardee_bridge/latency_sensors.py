@@ -131,13 +131,19 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
         stream = streams[index]
         time.sleep(max(0.0, due[index] - time.monotonic()))
         latency_messages.number(stream.kind, messages[index], len(times[stream.key]))
-        times[stream.key].append(time.time_ns())
-        publishers[index].publish(messages[index])
+        times[stream.key].append(publish_at(publishers[index], messages[index]))
         if index in raw:
             raw[index][0].publish(raw[index][1])
         due[index] += 1.0 / stream.rate_hz
     pipe.send(times)
     pipe.recv()
+
+
+def publish_at(publisher: Any, message: Any) -> int:
+    """Publish, and tell when rospy was asked to [ns]: what it takes to make the bytes and write them counts."""
+    at_ns = time.time_ns()
+    publisher.publish(message)
+    return at_ns
 
 
 def measure_sensors(

@@ -175,7 +175,9 @@ class SensorServer:
                     self._socket.sendmsg(datagram, (), socket.MSG_DONTWAIT, address)
         except OSError as error:
             is_full = isinstance(error, BlockingIOError)
-            kind = "messages to a full send buffer" if is_full else "messages that could not be sent"
+            kind = (
+                "messages to a full send buffer" if is_full else "messages that could not be sent"
+            )
             where = f"{address[0]}:{address[1]}: {error.strerror}"
             self._counters.drop(kind, where, count=(len(datagrams) - index + 1) // 2)
 
