@@ -135,6 +135,19 @@ def test_invalid_headers_have_no_data_size(header):
     assert codec.data_size(codec.Header(**header)) is None
 
 
+@pytest.mark.parametrize("msg_type, size", [(0, 12), (1, 4), (5, 12), (19, 4)])
+@pytest.mark.parametrize(
+    "header",
+    [
+        dict(data_type=9, measurement_type=1, measurement_length=3),
+        dict(data_type=-1, measurement_type=7, measurement_length=-5),
+    ],
+)
+def test_sensor_fields_of_a_header_say_nothing_of_requests(header, msg_type, size):
+    """Thesis 4.5.1: they are used where the message is sensor data; a client may leave anything in them."""
+    assert codec.data_size(codec.Header(msg_type=msg_type, **header)) == size
+
+
 def test_every_physical_field_of_the_messages_is_in_the_table():
     plain = {"id", "covariance_type", "service", "status"}
     motion = {"normalized_speed", "normalized_yaw_rate", "multiplier"}

@@ -225,6 +225,8 @@ DATA_STRUCTS: Dict[Tuple[int, int], Type[CStruct]] = {
     (_M.ACK, _D.NONE): Ack,
 }
 MESSAGE_TYPE_OF = {data: message for message, data in DATA_STRUCTS if data != DataType.NONE}
+# message type -> data struct, of what is no sensor's: the header's data and measurement fields say nothing there.
+_REQUESTS = {message: kind for (message, data), kind in DATA_STRUCTS.items() if data == _D.NONE}
 _CHUNKED = (ImageChunk, PointCloudChunk)
 
 _RANGE_COUNTS_PER_M = scale_of(LidarData.C_NAME, "ranges").counts_per_unit or 1
@@ -237,11 +239,14 @@ Pieces = Tuple[Tuple[Buffer, ...], Tuple[Buffer, ...]]
 
 def data_struct(header: Header) -> Optional[Type[CStruct]]:
     """What the data datagram after this header is; None for a message that is not defined."""
-    return DATA_STRUCTS.get((header.msg_type, header.data_type))
+    request = _REQUESTS.get(header.msg_type)
+    return request or DATA_STRUCTS.get((header.msg_type, header.data_type))
 
 
 def data_size(header: Header) -> Optional[int]:
     """Size of the data datagram after this header [bytes], None where the header is not a valid one."""
+    if header.msg_type in _REQUESTS:
+        return _REQUESTS[header.msg_type].size
     kind, count = data_struct(header), header.measurement_length
     multiple = header.measurement_type == MeasurementType.MULTIPLE
     if kind is None or not multiple and header.measurement_type != MeasurementType.SINGLE:
