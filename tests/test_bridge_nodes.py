@@ -154,12 +154,14 @@ def test_a_bad_setting_is_one_line_and_exit_2(
 
 def test_the_launch_file_starts_both_with_its_arguments(graph: RosGraph) -> None:
     sensors, controls = free_port(), free_port()
-    arguments = (f"sensors_port:={sensors}", f"controls_port:={controls}", "watchdog_s:=0.25")
-    launched = graph.launch("ardee_bridge", "bridge.launch", *arguments)
+    ports = (f"sensors_port:={sensors}", f"controls_port:={controls}")
+    more = ("watchdog_s:=0.25", "multicast_ttl:=3")
+    launched = graph.launch("ardee_bridge", "bridge.launch", *ports, *more)
     for port in (sensors, controls):
         wait_until(lambda: f"127.0.0.1:{port}" in launched.output(), f"a socket at {port}")
     found = graph.run("rosparam", "get", "/udp_control_node")
     assert "watchdog_s: 0.25" in found and re.search(r"peers:\n- 127\.0\.0\.1", found)
+    assert "multicast_ttl: 3" in graph.run("rosparam", "get", "/sim_sensor_node")
 
 
 def test_the_benchmark_measures_everything(graph: RosGraph) -> None:

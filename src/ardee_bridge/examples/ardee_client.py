@@ -65,9 +65,13 @@ class Client:
         self._seen: Dict[Tuple[str, int], Tuple[int, str]] = {}
 
     def send(self, pair: codec.Datagrams, address: Tuple[str, int]) -> None:
-        """Header, then data."""
-        for datagram in pair:
-            self._socket.sendto(datagram, address)
+        """Header, then data; where there is no way to the simulator yet, say so and go on."""
+        try:
+            for datagram in pair:
+                self._socket.sendto(datagram, address)
+        except OSError as error:
+            where = f"{address[0]}:{address[1]}"
+            print(f"ardee_client: send to {where}: {error.strerror}", file=sys.stderr)
 
     def receive(self, timeout_s: float) -> None:
         """Take what arrives within this time."""

@@ -50,7 +50,7 @@ def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
         (dict(allowed_clients=["::1"]), "allowed_clients: found"),
         (dict(allowed_clients=["10.0.0.1:99999"]), "allowed_clients: found"),
         (
-            dict(peers=[dict(address="10.0.0.1", port=1)]),
+            dict(peers=[dict(address="10.0.0.1", port=1, data_types=[])]),
             "cannot be reached from bind_address 127.0.0.1",
         ),
         (
@@ -60,6 +60,14 @@ def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
         (
             dict(peers=[dict(address="127.0.0.1", port=1, data_types=["sonar"])]),
             r"peers\[0\].data_types: found \['sonar'\], expected a list of imu",
+        ),
+        (
+            dict(peers=[dict(address="127.0.0.1", port=1)]),
+            r"peers\[0\].data_types: found nothing, expected a list of imu",
+        ),
+        (
+            dict(peers=[dict(address="127.0.0.1", port=1, data_types=[k]) for k in ("imu", "gps")]),
+            r"peers\[1\]: found 127.0.0.1:1, which is peers\[0\]'s",
         ),
         (
             dict(sources=[dict(name="a", topic="t", kind="sonar")]),

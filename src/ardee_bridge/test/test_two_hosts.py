@@ -127,6 +127,20 @@ def test_who_has_not_joined_gets_nothing(hosts, clients):
     assert sent_to(GROUP, hosts, clients["C"][:-1]) == ("", {})
 
 
+@pytest.mark.parametrize("language, options", [("C", "-i -v"), ("Python", "--simulator --speed")])
+def test_a_client_without_a_way_to_the_simulator_says_so_and_goes_on(
+    hosts, clients, language, options
+):
+    simulator, speed = options.split()
+    command = (*clients[language][:-1], simulator, "203.0.113.1", speed, "0.1")
+    entered = ["ip", "netns", "exec", hosts[1], *map(str, command)]
+    run = subprocess.run(entered, stderr=subprocess.PIPE, text=True)
+    said = run.stderr.splitlines()
+    assert run.returncode == 0 and len(said) > 3
+    for line in said:
+        assert line.startswith("ardee_client: send") and line.endswith("Network is unreachable")
+
+
 def test_what_a_full_send_buffer_does_not_take_is_counted(hosts):
     camera = dict(name="camera", kind="image", topic="camera", format="raw", chunk_bytes=1000)
     settings, counters = settings_for(NOBODY, camera), Counters(lambda text: None)

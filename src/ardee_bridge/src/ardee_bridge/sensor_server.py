@@ -4,7 +4,7 @@ import itertools
 import select
 import socket
 import time
-from typing import Any, Callable, Dict, Iterable, Iterator, NamedTuple, Optional, Set, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, List, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge import chunks, codec, convert
 from ardee_bridge.counters import Counters
@@ -39,7 +39,10 @@ class Target(NamedTuple):
 
 
 class RateLimit:
-    """Lets through at most so many messages a second of simulated time, exact in the mean; 0: all."""
+    """Lets through at most so many messages a second of simulated time, exact in the mean; 0: all.
+
+    Messages whose time stamp is left at 0 are all let through: nothing tells how many they are in a second.
+    """
 
     def __init__(self, max_rate_hz: float) -> None:
         self._period_s = 1.0 / max_rate_hz if max_rate_hz else 0.0
@@ -47,7 +50,7 @@ class RateLimit:
 
     def admits(self, stamp_s: float) -> bool:
         """Is the message of this time let through?"""
-        if not self._period_s:
+        if not self._period_s or stamp_s == self._last_s == 0.0:
             return True
         if stamp_s < self._last_s:  # the simulation was reset
             self._due_s = float("-inf")
@@ -221,6 +224,10 @@ class SensorServer:
         if not self._register(address, request):
             return
         self._wanting = {}
+        unsent = self._unsent(self._targets.get(address))
+        if unsent:
+            what = "requests: sensors that no source sends"
+            self._counters.drop(what, f"{address[0]}:{address[1]}: {', '.join(unsent)}")
         self._counters.did("SET_PORT obeyed")
         self._send(sender, _pieces(codec.encode_ack(message.header)))
         self._on_targets()
@@ -238,6 +245,20 @@ class SensorServer:
         until_s = None if is_configured else self._clock() + self._settings.client_lease_s
         self._targets[address] = Target(address, request.data_types, request.component_id, until_s)
         return True
+
+    def _unsent(self, target: Optional[Target]) -> List[str]:
+        """Names of the data types that it wants and will not get, for lack of a source."""
+        if target is None:
+            return []
+        sources = self._settings.sources
+        sent = {
+            each.data_type for each in sources if target.wants(each.data_type, each.component_id)
+        }
+        if sent:
+            sent.add(codec.DataType.ALL)
+        wanted = {each for each in codec.DataType if target.data_types & 1 << each}
+        missing = wanted - sent - {codec.DataType.NONE, codec.DataType.TIME}
+        return [each.name.lower() for each in sorted(missing)]
 
     def _forget(self) -> None:
         now = self._clock()

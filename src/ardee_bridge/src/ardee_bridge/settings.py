@@ -101,6 +101,17 @@ class Reader:
             raise self._fail(key, "a list")
         return value
 
+    def selections(self, key: str) -> List[str]:
+        """A list of kinds of sensors; not to be left out, for nothing would be sent without it."""
+        expected = self._fail(key, "a list of " + ", ".join(SELECTIONS))
+        words = self._get(key, None)
+        if not isinstance(words, list):
+            raise expected
+        for word in words:
+            if not isinstance(word, str) or word not in SELECTIONS:
+                raise expected
+        return words
+
     def readers(self, key: str) -> List["Reader"]:
         """A list of dictionaries."""
         return [
@@ -217,10 +228,7 @@ class ControlSettings(NamedTuple):
 
 def _read_destination(reader: Reader, bind_address: str) -> Destination:
     address, port = reader.address("address"), reader.whole("port", 1, 65535)
-    words = reader.items("data_types")
-    for word in words:
-        if not isinstance(word, str) or word not in SELECTIONS:
-            raise reader._fail("data_types", "a list of " + ", ".join(SELECTIONS))
+    words = reader.selections("data_types")
     reader.finish()
     of_bind, of_peer = ipaddress.IPv4Address(bind_address), ipaddress.IPv4Address(address)
     if of_bind.is_loopback and not (of_peer.is_loopback or of_peer.is_multicast):
@@ -272,6 +280,7 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
     )
     reader.finish()
     _check_unique(sources)
+    _check_destinations(settings.destinations)
     return settings
 
 
@@ -298,6 +307,17 @@ def _check_unique(sources: Tuple[Source, ...]) -> None:
             raise SettingError(
                 f"sources[{number}].component_id: found {place[1]}, which is {other}'s; "
                 f"expected one of its own among kind {kind}"
+            )
+
+
+def _check_destinations(destinations: Tuple[Destination, ...]) -> None:
+    """One selection for each address and port: the server keeps no more."""
+    places = [(peer.address, peer.port) for peer in destinations]
+    for number, place in enumerate(places):
+        if place in places[:number]:
+            raise SettingError(
+                f"peers[{number}]: found {place[0]}:{place[1]}, which is peers[{places.index(place)}]'s; "
+                "expected each address and port once, with all its data_types"
             )
 
 
