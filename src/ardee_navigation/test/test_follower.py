@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The technique on scans of rows whose place is known, and driving a robot of unicycle kinematics."""
 import math
-from typing import List
+from typing import List, Tuple
 
 import numpy as np
 import pytest
@@ -97,6 +97,50 @@ def test_one_row_in_sight_is_not_the_end() -> None:
         follower.update(left, ANGLE_MIN_RAD, INCREMENT_RAD, DT_S * i).state for i in range(400)
     ]
     assert set(states) == {State.FOLLOWING}
+
+
+def look_once(follower: RowFollower, ranges: np.ndarray, time_s: float) -> Output:
+    return follower.update(ranges, ANGLE_MIN_RAD, INCREMENT_RAD, time_s)
+
+
+def turning_follower() -> Tuple[RowFollower, Output]:
+    """A follower that has turned right for a second, and its last output, of 1 s."""
+    follower, rows = RowFollower(P), scan_of(*lane_walls(0.06, 0.05))
+    outputs = [look_once(follower, rows, DT_S * i) for i in range(41)]
+    assert outputs[-1].turn_rad_s < -0.05
+    return follower, outputs[-1]
+
+
+def test_through_a_short_gap_the_lane_is_moved_as_commanded() -> None:
+    follower, before = turning_follower()
+    after = look_once(follower, np.full(1081, np.inf), 1.0 + P.max_gap_s)
+    turned_rad = before.turn_rad_s * P.max_gap_s
+    assert after.lane.centre.slope == pytest.approx(before.lane.centre.slope - turned_rad)
+    assert after.state is State.FOLLOWING and after.speed_m_s == P.speed_m_s
+
+
+@pytest.mark.parametrize("gap_s", [P.max_gap_s + DT_S, 8.0, 600.0])
+def test_after_a_long_gap_the_rows_are_found_as_at_the_start(gap_s: float) -> None:
+    follower, fresh = turning_follower()[0], RowFollower(P)
+    for i in range(20):
+        rows, now_s = scan_of(*lane_walls(-0.05, 0.1 - 0.005 * i)), 1.0 + gap_s + DT_S * i
+        after, anew = look_once(follower, rows, now_s), look_once(fresh, rows, now_s)
+        assert (after.lane, after.valid) == (anew.lane, anew.valid)
+        assert (after.speed_m_s, after.turn_rad_s) == (anew.speed_m_s, anew.turn_rad_s)
+
+
+def test_after_a_long_gap_it_stands_until_it_sees_a_row_or_the_end() -> None:
+    nothing, rows = np.full(1081, np.inf), scan_of(*lane_walls(0.0, 0.0))
+    follower, _ = turning_follower()
+    for i in range(10):
+        after = look_once(follower, nothing, 3.0 + DT_S * i)
+        assert after.state is State.FOLLOWING and (after.speed_m_s, after.turn_rad_s) == (0.0, 0.0)
+    assert look_once(follower, rows, 3.25).speed_m_s == P.speed_m_s
+    for i in range(30):  # does not count any more after the next gap
+        assert look_once(follower, nothing, 3.275 + DT_S * i).state is State.FOLLOWING
+    states = [look_once(follower, nothing, 6.0 + DT_S * i).state for i in range(45)]
+    assert states.index(State.FINISHED) == pytest.approx(P.end_after_s / DT_S, abs=1)
+    assert look_once(follower, rows, 60.0).state is State.FINISHED  # for good, gap or not
 
 
 def drive(lateral_m: float, heading_rad: float, length_m: float = 12.0) -> List[List[float]]:

@@ -52,8 +52,13 @@ class RowFollower:
 
     def reset(self) -> None:
         """As before the first scan: after the robot was set down anew."""
+        self._state = State.WAITING
+        self._forget()
+
+    def _forget(self) -> None:
+        """Know nothing of the lane and of the robot's motion, as before the first scan."""
         self._lane = straight_lane(self._parameters)
-        self._state, self._last_s = State.WAITING, None  # type: State, Optional[float]
+        self._last_s = None  # type: Optional[float]
         self._unseen_s = (
             math.inf,
             math.inf,
@@ -66,6 +71,8 @@ class RowFollower:
         self, ranges_m: np.ndarray, angle_min_rad: float, increment_rad: float, time_s: float
     ) -> Output:
         """What to do after the scan taken at `time_s`."""
+        if self._last_s is not None and time_s - self._last_s > self._parameters.max_gap_s:
+            self._forget()  # who knows where the robot is: it may have been stopped meanwhile
         dt_s = 0.0 if self._last_s is None else max(time_s - self._last_s, 0.0)
         self._last_s = time_s
         points = preprocess.to_cartesian(ranges_m, angle_min_rad, increment_rad)
@@ -117,7 +124,8 @@ class RowFollower:
             self._state = State.FINISHED
 
     def _control(self, error_m: float, dt_s: float) -> Tuple[float, float]:
-        if self._state is not State.FOLLOWING:
+        seen = min(self._unseen_s) < math.inf  # a row, since the start or the last gap
+        if self._state is not State.FOLLOWING or not seen:
             return 0.0, 0.0
         turn = self._pid.update(error_m, dt_s)
         return self._parameters.speed_m_s, turn_rate_rad_s(turn, self._parameters)
