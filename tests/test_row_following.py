@@ -2,6 +2,7 @@
 """The row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
 import csv
 import pathlib
+import time
 from typing import Dict, List, Set, Tuple
 
 import pytest
@@ -98,6 +99,55 @@ def children(pid: int) -> Dict[int, str]:
             script = words[1] if "python" in words[0] and len(words) > 1 else words[0]
             found[number] = pathlib.Path(script).name
     return found
+
+
+def commands_around_a_silence() -> Tuple[List[float], List[float], List[float]]:
+    """Speeds that are commanded to two scans and in a pause after them, once time goes on, and to a scan after that."""
+    import numpy as np
+    import rospy
+    from geometry_msgs.msg import Twist
+    from rosgraph_msgs.msg import Clock
+    from sensor_msgs.msg import LaserScan
+
+    rospy.init_node("probe", anonymous=True, disable_signals=True, disable_rostime=True)
+    speeds: List[float] = []
+    commands = rospy.Subscriber("/cmd_vel", Twist, lambda twist: speeds.append(twist.linear.x))
+    clock = rospy.Publisher("/clock", Clock, queue_size=10)
+    scans = rospy.Publisher("/ardee/hokuyo", LaserScan, queue_size=10)
+    ends = (commands, clock, scans)
+    wait_until(lambda: all(end.get_num_connections() for end in ends), "the row follower")
+
+    def wait_s(simulated_s: List[float], duration_s: float) -> None:
+        for now_s in simulated_s:
+            clock.publish(rospy.Time.from_sec(now_s))
+            time.sleep(duration_s / len(simulated_s))
+
+    def look(now_s: float) -> None:
+        wait_s([now_s], 0.1)
+        answers = len(speeds)
+        angles = np.linspace(-2.35, 2.35, 1081)  # even: none is 0
+        scan = LaserScan(angle_min=-2.35, angle_increment=4.7 / 1080)
+        scan.header.stamp = rospy.Time.from_sec(now_s)
+        scan.ranges = 0.381 / np.maximum(np.abs(np.sin(angles)), 0.05)
+        scans.publish(scan)
+        wait_until(lambda: len(speeds) > answers, "an answer")
+
+    look(10.0)
+    look(10.025)
+    wait_s([10.025], 1.2)
+    paused = speeds[:]
+    wait_s([11.0, 11.2, 12.0, 13.0], 1.6)
+    silent = speeds[len(paused) :]
+    look(13.1)
+    return paused, silent, speeds[len(paused) + len(silent) :]
+
+
+def test_stops_the_robot_once_when_scans_stop_but_not_in_a_pause(graph: RosGraph) -> None:
+    graph.run("rosparam", "set", "/use_sim_time", "true")
+    node = graph.spawn("rosrun", "ardee_navigation", "row_follower")
+    paused, silent, after = graph.call(commands_around_a_silence)
+    assert (paused, silent, after) == ([0.5, 0.5], [0.0], [0.5])
+    assert node.output().count("no scans for 0.5 s: stopped") == 1
 
 
 def model_position(name: str) -> Tuple[float, float]:

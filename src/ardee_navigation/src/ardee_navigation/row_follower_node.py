@@ -8,6 +8,7 @@ Parameters:
   _drive:=true        false: send no commands, only show
 """
 import sys
+import threading
 import time
 from pathlib import Path as FilePath
 from typing import List, Optional
@@ -27,6 +28,7 @@ from ardee_navigation.lbirnt.lines import Line
 from ardee_navigation.node_settings import Settings, read_settings
 from ardee_navigation.scenario_files import read_parameters
 from ardee_navigation.scenarios import known_scenarios
+from ardee_navigation.silence import Silence
 
 PATH_STEP_M = 0.05
 LONGEST_PATH = 20_000  # poses: a kilometre
@@ -79,6 +81,7 @@ class Node:
         self._parameters, self._follower = parameters, RowFollower(parameters)
         self._last_s, self._state = None, ""  # type: Optional[float], str
         self._path, self._drive = Path(), settings.drive
+        self._silence, self._sending = Silence(parameters.max_gap_s), threading.Lock()
         self._commands = rospy.Publisher(settings.cmd, Twist, queue_size=1)
         self._markers = rospy.Publisher("~markers", MarkerArray, queue_size=1)
         self._paths = rospy.Publisher("~path", Path, queue_size=1, latch=True)
@@ -94,8 +97,10 @@ class Node:
         self._last_s = now_s
         ranges = np.asarray(scan.ranges)
         output = self._follower.update(ranges, scan.angle_min, scan.angle_increment, now_s)
-        if self._drive:
-            self._send(output.speed_m_s, output.turn_rad_s)
+        with self._sending:
+            self._silence.end(rospy.get_time(), time.monotonic())
+            if self._drive:
+                self._send(output.speed_m_s, output.turn_rad_s)
         if self._markers.get_num_connections():
             self._markers.publish(markers(scan.header, output, self._parameters))
         if output.state.value != self._state:
@@ -118,6 +123,14 @@ class Node:
         command = Twist()
         command.linear.x, command.angular.z = speed_m_s, turn_rad_s
         self._commands.publish(command)
+
+    def watch(self, wait_s: float) -> None:
+        """Wait; stop the robot once if scans have stopped, for it keeps to its last command."""
+        time.sleep(wait_s)
+        with self._sending:
+            if self._drive and self._silence.begins(rospy.get_time(), time.monotonic()):
+                self._send(0.0, 0.0)
+                rospy.logwarn("no scans for %g s: stopped", self._parameters.max_gap_s)
 
     def stop(self) -> None:
         """Tell the robot to stand still."""
@@ -149,5 +162,5 @@ def main() -> int:
         print(f"row_follower: {error}", file=sys.stderr)
         return 2
     rospy.on_shutdown(node.stop)
-    loop(time.sleep)
+    loop(node.watch)
     return 0
