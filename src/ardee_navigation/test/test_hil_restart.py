@@ -83,17 +83,35 @@ def test_scans_that_changed_places_are_no_new_simulation(simulator: Simulator) -
     assert simulator.scan(IN_THE_ROW, end_ms - 25)["state"] == "finished"
 
 
+class Unplugged:
+    """A socket that receives and cannot send."""
+
+    def __init__(self, opened: socket.socket) -> None:
+        self._opened = opened
+
+    def sendto(self, *_: Any) -> int:
+        raise OSError(errno.ENETUNREACH, "Network is unreachable")
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._opened, name)
+
+
+def test_a_network_that_is_away_is_told_once_each_time(
+    simulator: Simulator, capsys: pytest.CaptureFixture
+) -> None:
+    plugged, (host, port) = simulator.target._socket, simulator.controls.getsockname()
+    line = f"hil_row_follower: cannot send to {host}:{port}: Network is unreachable\n"
+    for start_ms in (1000, 2000):
+        simulator.target._socket = Unplugged(plugged)
+        for time_ms in (0, 25, 50):
+            simulator.scan(IN_THE_ROW, start_ms + time_ms)
+        assert capsys.readouterr().err == line
+        simulator.target._socket = plugged
+        simulator.scan(IN_THE_ROW, start_ms + 75)
+        assert capsys.readouterr().err == ""
+
+
 def test_a_network_that_is_away_does_not_end_it(simulator: Simulator) -> None:
-    class Unplugged:
-        def __init__(self, opened: socket.socket) -> None:
-            self._opened = opened
-
-        def sendto(self, *_: Any) -> int:
-            raise OSError(errno.ENETUNREACH, "Network is unreachable")
-
-        def __getattr__(self, name: str) -> Any:
-            return getattr(self._opened, name)
-
     plugged = simulator.target._socket
     simulator.target._socket = Unplugged(plugged)
     assert simulator.scan(IN_THE_ROW, 1000)["state"] == "following"

@@ -8,7 +8,7 @@ import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
 from ardee_bridge import codec
-from ardee_navigation.hil_row_follower import Clock, Target
+from ardee_navigation.hil_row_follower import Clock, Target, _arguments
 from ardee_navigation.lbirnt import Parameters
 
 LOOPBACK = ("127.0.0.1", 0)
@@ -30,6 +30,21 @@ def ends() -> Iterator[Tuple[Any, socket.socket, socket.socket]]:
     target.stop()
     server.close()
     robot.close()
+
+
+@pytest.mark.parametrize(
+    "words, host",
+    [
+        ("", "127.0.0.1"),
+        ("--sensors 127.0.0.1:1 --controls 127.3.2.1:2", "127.0.0.1"),
+        ("--sensors 192.168.1.1:30001 --controls 192.168.1.1:35555", "0.0.0.0"),
+        ("--controls 192.168.1.1:35555", "0.0.0.0"),
+        ("--sensors 192.168.1.1:30001", "0.0.0.0"),
+    ],
+)
+def test_listens_on_loopback_only_where_all_are_there(words: str, host: str) -> None:
+    assert _arguments(words.split()).bind == (host, 0)
+    assert _arguments([*words.split(), "--bind", "10.0.0.7:5"]).bind == ("10.0.0.7", 5)
 
 
 def scan_message(ranges_m: np.ndarray) -> Tuple[bytes, bytes]:

@@ -5,6 +5,7 @@ It asks the sensor server for scans and their time stamps (SET_PORT), follows th
 the controls client. With --log each answer is written as a line of JSON.
 """
 import argparse
+import ipaddress
 import json
 import math
 import signal
@@ -12,7 +13,7 @@ import socket
 import sys
 import time
 from pathlib import Path
-from typing import IO, Any, Dict, List, NoReturn, Optional, Tuple
+from typing import IO, Any, Dict, List, NoReturn, Optional, Set, Tuple
 
 import numpy as np
 
@@ -63,6 +64,7 @@ class Target:
         self._sensors, self._controls = sensors, controls
         self._pairer, self._clock, self._asked_s = Pairer(), Clock(), -float("inf")
         self._last_s = -float("inf")  # simulated time of the latest scan
+        self._out_of_reach: Set[Address] = set()
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         self._socket.settimeout(0.2)
@@ -72,8 +74,17 @@ class Target:
         for datagram in datagrams:
             try:
                 self._socket.sendto(datagram, to)
-            except OSError:
-                return  # nobody listens there yet, or the network is away
+            except OSError as error:  # the network is away, or none leads there
+                self._say_once(to, error)
+                return
+        self._out_of_reach.discard(to)
+
+    def _say_once(self, to: Address, error: OSError) -> None:
+        """Why nothing can be sent there, until something could."""
+        if to not in self._out_of_reach:
+            self._out_of_reach.add(to)
+            text = f"hil_row_follower: cannot send to {to[0]}:{to[1]}: {error.strerror or error}"
+            print(text, file=sys.stderr, flush=True)
 
     def ask(self) -> None:
         """Ask the server for scans, now and then again, so that either may start first or start again."""
@@ -135,6 +146,12 @@ def _address(text: str) -> Address:
         raise argparse.ArgumentTypeError(f"found {text!r}, expected HOST:PORT") from None
 
 
+def _own_address(*others: Address) -> Address:
+    """Where to listen: on loopback, which keeps the network out, where nobody else is farther away."""
+    is_here = all(ipaddress.ip_address(host).is_loopback for host, _ in others)
+    return ("127.0.0.1" if is_here else "0.0.0.0"), 0
+
+
 def _arguments(argv: List[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="hil_row_follower", description=__doc__.splitlines()[0])
     parser.add_argument("--sensors", type=_address, default="127.0.0.1:30001", help="[%(default)s]")
@@ -144,14 +161,15 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
     parser.add_argument(
         "--bind",
         type=_address,
-        default="127.0.0.1:0",
-        help="own address; port 0: any [%(default)s]",
+        help="own address; port 0: any [127.0.0.1:0 if both others are on this computer, else 0.0.0.0:0]",
     )
     parser.add_argument("--parameters", default="", help="YAML file of the technique's parameters")
     parser.add_argument("--scenarios", type=Path, help="scenarios.yaml, for --scenario")
     parser.add_argument("--scenario", help="take the parameters of this scenario")
     parser.add_argument("--log", help="file for a line of JSON a scan; -: standard output")
-    return parser.parse_args([word for word in argv if not word.startswith("__")])  # roslaunch's
+    args = parser.parse_args([word for word in argv if not word.startswith("__")])  # roslaunch's
+    args.bind = args.bind or _own_address(args.sensors, args.controls)
+    return args
 
 
 def _parameters(args: argparse.Namespace) -> Parameters:
