@@ -38,7 +38,7 @@ def garbage(rng: random.Random) -> bytes:
         lambda: motion_header[: rng.randrange(0, 20)],
         lambda: motion + random_bytes(rng, rng.randrange(1, 100)),
         lambda: codec.Header(msg_type=rng.choice((20, 99, -1, 2**31 - 1))).pack(),
-        lambda: codec.Header(msg_type=5, data_type=rng.randrange(1, 99)).pack(),
+        lambda: codec.Header(msg_type=6, data_type=rng.randrange(20, 99)).pack(),
         lambda: codec.encode_set_port([codec.DataType.ALL])[1],
     )
     return rng.choice(choices)()

@@ -121,7 +121,7 @@ def test_what_sends_the_small_sensors_goes_first_where_that_is_granted(
     [
         (
             "sensor_server_node",
-            "_peers:=[{address: 10.1.2.3, port: 1}]",
+            "_peers:=[{address: 10.1.2.3, port: 1, data_types: [all]}]",
             "cannot be reached from bind_address",
         ),
         (
