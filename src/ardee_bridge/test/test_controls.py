@@ -83,6 +83,22 @@ def test_a_command_moves_and_its_end_stops(bench):
     assert bench.counters.done()["watchdog stops"] == 1
 
 
+def test_after_the_end_no_command_moves(bench):
+    bench.client.stop()
+    assert bench.motions == []  # it was not told to move
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    assert bench.motions == []
+
+
+def test_the_end_stops_what_still_receives(bench):
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    bench.client.stop()
+    bench.send(*codec.encode_motion(0.5, 0.0))
+    bench.now_s += 1.0
+    bench.client.receive(0.0)
+    assert bench.motions == [Motion(0.6, 0.0), STANDSTILL]
+
+
 def test_commands_keep_the_watchdog_quiet(bench):
     for number in range(20):
         bench.now_s = 0.4 * number

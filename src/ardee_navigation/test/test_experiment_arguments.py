@@ -17,14 +17,27 @@ from ardee_navigation import run_experiment, simulation
             ["--seed", "1.5"],
             "argument --seed: found 1.5, expected a whole number from 0 to 2147483647",
         ),
+        (
+            ["--runs", "2", "--seed", "2147483647"],
+            "--seed and --runs: found a last seed above 2147483647, the largest",
+        ),
+        (
+            ["--output", __file__],
+            f"--output: found {__file__!r}, expected a folder to write in: File exists",
+        ),
     ],
 )
 def test_numbers(words, message, monkeypatch, capsys):
     monkeypatch.setattr(sys, "argv", ["run_experiment", "--scenario", "corn", *words])
-    with pytest.raises(SystemExit) as ended:
-        run_experiment.main()
-    assert ended.value.code == 2
+    assert exit_code() == 2
     assert capsys.readouterr().err == f"run_experiment: {message}\n"
+
+
+def exit_code():
+    try:
+        return run_experiment.main()
+    except SystemExit as ended:
+        return ended.code
 
 
 def test_a_robot_that_is_not_there():

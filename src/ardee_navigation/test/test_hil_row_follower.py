@@ -47,6 +47,23 @@ def test_listens_on_loopback_only_where_all_are_there(words: str, host: str) -> 
     assert _arguments([*words.split(), "--bind", "10.0.0.7:5"]).bind == ("10.0.0.7", 5)
 
 
+@pytest.mark.parametrize(
+    "words, why",
+    [
+        ("--sensors 127.0.0.1:99999", "HOST:PORT with a port from 1 to 65535"),
+        ("--controls 127.0.0.1:0", "HOST:PORT with a port from 1 to 65535"),
+        ("--bind 127.0.0.1:65536", "HOST:PORT with a port from 0 to 65535"),
+        ("--bind 127.0.0.1", "HOST:PORT with a port from 0 to 65535"),
+    ],
+)
+def test_a_bad_address_is_one_line(words: str, why: str, capsys: pytest.CaptureFixture) -> None:
+    option, address = words.split()
+    with pytest.raises(SystemExit) as ended:
+        _arguments([option, address])
+    line = f"hil_row_follower: argument {option}: found {address!r}, expected {why}\n"
+    assert ended.value.code == 2 and capsys.readouterr().err == line
+
+
 def scan_message(ranges_m: np.ndarray) -> Tuple[bytes, bytes]:
     scan = codec.LidarData(
         angle_min=ANGLE_MIN_RAD,

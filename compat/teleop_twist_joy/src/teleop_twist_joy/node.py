@@ -27,7 +27,7 @@ class TeleopNode:
 
     def __init__(self) -> None:
         self._mapping = read_mapping(lambda name, default: rospy.get_param(f"~{name}", default))
-        self._driving = False
+        self._driving = self._ended = False
         self._lock = threading.Lock()  # callbacks and the watch have threads of their own
         self._publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         self._subscriber = rospy.Subscriber("joy", Joy, self._heard, queue_size=1)
@@ -35,7 +35,7 @@ class TeleopNode:
     def _heard(self, message: Joy) -> None:
         velocity = self._mapping.velocity(message.axes, message.buttons)
         with self._lock:
-            if velocity is not None:
+            if velocity is not None and not self._ended:
                 self._driving = True
                 self._publisher.publish(to_twist(velocity))
         if velocity is None:
@@ -47,6 +47,12 @@ class TeleopNode:
             if self._driving:
                 self._driving = False
                 self._publisher.publish(Twist())
+
+    def end(self) -> None:
+        """Stop for good: the joystick may still be heard while the node ends."""
+        with self._lock:
+            self._ended = True
+        self.stop()
 
     def run(self) -> None:
         """Until the node is shut down; watches for a joystick's node that dies without a word."""
@@ -66,7 +72,7 @@ def main() -> int:
         return 1
 
     def end() -> None:
-        node.stop()
+        node.end()
         time.sleep(FLUSH_S)
 
     rospy.on_shutdown(end)

@@ -2,6 +2,7 @@
 """Obeys motion and control messages of its peers, and stops the robot when they cease; without rospy."""
 import select
 import socket
+import threading
 import time
 from collections import deque
 from typing import Callable, Deque, Dict, NamedTuple, Optional
@@ -65,6 +66,7 @@ class ControlsClient:
         self._stop_at_s: Optional[float] = None
         self._is_stopped = False
         self._pending: "Deque[Motion]" = deque()
+        self._told, self._has_ended, self._telling = STANDSTILL, False, threading.Lock()
 
     def receive(self, timeout_s: float) -> None:
         """Wait so long at most, obey what has come, stop the robot when its commands have ceased."""
@@ -76,17 +78,24 @@ class ControlsClient:
                 self._take(datagram, sender)
             self._count_drops()
         while self._pending:
-            self._move(self._pending.popleft())
+            self._tell(self._pending.popleft())
         if self._stop_at_s is not None and self._clock() >= self._stop_at_s:
             self._stop_at_s = None
             self._counters.did("watchdog stops")
-            self._move(STANDSTILL)
+            self._tell(STANDSTILL)
 
     def stop(self) -> None:
-        """Stop the robot if it has been told to move; for the end of the node."""
-        if self._stop_at_s is not None:
-            self._stop_at_s = None
-            self._move(STANDSTILL)
+        """Stop the robot if it has been told to move, for good: at a node's end, while another thread may still receive."""
+        with self._telling:
+            self._has_ended = True
+            if self._told != STANDSTILL:
+                self._move(STANDSTILL)
+
+    def _tell(self, motion: Motion) -> None:
+        with self._telling:
+            if not self._has_ended:
+                self._told = motion
+                self._move(motion)
 
     def _count_drops(self) -> None:
         for reason, count in self._pairer.dropped.items():

@@ -204,9 +204,10 @@ def _drive(
                 follower = Follower(parameters, bridge)
                 processes.append(follower)
                 _wait_for_first_answer(simulation, follower)
+        wall_s = time.monotonic() - began
     finally:
         latency.stop()
         for process in reversed(processes):
             process.stop()
     judge.record.latency_ms = tuple(latency.milliseconds)
-    return judge.finish(time.monotonic() - began)
+    return judge.finish(wall_s)

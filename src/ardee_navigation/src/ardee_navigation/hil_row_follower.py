@@ -138,12 +138,24 @@ def _line(time_s: float, output: Output) -> Dict[str, Any]:
     }
 
 
-def _address(text: str) -> Address:
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def _address(text: str, least_port: int = 0) -> Address:
     host, _, port = text.rpartition(":")
     try:
+        if not least_port <= int(port) <= 65535:
+            raise ValueError
         return socket.gethostbyname(host), int(port)
-    except (OSError, ValueError, OverflowError):
-        raise argparse.ArgumentTypeError(f"found {text!r}, expected HOST:PORT") from None
+    except (OSError, ValueError):
+        expected = f"HOST:PORT with a port from {least_port} to 65535"
+        raise argparse.ArgumentTypeError(f"found {text!r}, expected {expected}") from None
+
+
+def _peer(text: str) -> Address:
+    return _address(text, least_port=1)
 
 
 def _own_address(*others: Address) -> Address:
@@ -153,11 +165,9 @@ def _own_address(*others: Address) -> Address:
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="hil_row_follower", description=__doc__.splitlines()[0])
-    parser.add_argument("--sensors", type=_address, default="127.0.0.1:30001", help="[%(default)s]")
-    parser.add_argument(
-        "--controls", type=_address, default="127.0.0.1:35555", help="[%(default)s]"
-    )
+    parser = _Parser(prog="hil_row_follower", description=__doc__.splitlines()[0])
+    parser.add_argument("--sensors", type=_peer, default="127.0.0.1:30001", help="[%(default)s]")
+    parser.add_argument("--controls", type=_peer, default="127.0.0.1:35555", help="[%(default)s]")
     parser.add_argument(
         "--bind",
         type=_address,

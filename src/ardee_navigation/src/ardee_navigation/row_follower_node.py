@@ -30,6 +30,7 @@ from ardee_navigation.scenario_files import read_parameters
 from ardee_navigation.scenarios import known_scenarios
 from ardee_navigation.silence import Silence
 
+FAREWELL_S = 0.1  # for the last command to leave before the node ends
 PATH_STEP_M = 0.05
 LONGEST_PATH = 20_000  # poses: a kilometre
 VALID, INVALID, CENTRE, CHOSEN = (
@@ -82,6 +83,7 @@ class Node:
         self._last_s, self._state = None, ""  # type: Optional[float], str
         self._path, self._drive = Path(), settings.drive
         self._silence, self._sending = Silence(parameters.max_gap_s), threading.Lock()
+        self._has_ended = False
         self._commands = rospy.Publisher(settings.cmd, Twist, queue_size=1)
         self._markers = rospy.Publisher("~markers", MarkerArray, queue_size=1)
         self._paths = rospy.Publisher("~path", Path, queue_size=1, latch=True)
@@ -99,8 +101,7 @@ class Node:
         output = self._follower.update(ranges, scan.angle_min, scan.angle_increment, now_s)
         with self._sending:
             self._silence.end(rospy.get_time(), time.monotonic())
-            if self._drive:
-                self._send(output.speed_m_s, output.turn_rad_s)
+            self._send(output.speed_m_s, output.turn_rad_s)
         if self._markers.get_num_connections():
             self._markers.publish(markers(scan.header, output, self._parameters))
         if output.state.value != self._state:
@@ -120,6 +121,8 @@ class Node:
         self._paths.publish(self._path)
 
     def _send(self, speed_m_s: float, turn_rad_s: float) -> None:
+        if not self._drive or self._has_ended:
+            return
         command = Twist()
         command.linear.x, command.angular.z = speed_m_s, turn_rad_s
         self._commands.publish(command)
@@ -133,9 +136,11 @@ class Node:
                 rospy.logwarn("no scans for %g s: stopped", self._parameters.max_gap_s)
 
     def stop(self) -> None:
-        """Tell the robot to stand still."""
-        if self._drive:
+        """Tell the robot to stand still, for good: scans may still come while the node ends."""
+        with self._sending:
             self._send(0.0, 0.0)
+            self._has_ended = True
+        time.sleep(FAREWELL_S)
 
 
 def _parameters(settings: Settings) -> Parameters:

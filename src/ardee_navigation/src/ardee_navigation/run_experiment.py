@@ -15,6 +15,8 @@ from ardee_navigation.record import Record
 from ardee_navigation.scenario_files import Scenario, read_parameters
 from ardee_navigation.scenarios import known_scenarios, prepare
 
+LARGEST_SEED = 2**31 - 1
+
 
 class _Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
@@ -33,12 +35,21 @@ def _whole(text: str, least: int, most: int) -> int:
     return value
 
 
+def _make_folder(output: Path) -> None:
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GeneratorError(
+            f"--output: found {str(output)!r}, expected a folder to write in: {error.strerror}"
+        ) from None
+
+
 def _positive(text: str) -> int:
     return _whole(text, 1, 10_000)
 
 
 def _seed(text: str) -> int:
-    return _whole(text, 0, 2**31 - 1)
+    return _whole(text, 0, LARGEST_SEED)
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
@@ -62,7 +73,10 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
         action="store_true",
         help="in real time, with the row follower as a process without ROS that speaks only UDP",
     )
-    return parser.parse_args(argv)
+    args = parser.parse_args(argv)
+    if args.seed + args.runs - 1 > LARGEST_SEED:
+        parser.error(f"--seed and --runs: found a last seed above {LARGEST_SEED}, the largest")
+    return args
 
 
 def _one_run(
@@ -102,7 +116,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     if args.parameters:
         scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
     output = args.output or Path("experiment_output") / args.scenario
-    output.mkdir(parents=True, exist_ok=True)
+    _make_folder(output)
     master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
     try:
         urdf = robot_urdf(args.bot_model)

@@ -57,7 +57,7 @@ class Parameters:
     # Start and end (5.2.1)
     end_points: int = _value(8, 1, 1081)  # fewer returns ahead: no row there [own]
     end_after_s: float = _value(1.0, 0.0, 60.0)  # both rows gone for so long: the end [own]
-    max_gap_s: float = _value(0.5, 0.1, 60.0)  # no scan for longer: stop, find the rows anew [own]
+    max_gap_s: float = _value(0.5, 0.1, 60.0)  # no scan for longer: find the rows anew [own]
 
     def __post_init__(self) -> None:
         """Raise ValueError for a value beyond its limits, or values with which no row would ever be followed."""
