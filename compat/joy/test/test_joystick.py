@@ -141,6 +141,32 @@ def test_axes_end_at_one_and_have_a_dead_zone(deadzone: float):
     assert axis_value(-round(middle), deadzone) == pytest.approx(0.5, abs=5e-5)
 
 
+def test_axes_begin_at_0_unless_their_deflection_at_opening_counts():
+    """A trigger rests at one end; `default_trig_val` of joy_node."""
+    for counts, expected in ((False, 0.0), (True, 1.0)):
+        state = JoyState(deadzone=0.05, initial_axes=counts)
+        state.apply(Event(-32767, AXIS, 0, True))
+        assert state.axes == [expected]
+        state.apply(Event(32767, AXIS, 0, False))
+        assert state.axes == [-1.0]
+
+
+def test_sticky_buttons_change_when_they_are_pressed():
+    state, told = JoyState(deadzone=0.0, sticky=True), []
+    for value, initial in ((1, True), (0, False), (1, False), (0, False), (1, False), (0, False)):
+        state.apply(Event(value, BUTTON, 0, initial))
+        told.append(state.buttons[0])
+    assert told == [0, 0, 1, 1, 0, 0]
+
+
+def test_a_device_that_never_tells_anything(tmp_path: pathlib.Path):
+    device = Device(os.devnull)
+    with pytest.raises(DeviceGone, match="end of file"):
+        device.read(1.0)
+    assert not device.has_told
+    device.close()
+
+
 def test_letting_go_keeps_the_numbers_of_axes_and_buttons():
     state = JoyState(deadzone=0.0)
     state.apply(Event(-32767, AXIS, 2, False))

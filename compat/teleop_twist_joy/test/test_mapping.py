@@ -58,6 +58,7 @@ def test_maps_drive_in_every_direction():
 
 def test_axes_and_buttons_that_the_joystick_does_not_have():
     assert mapping().velocity([], [1]) == {"x": 0.0, "yaw": 0.0}
+    assert mapping().velocity([float("nan"), float("inf")], [1]) == {"x": 0.0, "yaw": 0.0}
     assert mapping(enable_button=7).velocity([1.0, 1.0], [1]) is None
     assert mapping(enable_button=-1).velocity([1.0, 1.0], [1]) is None
 

@@ -292,6 +292,10 @@ static Options parse(int argc, char **argv) {
         options.seconds = atof(optarg);
         break;
       default:
+        fputs(
+            "usage: ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT]\n"
+            "                    [-g GROUP] [-v SPEED] [-w YAW_RATE] [-t SECONDS]\n",
+            stderr);
         exit(2);
     }
   }

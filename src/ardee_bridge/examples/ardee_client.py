@@ -129,7 +129,10 @@ def main() -> int:
     is_local = found.simulator.startswith("127.") and not found.group
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, BUFFER_BYTES)
-        opened.bind(("127.0.0.1" if is_local else "0.0.0.0", found.port))
+        try:
+            opened.bind(("127.0.0.1" if is_local else "0.0.0.0", found.port))
+        except OSError as error:
+            sys.exit(f"ardee_client: port {found.port}: {error.strerror}")
         if found.group:
             try:
                 join(opened, found.group, found.simulator)

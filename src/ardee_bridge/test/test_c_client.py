@@ -15,6 +15,12 @@ def client(package, tmp_path_factory):
     return program
 
 
+def test_an_option_that_it_does_not_have_gets_those_it_has(client):
+    run = subprocess.run([str(client), "-h"], capture_output=True, text=True)
+    assert run.returncode == 2
+    assert "usage: ardee_client [-i SIMULATOR] [-p PORT]" in run.stderr
+
+
 @pytest.mark.parametrize("option", ["-v", "-w"])
 @pytest.mark.parametrize("share", ["1.01", "-1e9", "nan", "fast", ""])
 def test_a_speed_that_is_no_share_of_the_limit_is_refused(client, option, share):

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The controls client on real sockets: limits, control codes, peers, watchdog, what it drops and why."""
+import re
 import socket
+import time
 
 import pytest
 
-from ardee_bridge import codec
+from ardee_bridge import codec, kernel_clock
 from ardee_bridge.controls import STANDSTILL, ControlsClient, Motion, to_motion
 from ardee_bridge.counters import Counters
 from ardee_bridge.settings import read_controls
@@ -95,6 +97,40 @@ def test_the_end_stops_what_still_receives(bench):
     bench.client.stop()
     bench.send(*codec.encode_motion(0.5, 0.0))
     bench.now_s += 1.0
+    bench.client.receive(0.0)
+    assert bench.motions == [Motion(0.6, 0.0), STANDSTILL]
+
+
+def test_without_a_command_from_the_start_it_stops_what_another_may_have_left_driving(bench):
+    bench.client.receive(0.0)
+    assert bench.motions == []
+    bench.now_s = 0.5
+    bench.client.receive(0.0)
+    bench.now_s = 5.0
+    bench.client.receive(0.0)
+    assert bench.motions == [STANDSTILL]
+
+
+def test_a_command_that_was_read_too_late_does_not_move(bench):
+    kernel_clock.wait()
+    for datagram in codec.encode_motion(0.5, 0.0):
+        bench.peer.sendto(datagram, bench.server.getsockname())
+    time.sleep(0.6)  # as if the node had been kept from its processor
+    bench.client.receive(0.0)
+    assert bench.motions == []
+    assert bench.counters.dropped() == {"motion commands read too late": 1}
+    (warning,) = bench.warnings
+    assert re.fullmatch(r"dropped 1: motion commands read too late, 0\.[6-9] s .*", warning)
+
+
+def test_the_watchdog_counts_from_a_command_s_arrival(bench):
+    kernel_clock.wait()
+    for datagram in codec.encode_motion(0.5, 0.0):
+        bench.peer.sendto(datagram, bench.server.getsockname())
+    time.sleep(0.2)
+    bench.client.receive(0.0)
+    assert bench.motions == [Motion(0.6, 0.0)]
+    bench.now_s = 0.3
     bench.client.receive(0.0)
     assert bench.motions == [Motion(0.6, 0.0), STANDSTILL]
 

@@ -60,6 +60,14 @@ def test_data_of_another_size_does_not_take_the_header():
     assert pairer.dropped == {"data of the wrong size": 3}
 
 
+def test_a_drop_says_who_and_what():
+    pairer = Pairer()
+    feed_all(pairer, [motion(0.1)[0], b"\0" * 16], sender=("10.0.0.2", 5000))
+    told = "10.0.0.2:5000: found 16 bytes, expected 12 after a header of type 5"
+    assert list(pairer.take_drops()) == [("data of the wrong size", 1, told)]
+    assert list(pairer.take_drops()) == []
+
+
 def test_old_headers_are_not_used():
     header, data = motion(0.1)
     pairer = Pairer()

@@ -4,7 +4,7 @@ import pytest
 import yaml
 
 from ardee_bridge import codec
-from ardee_bridge.settings import SettingError, kept_here, read_controls, read_server
+from ardee_bridge.settings import SettingError, kept_here, read_controls, read_server, silent
 
 
 def shipped(package, name):
@@ -70,6 +70,14 @@ def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
             r"peers\[1\]: found 127.0.0.1:1, which is peers\[0\]'s",
         ),
         (
+            dict(bind_address="0.0.0.0", peers=[dict(address="0.0.0.0", port=1, data_types=[])]),
+            r"peers\[0\].address: found 0.0.0.0, expected where to send to",
+        ),
+        (
+            dict(port=5, peers=[dict(address="127.0.0.1", port=5, data_types=[])]),
+            r"peers\[0\]: found 127.0.0.1:5, which is the server's own",
+        ),
+        (
             dict(sources=[dict(name="a", topic="t", kind="sonar")]),
             r"sources\[0\].kind: found 'sonar'",
         ),
@@ -107,3 +115,9 @@ def test_a_bad_server_setting_is_named(package, change, message):
 def test_a_bad_control_setting_is_named(package, change, message):
     with pytest.raises(SettingError, match=message):
         read_controls(dict(shipped(package, "controls_client.yaml"), **change))
+
+
+def test_groups_and_the_broadcast_to_all_drive_nobody(package):
+    peers = ["127.0.0.1", "239.7.7.7", "192.168.1.0/24", "255.255.255.255:5", "0.0.0.0/0"]
+    values = dict(shipped(package, "controls_client.yaml"), peers=peers)
+    assert silent(read_controls(values).peers) == ["239.7.7.7", "255.255.255.255"]

@@ -45,6 +45,8 @@ class JoyState:
     """Axes and buttons as events have told them so far."""
 
     deadzone: float
+    sticky: bool = False  # a button keeps its state until it is pressed again
+    initial_axes: bool = False  # deflections at opening count, else axes begin at 0
     axes: List[float] = field(default_factory=list)
     buttons: List[int] = field(default_factory=list)
 
@@ -52,10 +54,13 @@ class JoyState:
         """Take an event in; the lists grow to the numbers that occur."""
         values = self.buttons if event.kind == BUTTON else self.axes
         values.extend([0] * (event.number + 1 - len(values)))
-        if event.kind == BUTTON:
+        if event.kind == AXIS:
+            counts = self.initial_axes or not event.initial
+            values[event.number] = axis_value(event.value, self.deadzone) if counts else 0.0
+        elif not self.sticky:
             values[event.number] = int(event.value != 0)
-        else:
-            values[event.number] = axis_value(event.value, self.deadzone)
+        elif event.value and not event.initial:
+            values[event.number] = 1 - values[event.number]
 
     def release(self) -> None:
         """Let everything go, as if no hand were on the joystick."""
@@ -69,6 +74,7 @@ class Device:
     def __init__(self, path: str):
         """Open the device; OSError where there is none."""
         self._path = path
+        self.has_told = False  # any event
         self._rest = b""  # an event that has arrived in part, as pipes may deliver it
         self._file: Optional[int] = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
 
@@ -88,6 +94,7 @@ class Device:
         data = self._rest + data
         whole = len(data) - len(data) % EVENT.size
         self._rest = data[whole:]
+        self.has_told = self.has_told or whole > 0
         return list(decode(data[:whole]))
 
     def _check_path(self) -> None:

@@ -3,6 +3,7 @@
 import time
 from typing import Optional
 
+import rosgraph
 import rospy
 from sensor_msgs.msg import Joy
 
@@ -10,6 +11,7 @@ from joy.device import BUTTON, Device, DeviceGone, JoyState
 
 RETRY_S = 0.5  # between looks for a device that is not there
 FLUSH_S = 0.1  # for the last message to leave before the node ends
+MASTER_S = 0.2  # between looks for a ROS master
 WATCH_S = 0.1  # between looks whether the device and the node are still wanted
 PARAMETERS = {  # name: default, least, greatest
     "deadzone": (0.05, 0.0, 0.9),
@@ -29,12 +31,21 @@ def number(name: str) -> float:
     return float(value)
 
 
+def flag(name: str) -> bool:
+    """A private parameter that is true or false, false by default; ValueError for another."""
+    value = rospy.get_param(f"~{name}", False)
+    if not isinstance(value, bool):
+        raise ValueError(f"~{name}: {value!r}; expected true or false")
+    return value
+
+
 class JoyNode:
     """Reads one joystick, waits for it where it is not there, says so when it goes."""
 
     def __init__(self) -> None:
         self._path = str(rospy.get_param("~dev", "/dev/input/js0"))
-        self._state = JoyState(number("deadzone"))
+        sticky, initial_axes = flag("sticky_buttons"), flag("default_trig_val")
+        self._state = JoyState(number("deadzone"), sticky, initial_axes)
         rate = number("autorepeat_rate")
         self._repeat_s = 1.0 / rate if rate > 0 else float("inf")
         self._coalesce_s = number("coalesce_interval")
@@ -43,19 +54,21 @@ class JoyNode:
 
     def run(self) -> None:
         """Publish until the node is shut down."""
-        missing = False
+        useless = False  # the last look found nothing that tells anything; it is said once
         while not rospy.is_shutdown():
-            device = self._open(quietly=missing)
-            missing = device is None
+            device = self._open(quietly=useless)
             if device is None:
+                useless = True
                 time.sleep(RETRY_S)
                 continue
             try:
                 self._follow(device)
             except DeviceGone as reason:
-                rospy.logerr("joystick %s is gone: %s; stopping", self._path, reason)
+                if device.has_told or not useless:
+                    rospy.logerr("joystick %s is gone: %s; stopping", self._path, reason)
                 self.let_go()
-                time.sleep(WATCH_S)
+                useless = not device.has_told
+                time.sleep(RETRY_S if useless else WATCH_S)
             finally:
                 device.close()
 
@@ -73,7 +86,8 @@ class JoyNode:
             if not quietly:
                 rospy.logwarn("no joystick %s (%s): waiting for it", self._path, error.strerror)
             return None
-        rospy.loginfo("joystick %s", self._path)
+        if not quietly:
+            rospy.loginfo("joystick %s", self._path)
         return device
 
     def _follow(self, device: Device) -> None:
@@ -100,13 +114,18 @@ class JoyNode:
 
 
 def main() -> int:
-    """Run the node; 1 when a parameter is wrong."""
-    rospy.init_node("joy_node")
+    """Run the node, once there is a ROS master; 2 when a parameter is wrong."""
+    try:
+        while not rosgraph.is_master_online():
+            time.sleep(MASTER_S)
+        rospy.init_node("joy_node")
+    except (KeyboardInterrupt, rospy.ROSInitException):  # ended before there was one
+        return 130
     try:
         node = JoyNode()
     except ValueError as error:
         rospy.logfatal("%s", error)
-        return 1
+        return 2
 
     def end() -> None:
         node.let_go()

@@ -32,9 +32,14 @@ class Mapping:
         else:
             return None
         return {
-            name: scale.get(name, 0.0) * (axes[axis] if 0 <= axis < len(axes) else 0.0)
-            for name, axis in self.axes.items()
+            name: scale.get(name, 0.0) * _deflection(axes, axis) for name, axis in self.axes.items()
         }
+
+
+def _deflection(axes: Sequence[float], number: int) -> float:
+    """0 of an axis that is not there, or says no number."""
+    is_there = 0 <= number < len(axes) and math.isfinite(axes[number])
+    return axes[number] if is_there else 0.0
 
 
 def _held(buttons: Sequence[int], number: int) -> bool:

@@ -4,12 +4,14 @@ import threading
 import time
 from typing import Dict
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import Joy
 
 from teleop_twist_joy.mapping import ANGULAR, LINEAR, read_mapping
 
+MASTER_S = 0.2  # between looks for a ROS master
 WATCH_S = 0.1  # between looks whether there still is a joystick's node
 FLUSH_S = 0.1  # for the last message to leave before the node ends
 
@@ -63,13 +65,18 @@ class TeleopNode:
 
 
 def main() -> int:
-    """Run the node; 1 when a parameter is wrong."""
-    rospy.init_node("teleop_twist_joy_node")
+    """Run the node, once there is a ROS master; 2 when a parameter is wrong."""
+    try:
+        while not rosgraph.is_master_online():
+            time.sleep(MASTER_S)
+        rospy.init_node("teleop_twist_joy_node")
+    except (KeyboardInterrupt, rospy.ROSInitException):  # ended before there was one
+        return 130
     try:
         node = TeleopNode()
     except ValueError as error:
         rospy.logfatal("%s", error)
-        return 1
+        return 2
 
     def end() -> None:
         node.end()

@@ -63,7 +63,8 @@ class ControlsClient:
         self._move, self._pause_simulation, self._clock = move, pause_simulation, clock
         self._pairer = Pairer()
         self._inbox = Inbox(opened)
-        self._stop_at_s: Optional[float] = None
+        # One that was killed before may have left the robot driving, so the watchdog waits from the start.
+        self._stop_at_s: Optional[float] = clock() + settings.watchdog_s
         self._is_stopped = False
         self._pending: "Deque[Motion]" = deque()
         self._told, self._has_ended, self._telling = STANDSTILL, False, threading.Lock()
@@ -74,8 +75,8 @@ class ControlsClient:
             timeout_s = max(0.0, min(timeout_s, self._stop_at_s - self._clock()))
         readable, _, _ = select.select([self._socket], [], [], timeout_s)
         if readable:
-            for datagram, sender in self._inbox.drain():
-                self._take(datagram, sender)
+            for datagram, sender, age_s in self._inbox.drain():
+                self._take(datagram, sender, self._clock() - age_s)
             self._count_drops()
         while self._pending:
             self._tell(self._pending.popleft())
@@ -85,7 +86,7 @@ class ControlsClient:
             self._tell(STANDSTILL)
 
     def stop(self) -> None:
-        """Stop the robot if it has been told to move, for good: at a node's end, while another thread may still receive."""
+        """Stop the robot for good, if it has been told to move; another thread may still receive."""
         with self._telling:
             self._has_ended = True
             if self._told != STANDSTILL:
@@ -98,27 +99,26 @@ class ControlsClient:
                 self._move(motion)
 
     def _count_drops(self) -> None:
-        for reason, count in self._pairer.dropped.items():
-            self._counters.drop(reason, count=count)
-        self._pairer.dropped.clear()
+        for reason, count, detail in self._pairer.take_drops():
+            self._counters.drop(reason, detail, count)
         if self._inbox.overflowed:
             self._counters.raise_to("receive buffer full", self._inbox.overflowed)
 
-    def _take(self, datagram: bytes, sender: Sender) -> None:
+    def _take(self, datagram: bytes, sender: Sender, at_s: float) -> None:
         if not self._settings.peers.include(sender):
             self._counters.drop("sender is no peer", f"{sender[0]}:{sender[1]}")
             return
-        message = self._pairer.feed(sender, datagram, self._clock())
+        message = self._pairer.feed(sender, datagram, at_s)
         if message is None:
             return
         if message.header.msg_type == codec.MessageType.DATA_RCCOMMANDS:
-            self._obey_motion(message)
+            self._obey_motion(message, at_s)
         elif message.header.msg_type == codec.MessageType.CONTROL:
             self._obey_control(message, sender)
         else:
             self._counters.drop("neither motion nor control", f"type {message.header.msg_type}")
 
-    def _obey_motion(self, message: Message) -> None:
+    def _obey_motion(self, message: Message, at_s: float) -> None:
         commands = codec.MotionCommands.unpack(message.data)
         if commands.multiplier < 1:
             self._counters.drop("malformed motion command", f"multiplier {commands.multiplier}")
@@ -126,12 +126,16 @@ class ControlsClient:
         if self._is_stopped:
             self._counters.drop("motion command between STOP and START")
             return
+        age_s = self._clock() - at_s
+        if age_s >= self._settings.watchdog_s:
+            self._counters.drop("motion commands read too late", f"{age_s:.1f} s after they came")
+            return
         self._counters.did("motion commands obeyed")
         if len(self._pending) == MOST_AT_ONCE:
             self._pending.popleft()
             self._counters.drop("motion commands overtaken by newer ones")
         self._pending.append(to_motion(commands, self._settings))
-        self._stop_at_s = self._clock() + self._settings.watchdog_s
+        self._stop_at_s = at_s + self._settings.watchdog_s
 
     def _obey_control(self, message: Message, sender: Sender) -> None:
         try:

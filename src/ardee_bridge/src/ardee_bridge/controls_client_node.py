@@ -14,12 +14,14 @@ from std_srvs.srv import Empty
 from ardee_bridge import ros_node
 from ardee_bridge.controls import MOST_AT_ONCE, STANDSTILL, ControlsClient, Motion, what_was_obeyed
 from ardee_bridge.counters import Counters
-from ardee_bridge.settings import ControlSettings, read_controls
+from ardee_bridge.settings import ControlSettings, read_controls, silent
 from ardee_bridge.udp import open_socket
 
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
 TELL_PERIOD_S = 1.0
+# Some 700 datagrams as Linux counts: in a flood a command waits behind no more, some 0.1 s.
+RECEIVE_BYTES = 256 << 10
 
 
 class Mover:
@@ -81,7 +83,7 @@ class SimulationPauser:
 def _make() -> Callable[[float], None]:
     settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
     counters = Counters(rospy.logwarn)
-    opened = open_socket(settings.bind_address, settings.port)
+    opened = open_socket(settings.bind_address, settings.port, receive_bytes=RECEIVE_BYTES)
     mover = Mover(settings.cmd_vel_topic, counters)
     pauser = SimulationPauser(settings, counters)
     client = ControlsClient(settings, opened, counters, mover.move, pauser.want)
@@ -92,6 +94,10 @@ def _make() -> Callable[[float], None]:
 
     rospy.on_shutdown(stop)
     ros_node.start_diagnostics(rospy.get_name(), counters)
+    if not settings.peers.networks:
+        rospy.logwarn("peers: found none, so nobody can drive")
+    for each in silent(settings.peers):
+        rospy.logwarn("peers: nobody sends from %s; expected the addresses of who may drive", each)
     rospy.loginfo("controls arrive at %s:%d", *opened.getsockname())
     return client.receive
 

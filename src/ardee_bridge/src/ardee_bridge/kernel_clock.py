@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""For the benchmark: when data arrived, by the kernel's clock, however late a process looks at them."""
+"""When data arrived, by the kernel's clock, however late a process looks at them."""
 import socket
 import struct
 import time

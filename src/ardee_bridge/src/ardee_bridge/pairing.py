@@ -6,7 +6,7 @@ keeps, for each sender, its latest header that is not used up. Data of the size 
 WINDOW_S of it, completes the message and uses the header up. Everything else is dropped and counted.
 """
 from collections import Counter, OrderedDict
-from typing import Hashable, NamedTuple, Optional, Tuple
+from typing import Any, Dict, Hashable, Iterator, NamedTuple, Optional, Tuple
 
 from ardee_bridge import codec
 
@@ -26,7 +26,20 @@ class Pairer:
 
     def __init__(self) -> None:
         self.dropped: "Counter[str]" = Counter()
+        self._latest: Dict[str, Tuple[Hashable, Any, Any]] = {}
         self._waiting: "OrderedDict[Hashable, Tuple[codec.Header, int, float]]" = OrderedDict()
+
+    def take_drops(self) -> Iterator[Tuple[str, int, str]]:
+        """What was dropped since it was asked last: reason, count, and about the latest of them who and what."""
+        for reason, count in self.dropped.items():
+            sender, found, expected = self._latest[reason]
+            who = ":".join(map(str, sender)) if isinstance(sender, tuple) else sender
+            yield reason, count, f"{who}: found {found}, expected {expected}"
+        self.dropped.clear()
+
+    def _drop(self, reason: str, sender: Hashable, found: Any, expected: Any) -> None:
+        self.dropped[reason] += 1
+        self._latest[reason] = (sender, found, expected)
 
     def feed(self, sender: Hashable, datagram: bytes, now_s: float) -> Optional[Message]:
         """The message that this datagram completes, if it does; `now_s` on any clock that does not go back."""
@@ -37,26 +50,31 @@ class Pairer:
 
     def _keep(self, sender: Hashable, header: codec.Header, now_s: float) -> None:
         size = codec.data_size(header)
-        if self._waiting.pop(sender, None) is not None:
-            self.dropped["header without data"] += 1
+        unused = self._waiting.pop(sender, None)
+        if unused is not None:
+            expected = f"{unused[1]} bytes of data"
+            self._drop("header without data", sender, "another header", expected)
         if size is None:
-            self.dropped["unknown or invalid header"] += 1
+            self._drop("unknown or invalid header", sender, header, "one of docs/wire_format.md")
             return
         self._waiting[sender] = (header, size, now_s)
         if len(self._waiting) > MAX_SENDERS:
-            self._waiting.popitem(last=False)
-            self.dropped["too many senders"] += 1
+            eldest, _ = self._waiting.popitem(last=False)
+            self._drop("too many senders", eldest, "another sender's header", "its data")
 
     def _complete(self, sender: Hashable, datagram: bytes, now_s: float) -> Optional[Message]:
         if sender not in self._waiting:
-            self.dropped["data without header"] += 1
+            expected = f"a header of {codec.Header.size} bytes first"
+            self._drop("data without header", sender, f"{len(datagram)} bytes", expected)
             return None
         header, size, since_s = self._waiting[sender]
         if len(datagram) != size:
-            self.dropped["data of the wrong size"] += 1
+            expected = f"{size} after a header of type {header.msg_type}"
+            self._drop("data of the wrong size", sender, f"{len(datagram)} bytes", expected)
             return None
         del self._waiting[sender]
         if now_s - since_s > WINDOW_S:
-            self.dropped["data too late"] += 1
+            found = f"{now_s - since_s:.1f} s after its header"
+            self._drop("data too late", sender, found, f"{WINDOW_S:g} s at most")
             return None
         return Message(header, datagram)

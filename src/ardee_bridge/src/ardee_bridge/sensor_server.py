@@ -190,15 +190,14 @@ class SensorServer:
         """Wait so long for requests, and answer them; forget clients whose lease has ended."""
         readable, _, _ = select.select([self._socket], [], [], timeout_s)
         if readable:
-            for datagram, sender in self._inbox.drain():
+            for datagram, sender, _ in self._inbox.drain():
                 self._take(datagram, sender)
             self._count_drops()
         self._forget()
 
     def _count_drops(self) -> None:
-        for reason, count in self._pairer.dropped.items():
-            self._counters.drop(f"requests: {reason}", count=count)
-        self._pairer.dropped.clear()
+        for reason, count, detail in self._pairer.take_drops():
+            self._counters.drop(f"requests: {reason}", detail, count)
         if self._inbox.overflowed:
             self._counters.raise_to("requests: receive buffer full", self._inbox.overflowed)
 

@@ -231,6 +231,8 @@ def _read_destination(reader: Reader, bind_address: str) -> Destination:
     words = reader.selections("data_types")
     reader.finish()
     of_bind, of_peer = ipaddress.IPv4Address(bind_address), ipaddress.IPv4Address(address)
+    if of_peer.is_unspecified:
+        raise SettingError(f"{reader._path}address: found {address}, expected where to send to")
     if of_bind.is_loopback and not (of_peer.is_loopback or of_peer.is_multicast):
         raise SettingError(
             f"{reader._path}address: {address} cannot be reached from bind_address {bind_address}; "
@@ -280,7 +282,7 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
     )
     reader.finish()
     _check_unique(sources)
-    _check_destinations(settings.destinations)
+    _check_destinations(settings.destinations, (bind_address, settings.port))
     return settings
 
 
@@ -310,9 +312,20 @@ def _check_unique(sources: Tuple[Source, ...]) -> None:
             )
 
 
-def _check_destinations(destinations: Tuple[Destination, ...]) -> None:
-    """One selection for each address and port: the server keeps no more."""
+def silent(peers: Peers) -> List[str]:
+    """Those from whose address nothing ever comes: multicast groups, and the broadcast to all."""
+    everybody = ipaddress.IPv4Address("255.255.255.255")
+    hosts = [network.network_address for network, _ in peers.networks if network.num_addresses == 1]
+    return [str(host) for host in hosts if host.is_multicast or host == everybody]
+
+
+def _check_destinations(destinations: Tuple[Destination, ...], own: Tuple[str, int]) -> None:
+    """One selection for each address and port: the server keeps no more. None for the server itself."""
     places = [(peer.address, peer.port) for peer in destinations]
+    if own in places:
+        raise SettingError(
+            f"peers[{places.index(own)}]: found {own[0]}:{own[1]}, which is the server's own; expected another's"
+        )
     for number, place in enumerate(places):
         if place in places[:number]:
             raise SettingError(

@@ -5,7 +5,10 @@ import os
 import socket
 import struct
 import threading
+import time
 from typing import Iterator, List, Tuple
+
+from ardee_bridge import kernel_clock
 
 Sender = Tuple[str, int]
 
@@ -14,15 +17,18 @@ SO_RXQ_OVFL = 40
 SO_RCVBUFFORCE = 33
 BUFFER_BYTES = 4 << 20
 MAX_DATAGRAM = 65535
+_EXTRAS_BYTES = socket.CMSG_SPACE(4) + socket.CMSG_SPACE(16)  # overflow, time of arrival
 
 
-def open_socket(address: str, port: int, multicast_ttl: int = 1) -> socket.socket:
-    """A bound UDP socket that may broadcast, with buffers as large as the system lets them be."""
+def open_socket(
+    address: str, port: int, multicast_ttl: int = 1, receive_bytes: int = BUFFER_BYTES
+) -> socket.socket:
+    """A bound UDP socket that may broadcast, with buffers as large as the system lets them be, or as is asked."""
     opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     try:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
-        for option in (socket.SO_RCVBUF, socket.SO_SNDBUF):
-            opened.setsockopt(socket.SOL_SOCKET, option, BUFFER_BYTES)
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER_BYTES)
         opened.setsockopt(socket.SOL_SOCKET, SO_RXQ_OVFL, 1)
         opened.setsockopt(socket.IPPROTO_IP, socket.IP_MULTICAST_TTL, multicast_ttl)
         interface = socket.inet_aton(address)
@@ -78,22 +84,28 @@ class Inbox:
     def __init__(self, source: socket.socket) -> None:
         self._socket = source
         self.overflowed = 0
+        kernel_clock.use(source)
 
-    def drain(self, most: int = 256) -> Iterator[Tuple[bytes, Sender]]:
-        """Up to so many datagrams that are there already, with their senders."""
+    def drain(self, most: int = 256) -> Iterator[Tuple[bytes, Sender, float]]:
+        """Up to so many datagrams that are there already: data, sender, and for how long they have been there [s]."""
         for _ in range(most):
             try:
                 data, extras, _, sender = self._socket.recvmsg(
-                    MAX_DATAGRAM, socket.CMSG_SPACE(4), socket.MSG_DONTWAIT
+                    MAX_DATAGRAM, _EXTRAS_BYTES, socket.MSG_DONTWAIT
                 )
             except (BlockingIOError, InterruptedError):
                 return
             except ConnectionError:  # a port that an answer went to is closed
                 continue
             self._look_for_overflow(extras)
-            yield data, sender
+            yield data, sender, _age_s(extras)
 
     def _look_for_overflow(self, extras: List[Tuple[int, int, bytes]]) -> None:
         for level, kind, data in extras:
             if level == socket.SOL_SOCKET and kind == SO_RXQ_OVFL:
                 self.overflowed = struct.unpack("=I", data[:4])[0]
+
+
+def _age_s(extras: List[Tuple[int, int, bytes]]) -> float:
+    at_ns = kernel_clock.arrival_ns(extras)
+    return 0.0 if at_ns is None else max(0.0, (time.time_ns() - at_ns) * 1e-9)
