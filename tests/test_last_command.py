@@ -85,7 +85,7 @@ FEEDS: Dict[str, Callable[..., Callable[[], None]]] = {
 
 
 def feed(pipe: Any) -> None:
-    """Body of a process: feeds what it is told, by name and arguments; says that commands come; asked, the last [m/s]."""
+    """Body of a process: feeds what it is told (name, arguments); says that commands come; asked, the last [m/s]."""
     import rospy
     from geometry_msgs.msg import Twist
 
