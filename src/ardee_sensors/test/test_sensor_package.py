@@ -40,8 +40,11 @@ def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: p
     names = sorted(path.name for path in (PACKAGE / "meshes").iterdir())
     assert sorted(path.name for path in tmp_path.iterdir()) == names
     for name in names:
-        assert (tmp_path / name).read_bytes() == (PACKAGE / "meshes" / name).read_bytes(), name
-        assert len((tmp_path / name).read_bytes()) < 200_000
+        made, kept = tmp_path / name, PACKAGE / "meshes" / name
+        assert made.read_bytes()[:84] == kept.read_bytes()[:84], name
+        # micrometres; where one lies half-way between two, processors round it differently
+        assert np.abs(read_stl(made) - read_stl(kept)).max() < 1.1e-6, name
+        assert len(made.read_bytes()) < 200_000
 
 
 @pytest.mark.parametrize("mesh", sorted(p.stem for p in (PACKAGE / "meshes").glob("*.stl")))

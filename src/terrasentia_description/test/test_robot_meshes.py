@@ -26,13 +26,16 @@ def load_script():
     return module
 
 
-def test_the_script_makes_the_same_bytes(tmp_path: pathlib.Path):
+def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path):
     script = load_script()
     for generation, parts in script.meshes().items():
         script.shapes.write_all(parts, tmp_path / generation)
     assert sorted(str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/*")) == FILES
     for name in FILES:
-        assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes(), name
+        made, kept = tmp_path / name, FOLDER / name
+        assert made.read_bytes()[:84] == kept.read_bytes()[:84], name
+        # micrometres; where one lies half-way between two, processors round it differently
+        assert np.abs(read_stl(made) - read_stl(kept)).max() < 1.1e-6, name
         assert (tmp_path / name).stat().st_size < 200_000, name
 
 
