@@ -107,7 +107,7 @@ const Element* Parameters::block(const std::string& key) { return find(key); }
 void Parameters::finish(Log& log) const {
   for (const Element& child : element_.children) {
     if (known_.count(child.name) == 0) {
-      log.warn(child.source.to_string() + ": unknown key, ignored");
+      log.warn(child.source, "unknown key, ignored");
     }
   }
 }

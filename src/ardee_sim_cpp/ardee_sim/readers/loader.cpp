@@ -53,12 +53,14 @@ World Loader::Impl::read_world(const XmlFile& document) {
 }
 
 World Loader::load_world(const std::string& path) {
+  const LogGroup group(impl_->log);
   World world = impl_->read_world(XmlFile::read(path, Source{path, 0, ""}));
   release_free_memory();
   return world;
 }
 
 World Loader::load_world_text(const std::string& xml, const std::string& name) {
+  const LogGroup group(impl_->log);
   return impl_->read_world(XmlFile(xml, name));
 }
 
@@ -68,6 +70,7 @@ std::shared_ptr<const Model> Loader::load_model(const std::string& path) {
 
 std::shared_ptr<const Model> Loader::load_model_text(const std::string& xml,
                                                      const std::string& name) {
+  const LogGroup group(impl_->log);
   const XmlFile document(xml, name);
   const Node root = document.root();
   if (is_sdf(root)) return impl_->sdf.read_model(root);

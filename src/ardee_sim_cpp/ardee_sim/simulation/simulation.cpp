@@ -55,6 +55,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),
       step_ns_(nanoseconds(world.physics.step_s)) {
+  const LogGroup group(log_);
   physics_.reset_random(options_.seed);
   world_.models.clear();  // from here on they live in entities_
   for (const PluginDescription& plugin : world.plugins) {
@@ -76,6 +77,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
 Simulation::~Simulation() = default;
 
 Entity& Simulation::spawn(const SpawnRequest& request) {
+  const LogGroup group(log_);
   if (request.name.empty()) throw Error("found an empty model name, expected one");
   if (find(request.name)) throw Error("entity already exists: '" + request.name + "'");
   require_in_world(request.name, request.X_WM);
