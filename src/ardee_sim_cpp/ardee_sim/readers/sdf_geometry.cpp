@@ -117,11 +117,6 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
       made = read_mesh(shape, assets);
     else if (name == "heightmap")
       made = read_heightmap(shape, assets);
-    else if (name != "empty") {
-      assets.log().warn(shape.source().to_string() +
-                        ": shape not supported, left out; supported are box, sphere, cylinder, "
-                        "plane, mesh, heightmap");
-    }
   });
   if (!known) throw geometry.error("found no shape, expected box, sphere, cylinder, ...");
   return made;

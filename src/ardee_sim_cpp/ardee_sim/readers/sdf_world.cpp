@@ -30,7 +30,7 @@ void apply_saved_poses(const Node& state, World& world, Log& log) {
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   const Node node = root.required("world");
   World made;
   made.name = node.attribute("name", made.name);
@@ -84,8 +84,6 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       made.plugins.push_back(read_plugin(child));
     } else if (kind == "population") {
       add_population(child, scope, names, frames, made);
-    } else if (kind == "actor" || kind == "road" || kind == "joint") {
-      assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
     }
   });
 }

@@ -128,9 +128,6 @@ void check_joint(const Node& joint, Log& log) {
                         "', expected an axis longer than zero");
     }
   }
-  if (const auto mimic = joint.child("mimic")) {
-    log.warn(mimic->source().to_string() + ": not supported, the joint moves freely");
-  }
 }
 
 /// One root, each other link the child of one joint, all of them reached from the root.
@@ -209,7 +206,7 @@ void check_urdf(const Node& root, Log& log) {
       throw child.error("found a xacro element, expected a URDF that xacro has expanded");
     }
   });
-  urdf_schema().warn_of_unknown(root, "URDF", log);
+  urdf_schema().check(root, log);
   root.required_attribute("name");
   TreeCheck tree;
   root.each("link", [&](const Node& link) {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <set>
 
+#include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_material.h"
@@ -76,7 +76,7 @@ void apply_collision(const Node& node, Link& link) {
   }
 }
 
-bool apply_to_link(const Node& node, Link& link, Assets& assets) {
+void apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
   if (rule != surface_rules().end()) {
@@ -105,19 +105,10 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
   } else if (name == "laserRetro" || name == "laser_retro") {
     for (Collision& collision : link.collisions) collision.laser_retro = node.to_number();
     for (Visual& visual : link.visuals) visual.laser_retro = node.to_number();
-  } else {
-    return false;
   }
-  return true;
 }
 
-bool apply_to_joint(const Node& node, Joint& joint) {
-  // Our springs and dampers are implicit, no fixed joint is lumped, and feedback costs nothing:
-  // nothing to set.
-  static const std::set<std::string, std::less<>> kNoEffect{
-      "provideFeedback",          "implicitSpringDamper", "cfmDamping",       "fudgeFactor",
-      "disableFixedJointLumping", "preserveFixedJoint",   "provide_feedback", "cfm_damping",
-      "implicit_spring_damper",   "fudge_factor"};
+void apply_to_joint(const Node& node, Joint& joint) {
   const std::string_view name = node.name();
   if (name == "stopCfm" || name == "stop_cfm") {
     joint.stop_cfm = node.to_number(0.0);
@@ -127,13 +118,10 @@ bool apply_to_joint(const Node& node, Joint& joint) {
     joint.axis.spring_stiffness = node.to_number(0.0);
   } else if (name == "springReference" || name == "spring_reference") {
     joint.axis.spring_reference = node.to_number();
-  } else {
-    return kNoEffect.count(name) != 0;
   }
-  return true;
 }
 
-bool apply_to_model(const Node& node, Model& model) {
+void apply_to_model(const Node& node, Model& model) {
   const std::string_view name = node.name();
   if (name == "plugin") {
     model.plugins.push_back(read_plugin(node));
@@ -148,10 +136,7 @@ bool apply_to_model(const Node& node, Model& model) {
   } else if (name == "selfCollide" || name == "self_collide") {
     model.self_collide = node.to_boolean();
     for (Link& link : model.links) link.self_collide = link.self_collide || model.self_collide;
-  } else {
-    return name == "allow_auto_disable" || name == "enable_wind";
   }
-  return true;
 }
 
 template <typename Item>
@@ -170,14 +155,14 @@ void apply_block(const Node& block, Model& model, Assets& assets) {
                       "', expected a link or joint of the robot; the block is left out");
     return;
   }
+  gazebo_schema().check(block, link ? "link" : joint ? "joint" : "robot", assets.log());
   block.each([&](const Node& node) {
-    const bool known = link    ? apply_to_link(node, *link, assets)
-                       : joint ? apply_to_joint(node, *joint)
-                               : apply_to_model(node, model);
-    if (!known) {
-      const char* of = link ? "a link" : joint ? "a joint" : "the model";
-      assets.log().warn(node.source().to_string() + ": not known in a <gazebo> block of " + of +
-                        ", ignored");
+    if (link) {
+      apply_to_link(node, *link, assets);
+    } else if (joint) {
+      apply_to_joint(node, *joint);
+    } else {
+      apply_to_model(node, model);
     }
   });
 }
