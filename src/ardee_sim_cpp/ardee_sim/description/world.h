@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/core/time.h"
 #include "ardee_sim/description/model.h"
 
 namespace ardee {
@@ -71,6 +72,7 @@ struct World {
   std::vector<Light> lights;
   std::optional<Pose> gui_camera;
   std::optional<SphericalCoordinates> spherical_coordinates;
+  TimeNs start_ns = 0;  // on the clock
   std::vector<Instance> models;
   std::vector<PluginDescription> plugins;
 };

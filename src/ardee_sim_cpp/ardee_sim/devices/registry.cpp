@@ -78,8 +78,8 @@ void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make)
 
 std::string Registry::known_names() const {
   std::string names;
-  for (const auto& [name, make] : model_plugins_) names += " lib" + name + ".so";
-  for (const auto& [name, make] : sensor_plugins_) names += " lib" + name + ".so";
+  for (const std::string& file : model_plugin_files()) names += " " + file;
+  for (const std::string& file : sensor_plugin_files()) names += " " + file;
   return names;
 }
 

@@ -29,9 +29,18 @@ class Registry {
   /// description. A plugin of unknown file name is a warning that lists the known ones. A bad value
   /// inside a controller is an Error; a sensor with one is left out, and the log says why.
   std::vector<std::unique_ptr<Device>> make_devices(const DeviceContext& robot) const;
+  /// File names, sorted.
+  std::vector<std::string> model_plugin_files() const { return files_of(model_plugins_); }
+  std::vector<std::string> sensor_plugin_files() const { return files_of(sensor_plugins_); }
 
  private:
   std::string known_names() const;
+  template <typename Plugins>
+  static std::vector<std::string> files_of(const Plugins& plugins) {
+    std::vector<std::string> files;
+    for (const auto& [name, make] : plugins) files.push_back("lib" + name + ".so");
+    return files;
+  }
 
   struct ModelMaker {
     ModelPlugin make;

@@ -37,6 +37,7 @@ class DynamicModel : public PhysicsModel {
   Pose pose() const override;
   void set_pose(const Pose& X_WM) override;
   void set_twist(const Twist& twist_W) override;
+  void set_link_states(const LinkStates& states) override;
   Pose link_pose(std::size_t link) const override;
   Twist link_twist(std::size_t link) const override;
   double joint_position(std::size_t joint) const override;

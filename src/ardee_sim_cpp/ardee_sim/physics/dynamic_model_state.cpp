@@ -48,6 +48,26 @@ void DynamicModel::set_twist(const Twist& twist_W) {
   }
 }
 
+void DynamicModel::set_link_states(const LinkStates& states) {
+  for (std::size_t i = model_->links.size();
+       i-- > 0;) {  // of links that are one body the first counts
+    const auto found = states.find(model_->links[i].name);
+    if (found == states.end()) continue;
+    const auto& [X_WL, twist_W] = found->second;
+    require(X_WL.is_finite() && is_valid(X_WL.p), *model_, "a link's pose");
+    require(is_valid(twist_W.linear) && is_valid(twist_W.angular), *model_, "a link's velocity");
+    const std::size_t group = groups_.of_link[i];
+    const Pose X_WB = X_WL * X_BL_[i].inverse();
+    set_body_pose(body(group), X_WB);
+    if (group == groups_.world) continue;
+    const Vector3d arm = X_WB.p - X_WL.p;
+    set_velocity(body(group), twist_W.linear + twist_W.angular.cross(arm), twist_W.angular);
+  }
+  for (const auto& joint : joints_) {
+    if (joint) joint->take_position();
+  }
+}
+
 Pose DynamicModel::link_pose(std::size_t link) const {
   return body_pose(body(groups_.of_link.at(link))) * X_BL_[link];
 }

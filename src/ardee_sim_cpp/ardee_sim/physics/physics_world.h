@@ -34,6 +34,8 @@ class PhysicsModel {
   /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
   /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
+  /// Puts links, with what is fixed to them, where a saved world says; joints follow.
+  virtual void set_link_states(const LinkStates& states) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
   /// Velocity of the link frame's origin, and angular velocity, in world axes.
   virtual Twist link_twist(std::size_t link) const = 0;

@@ -53,7 +53,7 @@ bool is_harmless(const std::string& text, const Schema::Entry& entry) {
 }  // namespace
 
 Schema::Schema(const char* format, const std::vector<SchemaRow>& rows, const Schema* base)
-    : format_(format), base_(base) {
+    : format_(format), rows_(rows), base_(base) {
   for (const SchemaRow& row : rows) {
     Place& place = places_[row.place];
     place.name = row.place;
@@ -98,7 +98,6 @@ void Schema::check(const Node& node, const std::string& place_name, Log& log) co
 }
 
 void Schema::check_inside(const Node& node, const Place& inside, Log& log) const {
-  if (inside.is_elsewhere) return;
   const std::string of = "<" + std::string(node.name()) + "> in " + format_;
   node.each_attribute([&](const std::string& name, const std::string& value) {
     const auto known = inside.entries.find("@" + name);
@@ -111,6 +110,7 @@ void Schema::check_inside(const Node& node, const Place& inside, Log& log) const
       log.warn(node.source(), "attribute '" + name + "' has no effect: " + known->second.note);
     }
   });
+  if (inside.is_elsewhere) return;
   node.each([&](const Node& child) {
     const auto known = inside.entries.find(child.name());
     if (known == inside.entries.end()) {

@@ -59,6 +59,7 @@ class Schema {
   /// The place of that name; throws std::logic_error if there is none.
   const Place& place(const std::string& name) const;
   const std::map<std::string, Place>& places() const { return places_; }
+  const std::vector<SchemaRow>& rows() const { return rows_; }
 
  private:
   const Place* find(const std::string& name) const;
@@ -66,6 +67,7 @@ class Schema {
   void check_inside(const Node& node, const Place& place, Log& log) const;
 
   std::string format_;
+  std::vector<SchemaRow> rows_;
   const Schema* base_;
   std::map<std::string, Place> places_;
 };

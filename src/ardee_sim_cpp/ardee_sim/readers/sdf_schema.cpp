@@ -36,16 +36,12 @@ const std::vector<SchemaRow>& world_rows() {
       {"atmosphere", no_effect, "temperature_gradient", "there is no air", "-0.0065"},
       {"atmosphere", no_effect, "pressure", "there is no air", "101325"},
       {"include", acts, "uri pose name static plugin ardee:scale ardee:label"},
-      {"include", no_effect, "@merge", "the links of what is included get its name before theirs",
-       "false"},
-      {"include", no_effect, "placement_frame", "a <pose> places the included model's own frame",
-       "__default__"},
+      {"include", acts, "@merge placement_frame"},
       {"population", acts, "@name model pose box cylinder model_count distribution"},
       {"population", no_effect, "frame", kFrames},
       {"distribution", acts, "type rows cols step"},
-      {"pose", acts, "@relative_to @degrees"},
+      {"pose", acts, "@relative_to @degrees @rotation_format"},
       {"pose", no_effect, "@frame", "SDF 1.7's relative_to says what a pose is relative to"},
-      {"pose", no_effect, "@rotation_format", "rotations are roll, pitch, yaw", "euler_rpy"},
       {"frame", acts, "@name @attached_to pose"},
       {"plugin", elsewhere, "@name @filename", "see the plugins"},
 
@@ -125,10 +121,10 @@ const std::vector<SchemaRow>& world_rows() {
 const std::vector<SchemaRow>& model_rows() {
   static const std::vector<SchemaRow> rows{
       {"model", acts,
-       "@name @canonical_link static self_collide include model link joint plugin pose frame "
+       "@name @canonical_link @placement_frame static self_collide include model link joint plugin "
+       "pose frame "
        "ardee:instances"},
       {"model", settled, "allow_auto_disable", "bodies at rest are simulated as others are"},
-      {"model", no_effect, "@placement_frame", "a <pose> places the model's own frame"},
       {"model", no_effect, "enable_wind", "no wind blows", "false"},
       {"model", no_effect, "gripper", "not supported, left out"},
       {"link", acts,

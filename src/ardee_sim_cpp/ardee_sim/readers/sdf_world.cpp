@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <unordered_map>
+#include <algorithm>
+#include <utility>
 
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
@@ -7,26 +8,9 @@
 #include "ardee_sim/readers/sdf_population.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/sdf_scene.h"
+#include "ardee_sim/readers/sdf_state.h"
 
 namespace ardee {
-namespace {
-
-/// Where the models stood when Gazebo saved the world: its <state> counts, not their own <pose>.
-void apply_saved_poses(const Node& state, World& world, Log& log) {
-  std::unordered_map<std::string, Instance*> models;
-  for (Instance& model : world.models) models[model.name] = &model;
-  state.each("model", [&](const Node& saved) {
-    const auto found = models.find(saved.required_attribute("name"));
-    if (found == models.end()) {
-      log.warn(saved.source().to_string() + ": found the state of model '" +
-               saved.attribute("name") + "', which the world does not have, ignored");
-    } else if (saved.child("pose")) {
-      found->second->pose = saved.pose();
-    }
-  });
-}
-
-}  // namespace
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
@@ -43,9 +27,49 @@ World SdfReader::read_world(const Node& root) {
   }
   reading_.assign(1, root.file());
   read_world_models(node, scope, made);
+  read_states(node, scope, made);
   reading_.clear();
-  if (const auto state = node.child("state")) apply_saved_poses(*state, made, assets_.log());
   return made;
+}
+
+/// As in Gazebo the first <state> counts.
+void SdfReader::read_states(const Node& world, const Scope& scope, World& made) {
+  bool is_first = true;
+  world.each("state", [&](const Node& state) {
+    if (!std::exchange(is_first, false)) {
+      assets_.log().warn(state.source(), "found a second <state>, the first counts");
+      return;
+    }
+    if (const auto insertions = state.child("insertions")) {
+      read_insertions(*insertions, scope, made);
+    }
+    apply_sdf_state(state, made, assets_.log());
+  });
+}
+
+/// Adds what was put into the world after it had been loaded.
+void SdfReader::read_insertions(const Node& insertions, const Scope& scope, World& made) {
+  const auto is_there = [this](const auto& items, const Node& inserted) {
+    const std::string name = inserted.required_attribute("name");
+    const bool found = std::any_of(items.begin(), items.end(),
+                                   [&name](const auto& item) { return item.name == name; });
+    if (found) {
+      assets_.log().warn(inserted.source(), "found '" + name + "' in the world already, left out");
+    }
+    return found;
+  };
+  insertions.each("model", [&](const Node& inserted) {
+    if (is_there(made.models, inserted)) return;
+    Instance instance;
+    instance.model = read_model(inserted, scope);
+    instance.name = instance.model->name;
+    instance.pose = inserted.pose();
+    instance.is_static = instance.model->is_static;
+    made.models.push_back(std::move(instance));
+  });
+  insertions.each("light", [&](const Node& inserted) {
+    if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
+  });
 }
 
 void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {

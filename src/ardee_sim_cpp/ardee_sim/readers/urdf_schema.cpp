@@ -17,7 +17,7 @@ const std::vector<SchemaRow>& urdf_rows() {
       {"robot", settled, "@version", "there is one URDF"},
       {"robot", no_effect, "transmission", "there is no ros_control to read it"},
       {"robot", no_effect, "sensor", "a <sensor> in a <gazebo> block measures"},
-      {"gazebo", elsewhere, "", "see the <gazebo> blocks"},
+      {"gazebo", elsewhere, "@reference", "see the <gazebo> blocks"},
       {"link", acts, "@name inertial visual collision"},
       {"link", settled, "@type verbose", "of older tools, and for people"},
       {"link", no_effect, "self_collision_checking", "a <gazebo> block's <selfCollide> says that"},

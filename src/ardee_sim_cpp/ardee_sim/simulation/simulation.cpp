@@ -37,6 +37,9 @@ bool is_sane(const Robot& robot) {
 }
 
 void apply_joint_positions(Entity& entity) {
+  if (entity.instance.link_states) {
+    entity.robot->dynamics().set_link_states(*entity.instance.link_states);
+  }
   for (const auto& [name, position] : entity.joint_positions) {
     const Source& source = entity.instance.model->source;
     const std::size_t joint = entity.robot->joint_index(name, source);
@@ -54,6 +57,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),
+      now_ns_(world.start_ns),
       step_ns_(nanoseconds(world.physics.step_s)) {
   const LogGroup group(log_);
   physics_.reset_random(options_.seed);
@@ -70,7 +74,8 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
            {},
            instance.is_static,
            instance.scale,
-           instance.label});
+           instance.label,
+           instance.link_states});
   }
 }
 
@@ -85,8 +90,8 @@ Entity& Simulation::spawn(const SpawnRequest& request) {
   // A model without links of its own (a field of included plants) has nothing that could move.
   const bool is_static =
       request.is_static || request.model->is_static || request.model->links.empty();
-  entity->instance = {request.model, request.name,  request.X_WM,
-                      request.scale, request.label, is_static};
+  entity->instance = {request.model, request.name, request.X_WM,       request.scale,
+                      request.label, is_static,    request.link_states};
   entity->robot_namespace = request.robot_namespace;
   entity->joint_positions = request.joint_positions;
   entity->robot = std::make_unique<Robot>(request.name, request.model, next_entity_);
@@ -270,7 +275,7 @@ void Simulation::place_static(Entity& entity, const Pose& X_WM) {
 void Simulation::reset_world() { reset_entities(); }
 
 void Simulation::reset_simulation() {
-  now_ns_ = 0;
+  now_ns_ = world_.start_ns;
   step_count_ = 0;
   reset_entities();
 }

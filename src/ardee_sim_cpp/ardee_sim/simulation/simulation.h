@@ -32,6 +32,7 @@ struct SpawnRequest {
   bool is_static = false;                         // makes a model static whose description is not
   double scale = 1.0;                             // of static models
   std::uint32_t label = 0;
+  std::shared_ptr<const LinkStates> link_states = nullptr;  // of a saved world
 };
 
 /// Pose and velocity of something relative to something.
