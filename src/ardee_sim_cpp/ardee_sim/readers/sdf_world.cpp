@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <unordered_map>
 
+#include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
@@ -44,8 +45,29 @@ World SdfReader::read_world(const Node& root) {
   reading_.assign(1, root.file());
   read_world_models(node, scope, made);
   reading_.clear();
+  check_size(made);
   if (const auto state = node.child("state")) apply_saved_poses(*state, made, assets_.log());
   return made;
+}
+
+/// A line of text asks for as many models as it likes; they have to fit into memory.
+void SdfReader::check_size(const World& world) const {
+  std::size_t placements = 0;
+  std::size_t moving_links = 0;
+  for (const Instance& instance : world.models) {
+    if (instance.is_static) {
+      placements += placements_.at(instance.model.get());
+    } else {
+      moving_links += instance.model->links.size();
+    }
+    if (placements > kMaxPlacements || moving_links > kMaxLinks) {
+      throw Error(world.source, placements > kMaxPlacements
+                                    ? "found more than " + std::to_string(kMaxPlacements) +
+                                          " static models, expected fewer"
+                                    : "found more than " + std::to_string(kMaxLinks) +
+                                          " links of models that move, expected fewer");
+    }
+  }
 }
 
 void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
@@ -64,28 +86,30 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       for (const Light& light : file.lights) add_light(light);
       if (!file.model) return;
       made.models.push_back(read_include(child, file, names, frames));
-      frames.add(made.models.back().name, made.models.back().pose);
+      frames.replace(made.models.back().name, made.models.back().pose);
       frames.add_links(made.models.back().name, file.model);
     } else if (kind == "model") {
       Instance instance;
       instance.model = read_model(child, scope);
       instance.name = names.claim(instance.model->name);
       if (instance.name != instance.model->name) {
-        assets_.log().warn(child.source().to_string() + ": a second model '" +
-                           instance.model->name + "' is named '" + instance.name + "'");
+        assets_.log().warn(child.source(), "a second model of one name gets another",
+                           ": '" + instance.name + "'");
       }
-      instance.pose = frames.pose(child);
+      instance.pose = place_model(frames.pose(child), instance.model->X_MP);
+      frames.replace(instance.name, instance.pose);
       frames.add_links(instance.name, instance.model);
       instance.is_static = instance.model->is_static;
       made.models.push_back(std::move(instance));
     } else if (kind == "light") {
       add_light(read_sdf_light(child));
     } else if (kind == "plugin") {
-      made.plugins.push_back(read_plugin(child));
+      PluginDescription plugin = read_plugin(child);
+      if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));
     } else if (kind == "population") {
       add_population(child, scope, names, frames, made);
     } else if (kind == "actor" || kind == "road" || kind == "joint") {
-      assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
+      assets_.log().warn(child.source(), "not supported in a world, left out");
     }
   });
 }
