@@ -27,9 +27,9 @@ class Log {
   void info(const std::string& text) { sink_(LogLevel::kInfo, text); }
   void warn(const std::string& text) { add_warning(text, text); }
   /// Says what is wrong at a place in an input. Within a LogGroup one such warning stands for all
-  /// that say the same of an element of the same name.
-  void warn(const Source& source, const std::string& what) {
-    add_warning(source.element + ": " + what, source.to_string() + ": " + what);
+  /// that say the same of an element of the same name, whatever the detail that ends it (a name).
+  void warn(const Source& source, const std::string& what, const std::string& detail = "") {
+    add_warning(source.element + ": " + what, source.to_string() + ": " + what + detail);
   }
   void error(const std::string& text) { sink_(LogLevel::kError, text); }
   /// The same text is given once in the life of this log.

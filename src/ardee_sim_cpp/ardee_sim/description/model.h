@@ -136,6 +136,13 @@ struct Joint {
   Source source;
 };
 
+/// A frame of a model that others may refer to, and the link that it moves with.
+struct NamedFrame {
+  std::string name;
+  Pose X_MF;
+  std::string link;  // empty: the canonical one
+};
+
 struct Model;
 
 /// Where a link stands in the world and how its origin moves, in the world's axes.
@@ -164,15 +171,19 @@ struct Model {
   bool is_static = false;
   bool self_collide = false;
   Pose own_pose;  // <pose> of its own file, which includes replace and spawns add to
+  std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;
   std::vector<Instance> instances;  // static models included by this one; non-static ones are
                                     // merged into links and joints
-  std::string canonical_link;       // the link whose pose stands for the model's; the first
+  std::vector<NamedFrame> frames;
+  std::string canonical_link;  // the link whose pose stands for the model's; the first
 
   const Link* find_link(const std::string& link_name) const;
   const Joint* find_joint(const std::string& joint_name) const;
+  /// The frame of a link or joint, or a named one, with the link that it moves with.
+  std::optional<NamedFrame> find_frame(const std::string& frame_name) const;
 };
 
 }  // namespace ardee

@@ -23,16 +23,23 @@ std::string in_words(double number) {
 
 }  // namespace
 
+std::optional<double> to_double(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  double value = 0.0;
+  auto [stop, status] = std::from_chars(word.data(), end, value);
+  if (status != std::errc()) return std::nullopt;
+  if (stop != end && (*stop == 'f' || *stop == 'F')) ++stop;
+  return stop == end ? std::optional<double>(value) : std::nullopt;
+}
+
 double parse_number(const std::string& text, const Source& source) {
   constexpr const char* kSpace = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kSpace);
-  const std::size_t last = text.find_last_not_of(kSpace);
-  double value = 0.0;
   if (first != std::string::npos) {
-    const char* begin = text.data() + first + (text[first] == '+' ? 1 : 0);
-    const char* end = text.data() + last + 1;
-    const auto [stop, status] = std::from_chars(begin, end, value);
-    if (status == std::errc() && stop == end && std::isfinite(value)) return value;
+    const std::size_t count = text.find_last_not_of(kSpace) - first + 1;
+    const auto value = to_double(std::string_view(text).substr(first, count));
+    if (value && std::isfinite(*value)) return *value;
   }
   throw Error(source, "found " + quoted(text) + ", expected a finite number");
 }
@@ -70,6 +77,11 @@ const Element* Parameters::find(const std::string& key) {
   return element_.child(key);
 }
 
+const Element* Parameters::find_filled(const std::string& key) {
+  const Element* child = find(key);
+  return child && !child->text.empty() ? child : nullptr;
+}
+
 bool Parameters::has(const std::string& key) { return find(key) != nullptr; }
 
 std::string Parameters::text(const std::string& key, const std::string& fallback) {
@@ -89,7 +101,7 @@ std::string Parameters::required_text(const std::string& key) {
 
 double Parameters::number(const std::string& key, double fallback, double low, double high) {
   note({key, "number", in_words(fallback)});
-  const Element* child = find(key);
+  const Element* child = find_filled(key);
   if (!child) return fallback;
   const double value = parse_number(child->text, child->source);
   if (value < low || value > high) {
@@ -114,14 +126,14 @@ int Parameters::integer(const std::string& key, int fallback, int low, int high)
 
 bool Parameters::boolean(const std::string& key, bool fallback) {
   note({key, "true or false", fallback ? "true" : "false"});
-  const Element* child = find(key);
+  const Element* child = find_filled(key);
   return child ? parse_boolean(child->text, child->source) : fallback;
 }
 
 Eigen::Vector3d Parameters::vector3(const std::string& key, const Eigen::Vector3d& fallback) {
   note({key, "three numbers",
         in_words(fallback.x()) + " " + in_words(fallback.y()) + " " + in_words(fallback.z())});
-  const Element* child = find(key);
+  const Element* child = find_filled(key);
   return child ? parse_vector3(child->text, child->source) : fallback;
 }
 

@@ -74,7 +74,7 @@ std::shared_ptr<const Model> Loader::load_model_text(const std::string& xml,
   const XmlFile document(xml, name);
   const Node root = document.root();
   if (is_sdf(root)) return impl_->sdf.read_model(root);
-  if (root.name() == "robot") return read_urdf(xml, root, impl_->assets);
+  if (root.name() == "robot") return read_urdf(root, impl_->assets);
   throw root.error("found this root element, expected <sdf> or <robot>");
 }
 

@@ -30,9 +30,10 @@ JointType joint_type(const Node& joint) {
 
 /// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say
 /// <use_parent_model_frame>; empty: the joint's.
-std::string frame_of_axis(const Node& axis, double sdf_version) {
-  constexpr double kFirstInJointFrame = 1.5;
-  const std::string named = axis.required("xyz").attribute("expressed_in");
+std::string frame_of_axis(const Node& axis, int sdf_version) {
+  constexpr int kFirstInJointFrame = 105;
+  const auto xyz = axis.child("xyz");
+  const std::string named = xyz ? xyz->attribute("expressed_in") : "";
   if (!named.empty()) return named;
   return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame) ? "__model__"
                                                                                   : "";
@@ -40,22 +41,20 @@ std::string frame_of_axis(const Node& axis, double sdf_version) {
 
 /// SDF says "no limit" by a negative value.
 double unlimited_if_negative(const Node& axis, const char* path) {
-  const auto node = axis.find(path);
-  const double value = node ? node->to_limit() : kInfinity;
-  if (value < 0.0) return kInfinity;
-  return value;
+  const double value = axis.limit(path, kInfinity);
+  return value < 0.0 ? kInfinity : value;
 }
 
 JointAxis read_axis(const Node& axis) {
   JointAxis made;
-  const Node xyz = axis.required("xyz");
-  made.axis = xyz.to_vector3();
+  made.axis = axis.vector3("xyz", Eigen::Vector3d::UnitZ());
   if (!(made.axis.norm() > 1e-9)) {
-    throw xyz.error("found '" + xyz.text() + "', expected an axis longer than zero");
+    throw axis.required("xyz").error("found '" + axis.text("xyz", "") +
+                                     "', expected an axis longer than zero");
   }
   made.axis.normalize();
-  if (const auto lower = axis.find("limit/lower")) made.lower = lower->to_limit();
-  if (const auto upper = axis.find("limit/upper")) made.upper = upper->to_limit();
+  made.lower = axis.limit("limit/lower", made.lower);
+  made.upper = axis.limit("limit/upper", made.upper);
   if (made.lower > made.upper) {
     throw axis.required("limit").error("found a lower limit above the upper, expected it below");
   }
@@ -98,8 +97,8 @@ Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFr
 
 }  // namespace
 
-Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& frames,
-                     const Model& model) {
+Joint read_sdf_joint(const Node& node, int sdf_version, const SdfFrames& frames,
+                     const Model& model, Log& log) {
   Joint joint;
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);
@@ -109,7 +108,9 @@ Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& fram
   joint.child = link_of(child, frames, model);
   const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
   const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
-  if (!free) joint.axis = read_axis(node.required("axis"));
+  const auto axis = node.child("axis");
+  if (!free && axis) joint.axis = read_axis(*axis);
+  if (!free && !axis) log.warn(node.source(), "found no <axis>, expected one; it is 0 0 1");
   if (two) joint.axis2 = read_axis(node.required("axis2"));
   const bool unlimited = std::isinf(joint.axis.lower) && std::isinf(joint.axis.upper);
   if (joint.type == JointType::kRevolute && unlimited) joint.type = JointType::kContinuous;
@@ -122,12 +123,12 @@ Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& fram
   joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
   joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
   const Eigen::Quaterniond q_MJ = place(node, child, frames, model, joint);
-  const auto turn = [&](const char* name, Eigen::Vector3d& axis) {
-    const std::string frame = frame_of_axis(node.required(name), sdf_version);
-    if (!frame.empty()) axis = q_MJ.conjugate() * (frames.find(frame, node).q * axis);
+  const auto turn = [&](const Node& written, Eigen::Vector3d& direction) {
+    const std::string frame = frame_of_axis(written, sdf_version);
+    if (!frame.empty()) direction = q_MJ.conjugate() * (frames.find(frame, node).q * direction);
   };
-  if (!free) turn("axis", joint.axis.axis);
-  if (two) turn("axis2", joint.axis2.axis);
+  if (!free && axis) turn(*axis, joint.axis.axis);
+  if (two) turn(node.required("axis2"), joint.axis2.axis);
   return joint;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <utility>
 
+#include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
@@ -11,6 +11,19 @@
 #include "ardee_sim/readers/sdf_state.h"
 
 namespace ardee {
+namespace {
+
+/// As in Gazebo the first <state> counts.
+std::optional<Node> saved_state(const Node& world, Log& log) {
+  std::optional<Node> first;
+  world.each("state", [&](const Node& state) {
+    if (first) log.warn(state.source(), "found a second <state>, the first counts");
+    if (!first) first = state;
+  });
+  return first;
+}
+
+}  // namespace
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
@@ -27,24 +40,13 @@ World SdfReader::read_world(const Node& root) {
   }
   reading_.assign(1, root.file());
   read_world_models(node, scope, made);
-  read_states(node, scope, made);
+  const auto state = saved_state(node, assets_.log());
+  const auto insertions = state ? state->child("insertions") : std::nullopt;
+  if (insertions) read_insertions(*insertions, scope, made);
   reading_.clear();
+  check_size(made);
+  if (state) apply_sdf_state(*state, made, assets_.log());
   return made;
-}
-
-/// As in Gazebo the first <state> counts.
-void SdfReader::read_states(const Node& world, const Scope& scope, World& made) {
-  bool is_first = true;
-  world.each("state", [&](const Node& state) {
-    if (!std::exchange(is_first, false)) {
-      assets_.log().warn(state.source(), "found a second <state>, the first counts");
-      return;
-    }
-    if (const auto insertions = state.child("insertions")) {
-      read_insertions(*insertions, scope, made);
-    }
-    apply_sdf_state(state, made, assets_.log());
-  });
 }
 
 /// Adds what was put into the world after it had been loaded.
@@ -63,13 +65,33 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     Instance instance;
     instance.model = read_model(inserted, scope);
     instance.name = instance.model->name;
-    instance.pose = inserted.pose();
+    instance.pose = place_model(inserted.pose(), instance.model->X_MP);
     instance.is_static = instance.model->is_static;
     made.models.push_back(std::move(instance));
   });
   insertions.each("light", [&](const Node& inserted) {
     if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
   });
+}
+
+/// A line of text asks for as many models as it likes; they have to fit into memory.
+void SdfReader::check_size(const World& world) const {
+  std::size_t placements = 0;
+  std::size_t moving_links = 0;
+  for (const Instance& instance : world.models) {
+    if (instance.is_static) {
+      placements += placements_.at(instance.model.get());
+    } else {
+      moving_links += instance.model->links.size();
+    }
+    if (placements > kMaxPlacements || moving_links > kMaxLinks) {
+      throw Error(world.source, placements > kMaxPlacements
+                                    ? "found more than " + std::to_string(kMaxPlacements) +
+                                          " static models, expected fewer"
+                                    : "found more than " + std::to_string(kMaxLinks) +
+                                          " links of models that move, expected fewer");
+    }
+  }
 }
 
 void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
@@ -88,24 +110,26 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       for (const Light& light : file.lights) add_light(light);
       if (!file.model) return;
       made.models.push_back(read_include(child, file, names, frames));
-      frames.add(made.models.back().name, made.models.back().pose);
+      frames.replace(made.models.back().name, made.models.back().pose);
       frames.add_links(made.models.back().name, file.model);
     } else if (kind == "model") {
       Instance instance;
       instance.model = read_model(child, scope);
       instance.name = names.claim(instance.model->name);
       if (instance.name != instance.model->name) {
-        assets_.log().warn(child.source().to_string() + ": a second model '" +
-                           instance.model->name + "' is named '" + instance.name + "'");
+        assets_.log().warn(child.source(), "a second model of one name gets another",
+                           ": '" + instance.name + "'");
       }
-      instance.pose = frames.pose(child);
+      instance.pose = place_model(frames.pose(child), instance.model->X_MP);
+      frames.replace(instance.name, instance.pose);
       frames.add_links(instance.name, instance.model);
       instance.is_static = instance.model->is_static;
       made.models.push_back(std::move(instance));
     } else if (kind == "light") {
       add_light(read_sdf_light(child));
     } else if (kind == "plugin") {
-      made.plugins.push_back(read_plugin(child));
+      PluginDescription plugin = read_plugin(child);
+      if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));
     } else if (kind == "population") {
       add_population(child, scope, names, frames, made);
     }

@@ -153,7 +153,7 @@ TEST_F(SdfFramesTest, NamesWhatIsWrong) {
              "<pose>: found frame 'x', expected one of __model__, a");
   EXPECT_HAS(
       error_of([&] { model("<frame name='f' attached_to='f'/>" + link("a") + fixed("a", "f")); }),
-      "found link 'f'");
+      "found that frame 'f' lies in itself");
   EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
              "found frame 'x', expected one of world, m");
   // Where no frames are known: the pose of a file's own model, and of a lamp.
@@ -179,8 +179,10 @@ TEST_F(SdfFramesTest, AnAbsurdlyDeepChainIsRefused) {
 TEST_F(SdfFramesTest, GazebosNewestVersionIsReadWithoutAWarning) {
   model(link("a"));
   EXPECT_TRUE(warnings_->empty());
-  ReadersTest::model(link("a"), "1.8");
-  EXPECT_TRUE(warned("found version 1.8, read as SDF 1.7"));
+  ReadersTest::model(link("a"), "1.12");
+  EXPECT_TRUE(warnings_->empty());
+  ReadersTest::model(link("a"), "1.13");
+  EXPECT_TRUE(warned("found version 1.13, read as SDF 1.12"));
 }
 
 }  // namespace
