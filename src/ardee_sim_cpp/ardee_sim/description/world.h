@@ -52,7 +52,6 @@ struct Scene {
   Color background{0.7f, 0.7f, 0.7f, 1};
   bool sky = false;
   bool shadows = true;
-  bool grid = true;
 };
 
 /// Where on the Earth the world's origin lies; angles in degrees as in SDF.

@@ -42,14 +42,10 @@ void read_intrinsics(const Element& intrinsics, Lens& lens) {
 bool read_lens_block(const Element& block, Lens& lens, Log& log) {
   Parameters parameters(block);
   const std::string type = parameters.text("type", "gnomonical");
-  std::string passed_over = type == "gnomonical" ? "" : " <type> " + type;
-  for (const char* key : {"custom_function", "projection"}) {
-    if (parameters.has(key)) passed_over += std::string(" <") + key + ">";
-  }
-  if (!passed_over.empty()) {
-    log.warn(block.source.to_string() + ": found" + passed_over +
-             ", expected a gnomonical lens and <intrinsics>: the picture and camera_info are those "
-             "of a pinhole");
+  if (type != "gnomonical") {
+    log.warn(block.source, "found <type> " + type +
+                               ", expected gnomonical: the picture and "
+                               "camera_info are those of a pinhole");
   }
   const Element* intrinsics = parameters.block("intrinsics");
   if (intrinsics) read_intrinsics(*intrinsics, lens);

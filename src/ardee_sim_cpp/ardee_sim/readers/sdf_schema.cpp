@@ -65,9 +65,9 @@ const std::vector<SchemaRow>& world_rows() {
       {"solver", no_effect, "thread_position_correction", "one thread solves", "0"},
       {"constraints", acts, "cfm erp contact_max_correcting_vel contact_surface_layer"},
 
-      {"scene", acts, "ambient background shadows grid sky"},
+      {"scene", acts, "ambient background shadows sky"},
       {"scene", no_effect, "fog", "there is no fog"},
-      {"scene", no_effect, "origin_visual", kNoWindow, "true|false"},
+      {"scene", settled, "grid origin_visual", kNoWindow},
       {"sky", no_effect, "time", "the sky is that of noon", "10"},
       {"sky", no_effect, "sunrise", "the sky is that of noon", "6"},
       {"sky", no_effect, "sunset", "the sky is that of noon", "20"},
@@ -202,8 +202,7 @@ const std::vector<SchemaRow>& model_rows() {
       {"contact/ode", acts, "kp kd max_vel min_depth soft_cfm soft_erp"},
 
       {"joint", acts, "@name @type parent child axis axis2 physics pose"},
-      {"joint", acts, "thread_pitch", "of screw joints, which the physics refuses"},
-      {"joint", no_effect, "screw_thread_pitch", "<thread_pitch> counts"},
+      {"joint", settled, "thread_pitch screw_thread_pitch", "screw joints are refused"},
       {"joint", no_effect, "gearbox_ratio", "there are no gearboxes", "1"},
       {"joint", no_effect, "gearbox_reference_body", "there are no gearboxes", "__default__"},
       {"joint", no_effect, "sensor", "not supported in a joint, left out"},
@@ -241,13 +240,16 @@ const std::vector<SchemaRow>& model_rows() {
 const std::vector<SchemaRow>& sensor_rows() {
   static const std::vector<SchemaRow> rows{
       {"sensor", acts, "@name @type update_rate pose ray lidar camera imu plugin"},
+      {"sensor", acts, "topic", "where it has no plugin; else the plugin says what the topic is"},
+      {"sensor", acts, "gz_frame_id ignition_frame_id frame_id navsat magnetometer",
+       "where it has no plugin"},
       {"sensor", settled, "always_on", "a sensor measures whenever somebody listens"},
       {"sensor", no_effect, "visualize", kNoWindow, "false"},
-      {"sensor", no_effect, "topic", "the plugin says what the topic is", "__default__|__default"},
-      {"sensor", no_effect, "enable_metrics", "no metrics are published", "false"},
+      {"sensor", no_effect, "enable_metrics", "metrics are those of all sensors", "false"},
       {"sensor", no_effect,
-       "contact force_torque altimeter air_pressure air_speed gps navsat magnetometer "
-       "logical_camera rfid rfidtag sonar transceiver",
+       "contact force_torque altimeter air_pressure air_speed gps logical_camera rfid rfidtag "
+       "sonar "
+       "transceiver",
        "no plugin reads it"},
       {"sensor", no_effect, "frame", kFrames},
       {"ray", acts, "scan range noise"},
@@ -271,8 +273,8 @@ const std::vector<SchemaRow>& sensor_rows() {
       {"sensor/camera", no_effect, "visibility_mask", "all cameras see all", "4294967295"},
       {"sensor/camera", no_effect, "box_type segmentation_type",
        "the plugin says what is measured"},
-      {"sensor/camera", no_effect, "trigger_topic triggered camera_info_topic optical_frame_id",
-       "the plugin says that"},
+      {"sensor/camera", acts, "trigger_topic triggered camera_info_topic optical_frame_id",
+       "where the sensor has no plugin"},
       {"sensor/camera", no_effect, "frame", kFrames},
       {"sensor/camera/pose", no_effect, "@relative_to @frame", "it is relative to the sensor"},
       {"sensor/camera/pose", no_effect, "@degrees", "rotations are in radians", "false"},
@@ -283,20 +285,29 @@ const std::vector<SchemaRow>& sensor_rows() {
       {"clip", acts, "near far"},
       {"distortion", acts, "k1 k2 k3 p1 p2"},
       {"distortion", acts, "center", "another than 0.5 0.5 is refused"},
-      {"lens", acts, "type custom_function projection",
-       "other lenses than gnomonical are a warning, and a pinhole is used"},
       {"lens", acts, "intrinsics"},
+      {"lens", acts, "type", "another than gnomonical is a warning, and a pinhole is used"},
+      {"lens", no_effect, "custom_function projection", "the picture is a pinhole's"},
       {"lens", settled, "scale_to_hfov cutoff_angle env_texture_size", "of wide angles only"},
-      {"custom_function", acts, "c1 c2 c3 f fun", "with <custom_function>, which is a warning"},
-      {"projection", acts, "p_fx p_fy p_cx p_cy tx ty", "with <projection>, which is a warning"},
       {"intrinsics", acts, "fx fy cx cy s"},
       {"imu", acts, "angular_velocity linear_acceleration"},
       {"imu", acts, "noise", "of SDF 1.4"},
-      {"imu", no_effect, "topic", "the plugin says what the topic is",
+      {"imu", no_effect, "topic", "the <sensor> or its plugin says what the topic is",
        "__default_topic__|__default__"},
       {"imu", no_effect, "orientation_reference_frame",
        "orientation is the world's; the plugin may begin at none"},
       {"imu", no_effect, "enable_orientation", "the message holds it", "true"},
+      {"navsat", acts, "position_sensing velocity_sensing"},
+      {"position_sensing", acts, "horizontal vertical"},
+      {"position_sensing/horizontal", acts, "noise"},
+      {"position_sensing/vertical", acts, "noise"},
+      {"velocity_sensing", acts, "horizontal vertical"},
+      {"velocity_sensing/horizontal", acts, "noise"},
+      {"velocity_sensing/vertical", acts, "noise"},
+      {"magnetometer", acts, "x y z"},
+      {"magnetometer/x", acts, "noise"},
+      {"magnetometer/y", acts, "noise"},
+      {"magnetometer/z", acts, "noise"},
       {"angular_velocity", acts, "x y z"},
       {"linear_acceleration", acts, "x y z"},
       {"x", acts, "noise"},
@@ -308,18 +319,29 @@ const std::vector<SchemaRow>& sensor_rows() {
   return rows;
 }
 
-constexpr char kImuNoise[] =
-    "@type type mean stddev bias_mean bias_stddev dynamic_bias_stddev "
-    "dynamic_bias_correlation_time precision";
+/// The <noise> of one axis, where the plugin reads all of it or its deviation alone.
+std::vector<SchemaRow> noise_rows() {
+  std::vector<SchemaRow> rows;
+  for (const char* place : {"x/noise", "y/noise", "z/noise", "imu/noise/rate", "imu/noise/accel"}) {
+    rows.push_back({place, acts,
+                    "@type type mean stddev bias_mean bias_stddev dynamic_bias_stddev "
+                    "dynamic_bias_correlation_time precision"});
+  }
+  for (const char* place : {"magnetometer/x/noise", "magnetometer/y/noise", "magnetometer/z/noise",
+                            "horizontal/noise", "vertical/noise"}) {
+    rows.push_back({place, acts, "@type type stddev"});
+    rows.push_back({place, no_effect,
+                    "mean bias_mean bias_stddev dynamic_bias_stddev dynamic_bias_correlation_time "
+                    "precision",
+                    "<stddev> alone counts", "0"});
+  }
+  return rows;
+}
 
 std::vector<SchemaRow> all_rows() {
   std::vector<SchemaRow> rows;
-  for (const auto* part : {&world_rows(), &model_rows(), &sensor_rows()}) {
-    rows.insert(rows.end(), part->begin(), part->end());
-  }
-  for (const char* of_axis :
-       {"x/noise", "y/noise", "z/noise", "imu/noise/rate", "imu/noise/accel"}) {
-    rows.push_back({of_axis, acts, kImuNoise});
+  for (const auto& part : {world_rows(), model_rows(), sensor_rows(), noise_rows()}) {
+    rows.insert(rows.end(), part.begin(), part.end());
   }
   return rows;
 }

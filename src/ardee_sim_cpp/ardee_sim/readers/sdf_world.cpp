@@ -56,7 +56,8 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     const bool found = std::any_of(items.begin(), items.end(),
                                    [&name](const auto& item) { return item.name == name; });
     if (found) {
-      assets_.log().warn(inserted.source(), "found in the world already, left out", ": '" + name + "'");
+      assets_.log().warn(inserted.source(), "found in the world already, left out",
+                         ": '" + name + "'");
     }
     return found;
   };

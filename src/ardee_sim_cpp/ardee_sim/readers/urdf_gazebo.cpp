@@ -32,9 +32,7 @@ const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = n.to_number(0.0); };
     made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = n.to_number(0.0); };
     made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kUnlimited); };
-    made["kd"] = [](const Node& n, Surface& s) {
-      s.kd_n_s_per_m = n.to_number(0.0, kUnlimited);
-    };
+    made["kd"] = [](const Node& n, Surface& s) { s.kd_n_s_per_m = n.to_number(0.0, kUnlimited); };
     made["minDepth"] = [](const Node& n, Surface& s) { s.min_depth_m = n.to_number(); };
     made["maxVel"] = [](const Node& n, Surface& s) {
       s.max_correcting_velocity_m_per_s = n.to_number(-1.0);
@@ -147,9 +145,8 @@ class GazeboBlocks {
         apply_to_link(node, model_.links[link->second], assets_);
       });
     } else if (joint != joints_.end()) {
-      apply_each(block, "joint", [&](const Node& node) {
-        apply_to_joint(node, model_.joints[joint->second]);
-      });
+      apply_each(block, "joint",
+                 [&](const Node& node) { apply_to_joint(node, model_.joints[joint->second]); });
     } else if (reference.empty()) {
       apply_each(block, "robot", [this](const Node& node) { apply_to_model(node); });
     } else {

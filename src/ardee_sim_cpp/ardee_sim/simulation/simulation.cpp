@@ -20,8 +20,7 @@ class NoSink : public ReadingSink {
 void require_in_world(const std::string& name, const Pose& X_WM) {
   if (limits::is_valid(X_WM)) return;
   throw Error("'" + name + "': found a pose that is not finite or farther than " +
-              std::to_string(static_cast<int>(limits::kFarthest_m)) +
-              " m from the world's origin");
+              std::to_string(static_cast<int>(limits::kFarthest_m)) + " m from the world's origin");
 }
 
 void apply_initial_state(Entity& entity) {

@@ -31,7 +31,7 @@ TEST_F(SdfWorld, ReadsListingA15sSettings) {
   EXPECT_EQ(w.physics.step_s, 0.005);
   EXPECT_EQ(w.physics.real_time_update_rate_hz, 200.0);  // real time, at 5 ms a step
   EXPECT_EQ(w.physics.gravity_m_per_s2, Eigen::Vector3d(0, 0, -9.8));
-  EXPECT_TRUE(w.scene.sky && w.scene.grid && w.scene.shadows);
+  EXPECT_TRUE(w.scene.sky && w.scene.shadows);
   EXPECT_EQ(warnings_->size(), 1u);
   EXPECT_TRUE(warned("<clouds>: has no effect: the sky is clear"));
 }
@@ -107,7 +107,7 @@ TEST_F(SdfWorld, ReadsSceneAndPlaceOnEarth) {
       <plugin name='p' filename='libp.so'/>)");
   EXPECT_TRUE(w.scene.ambient.isApprox(Color(0.1f, 0.2f, 0.3f, 1)));
   EXPECT_TRUE(w.scene.background.isApprox(Color(0.4f, 0.5f, 0.6f, 1)));
-  EXPECT_FALSE(w.scene.sky || w.scene.shadows || w.scene.grid);
+  EXPECT_FALSE(w.scene.sky || w.scene.shadows);
   EXPECT_EQ(w.spherical_coordinates->latitude_deg, 40.1);
   EXPECT_EQ(w.spherical_coordinates->longitude_deg, -88.2);
   EXPECT_EQ(w.spherical_coordinates->elevation_m, 220.0);
