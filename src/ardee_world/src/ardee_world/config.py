@@ -143,9 +143,9 @@ class FieldConfig:
     stalk_height_max_m: Optional[float] = option(None, "highest plant height", (0.01, 20.0))
     origin_latitude_deg: Optional[float] = option(None, "", (-89.9, 89.9))
     origin_longitude_deg: Optional[float] = option(None, "", (-180.0, 180.0))
-    # x m, y m, yaw rad: where a world includes the field
+    # x m, y m, yaw rad
     world_pose: Tuple[float, float, float] = option(
-        (0.0, 0.0, -1.57), "where the world will include the field, X Y YAW [m m rad]"
+        (0.0, 0.0, -1.57), "where the field stands in the world, X Y YAW [m m rad]"
     )
 
     def covariance(self) -> np.ndarray:
