@@ -114,9 +114,9 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
     else if (name == "plane")
       made = read_plane(shape);
     else if (name == "mesh")
-      made = read_mesh(shape, assets);
+      assets.has_files([&] { made = read_mesh(shape, assets); });
     else if (name == "heightmap")
-      made = read_heightmap(shape, assets);
+      assets.has_files([&] { made = read_heightmap(shape, assets); });
     else if (name != "empty") {
       assets.log().warn(shape.source().to_string() +
                         ": shape not supported, left out; supported are box, sphere, cylinder, "

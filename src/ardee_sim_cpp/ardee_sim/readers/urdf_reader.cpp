@@ -23,7 +23,9 @@ Pose pose_of(const urdf::Pose& pose) {
           Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized()};
 }
 
-Geometry geometry_of(const urdf::Geometry& geometry, const Source& source, Assets& assets) {
+/// None, with an error, where a mesh's file may be left out.
+std::optional<Geometry> geometry_of(const urdf::Geometry& geometry, const Source& source,
+                                    Assets& assets) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
     return Box{{box->dim.x, box->dim.y, box->dim.z}};
   }
@@ -34,8 +36,12 @@ Geometry geometry_of(const urdf::Geometry& geometry, const Source& source, Asset
     return Cylinder{cylinder->radius, cylinder->length};
   }
   const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
-  return make_mesh(mesh.filename, "", false, {mesh.scale.x, mesh.scale.y, mesh.scale.z}, source,
-                   assets);
+  std::optional<Geometry> made;
+  assets.has_files([&] {
+    made = make_mesh(mesh.filename, "", false, {mesh.scale.x, mesh.scale.y, mesh.scale.z}, source,
+                     assets);
+  });
+  return made;
 }
 
 Material material_of(const urdf::Material& material, const Source& source, Assets& assets) {
@@ -88,7 +94,9 @@ Link read_link(const Node& node, const urdf::Link& link, Assets& assets) {
     Collision body;
     body.name = body_name(collision.name, link.name, "collision", i);
     body.X_LC = pose_of(collision.origin);
-    body.geometry = geometry_of(*collision.geometry, collision_sources.at(i), assets);
+    auto geometry = geometry_of(*collision.geometry, collision_sources.at(i), assets);
+    if (!geometry) continue;
+    body.geometry = std::move(*geometry);
     made.collisions.push_back(std::move(body));
   }
   const auto visual_sources = body_sources(node, "visual");
@@ -97,7 +105,9 @@ Link read_link(const Node& node, const urdf::Link& link, Assets& assets) {
     Visual body;
     body.name = body_name(visual.name, link.name, "visual", i);
     body.X_LV = pose_of(visual.origin);
-    body.geometry = geometry_of(*visual.geometry, visual_sources.at(i), assets);
+    auto geometry = geometry_of(*visual.geometry, visual_sources.at(i), assets);
+    if (!geometry) continue;
+    body.geometry = std::move(*geometry);
     if (visual.material) {
       body.material = material_of(*visual.material, visual_sources.at(i), assets);
     }
