@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Packages of robots in the style of published ones, unchanged for this simulator: they launch, and the robot drives."""
+"""Packages of robots in the style of published ones, unchanged for this simulator: the robot drives."""
 from pathlib import Path
 
 import probes

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Launch files that start Gazebo's window, on a machine without a display: the world runs, gzclient says in one line that
-there is none, and nothing is an error."""
+"""Launch files that start Gazebo's window, on a machine without a display: the world runs, gzclient says in one line
+that there is none, and nothing is an error."""
 from pathlib import Path
 
 import probes

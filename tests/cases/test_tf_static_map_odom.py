@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A launch file that says by static_transform_publisher where the map is: it alone is the parent of odom, and the robot is
-at (3, 1) in the map."""
+"""A launch file that says by static_transform_publisher where the map is: it alone is the parent of odom, and the robot
+is at (3, 1) in the map."""
 from pathlib import Path
 
 import probes

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A package that exports its media and its model folder by two <gazebo_ros> elements: both are read, and the tree stands at
-(2, 0, 1)."""
+"""A package that exports its media and its model folder by two <gazebo_ros> elements: both are read, and the tree
+stands at (2, 0, 1)."""
 from pathlib import Path
 
 import probes

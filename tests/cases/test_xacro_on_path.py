@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A robot's launch file has command="xacro ...": the workspace's set-up file puts xacro on PATH, and robot_description has
-the mass 1 + a = 2."""
+"""A robot's launch file has command="xacro ...": the workspace's set-up file puts xacro on PATH, and robot_description
+has the mass 1 + a = 2."""
 import shutil
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path

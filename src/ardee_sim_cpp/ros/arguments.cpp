@@ -64,7 +64,8 @@ std::string usage() {
          "  WORLD         world file (SDF 1.2 to 1.7); default: the parameter ~world\n"
          "  -u, --paused  start with the clock stopped\n"
          "  --seed N      root of all random numbers, a whole number from 0\n"
-         "  --lenient     leave out includes, meshes and heightmaps whose files are missing, with an "
+         "  --lenient     leave out includes, meshes and heightmaps whose files are missing, with "
+         "an "
          "error\n"
          "  --verbose     log at debug level\n"
          "  -h, --help    this text\n"
@@ -73,12 +74,10 @@ std::string usage() {
 }
 
 CommandLine parse_command_line(int argc, char** argv) {
-  static const option kOptions[] = {{"paused", no_argument, nullptr, 'u'},
-                                    {"seed", required_argument, nullptr, 's'},
-                                    {"lenient", no_argument, nullptr, 'l'},
-                                    {"verbose", no_argument, nullptr, 'v'},
-                                    {"help", no_argument, nullptr, 'h'},
-                                    {nullptr, 0, nullptr, 0}};
+  static const option kOptions[] = {
+      {"paused", no_argument, nullptr, 'u'},  {"seed", required_argument, nullptr, 's'},
+      {"lenient", no_argument, nullptr, 'l'}, {"verbose", no_argument, nullptr, 'v'},
+      {"help", no_argument, nullptr, 'h'},    {nullptr, 0, nullptr, 0}};
   CommandLine line;
   opterr = 0;
   for (int found = 0; (found = getopt_long(argc, argv, ":uh", kOptions, nullptr)) != -1;) {

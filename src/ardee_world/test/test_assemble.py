@@ -54,7 +54,9 @@ def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
     return call
 
 
-def test_the_world_includes_the_terrain_at_its_origin_and_the_field_where_its_own_pose_says(put_together, tmp_path):
+def test_the_world_includes_the_terrain_at_its_origin_and_the_field_where_its_own_pose_says(
+    put_together, tmp_path
+):
     assert put_together() == (0, "")
     world = ElementTree.parse(tmp_path / "out/worlds/custom.world").getroot().find("world")
     includes = [(i.findtext("uri"), i.findtext("pose")) for i in world.findall("include")]
@@ -135,7 +137,9 @@ def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned(
     np.testing.assert_allclose(
         places[:, 2], ground.height_at(places[:, 0], places[:, 1]), atol=1e-4
     )
-    plot = ElementTree.parse(tmp_path / "out/models/custom_field/plots.xacro").getroot().find("plot")
+    plot = (
+        ElementTree.parse(tmp_path / "out/models/custom_field/plots.xacro").getroot().find("plot")
+    )
     middle = [float(plot.findtext(axis)) for axis in "xy"]
     np.testing.assert_allclose(middle, places[:, :2].mean(axis=0), atol=0.4)
     start = yaml.safe_load((tmp_path / "out/worlds/custom.start.yaml").read_text())

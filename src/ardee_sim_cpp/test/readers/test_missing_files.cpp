@@ -104,8 +104,9 @@ TEST_F(MissingFilesTest, LeavesOutRowsOfATable) {
 TEST_F(MissingFilesTest, RefusesWhatIsWrittenWrongAllTheSame) {
   EXPECT_HAS(error_of([&] { world("<include/>"); }), "found no <uri>, expected one");
   EXPECT_HAS(error_of([&] {
-               model("<link name='l'><collision name='c'><geometry><mesh><uri></uri></mesh>"
-                     "</geometry></collision></link>");
+               model(
+                   "<link name='l'><collision name='c'><geometry><mesh><uri></uri></mesh>"
+                   "</geometry></collision></link>");
              }),
              "uri");
   EXPECT_TRUE(errors_->empty());
