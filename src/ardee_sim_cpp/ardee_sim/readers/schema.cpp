@@ -100,8 +100,8 @@ void Schema::warn_of_unknown(const Node& node, const char* format, Log& log) con
     if (known->second.count(child.name()) != 0) {
       warn_of_unknown(child, format, log);
     } else if (!is_foreign(child.name())) {
-      log.warn(child.source(), "not an element of <" + std::string(node.name()) + "> in " + format +
-                                   ", ignored");
+      log.warn(child.source(),
+               "not an element of <" + std::string(node.name()) + "> in " + format + ", ignored");
     }
   });
 }

@@ -97,8 +97,8 @@ Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFr
 
 }  // namespace
 
-Joint read_sdf_joint(const Node& node, int sdf_version, const SdfFrames& frames,
-                     const Model& model, Log& log) {
+Joint read_sdf_joint(const Node& node, int sdf_version, const SdfFrames& frames, const Model& model,
+                     Log& log) {
   Joint joint;
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);

@@ -17,7 +17,8 @@ namespace {
 std::optional<int> parse_version(const std::string& text) {
   const std::size_t point = std::min(text.find('.'), text.size());
   const auto whole = to_double(std::string_view(text).substr(0, point));
-  const auto minor = point == text.size() ? 0.0 : to_double(std::string_view(text).substr(point + 1));
+  const auto minor =
+      point == text.size() ? 0.0 : to_double(std::string_view(text).substr(point + 1));
   if (!whole || !minor || !(*whole >= 1.0 && *whole < 100.0 && *minor >= 0.0 && *minor < 100.0)) {
     return std::nullopt;
   }
@@ -168,8 +169,7 @@ void SdfReader::merge(const Node& asker, const Instance& nested, const std::stri
   }
   bytes += bytes_of(*nested.model);
   if (bytes > kMaxModelBytes) {
-    throw asker.error("found a model that takes more than " +
-                      std::to_string(kMaxModelBytes >> 20) +
+    throw asker.error("found a model that takes more than " + std::to_string(kMaxModelBytes >> 20) +
                       " MB with what is merged into it, expected a smaller one");
   }
   merge_model(*nested.model, nested.pose, name, made);

@@ -32,9 +32,7 @@ const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = n.to_number(0.0); };
     made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = n.to_number(0.0); };
     made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kUnlimited); };
-    made["kd"] = [](const Node& n, Surface& s) {
-      s.kd_n_s_per_m = n.to_number(0.0, kUnlimited);
-    };
+    made["kd"] = [](const Node& n, Surface& s) { s.kd_n_s_per_m = n.to_number(0.0, kUnlimited); };
     made["minDepth"] = [](const Node& n, Surface& s) { s.min_depth_m = n.to_number(); };
     made["maxVel"] = [](const Node& n, Surface& s) {
       s.max_correcting_velocity_m_per_s = n.to_number(-1.0);
@@ -116,9 +114,8 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
 /// What is so here whatever is asked: springs and dampers are implicit, fixed joints stay, forces
 /// in joints are at hand.
 const std::set<std::string, std::less<>> kAlwaysTrue{
-    "implicitSpringDamper", "implicit_spring_damper",   "cfmDamping",
-    "cfm_damping",          "disableFixedJointLumping", "preserveFixedJoint",
-    "provideFeedback",      "provide_feedback"};
+    "implicitSpringDamper",     "implicit_spring_damper", "cfmDamping",      "cfm_damping",
+    "disableFixedJointLumping", "preserveFixedJoint",     "provideFeedback", "provide_feedback"};
 
 bool apply_to_joint(const Node& node, Joint& joint, Log& log) {
   const std::string_view name = node.name();
