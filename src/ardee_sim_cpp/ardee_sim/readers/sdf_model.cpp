@@ -98,12 +98,13 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   read_nested(node, {scope.version, made->is_static ? std::optional<bool>(true) : std::nullopt},
               names, frames, *made);
   choose_canonical_link(node, frames, *made);
-  made->frames = frames.named_frames(node);
+  for (NamedFrame& frame : frames.named_frames(node)) made->frames.push_back(std::move(frame));
   if (node.has_attribute("placement_frame")) {
     made->X_MP = frames.find(node.required_attribute("placement_frame"), node);
   }
+  const JointScope joint_scope(scope.version, frames, *made);
   node.each("joint", [&](const Node& joint) {
-    made->joints.push_back(read_sdf_joint(joint, scope.version, frames, *made, assets_.log()));
+    made->joints.push_back(read_sdf_joint(joint, joint_scope, assets_.log()));
   });
   adopt_gz_systems(*made, assets_.log());
   validate_model(*made, assets_.log());
