@@ -75,16 +75,18 @@ TEST_F(Large, ManyRootsAreNamedInAShortMessage) {
 
 class LargeIncludes : public ReadersTest {
  protected:
-  /// Model s`depth` holds ten to the power of `depth` of s0, by includes that have `more` in them.
-  void nest(int depth, const std::string& innermost, const std::string& more = "") {
-    folder_.write_model("s0", innermost);
+  /// Model `name``depth` holds ten to the power of `depth` of the innermost, by includes that have
+  /// `more` in them.
+  void nest(const std::string& name, int depth, const std::string& innermost,
+            const std::string& more = "") {
+    folder_.write_model(name + "0", innermost);
     for (int k = 1; k <= depth; ++k) {
       std::string body = more.empty() ? "<static>1</static>" : "";
       for (int i = 0; i < 10; ++i) {
-        body += "<include><uri>model://s" + std::to_string(k - 1) + "</uri><name>n" +
+        body += "<include><uri>model://" + name + std::to_string(k - 1) + "</uri><name>n" +
                 std::to_string(i) + "</name>" + more + "</include>";
       }
-      folder_.write_model("s" + std::to_string(k), body);
+      folder_.write_model(name + std::to_string(k), body);
     }
   }
   std::string error_of_include(const std::string& name, const std::string& more = "") {
@@ -100,20 +102,20 @@ class LargeIncludes : public ReadersTest {
 };
 
 TEST_F(LargeIncludes, TenMillionStaticModelsInFourKilobytesAreRefused) {
-  nest(7, "<static>1</static><link name='l'/>");
+  nest("s", 7, "<static>1</static><link name='l'/>");
   EXPECT_HAS(error_of_include("s7"), "found more than 2000000 static models, expected fewer");
   EXPECT_EQ(error_of_include("s6"), "");
 }
 
 TEST_F(LargeIncludes, APluginInAnIncludeHidesNoneOfThem) {
-  nest(7, "<static>1</static><link name='l'/>",
+  nest("s", 7, "<static>1</static><link name='l'/>",
        "<static>1</static><plugin name='p' filename='p.so'/>");
   EXPECT_HAS(error_of_include("s7", "<static>1</static>"),
              "found more than 2000000 static models, expected fewer");
 }
 
 TEST_F(LargeIncludes, AWorldOfManyCopiesIsRefused) {
-  nest(6, "<static>1</static><link name='l'/>");
+  nest("s", 6, "<static>1</static><link name='l'/>");
   const std::string include = "<include><uri>model://s6</uri></include>";
   EXPECT_HAS(error_of([&] { world(include + include + include); }), "2000000 static models");
   EXPECT_HAS(error_of([&] {
@@ -126,13 +128,13 @@ TEST_F(LargeIncludes, AWorldOfManyCopiesIsRefused) {
 }
 
 TEST_F(LargeIncludes, WhatIsMergedMayNotOutgrowTheMemory) {
-  nest(6, "<link name='l'/>", "<pose/>");
+  nest("s", 6, "<link name='l'/>", "<pose/>");
   EXPECT_HAS(error_of_include("s6"), "found more than 100000 links, expected fewer");
-  nest(5,
+  nest("t", 5,
        "<link name='l'/><plugin name='p' filename='p.so'><a>" + std::string(100'000, 'x') +
            "</a></plugin>",
        "<pose> </pose>");
-  EXPECT_HAS(error_of_include("s5"), "takes more than 256 MB");
+  EXPECT_HAS(error_of_include("t5"), "takes more than 256 MB");
 }
 
 }  // namespace
