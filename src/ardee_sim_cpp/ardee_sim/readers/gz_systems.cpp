@@ -215,9 +215,9 @@ void adopt_plugin(const PluginDescription& given, const std::string& name, const
 }  // namespace
 
 bool is_settled_gz_system(const PluginDescription& plugin) {
-  static const std::set<std::string> settled{
-      "physics", "sensors",      "imu",           "navsat",           "magnetometer",
-      "contact", "user-commands", "forcetorque", "scene-broadcaster"};
+  static const std::set<std::string> settled{"physics",       "sensors",      "imu",
+                                             "navsat",        "magnetometer", "contact",
+                                             "user-commands", "forcetorque",  "scene-broadcaster"};
   return settled.count(system_name(plugin.filename)) != 0;
 }
 

@@ -102,7 +102,8 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
   std::optional<Pose> X_MP = file.model->X_MP;
   if (const auto placed = include.child("placement_frame"); placed && !placed->text().empty()) {
     const auto frame = file.model->find_frame(placed->text());
-    if (!frame) throw placed->error("found frame '" + placed->text() + "', expected one of the model");
+    if (!frame)
+      throw placed->error("found frame '" + placed->text() + "', expected one of the model");
     X_MP = frame->X_MF;
   }
   const bool is_placed = include.child("pose") || include.child("placement_frame");
