@@ -24,6 +24,7 @@ Log quiet_log() {
 Loader make_loader() {
   ResourceLocator locator;
   locator.add_model_path(ARDEE_TEST_DATA);
+  locator.add_model_path(ARDEE_PACKAGES "/ardee_models/models");
   locator.add_resource_path(ARDEE_TEST_DATA);
   locator.set_package_finder(find_package);
   return Loader(std::move(locator), quiet_log());

@@ -10,8 +10,8 @@ namespace ardee::fuzz {
 /// A log that keeps nothing.
 Log quiet_log();
 
-/// A loader that finds the test data as model://, file:// and package://test_data, and the packages
-/// beside this one.
+/// A loader that finds the test data as model://, file:// and package://test_data, the sun and the
+/// ground plane of ardee_models, and the packages beside this one.
 Loader make_loader();
 
 /// Writes the input as a file of that name and returns its path. The file stays until the next
