@@ -33,6 +33,19 @@ def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[
     return messages[:count]
 
 
+def performance_of(topic: str, kind: str, count: int = 2) -> Any:
+    """The simulator's performance metrics, the `count`-th that tells of a sensor, while somebody listens to `topic`."""
+    from gazebo_msgs.msg import PerformanceMetrics
+
+    _start()
+    found = []  # type: List[Any]
+    rospy.Subscriber(topic, _type(kind), lambda message: None)
+    rospy.Subscriber("/gazebo/performance_metrics", PerformanceMetrics, found.append)
+    told = lambda: [message for message in found if message.sensors]  # noqa: E731
+    wait_until(lambda: len(told()) >= count, "performance metrics", 30.0)
+    return told()[count - 1]
+
+
 def joint_positions(topic: str, count: int = 20) -> Dict[str, float]:
     """Latest angles [rad] by joint, of several publishers' messages on one topic."""
     found = {}  # type: Dict[str, float]

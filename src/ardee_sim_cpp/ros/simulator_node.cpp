@@ -101,15 +101,22 @@ void log_at_debug_level() {
 }  // namespace
 
 SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
-    : loader_(make_locator(), Log(log_to_ros()), missing_files(settings.lenient)),
-      simulation_(load_world(loader_, settings.world), simulation_options(settings), log_to_ros()),
+    : messages_(log_to_ros()),
+      loader_(make_locator(), Log(messages_.sink()), missing_files(settings.lenient)),
+      simulation_(load_world(loader_, settings.world), simulation_options(settings),
+                  messages_.sink()),
       frames_(settings.publish_world_tf),
-      topics_(frames_),
+      metrics_(private_node),
+      topics_(frames_, metrics_, Log(messages_.sink())),
       states_(private_node, simulation_),
       clock_(settings.clock_rate_hz),
       scenery_(simulation_, settings.scenery_radius_m),
-      runner_(simulation_, {topics_, states_, clock_, frames_}, [this] { scenery_.update(); }),
-      stage_{simulation_, loader_, topics_, runner_},
+      runner_(simulation_, {topics_, states_, clock_, frames_},
+              [this] {
+                scenery_.update();
+                metrics_.publish(simulation_.now_ns());
+              }),
+      stage_{simulation_, loader_, topics_, runner_, messages_},
       servers_(private_node) {
   for (const auto& entity : simulation_.entities()) topics_.add(*entity);
   simulation_.set_sink(&topics_);
@@ -125,8 +132,10 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
   add_model_state_services(servers_, stage_);
   add_link_state_services(servers_, stage_);
   add_property_services(servers_, stage_);
+  add_set_property_services(servers_, stage_);
   add_physics_services(servers_, stage_);
   add_force_services(servers_, stage_);
+  add_light_services(servers_, stage_);
   ROS_INFO_STREAM("seed " << settings.seed << ", " << simulation_.entities().size()
                           << " models, step " << simulation_.physics().step_s << " s"
                           << (settings.paused ? ", paused" : ""));

@@ -84,6 +84,10 @@ class Simulation {
   const World& world() const { return world_; }
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
+  /// Replaces the light of that name in world(); pictures follow, and resets leave it. Throws Error
+  /// if there is none, as does remove_light.
+  void set_light(const Light& light);
+  void remove_light(const std::string& name);
 
   /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
   /// name; "" and "world" name the world. Throws Error for an unknown name.

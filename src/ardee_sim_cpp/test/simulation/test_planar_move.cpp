@@ -76,7 +76,9 @@ TEST(PlanarMove, SaysWhereItIsAtItsRate) {
   EXPECT_NEAR(last.twist.linear.x(), 0.5, 1e-3);
   EXPECT_NEAR(last.twist.linear.y(), 0.1, 1e-3);
   EXPECT_NEAR(last.twist.angular.z(), 0.2, 1e-9);
-  EXPECT_EQ(world.recorder().on<TransformReading>("/tf").size(), 50u);
+  const auto transforms = world.recorder().on<TransformReading>("/tf");
+  EXPECT_EQ(transforms.size(), 50u);
+  EXPECT_TRUE(transforms.back().places_frame);
 }
 
 TEST(PlanarMove, ACommandLastsUntilItsTimeoutOrForEver) {

@@ -75,6 +75,8 @@ TEST(SkidSteer, OdometryIsTheTruthInTheWorldAndTheTwistIsTheBodys) {
   EXPECT_NEAR(last.twist.linear.y(), 0.0, 0.01);
   const std::array<double, 6> stock = {1e-4, 1e-4, 1e12, 1e12, 1e12, 0.01};
   EXPECT_EQ(last.pose_covariance, stock);
+  EXPECT_EQ(last.twist_covariance, stock);
+  EXPECT_TRUE(transforms.back().places_frame);
 }
 
 TEST(SkidSteer, EncoderOdometryStartsAtZeroAndFollowsTheWheels) {

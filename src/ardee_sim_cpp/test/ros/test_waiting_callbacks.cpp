@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Run by test_waiting_callbacks.py.
-#include "ros/waiting_callbacks.h"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
 #include <utility>
 #include <vector>
+
+#include "ros/waiting_callbacks.h"
 
 namespace ardee::node {
 namespace {
