@@ -12,14 +12,6 @@ constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or f
 constexpr double kWorldReach =
     1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
-void set_mass(dBodyID body, const BodyGroup& group) {
-  const Eigen::Matrix3d& i = group.inertia_M;
-  dMass mass;
-  dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
-                     i(1, 2));
-  dBodySetMass(body, &mass);
-}
-
 bool pulls_all_or_nothing(const BodyGroup& group) {
   return group.gravity_mass_kg == group.mass_kg || group.gravity_mass_kg == 0.0;
 }
@@ -39,7 +31,8 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
                                     "beyond the world's range");
   }
   for (const Joint& joint : model_->joints) check_joint(*model_, joint);
-  groups_ = group_links(*model_);
+  links_ = described_links(*model_);
+  groups_ = group_links(*model_, links_);
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     if (model_->links[i].name == model_->canonical_link) canonical_ = i;
   }
@@ -54,16 +47,12 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     bodies_.emplace_back(dBodyCreate(world));
     dBodyID body = bodies_.back().get();
     mass_kg_ += group.mass_kg;
-    if (group.kinematic) {
-      dBodySetKinematic(body);
-    } else {
-      set_mass(body, group);
-    }
+    if (group.kinematic) dBodySetKinematic(body);
+    set_mass(bodies_.size() - 1);
     // Exact rotation over a step: a wheel turns by rate times step, not by twice the arc tangent of
     // half that.
     dBodySetFiniteRotationMode(body, 1);
     dBodySetAutoDisableFlag(body, 0);
-    dBodySetGravityMode(body, group.gravity_mass_kg == group.mass_kg ? 1 : 0);
     set_body_pose(body, X_WM * Pose{group.com_M, Eigen::Quaterniond::Identity()});
   }
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
@@ -71,6 +60,17 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     X_BL.p -= groups_.groups[groups_.of_link[i]].com_M;
     X_BL_.push_back(X_BL);
   }
+}
+
+void DynamicModel::set_mass(std::size_t index) {
+  const BodyGroup& group = groups_.groups[index];
+  dBodySetGravityMode(body(index), group.gravity_mass_kg == group.mass_kg ? 1 : 0);
+  if (group.kinematic) return;
+  const Eigen::Matrix3d& i = group.inertia_M;
+  dMass mass;
+  dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
+                     i(1, 2));
+  dBodySetMass(body(index), &mass);
 }
 
 void DynamicModel::make_shapes(ShapeFactory& factory) {

@@ -45,6 +45,14 @@ class DynamicModel : public PhysicsModel {
   void set_joint_motor(std::size_t joint, double velocity, double max_effort) override;
   void set_joint_spring(std::size_t joint, const JointSpring& spring) override;
   void set_joint_limits(std::size_t joint, double lower, double upper) override;
+  const LinkProperties& link_properties(std::size_t link) const override { return links_.at(link); }
+  void set_link_properties(std::size_t link, const LinkProperties& properties) override;
+  std::size_t joint_axes(std::size_t joint) const override;
+  const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const override;
+  void set_joint_properties(std::size_t joint, std::size_t axis,
+                            const JointProperties& properties) override;
+  const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const override;
+  void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) override;
   void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
                     const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) override;
   void apply_joint_effort(std::size_t joint, double effort) override;
@@ -75,9 +83,15 @@ class DynamicModel : public PhysicsModel {
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
   std::vector<std::size_t> hanging_on(std::size_t joint) const;
   ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
+  /// Throws Error naming the joint if it has no such axis.
+  JointDrive& drive(std::size_t joint, std::size_t axis) const;
   void move_body(std::size_t group, const Pose& motion);
+  void set_mass(std::size_t group);
+  /// Moves the frame of a body, not what it carries, by so much in its own axes.
+  void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
 
   std::shared_ptr<const Model> model_;
+  std::vector<LinkProperties> links_;
   BodyGroups groups_;
   std::size_t canonical_ = 0;
   double mass_kg_ = 0.0;

@@ -99,31 +99,6 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
   moved->set_position(moved->clamp(position));
 }
 
-void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double max_effort) {
-  require(is_valid(velocity), *model_, "a motor's velocity");
-  if (!(max_effort >= 0.0)) {
-    throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
-                "': found a motor's effort below zero");
-  }
-  if (ModelJoint* driven = moving_joint(joint)) driven->set_motor(velocity, max_effort);
-}
-
-void DynamicModel::set_joint_spring(std::size_t joint, const JointSpring& spring) {
-  const bool valid = is_valid(spring.stiffness) && spring.stiffness >= 0.0 &&
-                     is_valid(spring.damping) && spring.damping >= 0.0 &&
-                     is_valid(spring.reference);
-  require(valid, *model_, "a spring's number");
-  if (ModelJoint* sprung = moving_joint(joint)) sprung->set_spring(spring);
-}
-
-void DynamicModel::set_joint_limits(std::size_t joint, double lower, double upper) {
-  if (!(lower <= upper)) {
-    throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
-                "': found a lower limit above the upper");
-  }
-  if (ModelJoint* limited = moving_joint(joint)) limited->set_limits(lower, upper);
-}
-
 void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const Vector3d& point_W,
                                 const Vector3d& torque_W) {
   require(is_valid(force_W) && is_valid(point_W) && is_valid(torque_W), *model_, "a wrench");

@@ -9,16 +9,9 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/physics/properties.h"
 
 namespace ardee {
-
-/// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness *
-/// (angle - reference) (thesis eq. 4.1), integrated implicitly, so that it is stable at any step.
-struct JointSpring {
-  double stiffness = 0.0;  // N m/rad (N/m)
-  double damping = 0.0;    // N m s/rad (N s/m)
-  double reference = 0.0;  // rad (m)
-};
 
 /// The moving state of one dynamic model. Links and joints are addressed by their index in the
 /// description. Links joined by fixed joints move as one body but keep their frames.
@@ -49,6 +42,20 @@ class PhysicsModel {
   /// Replaces the spring, damper of the description. Holds until changed.
   virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
   virtual void set_joint_limits(std::size_t joint, double lower, double upper) = 0;
+
+  // Properties hold until changed; those of a model that is added are its description's. The setters
+  // throw Error and change nothing if a number has no meaning or the body could not be simulated.
+  virtual const LinkProperties& link_properties(std::size_t link) const = 0;
+  /// Poses and velocities of the links' frames stay as they are.
+  virtual void set_link_properties(std::size_t link, const LinkProperties& properties) = 0;
+  /// Axes that can be driven: 0 of a fixed or ball joint, 2 of a universal or revolute2, else 1.
+  virtual std::size_t joint_axes(std::size_t joint) const = 0;
+  virtual const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const = 0;
+  virtual void set_joint_properties(std::size_t joint, std::size_t axis,
+                                    const JointProperties& properties) = 0;
+  virtual const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const = 0;
+  virtual void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) = 0;
+
   /// Adds a force (N, world axes) at a world point and a torque (N m) for the next step only.
   virtual void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
                             const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) = 0;
