@@ -231,7 +231,6 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
   const CircleContacts right = touch_circle(field, {X_FC.p + half, axis, cylinder.radius_m});
   for (const GroundContact& contact : left.contacts) add_contact(contact, contacts);
   for (const GroundContact& contact : right.contacts) add_contact(contact, contacts);
-  if (middle.deepest_m < 0.5 * (left.deepest_m + right.deepest_m) + kRidgeHeight) return;
   for (const GroundContact& contact : middle.contacts) add_contact(contact, contacts);
 }
 

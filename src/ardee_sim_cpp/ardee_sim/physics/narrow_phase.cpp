@@ -10,6 +10,9 @@ namespace ardee::physics {
 namespace {
 
 constexpr int kMaxPoints = 64;
+constexpr double kLying = 0.1;        // |cos| of a cylinder's axis to a contact's normal
+constexpr double kSameNormal = 0.99;  // cos between two contacts of one flat ground
+constexpr double kLeastWidth = 1e-4;  // m: two contacts nearer than this are one
 
 Pose geom_pose(dGeomID geom) {
   dQuaternion q;
@@ -56,6 +59,25 @@ void collide_geoms(dGeomID a, dGeomID b, int max_contacts, std::vector<ContactPo
   }
 }
 
+/// A cylinder that lies on its side is told from one that leans by the contacts of its two ends. The
+/// solver may give all of the load to either, and the cylinder then rolls about that end: a third
+/// contact between them is where a wheel as wide as it is rolls.
+void add_middle(const CollisionShape& shape, std::size_t first, std::vector<ContactPoint>& points) {
+  const Pose X_WS = geom_pose(shape.geom.get());
+  const Eigen::Vector3d axis = X_WS.q * Eigen::Vector3d::UnitZ();
+  const ContactPoint *low = nullptr, *high = nullptr;
+  double low_m = 0.0, high_m = 0.0;
+  for (std::size_t i = first; i < points.size(); ++i) {
+    if (std::abs(points[i].normal.dot(axis)) > kLying) return;
+    const double along_m = axis.dot(points[i].position - X_WS.p);
+    if (!low || along_m < low_m) low = &points[i], low_m = along_m;
+    if (!high || along_m > high_m) high = &points[i], high_m = along_m;
+  }
+  if (!low || high_m - low_m < kLeastWidth || low->normal.dot(high->normal) < kSameNormal) return;
+  points.push_back({0.5 * (low->position + high->position),
+                    (low->normal + high->normal).normalized(), 0.5 * (low->depth_m + high->depth_m)});
+}
+
 }  // namespace
 
 void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_contacts,
@@ -64,7 +86,13 @@ void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_co
   if (b.field) {
     collide_field(a, b, max_contacts, points);
   } else if (a.geom && b.geom) {
+    const std::size_t first = points.size();
     collide_geoms(a.geom.get(), b.geom.get(), max_contacts, points);
+    for (const CollisionShape* shape : {&a, &b}) {
+      if (std::holds_alternative<Cylinder>(shape->collision->geometry)) {
+        add_middle(*shape, first, points);
+      }
+    }
   }
 }
 

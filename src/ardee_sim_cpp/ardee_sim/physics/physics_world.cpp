@@ -92,7 +92,7 @@ void PhysicsWorld::Impl::step() {
   finder.find(models, params);
   contact_count = contacts.count();
   solve();
-  for (const auto& model : models) model->finish_step();
+  for (const auto& model : models) model->finish_step(params.step_s);
   for (const auto& model : models) model->check_state();
 }
 
