@@ -10,9 +10,17 @@
 namespace ardee::physics {
 namespace {
 
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
+
+/// The rotation by a rate that is held for a step.
+Quaterniond turn_of(const Vector3d& rate, double step_s) {
+  const double speed = rate.norm();
+  if (speed == 0.0) return Quaterniond::Identity();
+  return Quaterniond(Eigen::AngleAxisd(speed * step_s, rate / speed));
+}
 
 bool pulls_all_or_nothing(const BodyGroup& group) {
   return group.gravity_mass_kg == group.mass_kg || group.gravity_mass_kg == 0.0;
@@ -43,6 +51,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
   make_shapes(factory);
   make_joints(world, X_WM);
   find_self_pairs();
+  order_carriers();
 }
 
 void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
@@ -165,7 +174,47 @@ void DynamicModel::prepare_step(const StepSettings& step, const Vector3d& gravit
   }
 }
 
-void DynamicModel::finish_step() {
+void DynamicModel::order_carriers() {
+  std::vector<std::size_t> open;
+  std::vector<bool> is_carried(bodies_.size(), false);
+  std::vector<std::vector<std::size_t>> carries(bodies_.size());
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!joints_[i]) continue;
+    const std::size_t child = child_group(model_->joints[i]);
+    if (is_carried[child]) continue;  // held by two: the first counts
+    is_carried[child] = true;
+    carries[parent_group(model_->joints[i])].push_back(child);
+  }
+  for (std::size_t group = 0; group < bodies_.size(); ++group) {
+    if (!is_carried[group]) open.push_back(group);
+  }
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    for (const std::size_t child : carries[open[next]]) {
+      carried_.push_back({child, open[next]});
+      open.push_back(child);
+    }
+  }
+}
+
+void DynamicModel::turn_with_carriers(double step_s) {
+  turns_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    turns_[i] = turn_of(to_vector(dBodyGetAngularVel(body(i))), step_s);
+  }
+  for (const Carried& each : carried_) {
+    const Vector3d rate = to_vector(dBodyGetAngularVel(body(each.group)));
+    const Vector3d relative = rate - to_vector(dBodyGetAngularVel(body(each.carrier)));
+    const Quaterniond before = turns_[each.group].conjugate();
+    turns_[each.group] = turns_[each.carrier] * turn_of(relative, step_s);
+    const Quaterniond now = to_quaternion(dBodyGetQuaternion(body(each.group)));
+    const Quaterniond turned = turns_[each.group] * before * now;
+    const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
+    dBodySetQuaternion(body(each.group), q);
+  }
+}
+
+void DynamicModel::finish_step(double step_s) {
+  turn_with_carriers(step_s);
   for (const auto& joint : joints_) {
     if (joint) joint->measure();
   }

@@ -66,7 +66,7 @@ class DynamicModel : public PhysicsModel {
   std::size_t rows() const { return rows_; }
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
-  void finish_step();
+  void finish_step(double step_s);
   /// Model, link and how it has left the contract of a valid state; empty if it has not.
   std::string state_fault() const;
 
@@ -75,6 +75,12 @@ class DynamicModel : public PhysicsModel {
   void make_shapes(ShapeFactory& factory);
   void make_joints(dWorldID world, const Pose& X_WM);
   void find_self_pairs();
+  /// Orders groups and what carries each, for turn_with_carriers.
+  void order_carriers();
+  /// Turns each body first with the body that carries it, then by its rate against that. Turned by
+  /// the sum of both at once, as the engine does, a wheel of a robot that turns leans out by half the
+  /// product of both rates and the step, and then rolls on one edge.
+  void turn_with_carriers(double step_s);
   std::size_t parent_group(const Joint& joint) const;
   std::size_t child_group(const Joint& joint) const;
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
@@ -105,6 +111,12 @@ class DynamicModel : public PhysicsModel {
   std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
   std::vector<ShapePair> self_pairs_;
   LinkIndex link_index_;
+  struct Carried {
+    std::size_t group;
+    std::size_t carrier;
+  };
+  std::vector<Carried> carried_;  // a carrier that is carried itself comes before what it carries
+  std::vector<Eigen::Quaterniond> turns_;  // of each body in the last step
 };
 
 }  // namespace ardee::physics

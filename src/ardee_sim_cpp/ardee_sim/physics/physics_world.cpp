@@ -92,7 +92,7 @@ void PhysicsWorld::Impl::step() {
   contact_count = contacts.count();
   solver.step(params, finder.islands());
   contacts.clear();
-  for (const auto& model : models) model->finish_step();
+  for (const auto& model : models) model->finish_step(params.step_s);
 }
 
 PhysicsWorld::PhysicsWorld(const PhysicsParams& params, Log log)
