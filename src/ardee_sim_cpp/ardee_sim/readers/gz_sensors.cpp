@@ -18,10 +18,11 @@ std::string text_at(const Element& element, const std::vector<std::string>& path
 
 /// What newer Gazebo calls the frame of a sensor's messages.
 std::string frame_of(const SensorDescription& sensor, const Link& link) {
-  for (const std::vector<std::string>& path : {std::vector<std::string>{"camera", "optical_frame_id"},
-                                               {"gz_frame_id"},
-                                               {"ignition_frame_id"},
-                                               {"frame_id"}}) {
+  for (const std::vector<std::string>& path :
+       {std::vector<std::string>{"camera", "optical_frame_id"},
+        {"gz_frame_id"},
+        {"ignition_frame_id"},
+        {"frame_id"}}) {
     const std::string frame = text_at(sensor.element, path);
     if (!frame.empty()) return frame;
   }
@@ -51,11 +52,10 @@ PluginDescription make_lidar(const SensorDescription& sensor, const std::string&
   std::string rows = text_at(sensor.element, {"lidar", "scan", "vertical", "samples"});
   if (rows.empty()) rows = text_at(sensor.element, {"ray", "scan", "vertical", "samples"});
   const bool is_flat = rows.empty() || rows == "1";
-  PluginDescription made =
-      make_plugin(sensor, is_flat ? sees_visuals ? "libgazebo_ros_gpu_laser.so"
-                                                 : "libgazebo_ros_laser.so"
-                          : sees_visuals ? "libgazebo_ros_velodyne_gpu_laser.so"
-                                         : "libgazebo_ros_velodyne_laser.so");
+  PluginDescription made = make_plugin(
+      sensor, is_flat ? sees_visuals ? "libgazebo_ros_gpu_laser.so" : "libgazebo_ros_laser.so"
+              : sees_visuals ? "libgazebo_ros_velodyne_gpu_laser.so"
+                             : "libgazebo_ros_velodyne_laser.so");
   add_key(made, "topicName", is_flat ? topic : topic + "/points");
   add_key(made, "frameName", frame);
   if (!is_flat) add_key(made, "organize_cloud", "true");
@@ -73,8 +73,8 @@ std::string info_topic(const SensorDescription& sensor, const std::string& topic
 PluginDescription make_camera(SensorDescription& sensor, const std::string& topic,
                               const std::string& frame) {
   const bool has_depth = sensor.type != "camera";
-  PluginDescription made = make_plugin(
-      sensor, has_depth ? "libgazebo_ros_depth_camera.so" : "libgazebo_ros_camera.so");
+  PluginDescription made =
+      make_plugin(sensor, has_depth ? "libgazebo_ros_depth_camera.so" : "libgazebo_ros_camera.so");
   add_key(made, "frameName", frame);
   add_key(made, "imageTopicName", has_depth ? topic + "/image" : topic);
   add_key(made, "cameraInfoTopicName",
@@ -86,7 +86,8 @@ PluginDescription make_camera(SensorDescription& sensor, const std::string& topi
     add_key(made, "pointCloudCutoff", "0");
   }
   const std::string trigger = text_at(sensor.element, {"camera", "trigger_topic"});
-  if (text_at(sensor.element, {"camera", "triggered"}) == "true") add_key(made, "triggered", "true");
+  if (text_at(sensor.element, {"camera", "triggered"}) == "true")
+    add_key(made, "triggered", "true");
   if (!trigger.empty()) add_key(made, "triggerTopicName", trigger);
   for (Element& block : sensor.element.children) {
     if (block.name != "camera") continue;
@@ -114,8 +115,8 @@ std::string deviation(const SensorDescription& sensor, const std::vector<std::st
 
 /// A plugin of the model that measures on a link.
 PluginDescription make_on_link(const SensorDescription& sensor, const char* filename,
-                               const std::string& topic, const std::string& frame,
-                               const Link& link, Log& log) {
+                               const std::string& topic, const std::string& frame, const Link& link,
+                               Log& log) {
   PluginDescription made = make_plugin(sensor, filename);
   add_key(made, "bodyName", link.name);
   add_key(made, "topicName", topic);
@@ -137,7 +138,8 @@ PluginDescription make_navsat(const SensorDescription& sensor, const std::string
   for (const auto& [kind, key] : {std::pair("position_sensing", "gaussianNoise"),
                                   std::pair("velocity_sensing", "velocityGaussianNoise")}) {
     const std::string across = deviation(sensor, {"navsat", kind, "horizontal"});
-    add_key(made, key, across + " " + across + " " + deviation(sensor, {"navsat", kind, "vertical"}));
+    add_key(made, key,
+            across + " " + across + " " + deviation(sensor, {"navsat", kind, "vertical"}));
   }
   return made;
 }
@@ -163,7 +165,11 @@ bool adopt_sensor(SensorDescription& sensor, const Link& link,
   static const std::set<std::string> newer{"gpu_lidar", "lidar", "navsat", "rgbd_camera"};
   const std::string named = text_at(sensor.element, {"topic"});
   const bool has_topic = !named.empty() && named != "__default_topic__";
-  if (!sensor.plugins.empty() || (!has_topic && newer.count(sensor.type) == 0)) return true;
+  if (!sensor.plugins.empty()) return true;
+  if (!has_topic && newer.count(sensor.type) == 0) {
+    log.warn(sensor.element.source, "found no <plugin> in it, expected one; it publishes nothing");
+    return true;
+  }
   const std::string topic = has_topic ? named : sensor.name;
   const std::string frame = frame_of(sensor, link);
   const std::string& type = sensor.type;
