@@ -64,6 +64,24 @@ def topics(namespace: str = "/") -> Dict[str, str]:
     return dict(rospy.get_published_topics(namespace))
 
 
+def services_of(node: str) -> Dict[str, str]:
+    """Names and types of the services of a node."""
+    import rosservice
+
+    _start()
+    names = rosservice.get_service_list(node=node)
+    return {name: rosservice.get_service_type(name) for name in names}
+
+
+def topics_of(node: str) -> Tuple[List[str], List[str]]:
+    """Topics that a node publishes, and those that it is subscribed to."""
+    publishers, subscribers, _ = rosgraph.Master("probe").getSystemState()
+    return (
+        [name for name, nodes in publishers if node in nodes],
+        [name for name, nodes in subscribers if node in nodes],
+    )
+
+
 def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60.0) -> List[str]:
     """All published topics, once those of the first list are there and those of the second are not."""
     _start()

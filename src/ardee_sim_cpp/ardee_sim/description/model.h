@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -144,6 +145,13 @@ struct NamedFrame {
 
 struct Model;
 
+/// Where a link stands in the world and how its origin moves, in the world's axes.
+struct LinkState {
+  Pose X_WL;
+  Twist twist_W;
+};
+using LinkStates = std::map<std::string, LinkState>;  // by link
+
 /// A model placed somewhere: many instances share one description.
 struct Instance {
   std::shared_ptr<const Model> model;
@@ -152,6 +160,8 @@ struct Instance {
   double scale = 1.0;
   std::uint32_t label = 0;  // class for segmentation; 0: none
   bool is_static = false;
+  /// How a moving model's links start where not as described and at rest (a saved world).
+  std::shared_ptr<const LinkStates> link_states = nullptr;
 };
 
 /// A model as described: const after load, shared by its instances.

@@ -15,6 +15,12 @@ std::string quoted(const std::string& text) {
   return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
 }
 
+std::string in_words(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 }  // namespace
 
 std::optional<double> to_double(std::string_view word) {
@@ -56,8 +62,18 @@ Eigen::Vector3d parse_vector3(const std::string& text, const Source& source) {
   return {parse_number(x, source), parse_number(y, source), parse_number(z, source)};
 }
 
+void Parameters::note(const AskedKey& key) const {
+  if (element_.key_log) element_.key_log->add(key);
+}
+
+void Parameters::ignore(const std::set<std::string>& keys) {
+  known_.insert(keys.begin(), keys.end());
+  for (const std::string& key : keys) note({key, "", "", false, true});
+}
+
 const Element* Parameters::find(const std::string& key) {
   known_.insert(key);
+  note({key, "", ""});
   return element_.child(key);
 }
 
@@ -69,11 +85,13 @@ const Element* Parameters::find_filled(const std::string& key) {
 bool Parameters::has(const std::string& key) { return find(key) != nullptr; }
 
 std::string Parameters::text(const std::string& key, const std::string& fallback) {
+  note({key, "text", fallback});
   const Element* child = find(key);
   return child ? child->text : fallback;
 }
 
 std::string Parameters::required_text(const std::string& key) {
+  note({key, "text", "", true});
   const Element* child = find(key);
   if (!child || child->text.empty()) {
     throw Error(element_.source, "found no <" + key + ">, expected one");
@@ -82,6 +100,7 @@ std::string Parameters::required_text(const std::string& key) {
 }
 
 double Parameters::number(const std::string& key, double fallback, double low, double high) {
+  note({key, "number", in_words(fallback)});
   const Element* child = find_filled(key);
   if (!child) return fallback;
   const double value = parse_number(child->text, child->source);
@@ -99,17 +118,21 @@ double Parameters::number(const std::string& key, double fallback, double low, d
 }
 
 int Parameters::integer(const std::string& key, int fallback, int low, int high) {
+  note({key, "whole number", std::to_string(fallback)});
   const double value = number(key, fallback, low, high);
   if (value != std::floor(value)) throw error(key, "expected a whole number");
   return static_cast<int>(value);
 }
 
 bool Parameters::boolean(const std::string& key, bool fallback) {
+  note({key, "true or false", fallback ? "true" : "false"});
   const Element* child = find_filled(key);
   return child ? parse_boolean(child->text, child->source) : fallback;
 }
 
 Eigen::Vector3d Parameters::vector3(const std::string& key, const Eigen::Vector3d& fallback) {
+  note({key, "three numbers",
+        in_words(fallback.x()) + " " + in_words(fallback.y()) + " " + in_words(fallback.z())});
   const Element* child = find_filled(key);
   return child ? parse_vector3(child->text, child->source) : fallback;
 }

@@ -35,7 +35,7 @@ class Parameters {
   /// The child element itself, for a nested block; nullptr if absent.
   const Element* block(const std::string& key);
   /// Marks keys as known without reading them (keys that Gazebo's plugins accept and ignore).
-  void ignore(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }
+  void ignore(const std::set<std::string>& keys);
   /// Warns once for each key that was never asked for.
   void finish(Log& log) const;
   const Source& source() const { return element_.source; }
@@ -43,6 +43,7 @@ class Parameters {
 
  private:
   const Element* find(const std::string& key);
+  void note(const AskedKey& key) const;
   /// None if it is empty.
   const Element* find_filled(const std::string& key);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 
 namespace ardee::physics {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
-constexpr double kWorldReach =
-    1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
 void set_mass(dBodyID body, const BodyGroup& group) {
   const Eigen::Matrix3d& i = group.inertia_M;
@@ -36,7 +35,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
     throw Error(model_->source,
                 "model '" + model_->name + "': found no link, expected one or more");
   }
-  if (!X_WM.is_finite() || X_WM.p.norm() > kWorldReach) {
+  if (!limits::is_valid(X_WM)) {
     throw Error(model_->source, "model '" + model_->name +
                                     "': found a pose that is not finite or "
                                     "beyond the world's range");
@@ -172,21 +171,20 @@ void DynamicModel::finish_step() {
   }
 }
 
-void DynamicModel::check_state() const {
+std::string DynamicModel::state_fault() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Pose X_WB = body_pose(body(i));
-    const Vector3d v = to_vector(dBodyGetLinearVel(body(i)));
-    const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
-    const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
-    const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
-                          v.cwiseAbs().maxCoeff() <= kMaxInput &&
-                          w.cwiseAbs().maxCoeff() <= kMaxInput;
-    if (finite && in_range) continue;
+    const Twist twist_W{to_vector(dBodyGetLinearVel(body(i))),
+                        to_vector(dBodyGetAngularVel(body(i)))};
+    if (limits::is_valid(X_WB) && limits::is_valid(twist_W)) continue;
+    const bool finite =
+        X_WB.is_finite() && twist_W.linear.allFinite() && twist_W.angular.allFinite();
     const std::string link =
         groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;
-    throw Error("model '" + model_->name + "', link '" + link + "': found a position or velocity " +
-                (finite ? "beyond the world's range" : "that is not finite"));
+    return "model '" + model_->name + "', link '" + link + "': found a position or velocity " +
+           (finite ? "beyond the world's range" : "that is not finite");
   }
+  return "";
 }
 
 }  // namespace ardee::physics

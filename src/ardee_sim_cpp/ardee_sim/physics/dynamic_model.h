@@ -13,10 +13,6 @@
 
 namespace ardee::physics {
 
-/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from
-/// where sums overflow.
-constexpr double kMaxInput = 1e9;
-
 /// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one
 /// body, whose frame lies at its centre of mass, parallel to the model's frame when all joints are
 /// at zero.
@@ -37,6 +33,8 @@ class DynamicModel : public PhysicsModel {
   Pose pose() const override;
   void set_pose(const Pose& X_WM) override;
   void set_twist(const Twist& twist_W) override;
+  void set_link_states(const LinkStates& states) override;
+  void set_state(const Pose& X_WM, const Twist& twist_W) override;
   Pose link_pose(std::size_t link) const override;
   Twist link_twist(std::size_t link) const override;
   double joint_position(std::size_t joint) const override;
@@ -61,9 +59,8 @@ class DynamicModel : public PhysicsModel {
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
   void finish_step();
-  /// Throws Error naming model and link if a body is not at a finite place within the world's
-  /// range.
-  void check_state() const;
+  /// Model, link and how it has left the contract of a valid state; empty if it has not.
+  std::string state_fault() const;
 
  private:
   void make_bodies(dWorldID world, const Pose& X_WM);
@@ -75,7 +72,13 @@ class DynamicModel : public PhysicsModel {
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
   std::vector<std::size_t> hanging_on(std::size_t joint) const;
   ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
+  /// Throws Error if a motion would take the body out of the world.
+  void check_motion(std::size_t group, const Pose& motion) const;
   void move_body(std::size_t group, const Pose& motion);
+  /// Velocity of a body where the whole model, turned by `turn`, moves as one.
+  Twist rigid_twist(std::size_t group, const Twist& twist_W, const Eigen::Quaterniond& turn) const;
+  void set_velocities(const Twist& twist_W);
+  void check_twist(const Twist& twist_W, const Eigen::Quaterniond& turn) const;
 
   std::shared_ptr<const Model> model_;
   BodyGroups groups_;

@@ -251,6 +251,15 @@ void ModelJoint::prepare(const StepSettings& step) {
   apply_effort();
 }
 
+void ModelJoint::take_position() {
+  position_ = measured();
+  if (type_ == JointType::kPrismatic) return;
+  for (const double turned : {position_ + 2.0 * M_PI, position_ - 2.0 * M_PI}) {
+    if (clamp(position_) != position_ && clamp(turned) == turned) position_ = turned;
+  }
+  if (drive2_) position2_ = angle2();
+}
+
 void ModelJoint::measure() {
   const double now = measured();
   position_ = type_ == JointType::kPrismatic ? now : unwrap(now, position_);

@@ -116,11 +116,6 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
   if (name == "plane") return read_plane(*shape);
   if (name == "mesh") return read_mesh(*shape, assets);
   if (name == "heightmap") return read_heightmap(*shape, assets);
-  if (name != "empty") {
-    assets.log().warn(shape->source(),
-                      "shape not supported, left out; supported are box, sphere, cylinder, "
-                      "plane, mesh, heightmap");
-  }
   return std::nullopt;
 }
 

@@ -80,7 +80,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   }
   ModelFile file;
   const Scope scope{read_version(root), make_static};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   if (const auto model = root.child("model")) file.model = read_own_model(*model, scope);
   root.each("light", [&file](const Node& light) { file.lights.push_back(read_sdf_light(light)); });
   if (!file.model && file.lights.empty()) {

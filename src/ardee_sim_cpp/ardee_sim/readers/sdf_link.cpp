@@ -135,11 +135,6 @@ Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets) {
   });
   link.each("sensor",
             [&](const Node& node) { made.sensors.push_back(read_sensor(node, X_L(node))); });
-  for (const char* name : {"projector", "audio_source", "audio_sink", "light", "battery"}) {
-    if (const auto node = link.child(name)) {
-      assets.log().warn(node->source(), "not supported in a link, left out");
-    }
-  }
   made.gravity = link.boolean("gravity", true);
   made.kinematic = link.boolean("kinematic", false);
   made.self_collide = link.boolean("self_collide", false);

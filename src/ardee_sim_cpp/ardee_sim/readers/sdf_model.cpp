@@ -58,7 +58,7 @@ int SdfReader::read_version(const Node& root) {
 
 std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   reading_.assign(1, root.file());
   // gazebo_ros's spawn scripts wrap what they take from the model database in a world.
   const auto world = root.child("world");
@@ -145,8 +145,6 @@ void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& 
       add_nested(child, std::move(nested), bytes, made);
     } else if (child.name() == "ardee:instances") {
       read_instances(child, names, made);
-    } else if (child.name() == "gripper") {
-      assets_.log().warn(child.source(), "not supported, left out");
     }
   });
 }

@@ -60,6 +60,7 @@ class SdfReader {
   void read_world_models(const Node& world, const Scope& scope, World& made);
   void add_population(const Node& population, const Scope& scope, UniqueNames& names,
                       const SdfFrames& frames, World& made);
+  void read_insertions(const Node& insertions, const Scope& scope, World& made);
   void check_size(const World& world) const;
   int read_version(const Node& root);
   std::size_t count_placements(const Model& model, const Source& source);

@@ -4,9 +4,9 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <set>
 #include <unordered_map>
 
+#include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_material.h"
@@ -75,11 +75,11 @@ void apply_collision(const Node& node, Link& link) {
   }
 }
 
-bool apply_to_link(const Node& node, Link& link, Assets& assets) {
+void apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
   if (rule != surface_rules().end()) {
-    if (node.text().empty()) return true;  // the default
+    if (node.text().empty()) return;  // the default
     each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
   } else if (name == "sensor") {
     link.sensors.push_back(read_sensor(node, node.pose()));
@@ -105,19 +105,10 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
   } else if (name == "laserRetro" || name == "laser_retro") {
     for (Collision& collision : link.collisions) collision.laser_retro = node.to_number();
     for (Visual& visual : link.visuals) visual.laser_retro = node.to_number();
-  } else {
-    return false;
   }
-  return true;
 }
 
-/// What is so here whatever is asked: springs and dampers are implicit, fixed joints stay, forces
-/// in joints are at hand.
-const std::set<std::string, std::less<>> kAlwaysTrue{
-    "implicitSpringDamper",     "implicit_spring_damper", "cfmDamping",      "cfm_damping",
-    "disableFixedJointLumping", "preserveFixedJoint",     "provideFeedback", "provide_feedback"};
-
-bool apply_to_joint(const Node& node, Joint& joint, Log& log) {
+void apply_to_joint(const Node& node, Joint& joint) {
   const std::string_view name = node.name();
   if (name == "stopCfm" || name == "stop_cfm") {
     joint.stop_cfm = node.to_number(0.0);
@@ -130,14 +121,7 @@ bool apply_to_joint(const Node& node, Joint& joint, Log& log) {
   } else if (name == "physics") {
     joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, 0.0);
     joint.stop_erp = node.number("ode/limit/erp", joint.stop_erp, 0.0);
-  } else if (kAlwaysTrue.count(name) != 0) {
-    if (!node.to_boolean()) log.warn(node.source(), "found false, expected true, which it is here");
-  } else if (name == "fudgeFactor" || name == "fudge_factor") {
-    log.warn(node.source(), "has no effect here");
-  } else {
-    return false;
   }
-  return true;
 }
 
 /// Applies blocks to a model, whose links and joints it finds by name.
@@ -156,35 +140,30 @@ class GazeboBlocks {
     const std::string reference = block.attribute("reference");
     const auto link = links_.find(reference);
     const auto joint = joints_.find(reference);
-    Log& log = assets_.log();
     if (link != links_.end()) {
-      apply_each(block, "a link", [&](const Node& node) {
-        return apply_to_link(node, model_.links[link->second], assets_);
+      apply_each(block, "link", [&](const Node& node) {
+        apply_to_link(node, model_.links[link->second], assets_);
       });
     } else if (joint != joints_.end()) {
-      apply_each(block, "a joint", [&](const Node& node) {
-        return apply_to_joint(node, model_.joints[joint->second], log);
-      });
+      apply_each(block, "joint",
+                 [&](const Node& node) { apply_to_joint(node, model_.joints[joint->second]); });
     } else if (reference.empty()) {
-      apply_each(block, "the model", [this](const Node& node) { return apply_to_model(node); });
+      apply_each(block, "robot", [this](const Node& node) { apply_to_model(node); });
     } else {
-      log.warn(block.source(),
-               "found no link or joint that it refers to, expected one; it is left out",
-               ": '" + reference + "'");
+      assets_.log().warn(block.source(),
+                         "found no link or joint that it refers to, expected one; it is left out",
+                         ": '" + reference + "'");
     }
   }
 
  private:
   template <typename Apply>
-  void apply_each(const Node& block, const char* of, Apply apply) {
-    block.each([&](const Node& node) {
-      if (apply(node)) return;
-      assets_.log().warn(node.source(),
-                         std::string("not known in a <gazebo> block of ") + of + ", ignored");
-    });
+  void apply_each(const Node& block, const char* place, Apply apply) {
+    gazebo_schema().check(block, place, assets_.log());
+    block.each(apply);
   }
 
-  bool apply_to_model(const Node& node) {
+  void apply_to_model(const Node& node) {
     const std::string_view name = node.name();
     if (name == "plugin") {
       model_.plugins.push_back(read_plugin(node));
@@ -198,12 +177,7 @@ class GazeboBlocks {
     } else if (name == "selfCollide" || name == "self_collide") {
       model_.self_collide = node.to_boolean();
       for (Link& link : model_.links) link.self_collide = link.self_collide || model_.self_collide;
-    } else if (name == "allow_auto_disable" || name == "enable_wind") {
-      assets_.log().warn(node.source(), "has no effect here");
-    } else {
-      return false;
     }
-    return true;
   }
 
   Model& model_;

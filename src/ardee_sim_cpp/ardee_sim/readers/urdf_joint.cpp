@@ -72,15 +72,6 @@ void read_dynamics(const Node& node, JointAxis& axis) {
   axis.spring_reference = dynamics->attribute_number("spring_reference", 0.0);
 }
 
-void warn_of_what_has_no_effect(const Node& node, Log& log) {
-  if (const auto mimic = node.child("mimic")) {
-    log.warn(mimic->source(), "not supported, the joint moves freely");
-  }
-  for (const char* name : {"safety_controller", "calibration"}) {
-    if (const auto found = node.child(name)) log.warn(found->source(), "has no effect here");
-  }
-}
-
 }  // namespace
 
 UrdfJoint read_urdf_joint(const Node& node, Log& log) {
@@ -97,7 +88,6 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
   if (type_name == "planar") {
     log.warn(node.source(), "planar joints are not supported, the child moves freely");
   }
-  warn_of_what_has_no_effect(node, log);
   if (made.joint.type == JointType::kFixed) return made;
   made.joint.axis.axis = read_axis(node);
   read_limit(node, type_name, made.joint);

@@ -57,7 +57,7 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
 
 std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   refuse_xacro(robot);
-  urdf_schema().warn_of_unknown(robot, "URDF", assets.log());
+  urdf_schema().check(robot, assets.log());
   auto made = std::make_shared<Model>();
   made->name = robot.required_attribute("name");
   made->source = robot.source();

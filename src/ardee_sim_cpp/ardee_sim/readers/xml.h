@@ -47,6 +47,13 @@ class Node {
     each(nullptr, visit);
   }
 
+  /// Calls visit(name, value) for each attribute, both as strings.
+  template <typename Visit>
+  void each_attribute(Visit visit) const {
+    for (const auto* a = element_->FirstAttribute(); a; a = a->Next()) {
+      visit(std::string(a->Name()), std::string(a->Value()));
+    }
+  }
   bool has_attribute(const char* name) const { return element_->Attribute(name) != nullptr; }
   std::string attribute(const char* name, const std::string& fallback = "") const;
   /// Not empty, or an Error.

@@ -39,12 +39,8 @@ _HEAD = """<?xml version="1.0" ?>
 
     <!-- Configure all of the scene parameters -->
     <scene>
-      <!-- Use a blue sky with moving clouds -->
-      <sky>
-        <clouds>
-          <speed>12</speed>
-        </clouds>
-      </sky>
+      <!-- Use a blue sky -->
+      <sky/>
       <!-- Show the grid on the floor -->
       <grid>true</grid>
     </scene>
