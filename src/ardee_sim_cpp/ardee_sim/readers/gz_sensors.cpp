@@ -165,7 +165,11 @@ bool adopt_sensor(SensorDescription& sensor, const Link& link,
   static const std::set<std::string> newer{"gpu_lidar", "lidar", "navsat", "rgbd_camera"};
   const std::string named = text_at(sensor.element, {"topic"});
   const bool has_topic = !named.empty() && named != "__default_topic__";
-  if (!sensor.plugins.empty() || (!has_topic && newer.count(sensor.type) == 0)) return true;
+  if (!sensor.plugins.empty()) return true;
+  if (!has_topic && newer.count(sensor.type) == 0) {
+    log.warn(sensor.element.source, "found no <plugin> in it, expected one; it publishes nothing");
+    return true;
+  }
   const std::string topic = has_topic ? named : sensor.name;
   const std::string frame = frame_of(sensor, link);
   const std::string& type = sensor.type;

@@ -214,11 +214,21 @@ void adopt_plugin(const PluginDescription& given, const std::string& name, const
 
 }  // namespace
 
-bool is_settled_gz_system(const PluginDescription& plugin) {
+std::vector<GzCounterpart> gz_counterparts() {
+  std::vector<GzCounterpart> made;
+  for (const System& each : systems()) made.push_back({each.name, each.plugin, each.warning});
+  return made;
+}
+
+const std::set<std::string>& settled_gz_systems() {
   static const std::set<std::string> settled{"physics",       "sensors",      "imu",
                                              "navsat",        "magnetometer", "contact",
                                              "user-commands", "forcetorque",  "scene-broadcaster"};
-  return settled.count(system_name(plugin.filename)) != 0;
+  return settled;
+}
+
+bool is_settled_gz_system(const PluginDescription& plugin) {
+  return settled_gz_systems().count(system_name(plugin.filename)) != 0;
 }
 
 void adopt_gz_systems(Model& model, Log& log) {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Makes each plugin of the registry once, on a small robot, and writes down what it asked for.
-#include <algorithm>
-#include <map>
+// Writes down what each plugin of the registry asks for when it is made.
+#include <iterator>
 #include <sstream>
-#include <stdexcept>
 
-#include "ardee_sim/readers/loader.h"
-#include "ardee_sim/simulation/simulation.h"
+#include "ardee_sim/readers/gz_systems.h"
+#include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
 namespace ardee {
@@ -21,136 +19,73 @@ constexpr const char* kMessages[] = {
     "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
 
-/// What plugins that cannot do without a key are given.
-const std::map<std::string, std::string>& needed() {
-  static const std::map<std::string, std::string> values{
-      {"joint", "left_joint"}, {"joint_handle", "left_joint"}, {"jointName", "left_joint"},
-      {"bodyName", "base"},    {"frameName", "base"},          {"topicName", "topic"}};
-  return values;
-}
-
-std::string wheel(const std::string& joint) {
-  return "<link name='" + joint + "_wheel'/><joint name='" + joint +
-         "' type='revolute'><parent>base</parent><child>" + joint +
-         "_wheel</child><axis><xyz>0 1 0</xyz></axis></joint>";
-}
-
-/// A robot with all joints that drives expect, and one plugin, in a <sensor> of all kinds or not.
-std::string robot_with(const std::string& plugin, bool in_sensor) {
-  std::string joints;
-  for (const char* name : {"left_joint", "right_joint", "left_front_joint", "right_front_joint",
-                           "left_rear_joint", "right_rear_joint"}) {
-    joints += wheel(name);
-  }
-  const std::string sensor =
-      "<sensor name='sensor' type='ray'><ray><scan><horizontal><samples>4</samples></horizontal>"
-      "</scan><range><min>0.1</min><max>10</max></range></ray><camera name='left'><image>"
-      "<width>4</width><height>4</height></image></camera>" +
-      plugin + "</sensor>";
-  return "<sdf version='1.6'><model name='robot'><link name='base'>" + (in_sensor ? sensor : "") +
-         "</link>" + joints + (in_sensor ? "" : plugin) + "</model></sdf>";
-}
-
 std::string joined(const std::vector<std::string>& parts) {
   std::string all;
   for (const std::string& part : parts) all += (all.empty() ? "" : ", ") + part;
   return all;
 }
 
-/// One plugin of the registry, made.
-class MadePlugin {
- public:
-  MadePlugin(const std::string& file, bool in_sensor) : file_(file), in_sensor_(in_sensor) {
-    while (!make()) add_needed();
+void write_ports(Device& device, std::ostringstream& page) {
+  std::vector<std::string> out, in, calls;
+  for (const Output& output : device.outputs()) {
+    out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
   }
-
-  void write(std::ostringstream& page) const {
-    page << "### `" << file_ << "`\n\n" << (in_sensor_ ? "Of a sensor. " : "Of a model. ");
-    write_ports(page);
-    std::vector<std::string> ignored;
-    std::string rows;
-    for (const AskedKey& key : keys_->keys()) {
-      if (key.is_ignored) {
-        ignored.push_back("`" + key.name + "`");
-        continue;
-      }
-      const std::string fallback = key.is_required        ? "required"
-                                   : key.fallback.empty() ? ""
-                                                          : "`" + key.fallback + "`";
-      rows += "| `" + key.name + "` | " + key.kind + " | " + fallback + " |\n";
-    }
-    page << "\n\n| key | | default |\n|---|---|---|\n" << rows << "\n";
-    if (!ignored.empty()) page << "Nothing to do: " << joined(ignored) << ".\n\n";
+  for (const Input& input : device.inputs()) {
+    in.push_back("`" + input.topic + "` (geometry_msgs/Twist)");
   }
-
- private:
-  bool make() {
-    std::string given;
-    for (const auto& [key, value] : given_) given += "<" + key + ">" + value + "</" + key + ">";
-    const std::string plugin =
-        "<plugin name='made' filename='" + file_ + "'>" + given + "</plugin>";
-    problem_.clear();
-    const LogSink sink = [this](LogLevel level, const std::string& text) {
-      if (level == LogLevel::kError) problem_ = text;
-    };
-    Loader loader(ResourceLocator{}, Log(sink));
-    Model model = *loader.load_model_text(robot_with(plugin, in_sensor_), "robot");
-    keys_ = std::make_shared<KeyLog>();
-    auto& plugins = in_sensor_ ? model.links.at(0).sensors.at(0).plugins : model.plugins;
-    plugins.at(0).element.key_log = keys_;
-    SpawnRequest request;
-    request.name = "robot";
-    request.model = std::make_shared<const Model>(std::move(model));
-    simulation_ = std::make_unique<Simulation>(World{}, SimulationOptions{}, sink);
-    try {
-      device_ = nullptr;
-      Entity& robot = simulation_->spawn(request);
-      if (!robot.devices.empty()) device_ = robot.devices.front().get();
-    } catch (const Error& error) {
-      problem_ = error.what();
-    }
-    return device_ != nullptr;
+  for (const NumberInput& input : device.number_inputs()) {
+    in.push_back("`" + input.topic + "` (std_msgs/Float64)");
   }
-
-  void add_needed() {
-    for (const AskedKey& key : keys_->keys()) {
-      const auto value = needed().find(key.name);
-      if (key.is_required && value != needed().end() && given_.insert(*value).second) return;
-    }
-    throw std::logic_error(file_ + " is not made: " + problem_);
+  for (const Trigger& trigger : device.triggers()) {
+    in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
   }
-
-  void write_ports(std::ostringstream& page) const {
-    std::vector<std::string> out, in, calls;
-    for (const Output& output : device_->outputs()) {
-      out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
-    }
-    for (const Input& input : device_->inputs()) {
-      in.push_back("`" + input.topic + "` (geometry_msgs/Twist)");
-    }
-    for (const NumberInput& input : device_->number_inputs()) {
-      in.push_back("`" + input.topic + "` (std_msgs/Float64)");
-    }
-    for (const Trigger& trigger : device_->triggers()) {
-      in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
-    }
-    for (const Service& service : device_->services()) calls.push_back("`" + service.name + "`");
-    for (const Tuning& tuning : device_->tunings()) {
-      calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
-    }
-    if (!out.empty()) page << "Publishes " << joined(out) << ". ";
-    if (!in.empty()) page << "Listens to " << joined(in) << ". ";
-    if (!calls.empty()) page << "Serves " << joined(calls) << ".";
+  for (const Service& service : device.services()) calls.push_back("`" + service.name + "`");
+  for (const Tuning& tuning : device.tunings()) {
+    calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
   }
+  if (!out.empty()) page << "Publishes " << joined(out) << ". ";
+  if (!in.empty()) page << "Listens to " << joined(in) << ". ";
+  if (!calls.empty()) page << "Serves " << joined(calls) << ".";
+}
 
-  std::string file_;
-  bool in_sensor_;
-  std::map<std::string, std::string> given_;
-  std::string problem_;
-  std::shared_ptr<KeyLog> keys_;
-  std::unique_ptr<Simulation> simulation_;
-  Device* device_ = nullptr;
-};
+void write_keys(const KeyLog& keys, std::ostringstream& page) {
+  std::vector<std::string> ignored;
+  std::string rows;
+  for (const AskedKey& key : keys.keys()) {
+    if (key.is_ignored) {
+      ignored.push_back("`" + key.name + "`");
+      continue;
+    }
+    std::string fallback = key.is_required ? "required" : "";
+    if (!key.fallback.empty()) fallback = "`" + key.fallback + "`";
+    rows += "| `" + key.name + "` | " + key.kind + " | " + fallback + " |\n";
+  }
+  page << "| key | | default |\n|---|---|---|\n" << rows << "\n";
+  if (!ignored.empty()) page << "Nothing to do: " << joined(ignored) << ".\n\n";
+}
+
+void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& page) {
+  const MadePlugin made(file, in_sensor);
+  page << "### `" << file << "`\n\n" << (in_sensor ? "Of a sensor. " : "Of a model. ");
+  write_ports(made.device(), page);
+  page << "\n\n";
+  write_keys(made.keys(), page);
+}
+
+void write_systems(std::ostringstream& page) {
+  page
+      << "### Systems and sensors of newer Gazebo\n\n`gz-sim-NAME-system` and "
+         "`ignition-gazebo-NAME-system` are read as the plugins that do their work; others are one "
+         "warning\neach, and are left out. A sensor of type lidar, camera, rgbd_camera, "
+         "depth_camera, imu, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
+         "| system | plugin | warning |\n|---|---|---|\n";
+  for (const GzCounterpart& each : gz_counterparts()) {
+    page << "| `" << each.system << "` | `" << each.plugin << "` | " << each.warning << " |\n";
+  }
+  std::vector<std::string> settled;
+  for (const std::string& system : settled_gz_systems()) settled.push_back("`" + system + "`");
+  page << "\nNothing to do: " << joined(settled) << ".\n\n";
+}
 
 }  // namespace
 
@@ -162,10 +97,14 @@ std::string plugins_in_markdown() {
           "that is not in a plugin's table is one warning. Keys of what a plugin does only on "
           "demand "
           "are in\n[devices](../src/ardee_sim_cpp/ardee_sim/devices/README.md). Topics are those "
-          "without any keys; names in them are those of a\nrobot without a namespace.\n\n";
+          "without any keys; names in them are those of a\nrobot without a namespace. A bad value "
+          "in a plugin that publishes leaves that plugin out, with one error; in a drive, a servo\n"
+          "or a spring it refuses the robot. Plugins of worlds are left out with a warning "
+          "each.\n\n";
   const Registry registry = builtin_registry();
-  for (const std::string& file : registry.model_plugin_files()) MadePlugin(file, false).write(page);
-  for (const std::string& file : registry.sensor_plugin_files()) MadePlugin(file, true).write(page);
+  for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
+  for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
+  write_systems(page);
   return page.str();
 }
 

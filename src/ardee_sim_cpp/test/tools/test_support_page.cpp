@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
 namespace ardee {
@@ -25,6 +26,20 @@ TEST(SupportPage, HasAPluginsKeysTopicsAndServices) {
         "| `bodyName` | text | required |", "Serves `/imu/calibrate`", "(dynamic_reconfigure)"}) {
     EXPECT_NE(page.find(part), std::string::npos) << part;
   }
+}
+
+TEST(SupportPage, EachPluginWarnsOfAKeyThatItDoesNotRead) {
+  const Registry registry = builtin_registry();
+  const auto check = [](const std::string& file, bool in_sensor) {
+    const MadePlugin made(file, in_sensor, "<noSuchKey>1</noSuchKey>");
+    int said = 0;
+    for (const std::string& warning : made.warnings()) {
+      said += warning.find("<noSuchKey>: unknown key, ignored") != std::string::npos;
+    }
+    EXPECT_EQ(said, 1) << file;
+  };
+  for (const std::string& file : registry.model_plugin_files()) check(file, false);
+  for (const std::string& file : registry.sensor_plugin_files()) check(file, true);
 }
 
 }  // namespace
