@@ -30,6 +30,7 @@ def models() -> Dict[str, pathlib.Path]:
 
 
 WORLDS = shipped("worlds/*.world")
+del WORLDS["compat/gazebo_ros/worlds/willowgarage.world"]  # the model is of Gazebo's database
 ROBOTS = shipped("robots/*.urdf.xacro")
 LAUNCH_FILES = {**shipped("launch/*.launch"), **{f.name: f for f in ROOT.glob("launch/*.launch")}}
 YAML_FILES = {**shipped("config/**/*.yaml"), **shipped("**/*.rviz")}

@@ -119,6 +119,16 @@ def test_min_and_max_are_good_names_for_arguments(tmp_path: pathlib.Path):
     assert done.stderr == ""
 
 
+@pytest.mark.parametrize("script", ["xacro", "xacro.py"])
+def test_a_wrapper_in_another_folder_as_catkin_makes_it(tmp_path: pathlib.Path, script: str):
+    for name in ("xacro", "xacro.py"):
+        path = PACKAGE / "scripts" / name
+        text = "#!/usr/bin/python3\nscope = {'__file__': %r, '__name__': '__main__'}\n" % str(path)
+        (tmp_path / name).write_text(text + "exec(open(scope['__file__']).read(), scope)\n")
+    done = run(tmp_path / script, write(tmp_path, '<link name="${1 + 1}"/>'))
+    assert 'name="2"' in done.stdout, done.stderr
+
+
 @pytest.mark.parametrize(
     "script, module",
     [
