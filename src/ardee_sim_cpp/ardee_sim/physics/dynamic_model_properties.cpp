@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/physics/dynamic_model.h"
 
 namespace ardee::physics {
@@ -10,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool is_finite_input(double value) { return std::abs(value) <= kMaxInput; }
+bool is_finite_input(double value) { return std::abs(value) <= limits::kStrongest; }
 
-bool is_positive_input(double value) { return value >= 0.0 && value <= kMaxInput; }
+bool is_positive_input(double value) { return value >= 0.0 && value <= limits::kStrongest; }
 
 /// What is wrong with an axis's numbers; empty if nothing.
 std::string fault_of(const JointProperties& properties) {
