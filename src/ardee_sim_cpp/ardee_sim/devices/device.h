@@ -156,6 +156,8 @@ class Device {
   virtual void before_step(TimeNs /*now_ns*/) {}
   /// Before physics, after all controllers: what measures over the step notes where it begins.
   virtual void observe(TimeNs /*now_ns*/) {}
+  /// Between two steps the model was put elsewhere or given another velocity, by no force.
+  virtual void on_set_state() {}
   /// After physics, at the new time: sensors measure.
   virtual void after_step(TimeNs /*now_ns*/, ReadingSink& /*sink*/) {}
   /// State goes back to what it was when the device was made, with the numbers of the description;

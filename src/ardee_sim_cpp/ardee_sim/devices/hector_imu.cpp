@@ -127,7 +127,8 @@ void HectorImu::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& 
   const Eigen::Quaterniond q_WS = pose().q;
   ImuReading reading;
   reading.header = {now_ns, frame_};
-  reading.linear_acceleration = accel_.corrupt(motion.specific_force() + take_vibration(), elapsed_s());
+  reading.linear_acceleration =
+      accel_.corrupt(motion.specific_force() + take_vibration(), elapsed_s());
   reading.angular_velocity = rate_.corrupt(motion.angular_velocity, elapsed_s());
   yaw_.next_error(elapsed_s());
   const Eigen::Quaterniond error = orientation_error(q_WS);

@@ -17,6 +17,7 @@ class InertialSensor : public Sensor {
         motion_(mount.robot, mount.link, mount.X_LS) {}
 
   void observe(TimeNs now_ns) override { motion_.begin_step(now_ns); }
+  void on_set_state() override { motion_.on_set_state(); }
   void reset(TimeNs now_ns) override {
     Sensor::reset(now_ns);
     motion_.reset(now_ns);

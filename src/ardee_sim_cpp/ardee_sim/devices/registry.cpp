@@ -94,14 +94,13 @@ std::vector<Registry::Candidate> Registry::candidates_of(const Model& model) {
     }
   }
   const auto key = [&model](const Candidate& each) {
-    return std::make_tuple(each.name, each.plugin->filename,
-                           each.sensor ? model.links[each.link].name : "",
-                           text_of(each.plugin->element) +
-                               (each.sensor ? text_of(each.sensor->element) : ""));
+    return std::make_tuple(
+        each.name, each.plugin->filename, each.sensor ? model.links[each.link].name : "",
+        text_of(each.plugin->element) + (each.sensor ? text_of(each.sensor->element) : ""));
   };
-  std::stable_sort(found.begin(), found.end(), [&key](const Candidate& one, const Candidate& other) {
-    return key(one) < key(other);
-  });
+  std::stable_sort(
+      found.begin(), found.end(),
+      [&key](const Candidate& one, const Candidate& other) { return key(one) < key(other); });
   return found;
 }
 
@@ -129,10 +128,10 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
   const std::string name = stem(plugin.filename);
   const auto of_model = model_plugins_.find(name);
   const auto of_sensor = sensor_plugins_.find(name);
-  const bool found = candidate.sensor ? of_sensor != sensor_plugins_.end()
-                                      : of_model != model_plugins_.end();
+  const bool found =
+      candidate.sensor ? of_sensor != sensor_plugins_.end() : of_model != model_plugins_.end();
   if (!found) {
-    const std::string expected = of_sensor != sensor_plugins_.end()  ? "it within a <sensor>"
+    const std::string expected = of_sensor != sensor_plugins_.end() ? "it within a <sensor>"
                                  : of_model != model_plugins_.end() ? "it outside of <sensor>"
                                                                     : "one of:" + known_names();
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +

@@ -95,8 +95,7 @@ void SceneryIndex::add_instance(const Placement& placement, std::uint32_t protot
   }
 }
 
-std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements,
-                                const std::string& name) {
+std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements, const std::string& name) {
   Set set;
   set.name = name;
   std::map<const Model*, std::uint32_t> known;

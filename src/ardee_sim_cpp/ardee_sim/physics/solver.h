@@ -20,11 +20,11 @@ struct Island {
   std::vector<dBodyID> bodies;  // in an order that does not depend on that of their creation
 };
 
-/// Solves one step, island by island. The direct solver costs no more than 50 iterations of the other for the few
-/// dozen rows of a robot and its contacts, and leaves no error behind: what rests stays where it
-/// is, whatever the lever arms. So it takes small islands even where the world asks for `quick`;
-/// its time grows with the cube of the rows, so it leaves the large ones. What is singular to it is
-/// solved again by iterations.
+/// Solves one step, island by island. The direct solver costs no more than 50 iterations of the
+/// other for the few dozen rows of a robot and its contacts, and leaves no error behind: what rests
+/// stays where it is, whatever the lever arms. So it takes small islands even where the world asks
+/// for `quick`; its time grows with the cube of the rows, so it leaves the large ones. What is
+/// singular to it is solved again by iterations.
 class Solver {
  public:
   explicit Solver(dWorldID world) : world_(world) {}

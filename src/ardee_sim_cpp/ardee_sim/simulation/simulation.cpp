@@ -23,6 +23,8 @@ void require_in_world(const std::string& name, const Pose& X_WM) {
               std::to_string(static_cast<int>(limits::kFarthest_m)) + " m from the world's origin");
 }
 
+Error taken(const std::string& name) { return Error("entity already exists: '" + name + "'"); }
+
 void apply_initial_state(Entity& entity) {
   if (entity.instance.link_states) {
     entity.robot->dynamics().set_link_states(*entity.instance.link_states);
@@ -53,14 +55,27 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
     log_.warn(plugin.element.source.to_string() + ": found world plugin '" + plugin.filename +
               "', expected none: it is left out");
   }
-  for (const Instance& instance : world.models) {
-    auto entity = std::make_unique<Entity>();
-    entity->instance = instance;
-    add(std::move(entity));
-  }
+  add_world_models(world.models);
 }
 
 Simulation::~Simulation() = default;
+
+void Simulation::add_world_models(const std::vector<Instance>& models) {
+  // Entities are numbered by their names, so that neither these numbers nor which of two surfaces
+  // in one plane a ray meets depends on the order of the file.
+  std::map<std::string, std::size_t> place;
+  for (const Instance& instance : models) {
+    if (!place.emplace(instance.name, place.size()).second) throw taken(instance.name);
+  }
+  for (const auto& [name, index] : place) {
+    auto entity = std::make_unique<Entity>();
+    entity->instance = models[index];
+    add(std::move(entity));
+  }
+  std::sort(entities_.begin(), entities_.end(), [&place](const auto& one, const auto& other) {
+    return place.at(one->name()) < place.at(other->name());
+  });
+}
 
 Entity& Simulation::spawn(const SpawnRequest& request) {
   const LogGroup group(log_);
@@ -76,7 +91,7 @@ Entity& Simulation::add(std::unique_ptr<Entity> entity) {
   const std::string& name = entity->name();
   const std::shared_ptr<const Model> model = entity->instance.model;
   if (name.empty()) throw Error("found an empty model name, expected one");
-  if (find(name)) throw Error("entity already exists: '" + name + "'");
+  if (find(name)) throw taken(name);
   require_in_world(name, entity->instance.pose);
   // A model without links of its own (a field of included plants) has nothing that could move.
   if (model->is_static || model->links.empty()) entity->instance.is_static = true;

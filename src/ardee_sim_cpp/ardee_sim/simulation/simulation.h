@@ -66,7 +66,7 @@ class Simulation {
   /// The link "model::link" (either name may hold colons itself), else the first link of any model
   /// that has the whole name, as Gazebo finds it.
   std::optional<LinkOf> find_link(const std::string& name) const;
-  /// In the order in which they came.
+  /// In the order of the world's file, then in that in which they came.
   const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 
   void step();
@@ -108,6 +108,7 @@ class Simulation {
   void step_physics();
   void advance_clock();
   void sample_devices();
+  void add_world_models(const std::vector<Instance>& models);
   Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
   Surroundings surroundings() const;

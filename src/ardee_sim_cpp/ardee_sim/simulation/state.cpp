@@ -69,6 +69,7 @@ void Simulation::set_state(const std::string& model, const RelativeState& state,
   }
   const Twist twist_W{frame.pose.q * state.twist.linear, frame.pose.q * state.twist.angular};
   entity->robot->dynamics().set_state(X_WM, twist_W);
+  for (const auto& device : entity->devices) device->on_set_state();
   scenes_.invalidate();
 }
 

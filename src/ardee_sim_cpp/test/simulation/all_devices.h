@@ -46,9 +46,9 @@ inline std::vector<std::string> drive_devices() {
       "<wheelSeparation>0.4</wheelSeparation><wheelDiameter>0.2</wheelDiameter><torque>10</torque>"
       "<broadcastTF>true</broadcastTF>";
   return {
-      model_device("ardee_ros_skid_steer_drive",
-                   wheels + "<odometryTopic>odom_ardee</odometryTopic>"
-                            "<odometrySource>encoder</odometrySource>"),
+      model_device("ardee_ros_skid_steer_drive", wheels +
+                                                     "<odometryTopic>odom_ardee</odometryTopic>"
+                                                     "<odometrySource>encoder</odometrySource>"),
       model_device("gazebo_ros_skid_steer_drive", wheels),
       model_device("gazebo_ros_diff_drive",
                    "<leftJoint>fl_joint</leftJoint><rightJoint>fr_joint</rightJoint>"
@@ -78,10 +78,10 @@ inline std::vector<std::string> motion_devices() {
            key("gaussianNoise", "0.05");
   };
   return {
-      model_device("gazebo_ros_imu",
-                   "<bodyName>mast</bodyName><gaussianNoise>0.1</gaussianNoise>"),
-      model_device("gazebo_ros_p3d", "<bodyName>mast</bodyName><topicName>truth</topicName>"
-                                     "<gaussianNoise>0.1</gaussianNoise>"),
+      model_device("gazebo_ros_imu", "<bodyName>mast</bodyName><gaussianNoise>0.1</gaussianNoise>"),
+      model_device("gazebo_ros_p3d",
+                   "<bodyName>mast</bodyName><topicName>truth</topicName>"
+                   "<gaussianNoise>0.1</gaussianNoise>"),
       model_device("hector_gazebo_ros_gps",
                    "<topicName>hector/fix</topicName><velocityTopicName>hector/velocity"
                    "</velocityTopicName>" +

@@ -74,9 +74,7 @@ class ReadingBytes {
   void add_reading(const EncoderReading& r) {
     all(r.id, r.position_rad, r.speed_m_per_s, r.pulses_per_s);
   }
-  void add_reading(const BatteryReading& r) {
-    all(r.voltage_V, r.voltage_max_V, r.voltage_min_V);
-  }
+  void add_reading(const BatteryReading& r) { all(r.voltage_V, r.voltage_max_V, r.voltage_min_V); }
   void add_reading(const BatteryStateReading& r) {
     all(r.voltage_V, r.current_A, r.charge_Ah, r.capacity_Ah, r.design_capacity_Ah, r.percentage,
         r.location);
@@ -88,9 +86,7 @@ class ReadingBytes {
     all(r.height, r.width, r.fields, r.point_step, r.data, r.is_dense);
   }
   void add_reading(const LegacyCloudReading& r) { all(r.points, r.channel_name, r.channel); }
-  void add_reading(const ImageReading& r) {
-    all(r.height, r.width, r.encoding, r.step, r.data);
-  }
+  void add_reading(const ImageReading& r) { all(r.height, r.width, r.encoding, r.step, r.data); }
   void add_reading(const CameraInfoReading& r) { all(r.height, r.width, r.D, r.K, r.R, r.P); }
   void add_reading(const GpsQualityReading& r) {
     all(r.region, r.position_std_m, r.has_fix, r.error_m);

@@ -95,9 +95,9 @@ std::string crate(const std::string& name, const std::string& pose, const std::s
 
 /// It drives into whatever stands on +x.
 std::string pusher(const std::string& name, const std::string& pose) {
-  return crate(name, pose,
-               plugin("gazebo_ros_planar_move",
-                      "<robotNamespace>" + name + "</robotNamespace>", "move"));
+  return crate(
+      name, pose,
+      plugin("gazebo_ros_planar_move", "<robotNamespace>" + name + "</robotNamespace>", "move"));
 }
 
 /// Runs models, in the order in which they are written, in a world of one file.
@@ -120,25 +120,45 @@ Bytes run_spawned(const std::vector<std::string>& models, double duration_s) {
   return bytes_of(world, duration_s);
 }
 
+TEST(Order, OfModelsDoesNotDecideWhichOfTwoSurfacesInOnePlaneIsMet) {
+  const auto wall = [](const std::string& name, double y_m, const std::string& color, int retro) {
+    const std::string geometry = "<geometry><box><size>1 2 2</size></box></geometry>";
+    return "<model name='" + name + "'><static>1</static><pose>3 " + std::to_string(y_m) +
+           " 1 0 0 0</pose><link name='l'><visual name='v'>" + geometry + "<material><diffuse>" +
+           color + "</diffuse></material><laser_retro>" + std::to_string(retro) +
+           "</laser_retro></visual></link></model>";
+  };
+  const std::string eye =
+      "<sensor name='eye' type='camera'><update_rate>10</update_rate>" + noisy_eye() +
+      plugin("gazebo_ros_camera", "<segmentation>true</segmentation>") +
+      "</sensor><sensor name='lidar' type='gpu_ray'><update_rate>10</update_rate>" + noisy_rays() +
+      plugin("gazebo_ros_gpu_laser", "<topicName>scan</topicName>") + "</sensor>";
+  const std::string post =
+      "<model name='post'><static>1</static><pose>0 0 1 0 0 0</pose>"
+      "<link name='l'>" +
+      eye + "</link></model>";
+  expect_same_in_any_order({wall("red", 0.2, "1 0 0 1", 10), wall("white", -0.3, "1 1 1 1", 20),
+                            wall("dark", 0.0, "0 0 0 1", 30), post},
+                           [](const auto& models) { return run_world(models, 0.1); });
+}
+
 using RunModels = Bytes (*)(const std::vector<std::string>&, double);
 class OrderOfModels : public testing::TestWithParam<RunModels> {};
 
 TEST_P(OrderOfModels, DoesNotMatterApart) {
   expect_same_in_any_order(
-      {ground_plane(), static_box("wall", "3 0 1 0 0 0", "0.2 6 2"),
-       pusher("a", "0 0 0.15 0 0 0"), pusher("b", "0 2 0.15 0 0 0.5"),
-       crate("c", "0 -2 1 0.3 0.2 0.1")},
+      {ground_plane(), static_box("wall", "3 0 1 0 0 0", "0.2 6 2"), pusher("a", "0 0 0.15 0 0 0"),
+       pusher("b", "0 2 0.15 0 0 0.5"), crate("c", "0 -2 1 0.3 0.2 0.1")},
       [](const auto& models) { return GetParam()(models, 1.0); });
 }
 
 TEST_P(OrderOfModels, DoesNotMatterWhereTheyTouch) {
   // Two rows that are pushed along a wall, in contact with it, the ground and one another.
-  expect_same_in_any_order(
-      {ground_plane(), static_box("wall", "2 0.65 1 0 0 0", "6 1 2"),
-       pusher("d", "0 0 0.15 0 0 0.1"), crate("a", "0.31 0.01 0.15 0 0 0"),
-       crate("c", "0.62 -0.02 0.15 0 0 0.05"), pusher("b", "0 -2 0.15 0 0 0"),
-       crate("e", "0.305 -2.05 0.15 0 0 0")},
-      [](const auto& models) { return GetParam()(models, 1.0); });
+  expect_same_in_any_order({ground_plane(), static_box("wall", "2 0.65 1 0 0 0", "6 1 2"),
+                            pusher("d", "0 0 0.15 0 0 0.1"), crate("a", "0.31 0.01 0.15 0 0 0"),
+                            crate("c", "0.62 -0.02 0.15 0 0 0.05"), pusher("b", "0 -2 0.15 0 0 0"),
+                            crate("e", "0.305 -2.05 0.15 0 0 0")},
+                           [](const auto& models) { return GetParam()(models, 1.0); });
 }
 
 TEST_P(OrderOfModels, DoesNotMatterWhereTheSolverIterates) {

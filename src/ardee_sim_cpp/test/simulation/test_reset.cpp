@@ -74,12 +74,14 @@ TEST(Reset, TestsEachPluginThatThereIs) {
 /// What the numbers of a robot at rest are but for their noise.
 std::map<std::string, std::string> noise_of(const std::string& more) {
   TestWorld world(free_space(0.0), 0.01);
-  world.spawn(ball(plugin("gazebo_ros_imu", "<bodyName>body</bodyName><topicName>imu</topicName>"
-                                            "<gaussianNoise>0.1</gaussianNoise>" +
-                                                more) +
-                   plugin("gazebo_ros_p3d", "<bodyName>body</bodyName><topicName>truth</topicName>"
-                                            "<gaussianNoise>0.1</gaussianNoise>" +
-                                                more,
+  world.spawn(ball(plugin("gazebo_ros_imu",
+                          "<bodyName>body</bodyName><topicName>imu</topicName>"
+                          "<gaussianNoise>0.1</gaussianNoise>" +
+                              more) +
+                   plugin("gazebo_ros_p3d",
+                          "<bodyName>body</bodyName><topicName>truth</topicName>"
+                          "<gaussianNoise>0.1</gaussianNoise>" +
+                              more,
                           "p3d")),
               "ball");
   std::map<std::string, std::string> noise;

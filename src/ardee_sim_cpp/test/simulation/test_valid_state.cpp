@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardee_sim/core/limits.h"
 #include "all_devices.h"
+#include "ardee_sim/core/limits.h"
 #include "reading_bytes.h"
 
 namespace ardee {
@@ -63,19 +63,20 @@ TEST(ValidState, IsOneNormForAll) {
 
 TEST(ValidState, IsRestoredToWhatLeavesItAndTheRestGoesOn) {
   TestWorld world("", 0.001);
-  const std::string light = "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>1"
-                            "</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz>"
-                            "</inertia></inertial></link></model></sdf>";
+  const std::string light =
+      "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>1"
+      "</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz>"
+      "</inertia></inertial></link></model></sdf>";
   Entity& spun = world.spawn(light, "spun", at(1, 2, 3));
   Entity& thrown = world.spawn(light, "thrown", at(4, 5, 6));
   world.spawn(light, "kept", at(0, 0, 100));
   world->wrenches().add(wrench_on(spun, {0, 0, 0}, {0, 0, 1e9}));
   world->wrenches().add(wrench_on(thrown, {1e9, 0, 0}, {0, 0, 0}));
-  world.run(0.01);
+  world.run(0.02);
   EXPECT_TRUE(is_said(world, "model 'spun' is put back"));
   EXPECT_TRUE(is_said(world, "model 'thrown' is put back"));
   EXPECT_FALSE(is_said(world, "model 'kept' is put back"));
-  world.run(0.09);
+  world.run(0.08);
   EXPECT_EQ(world->step_count(), 100u);
   EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -0.98, 1e-9);
   EXPECT_LT((world->state("spun", "").pose.p - Vector3d(1, 2, 3)).norm(), 0.1);
@@ -85,9 +86,10 @@ TEST(ValidState, IsRestoredToWhatLeavesItAndTheRestGoesOn) {
 
 TEST(ValidState, OfAModelWhoseControllerAsksTooMuch) {
   TestWorld world("", 0.001);
-  const std::string drive = model_device(
-      "gazebo_ros_diff_drive", "<leftJoint>fl_joint</leftJoint><rightJoint>fr_joint</rightJoint>"
-                               "<wheelDiameter>1e-6</wheelDiameter>");
+  const std::string drive =
+      model_device("gazebo_ros_diff_drive",
+                   "<leftJoint>fl_joint</leftJoint><rightJoint>fr_joint</rightJoint>"
+                   "<wheelDiameter>1e-6</wheelDiameter>");
   Entity& robot = world.spawn(rover_with({drive}), "rover", at(0, 0, 5));
   world.spawn(ball(""), "kept", at(9, 0, 100));
   world.command(robot, 1e5, 0.0);  // 2e11 rad/s
@@ -123,12 +125,14 @@ TEST(ValidState, ThatIsRefusedChangesNothing) {
 
 TEST(ValidState, OfASliderIsWithinTheWorld) {
   TestWorld world(free_space(0.0));
-  const std::string inertial = "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1"
-                               "</izz></inertia></inertial>";
+  const std::string inertial =
+      "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1"
+      "</izz></inertia></inertial>";
   const std::string slider =
       "<sdf version='1.6'><model name='m'><link name='a'>" + inertial + "</link><link name='b'>" +
-      inertial + "</link><joint name='j' type='prismatic'><parent>a</parent><child>b</child><axis>"
-                 "<xyz>1 0 0</xyz></axis></joint></model></sdf>";
+      inertial +
+      "</link><joint name='j' type='prismatic'><parent>a</parent><child>b</child><axis>"
+      "<xyz>1 0 0</xyz></axis></joint></model></sdf>";
   Entity& entity = world.spawn(slider, "slider");
   PhysicsModel& dynamics = entity.robot->dynamics();
   dynamics.set_joint_position(0, 3.0);
@@ -140,14 +144,16 @@ TEST(ValidState, OfASliderIsWithinTheWorld) {
 }
 
 TEST(ValidState, OfSceneryIsThatOfAllItHolds) {
-  const std::string wide = "<model name='field'><static>1</static><link name='l'><pose>9e5 0 0 0 0 "
-                           "0</pose></link></model>";
+  const std::string wide =
+      "<model name='field'><static>1</static><link name='l'><pose>9e5 0 0 0 0 "
+      "0</pose></link></model>";
   TestWorld world(wide);
   EXPECT_THROW(world->set_state("field", {at(2e6), {}}, ""), Error);
   EXPECT_EQ(world->state("field", "").pose.p, Vector3d::Zero());
 }
 
-/// gazebo_ros sets the velocity that is asked for in the frame's axes; the frame's own is not added.
+/// gazebo_ros sets the velocity that is asked for in the frame's axes; the frame's own is not
+/// added.
 TEST(ValidState, VelocityIsTheOneAskedForInTheAxesOfAnyFrame) {
   TestWorld world(free_space(0.0));
   world.spawn(ball(""), "sled", Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 1.0}));
@@ -193,8 +199,9 @@ TEST(ValidState, CommandsThatAreNotFiniteAreRefusedAndChangeNothing) {
 
 TEST(Spawn, CountsAModelsOwnPoseFromWhereItIsPut) {
   TestWorld world(free_space(0.0));
-  const std::string text = "<sdf version='1.6'><model name='m'>%STATIC%<pose>1 0 0.5 0 0 0.3</pose>"
-                           "<link name='l'><inertial><mass>1</mass></inertial></link></model></sdf>";
+  const std::string text =
+      "<sdf version='1.6'><model name='m'>%STATIC%<pose>1 0 0.5 0 0 0.3</pose>"
+      "<link name='l'><inertial><mass>1</mass></inertial></link></model></sdf>";
   for (const char* also : {"", "<static>1</static>"}) {
     std::string xml = text;
     xml.replace(xml.find("%STATIC%"), 8, also);

@@ -51,7 +51,7 @@ TEST(Velodyne, LaysPointsOutByteForByte) {
   request.name = "wall";
   request.model = loader.load_model_text(
       "<sdf version='1.6'>" + board("wall", 0.0, 0.0, 6.0) + "</sdf>", "wall.sdf");
-  request.X_WM = Pose::from_xyz_rpy({2.005, 0, 0}, {0, 0, 0});
+  request.X_WM = Pose::from_xyz_rpy({2, 0, 0}, {0, 0, 0});
   request.is_static = true;
   request.label = 7;
   world->spawn(request);
