@@ -24,7 +24,8 @@ const Joint* Model::find_joint(const std::string& joint_name) const {
 }
 
 std::optional<NamedFrame> Model::find_frame(const std::string& frame_name) const {
-  if (const Link* link = find_link(frame_name)) return NamedFrame{frame_name, link->X_ML, link->name};
+  if (const Link* link = find_link(frame_name))
+    return NamedFrame{frame_name, link->X_ML, link->name};
   if (const Joint* joint = find_joint(frame_name)) {
     const Link* child = find_link(joint->child);
     if (child) return NamedFrame{frame_name, child->X_ML * joint->X_CJ, child->name};

@@ -170,7 +170,7 @@ struct Model {
   Source source;
   bool is_static = false;
   bool self_collide = false;
-  Pose own_pose;  // <pose> of its own file, which includes replace and spawns add to
+  Pose own_pose;             // <pose> of its own file, which includes replace and spawns add to
   std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;

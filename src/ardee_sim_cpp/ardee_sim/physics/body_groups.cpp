@@ -27,12 +27,19 @@ std::size_t find_root(std::vector<std::size_t>& parents, std::size_t element) {
 }
 
 std::vector<std::size_t> unite_fixed(const Model& model) {
+  const LinkIndex index = index_links(model);
+  const auto index_of = [&](const std::string& link, const Joint& joint) {
+    const auto found = index.find(link);
+    if (found != index.end()) return found->second;
+    throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
+                                  "': found link '" + link + "', expected a link of the model");
+  };
   std::vector<std::size_t> parents(model.links.size() + 1);
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   for (const Joint& joint : model.joints) {
-    const std::size_t child = link_index(model, joint.child, joint);
+    const std::size_t child = index_of(joint.child, joint);
     const std::size_t parent =
-        joint.parent == kWorldName ? model.links.size() : link_index(model, joint.parent, joint);
+        joint.parent == kWorldName ? model.links.size() : index_of(joint.parent, joint);
     if (joint.type != JointType::kFixed) continue;
     const std::size_t a = find_root(parents, child);
     const std::size_t b = find_root(parents, parent);
@@ -120,12 +127,10 @@ void check_movable(const Model& model, const BodyGroup& group) {
 
 }  // namespace
 
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint) {
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    if (model.links[i].name == link_name) return i;
-  }
-  throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
-                                "': found link '" + link_name + "', expected a link of the model");
+LinkIndex index_links(const Model& model) {
+  LinkIndex index;
+  for (std::size_t i = 0; i < model.links.size(); ++i) index.emplace(model.links[i].name, i);
+  return index;
 }
 
 BodyGroups group_links(const Model& model) {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ardee_sim/description/model.h"
@@ -31,8 +33,9 @@ struct BodyGroups {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 
-/// Index of a link by name; throws Error naming the joint if there is none.
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint);
+/// The links of a model by name.
+using LinkIndex = std::unordered_map<std::string, std::size_t>;
+LinkIndex index_links(const Model& model);
 
 /// Throws Error naming the link if a body that must move has no mass or no positive-definite
 /// inertia.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/physics/dynamic_model.h"
 
+#include <algorithm>
+#include <set>
+
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/core/limits.h"
 
@@ -39,6 +42,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
   }
   for (const Joint& joint : model_->joints) check_joint(*model_, joint);
   groups_ = group_links(*model_);
+  link_index_ = index_links(*model_);
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     if (model_->links[i].name == model_->canonical_link) canonical_ = i;
   }
@@ -96,12 +100,12 @@ void DynamicModel::make_shapes(ShapeFactory& factory) {
 }
 
 std::size_t DynamicModel::child_group(const Joint& joint) const {
-  return groups_.of_link[link_index(*model_, joint.child, joint)];
+  return groups_.of_link[link_index_.at(joint.child)];
 }
 
 std::size_t DynamicModel::parent_group(const Joint& joint) const {
   if (joint.parent == "world") return groups_.world;
-  return groups_.of_link[link_index(*model_, joint.parent, joint)];
+  return groups_.of_link[link_index_.at(joint.parent)];
 }
 
 void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
@@ -113,7 +117,7 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
       throw Error(joint.source, "joint '" + joint.name + "' of model '" + model_->name +
                                     "': found its two links fixed to each other");
     }
-    const Link& link = model_->links[link_index(*model_, joint.child, joint)];
+    const Link& link = model_->links[link_index_.at(joint.child)];
     joints_.back() = std::make_unique<ModelJoint>(world, joint, body(child), body(parent),
                                                   X_WM * link.X_ML * joint.X_CJ);
     rows_ += kRowsPerJoint;
@@ -121,24 +125,25 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
 }
 
 void DynamicModel::find_self_pairs() {
-  std::vector<ShapePair> joined;
+  constexpr std::size_t kMostPairs = 1'000'000;
+  std::set<ShapePair> joined;
   for (const Joint& joint : model_->joints) {
-    joined.emplace_back(child_group(joint), parent_group(joint));
+    joined.insert(std::minmax({child_group(joint), parent_group(joint)}));
   }
-  const auto is_joined = [&](std::size_t a, std::size_t b) {
-    for (const ShapePair& pair : joined) {
-      if (pair == ShapePair(a, b) || pair == ShapePair(b, a)) return true;
-    }
-    return false;
-  };
   const auto collides = [&](const Shape& shape) {
     return model_->self_collide || model_->links[shape.link].self_collide;
   };
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    if (!collides(shapes_[i])) continue;
     for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
       const std::size_t a = shapes_[i].group, b = shapes_[j].group;
-      if (a == b || is_joined(a, b) || (is_kinematic(a) && is_kinematic(b))) continue;
-      if (collides(shapes_[i]) && collides(shapes_[j])) self_pairs_.emplace_back(i, j);
+      if (a == b || !collides(shapes_[j]) || (is_kinematic(a) && is_kinematic(b))) continue;
+      if (joined.count(std::minmax({a, b})) == 0) self_pairs_.emplace_back(i, j);
+    }
+    if (self_pairs_.size() > kMostPairs) {
+      throw Error(model_->source, "model '" + model_->name + "': found more than " +
+                                      std::to_string(kMostPairs) +
+                                      " pairs of shapes that may touch each other, expected fewer");
     }
   }
 }

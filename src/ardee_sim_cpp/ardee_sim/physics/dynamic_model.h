@@ -90,6 +90,7 @@ class DynamicModel : public PhysicsModel {
   std::vector<Shape> shapes_;                        // after the bodies that carry them
   std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
   std::vector<ShapePair> self_pairs_;
+  LinkIndex link_index_;
 };
 
 }  // namespace ardee::physics

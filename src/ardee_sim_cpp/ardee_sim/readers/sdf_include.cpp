@@ -51,7 +51,11 @@ const SdfReader::ModelFile& SdfReader::included_file(const std::string& uri, con
   key += uri;
   const auto known = by_uri_.find(key);
   if (known != by_uri_.end()) return *known->second;
-  const std::string path = assets_.locator().resolve_model(uri, source);
+  std::string path;
+  if (!assets_.has_files([&] { path = assets_.locator().resolve_model(uri, source); })) {
+    static const ModelFile kLeftOut;
+    return kLeftOut;
+  }
   const ModelFile& file = read_file(path, source, make_static);
   by_uri_[key] = &file;
   return file;
@@ -98,7 +102,8 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
   std::optional<Pose> X_MP = file.model->X_MP;
   if (const auto placed = include.child("placement_frame"); placed && !placed->text().empty()) {
     const auto frame = file.model->find_frame(placed->text());
-    if (!frame) throw placed->error("found frame '" + placed->text() + "', expected one of the model");
+    if (!frame)
+      throw placed->error("found frame '" + placed->text() + "', expected one of the model");
     X_MP = frame->X_MF;
   }
   const bool is_placed = include.child("pose") || include.child("placement_frame");

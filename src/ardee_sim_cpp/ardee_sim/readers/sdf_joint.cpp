@@ -68,19 +68,20 @@ JointAxis read_axis(const Node& axis) {
 }
 
 /// The link that a frame moves with.
-std::string link_of(const std::string& frame, const SdfFrames& frames, const Model& model) {
-  const std::string body = frames.body_of(frame);
-  return body.empty() ? model.canonical_link : body;
+std::string link_of(const std::string& frame, const JointScope& scope) {
+  const std::string body = scope.frames.body_of(frame);
+  return body.empty() ? scope.model.canonical_link : body;
 }
 
 /// Puts the joint where its <pose> says, in the frame of its child by default, and returns how it
 /// is turned in the model.
-Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFrames& frames,
-                         const Model& model, Joint& joint) {
+Eigen::Quaterniond place(const Node& node, const std::string& child, const JointScope& scope,
+                         Joint& joint) {
   const std::string& held = joint.child == "world" ? joint.parent : joint.child;
-  const Link* link = model.find_link(held);
-  if (!link) throw Error(joint.source, unknown_link(held, model));
-  const Pose& X_ML = link->X_ML;
+  const SdfFrames& frames = scope.frames;
+  const auto link = scope.X_ML.find(held);
+  if (link == scope.X_ML.end()) throw Error(joint.source, unknown_link(held, scope.model));
+  const Pose& X_ML = link->second;
   if (joint.child == "world") {
     // The pose of such a joint is given in the model's frame.
     const Pose X_MJ = frames.pose(node);
@@ -97,15 +98,19 @@ Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFr
 
 }  // namespace
 
-Joint read_sdf_joint(const Node& node, int sdf_version, const SdfFrames& frames,
-                     const Model& model, Log& log) {
+JointScope::JointScope(int version, const SdfFrames& known_frames, const Model& of)
+    : sdf_version(version), frames(known_frames), model(of) {
+  for (const Link& link : of.links) X_ML.emplace(link.name, link.X_ML);
+}
+
+Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   Joint joint;
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);
   joint.source = node.source();
   const std::string child = node.required("child").required_text();
-  joint.parent = link_of(node.required("parent").required_text(), frames, model);
-  joint.child = link_of(child, frames, model);
+  joint.parent = link_of(node.required("parent").required_text(), scope);
+  joint.child = link_of(child, scope);
   const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
   const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
   const auto axis = node.child("axis");
@@ -122,10 +127,11 @@ Joint read_sdf_joint(const Node& node, int sdf_version, const SdfFrames& frames,
   }
   joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
   joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
-  const Eigen::Quaterniond q_MJ = place(node, child, frames, model, joint);
+  const Eigen::Quaterniond q_MJ = place(node, child, scope, joint);
   const auto turn = [&](const Node& written, Eigen::Vector3d& direction) {
-    const std::string frame = frame_of_axis(written, sdf_version);
-    if (!frame.empty()) direction = q_MJ.conjugate() * (frames.find(frame, node).q * direction);
+    const std::string frame = frame_of_axis(written, scope.sdf_version);
+    if (!frame.empty())
+      direction = q_MJ.conjugate() * (scope.frames.find(frame, node).q * direction);
   };
   if (!free && axis) turn(*axis, joint.axis.axis);
   if (two) turn(node.required("axis2"), joint.axis2.axis);

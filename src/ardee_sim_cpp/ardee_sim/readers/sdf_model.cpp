@@ -17,7 +17,8 @@ namespace {
 std::optional<int> parse_version(const std::string& text) {
   const std::size_t point = std::min(text.find('.'), text.size());
   const auto whole = to_double(std::string_view(text).substr(0, point));
-  const auto minor = point == text.size() ? 0.0 : to_double(std::string_view(text).substr(point + 1));
+  const auto minor =
+      point == text.size() ? 0.0 : to_double(std::string_view(text).substr(point + 1));
   if (!whole || !minor || !(*whole >= 1.0 && *whole < 100.0 && *minor >= 0.0 && *minor < 100.0)) {
     return std::nullopt;
   }
@@ -65,7 +66,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   std::shared_ptr<const Model> model;
   if (!root.child("model") && include) {
     model = included_file(*include, std::nullopt).model;
-    if (!model) throw include->error("found a light, expected a model");
+    if (!model) throw include->error("found no model in what it names, expected one");
   } else {
     model =
         read_own_model((world && !root.child("model") ? *world : root).required("model"), scope);
@@ -97,12 +98,13 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   read_nested(node, {scope.version, made->is_static ? std::optional<bool>(true) : std::nullopt},
               names, frames, *made);
   choose_canonical_link(node, frames, *made);
-  made->frames = frames.named_frames(node);
+  for (NamedFrame& frame : frames.named_frames(node)) made->frames.push_back(std::move(frame));
   if (node.has_attribute("placement_frame")) {
     made->X_MP = frames.find(node.required_attribute("placement_frame"), node);
   }
+  const JointScope joint_scope(scope.version, frames, *made);
   node.each("joint", [&](const Node& joint) {
-    made->joints.push_back(read_sdf_joint(joint, scope.version, frames, *made, assets_.log()));
+    made->joints.push_back(read_sdf_joint(joint, joint_scope, assets_.log()));
   });
   adopt_gz_systems(*made, assets_.log());
   validate_model(*made, assets_.log());
@@ -116,6 +118,7 @@ void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& 
   model.each([&](const Node& child) {
     if (child.name() == "include") {
       const ModelFile& file = included_file(child, scope.make_static);
+      if (!file.model && file.lights.empty()) return;
       if (!file.model) {
         assets_.log().warn(child.source(), "a light within a model is not supported, left out");
         return;
@@ -166,8 +169,7 @@ void SdfReader::merge(const Node& asker, const Instance& nested, const std::stri
   }
   bytes += bytes_of(*nested.model);
   if (bytes > kMaxModelBytes) {
-    throw asker.error("found a model that takes more than " +
-                      std::to_string(kMaxModelBytes >> 20) +
+    throw asker.error("found a model that takes more than " + std::to_string(kMaxModelBytes >> 20) +
                       " MB with what is merged into it, expected a smaller one");
   }
   merge_model(*nested.model, nested.pose, name, made);

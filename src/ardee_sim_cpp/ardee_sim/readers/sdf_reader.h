@@ -26,7 +26,7 @@ class SdfReader {
   std::shared_ptr<const Model> read_model(const Node& root);
 
  private:
-  /// An included file: a model, or lights alone.
+  /// An included file: a model, or lights alone; neither where it is left out.
   struct ModelFile {
     std::shared_ptr<const Model> model;
     std::vector<Light> lights;
@@ -47,8 +47,8 @@ class SdfReader {
                    Model& made);
   /// The models below one, of about `bytes` so far, that are merged into it.
   void add_nested(const Node& asker, Instance nested, std::size_t& bytes, Model& made);
-  void merge(const Node& asker, const Instance& nested, const std::string& name,
-             std::size_t& bytes, Model& made);
+  void merge(const Node& asker, const Instance& nested, const std::string& name, std::size_t& bytes,
+             Model& made);
   void read_instances(const Node& node, UniqueNames& names, Model& made);
   const ModelFile& included_file(const Node& include, std::optional<bool> make_static);
   const ModelFile& included_file(const std::string& uri, const Source& source,

@@ -110,6 +110,9 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       const ModelFile& file = included_file(child, std::nullopt);
       for (const Light& light : file.lights) add_light(light);
       if (!file.model) return;
+      if (child.has_attribute("merge")) {
+        assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
+      }
       made.models.push_back(read_include(child, file, names, frames));
       frames.replace(made.models.back().name, made.models.back().pose);
       frames.add_links(made.models.back().name, file.model);

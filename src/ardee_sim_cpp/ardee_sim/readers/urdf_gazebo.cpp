@@ -169,8 +169,8 @@ class GazeboBlocks {
       model_.plugins.push_back(read_plugin(node));
     } else if (name == "joint") {
       // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
-      constexpr int kSdfVersion = 106;
-      model_.joints.push_back(read_sdf_joint(node, kSdfVersion, frames_, model_, assets_.log()));
+      if (!joint_scope_) joint_scope_.emplace(106, frames_, model_);
+      model_.joints.push_back(read_sdf_joint(node, *joint_scope_, assets_.log()));
       joints_.emplace(model_.joints.back().name, model_.joints.size() - 1);
     } else if (name == "static") {
       model_.is_static = node.to_boolean();
@@ -183,6 +183,7 @@ class GazeboBlocks {
   Model& model_;
   Assets& assets_;
   SdfFrames frames_;
+  std::optional<JointScope> joint_scope_;
   std::unordered_map<std::string, std::size_t> links_;
   std::unordered_map<std::string, std::size_t> joints_;
 };

@@ -11,8 +11,8 @@
 
 namespace ardee {
 
-/// The <material>s of a <robot> by name. The first definition counts, be it the robot's or that of a
-/// <visual> that comes before.
+/// The <material>s of a <robot> by name. The first definition counts, be it the robot's or that of
+/// a <visual> that comes before.
 class UrdfMaterials {
  public:
   UrdfMaterials(const Node& robot, Assets& assets);

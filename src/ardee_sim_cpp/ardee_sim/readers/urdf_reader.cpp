@@ -23,9 +23,9 @@ void refuse_xacro(const Node& robot) {
   });
 }
 
-/// Nothing can move what has no mass: the joint of a link that has no <inertial>, nor anything fixed
-/// to it further out, is held. Gazebo leaves such a link out with all that hangs on it; here it
-/// keeps its place. A robot without any mass is as it is: a drawing, or an error of the physics.
+/// Nothing can move what has no mass: the joint of a link that has no <inertial>, nor anything
+/// fixed to it further out, is held. Gazebo leaves such a link out with all that hangs on it; here
+/// it keeps its place. A robot without any mass is as it is: a drawing, or an error of the physics.
 void hold_massless_links(const std::vector<Link>& links, const std::vector<std::size_t>& order,
                          std::vector<UrdfJoint>& joints, Log& log) {
   const auto has_mass = [](const Link& link) {
@@ -66,9 +66,8 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
     made->links.push_back(read_urdf_link(link, materials, assets));
   });
   std::vector<UrdfJoint> joints;
-  robot.each("joint", [&](const Node& joint) {
-    joints.push_back(read_urdf_joint(joint, assets.log()));
-  });
+  robot.each("joint",
+             [&](const Node& joint) { joints.push_back(read_urdf_joint(joint, assets.log())); });
   const UrdfTree tree = make_urdf_tree(robot, made->links, joints);
   for (std::size_t i = 0; i < made->links.size(); ++i) made->links[i].X_ML = tree.X_ML[i];
   hold_massless_links(made->links, tree.order, joints, assets.log());

@@ -108,8 +108,8 @@ std::vector<double> Node::attribute_numbers(const char* attribute_name, std::siz
   }
   std::ostringstream what;
   what << "found " << attribute_name << "=" << quoted(all) << ", expected " << least
-       << (most > least ? " or " + std::to_string(most) : "") << (most == 1 ? " number" : " numbers")
-       << " in [" << low << ", " << high << "]";
+       << (most > least ? " or " + std::to_string(most) : "")
+       << (most == 1 ? " number" : " numbers") << " in [" << low << ", " << high << "]";
   throw error(what.str());
 }
 

@@ -60,7 +60,8 @@ std::string to_utf8(std::string text, const std::string& encoding, const std::st
     converted.append(buffer, sizeof(buffer) - out_left);
   }
   iconv_close(converter);
-  if (!fits) throw Error(source, "found bytes that are no " + encoding + ", expected that encoding");
+  if (!fits)
+    throw Error(source, "found bytes that are no " + encoding + ", expected that encoding");
   return converted;
 }
 

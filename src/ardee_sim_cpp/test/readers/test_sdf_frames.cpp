@@ -146,6 +146,25 @@ TEST_F(SdfFramesTest, DegreesAreTurnedIntoRadians) {
              "<pose>: found 'yes'");
 }
 
+TEST_F(SdfFramesTest, APoseMayHoldAQuaternionOrDegrees) {
+  const auto turned = [&](const std::string& attributes, const std::string& numbers) {
+    return model("<link name='a'><pose " + attributes + ">" + numbers + "</pose></link>")
+        ->links.at(0)
+        .X_ML;
+  };
+  for (const Pose& X_ML : {turned("degrees='true'", "1 2 3 0 0 90"),
+                           turned("rotation_format='euler_rpy' degrees='1'", "1 2 3 0 0 90"),
+                           turned("rotation_format='quat_xyzw'", "1 2 3 0 0 2 2")}) {
+    expect_near(X_ML * Eigen::Vector3d(1, 0, 0), {1, 3, 3});
+  }
+  EXPECT_HAS(error_of([&] { turned("rotation_format='quat_xyzw'", "1 2 3 0 0 1"); }),
+             "expected seven finite numbers");
+  EXPECT_HAS(error_of([&] { turned("rotation_format='quat_xyzw'", "1 2 3 0 0 0 0"); }),
+             "found a quaternion of length zero");
+  EXPECT_HAS(error_of([&] { turned("rotation_format='matrix'", "1 2 3 0 0 0"); }),
+             "found rotation_format='matrix'");
+}
+
 TEST_F(SdfFramesTest, NamesWhatIsWrong) {
   EXPECT_HAS(error_of([&] { model(link("a", pose("b", "")) + link("b", pose("a", ""))); }),
              "lies in itself");

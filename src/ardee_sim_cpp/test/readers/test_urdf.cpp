@@ -262,7 +262,8 @@ TEST_F(Urdf, WarnsOfWhatItDoesNotKnow) {
       "<gazebo><plugni/></gazebo>");
   EXPECT_EQ(warnings_->size(), 4u);
   EXPECT_TRUE(warned("test.urdf:2: <inertail>: not an element of <link> in URDF"));
-  EXPECT_TRUE(warned("found no link or joint that it refers to, expected one; it is left out: 'nobody'"));
+  EXPECT_TRUE(
+      warned("found no link or joint that it refers to, expected one; it is left out: 'nobody'"));
   EXPECT_TRUE(warned("<mu3>: not known in a <gazebo> block of a link"));
   EXPECT_TRUE(warned("<plugni>: not known in a <gazebo> block of the model"));
 }
