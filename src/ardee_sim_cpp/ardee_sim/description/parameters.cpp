@@ -71,7 +71,7 @@ std::string Parameters::required_text(const std::string& key) {
 
 double Parameters::number(const std::string& key, double fallback, double low, double high) {
   const Element* child = find(key);
-  if (!child) return fallback;
+  if (!child || child->text.empty()) return fallback;
   const double value = parse_number(child->text, child->source);
   if (value < low || value > high) {
     std::ostringstream what;

@@ -27,9 +27,9 @@ void read_image(const Element& image, CameraParams& camera, Log& log) {
                                   std::to_string(camera.height) + " pixels, expected at most " +
                                   std::to_string(static_cast<int>(kMostPixels)) + " in all");
   }
-  const std::string format = parameters.text("format", "R8G8B8");
   const Element* place = parameters.block("format");
-  camera.development.format = read_pixel_format(format, place ? place->source : image.source);
+  const std::string format = place && !place->text.empty() ? place->text : "R8G8B8";
+  camera.development.format = read_pixel_format(format, place ? place->source : image.source, log);
   parameters.ignore({"anti_aliasing"});
   parameters.finish(log);
 }

@@ -44,12 +44,18 @@ TEST(Parameters, ReadsTypedValuesAndDefaults) {
 }
 
 TEST(Parameters, ABadValueSaysFileLineElementFoundExpected) {
-  for (const char* bad : {"fast", "nan", "inf", "1e999", "", "1 2", "0x10", "1,5"}) {
+  for (const char* bad : {"fast", "nan", "inf", "1e999", "1 2", "0x10", "1,5"}) {
     const Element element = block({{"rate", bad}});
     const std::string message = message_of([&] { Parameters(element).number("rate", 1.0); });
     EXPECT_EQ(message,
               "robot.urdf:11: <rate>: found '" + std::string(bad) + "', expected a finite number");
   }
+}
+
+TEST(Parameters, AnEmptyNumberIsItsDefault) {
+  const Element element = block({{"rate", ""}});
+  EXPECT_EQ(Parameters(element).number("rate", 2.5, 1.0), 2.5);
+  EXPECT_EQ(Parameters(element).integer("rate", 3, 1, 9), 3);
 }
 
 TEST(Parameters, AValueOutOfBoundsIsRefused) {
