@@ -35,7 +35,7 @@ std::shared_ptr<const MeshFile> Assets::mesh(const std::string& uri, const Sourc
   const std::string path = locator_.resolve(uri, source);
   const auto found = meshes_.find(path);
   if (found != meshes_.end()) return found->second;
-  return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source));
+  return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source, log_));
 }
 
 std::shared_ptr<const HeightGrid> Assets::heights(const std::string& uri,
@@ -48,7 +48,7 @@ std::shared_ptr<const HeightGrid> Assets::heights(const std::string& uri,
   const auto found = heights_.find(key.str());
   if (found != heights_.end()) return found->second;
   return heights_[key.str()] =
-             std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source));
+             std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source, log_));
 }
 
 std::optional<std::string> Assets::try_resolve(const std::string& uri, const Source& source) const {
