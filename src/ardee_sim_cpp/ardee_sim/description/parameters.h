@@ -24,7 +24,7 @@ class Parameters {
   bool has(const std::string& key);
   std::string text(const std::string& key, const std::string& fallback);
   std::string required_text(const std::string& key);
-  /// Finite number within [low, high].
+  /// Finite number within [low, high]; an empty element gives `fallback`, as an absent one does.
   double number(const std::string& key, double fallback,
                 double low = -std::numeric_limits<double>::max(),
                 double high = std::numeric_limits<double>::max());

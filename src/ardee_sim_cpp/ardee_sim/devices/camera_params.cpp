@@ -18,7 +18,7 @@ constexpr double kFarthest_m = 1e6;
 constexpr double kLeastFov_rad = 1e-3;
 constexpr double kMostFov_rad = M_PI - 1e-3;
 
-void read_image(const Element& image, CameraParams& camera) {
+void read_image(const Element& image, CameraParams& camera, Log& log) {
   Parameters parameters(image);
   camera.width = parameters.integer("width", 320, 1, kLongestSide_px);
   camera.height = parameters.integer("height", 240, 1, kLongestSide_px);
@@ -27,9 +27,9 @@ void read_image(const Element& image, CameraParams& camera) {
                                   std::to_string(camera.height) + " pixels, expected at most " +
                                   std::to_string(static_cast<int>(kMostPixels)) + " in all");
   }
-  const std::string format = parameters.text("format", "R8G8B8");
   const Element* place = parameters.block("format");
-  camera.development.format = read_pixel_format(format, place ? place->source : image.source);
+  const std::string format = place && !place->text.empty() ? place->text : "R8G8B8";
+  camera.development.format = read_pixel_format(format, place ? place->source : image.source, log);
 }
 
 void read_clip(const Element& clip, CameraParams& camera) {
@@ -77,7 +77,7 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
   if (!(fov_rad > 0.0 && fov_rad < M_PI)) {
     throw parameters.error("horizontal_fov", "expected more than 0 and less than pi");
   }
-  if (const Element* image = parameters.block("image")) read_image(*image, camera);
+  if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
   if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera);
   if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera);
   camera.lens.taken = Lens::pinhole(camera.width, camera.height, fov_rad);

@@ -68,8 +68,9 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.height = params.height;
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
-  eye.unzoomed = params.lens.taken;
   set_lens(eye);
+  eye.unzoomed = params.lens.taken;
+  eye.unzoomed_table = eye.camera.lens;
   eye.view = context.scenes.register_eye(SceneKind::kVisual,
                                          [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
   const auto output = [this](const std::string& topic, std::size_t kind) {
@@ -89,7 +90,6 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   add_number_input({topics.fov, params.fov_min_rad, params.fov_max_rad, [this, number](double fov) {
                       Eye& zoomed = eyes_[number];
                       zoomed.params.lens.set_horizontal_fov(zoomed.params.width, fov);
-                      zoomed.is_zoomed = true;
                       set_lens(zoomed);
                     }});
   eyes_.push_back(std::move(eye));
@@ -104,10 +104,8 @@ void CameraSensor::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   asked_ = false;
   for (Eye& eye : eyes_) {
-    if (!eye.is_zoomed) continue;
     eye.params.lens.taken = eye.unzoomed;
-    eye.is_zoomed = false;
-    set_lens(eye);
+    eye.camera.lens = eye.unzoomed_table;
   }
 }
 

@@ -28,7 +28,10 @@ SceneKind scene_of(const SensorDescription& sensor) {
 
 double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz) {
   constexpr double kMost_hz = 1e6;
-  const double own_hz = plugin.number("updateRate", fallback_hz, 0.0, kMost_hz);
+  const Element* given = plugin.block("updateRate");
+  // An empty one is 0 to Gazebo: no limit.
+  const bool is_empty = given != nullptr && given->text.empty();
+  const double own_hz = plugin.number("updateRate", is_empty ? 0.0 : fallback_hz, 0.0, kMost_hz);
   if (own_hz <= 0.0 || sensor.update_rate_hz <= 0.0) {
     return std::max(own_hz, sensor.update_rate_hz);
   }

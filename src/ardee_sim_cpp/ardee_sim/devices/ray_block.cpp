@@ -7,7 +7,7 @@
 namespace ardee {
 namespace {
 
-constexpr int kMostRays = 1 << 20;
+constexpr int kMostRays = 1 << 22;
 constexpr double kTwoTurns = 4.0 * M_PI;
 
 const Element& required_block(const Element& parent, const char* name) {
@@ -16,21 +16,33 @@ const Element& required_block(const Element& parent, const char* name) {
   return *block;
 }
 
-int read_samples(Parameters& direction, int fallback) {
-  const int samples = direction.integer("samples", fallback, 1, kMostRays);
-  const double resolution = direction.number("resolution", 1.0, 1e-6, 1e6);
-  return static_cast<int>(std::clamp(std::round(samples * resolution), 1.0, double(kMostRays)));
+/// Gazebo reads a whole number and passes over what follows it.
+int read_samples(Parameters& direction, int fallback, Log& log) {
+  const double written = direction.number("samples", fallback, 1, kMostRays);
+  const double samples = std::floor(written);
+  if (samples != written) {
+    log.warn(direction
+                 .error("samples", "expected a whole number: it is cut to " +
+                                       std::to_string(static_cast<int>(samples)))
+                 .what());
+  }
+  const double rays = std::round(samples * direction.number("resolution", 1.0, 1e-6, 1e6));
+  if (rays > kMostRays) {
+    throw direction.error("resolution", "expected up to " + std::to_string(kMostRays) +
+                                            " rays with that many samples");
+  }
+  return std::max(static_cast<int>(rays), 1);
 }
 
 void read_scan(const Element& scan, RayBlock& block) {
   Parameters horizontal(required_block(scan, "horizontal"));
-  block.columns = read_samples(horizontal, 640);
+  block.columns = read_samples(horizontal, 640, log);
   block.angle_min_rad = horizontal.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.angle_max_rad = horizontal.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
   const Element* given = scan.child("vertical");
   if (!given) return;
   Parameters vertical(*given);
-  block.rows = read_samples(vertical, 1);
+  block.rows = read_samples(vertical, 1, log);
   block.elevation_min_rad = vertical.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.elevation_max_rad = vertical.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
   if (block.rows > 1 && block.elevation_max_rad <= block.elevation_min_rad) {

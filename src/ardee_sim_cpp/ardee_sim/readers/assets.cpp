@@ -41,7 +41,7 @@ std::shared_ptr<const MeshFile> Assets::mesh(const std::string& uri, const Sourc
   const auto found = meshes_.find(path);
   if (found != meshes_.end()) return found->second;
   try {
-    return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source));
+    return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source, log_));
   } catch (const Error& problem) {
     throw FileError(problem, uri);
   }
@@ -58,7 +58,7 @@ std::shared_ptr<const HeightGrid> Assets::heights(const std::string& uri,
   if (found != heights_.end()) return found->second;
   try {
     return heights_[key.str()] =
-               std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source));
+               std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source, log_));
   } catch (const Error& problem) {
     throw FileError(problem, uri);
   }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A row an element of SDF's sensors that acts and holds numbers.
+#include <tuple>
+
 #include "effects.h"
 
 namespace ardee {
