@@ -146,7 +146,7 @@ REFUSED: Dict[str, List[Request]] = {
         link_properties(mass=NAN),
         link_properties(ixx=NAN),
         link_properties(ixx=-0.2),
-        link_properties(ixx=1.0),  # more than the other two together
+        link_properties(ixy=1.0),  # a principal moment below zero
         link_properties(com=place(x=INF)),
     ],
     "set_joint_properties": [

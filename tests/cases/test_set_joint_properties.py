@@ -19,10 +19,13 @@ WORLD = """<sdf version="1.6"><world name="w">
     <geometry><box><size>0.1 9 9</size></box></geometry><material><diffuse>1 1 1 1</diffuse></material>
   </visual></link></model>
 </world></sdf>"""
-CAMERA = """<sdf version="1.6"><model name="post"><static>true</static><link name="mast"><sensor name="eye" type="camera">
+CAMERA = """<sdf version="1.6"><model name="post"><static>true</static><link name="mast">
+<sensor name="eye" type="camera">
   <update_rate>20</update_rate>
   <camera><horizontal_fov>1</horizontal_fov><image><width>16</width><height>16</height></image></camera>
-  <plugin name="eye" filename="libgazebo_ros_camera.so"><cameraName>cam</cameraName><exposure>1</exposure></plugin>
+  <plugin name="eye" filename="libgazebo_ros_camera.so">
+    <cameraName>cam</cameraName><exposure>1</exposure>
+  </plugin>
 </sensor></link></model></sdf>"""
 
 
@@ -52,7 +55,7 @@ def test_set_joint_properties(graph: RosGraph) -> None:
         get,
     )
     assert answers[2].success, answers[2].status_message
-    assert answers[3].damping == [0.5]
+    assert list(answers[3].damping) == [0.5]
     assert answers[6].position == pytest.approx([0.2], abs=1e-3)
     assert answers[6].rate == pytest.approx([0.0], abs=1e-3)
 

@@ -48,7 +48,8 @@ def dynparam(graph: RosGraph, *words: str) -> str:
 
 
 def physics(graph: RosGraph) -> Dict[str, float]:
-    return ast.literal_eval(dynparam(graph, "get", "/gazebo").splitlines()[-1])
+    found = ast.literal_eval(dynparam(graph, "get", "/gazebo").splitlines()[-1])
+    return {name: value for name, value in found.items() if name != "groups"}
 
 
 def test_physics_by_dynamic_reconfigure(graph: RosGraph) -> None:
@@ -60,12 +61,7 @@ def test_physics_by_dynamic_reconfigure(graph: RosGraph) -> None:
     assert first["gravity_z"] == -9.8
     dynparam(graph, "set", "/gazebo", "gravity_z", "-3.7")
     assert call(graph, step(STEPS), state("sled"))[1].twist.linear.z == pytest.approx(-3.7)
-    for name, value in (
-        ("time_step", "-1"),
-        ("time_step", "nan"),
-        ("erp", "5"),
-        ("gravity_z", "inf"),
-    ):
+    for name, value in (("time_step", "-1"), ("gravity_z", "nan"), ("erp", "5")):
         dynparam(graph, "set", "/gazebo", name, value)
     assert physics(graph) == {**first, "gravity_z": -3.7}
     get = ("/gazebo/get_physics_properties", "gazebo_msgs/GetPhysicsProperties", {})
