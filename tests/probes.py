@@ -2,7 +2,7 @@
 """What tests ask of a running graph; each function runs in a process of its own (RosGraph.call)."""
 import importlib
 import time
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Set, Tuple
 
 import rosgraph
 import rospy
@@ -155,3 +155,23 @@ def clock_stands_still(wall_time_s: float = 0.5) -> bool:
     rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock), queue_size=1000)
     time.sleep(wall_time_s)
     return len(set(times[1:])) <= 1
+
+
+def parameter(name: str, timeout_s: float = 30.0) -> Any:
+    """The value of a parameter, once it is set."""
+    master = rosgraph.Master("probe")
+    wait_until(lambda: master.hasParam(name), f"parameter {name}", timeout_s)
+    return master.getParam(name)
+
+
+def parents_in_tf(child: str, wall_time_s: float) -> Set[str]:
+    """The parents that a frame has in what is published in a while on /tf and /tf_static."""
+    from tf2_msgs.msg import TFMessage
+
+    _start()
+    messages = []  # type: List[Any]
+    for topic in ("/tf", "/tf_static"):
+        rospy.Subscriber(topic, TFMessage, messages.append, queue_size=1000)
+    time.sleep(wall_time_s)
+    all_of_them = [transform for message in messages for transform in message.transforms]
+    return {t.header.frame_id for t in all_of_them if t.child_frame_id == child}

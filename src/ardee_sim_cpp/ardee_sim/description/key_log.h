@@ -22,7 +22,7 @@ class KeyLog {
   void add(const AskedKey& key) {
     for (AskedKey& known : keys_) {
       if (known.name != key.name) continue;
-      if (known.kind.empty()) known = key;
+      if (known.kind.empty() && !key.kind.empty()) known = key;
       return;
     }
     keys_.push_back(key);

@@ -114,9 +114,10 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
     return Cylinder{positive(*shape, "radius"), positive(*shape, "length")};
   }
   if (name == "plane") return read_plane(*shape);
-  if (name == "mesh") return read_mesh(*shape, assets);
-  if (name == "heightmap") return read_heightmap(*shape, assets);
-  return std::nullopt;
+  std::optional<Geometry> made;
+  if (name == "mesh") assets.has_files([&] { made = read_mesh(*shape, assets); });
+  if (name == "heightmap") assets.has_files([&] { made = read_heightmap(*shape, assets); });
+  return made;
 }
 
 }  // namespace ardee

@@ -51,7 +51,11 @@ const SdfReader::ModelFile& SdfReader::included_file(const std::string& uri, con
   key += uri;
   const auto known = by_uri_.find(key);
   if (known != by_uri_.end()) return *known->second;
-  const std::string path = assets_.locator().resolve_model(uri, source);
+  std::string path;
+  if (!assets_.has_files([&] { path = assets_.locator().resolve_model(uri, source); })) {
+    static const ModelFile kLeftOut;
+    return kLeftOut;
+  }
   const ModelFile& file = read_file(path, source, make_static);
   by_uri_[key] = &file;
   return file;

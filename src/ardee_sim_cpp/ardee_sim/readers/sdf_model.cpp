@@ -66,7 +66,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   std::shared_ptr<const Model> model;
   if (!root.child("model") && include) {
     model = included_file(*include, std::nullopt).model;
-    if (!model) throw include->error("found a light, expected a model");
+    if (!model) throw include->error("found no model in what it names, expected one");
   } else {
     model =
         read_own_model((world && !root.child("model") ? *world : root).required("model"), scope);
@@ -118,6 +118,7 @@ void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& 
   model.each([&](const Node& child) {
     if (child.name() == "include") {
       const ModelFile& file = included_file(child, scope.make_static);
+      if (!file.model && file.lights.empty()) return;
       if (!file.model) {
         assets_.log().warn(child.source(), "a light within a model is not supported, left out");
         return;

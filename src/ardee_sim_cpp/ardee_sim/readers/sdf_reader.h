@@ -26,7 +26,7 @@ class SdfReader {
   std::shared_ptr<const Model> read_model(const Node& root);
 
  private:
-  /// An included file: a model, or lights alone.
+  /// An included file: a model, or lights alone; neither where it is left out.
   struct ModelFile {
     std::shared_ptr<const Model> model;
     std::vector<Light> lights;

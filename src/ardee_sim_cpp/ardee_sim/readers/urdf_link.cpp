@@ -39,14 +39,16 @@ Geometry read_shape(const Node& shape, Assets& assets) {
 
 std::optional<Geometry> read_geometry(const Node& body, Assets& assets) {
   std::optional<Geometry> made;
+  bool found = false;
   const auto geometry = body.child("geometry");
   if (geometry) {
     geometry->each([&](const Node& shape) {
-      if (made) throw shape.error("found a second shape in a <geometry>, expected one");
-      made = read_shape(shape, assets);
+      if (found) throw shape.error("found a second shape in a <geometry>, expected one");
+      found = true;
+      assets.has_files([&] { made = read_shape(shape, assets); });
     });
   }
-  if (!made) {
+  if (!found) {
     assets.log().warn(body.source(), "found no shape in it, expected a <geometry>; left out");
   }
   return made;

@@ -96,5 +96,22 @@ TEST(Parameters, AMisspeltKeyIsReportedOnce) {
   EXPECT_EQ(warnings[0], "robot.urdf:12: <updateRat>: unknown key, ignored");
 }
 
+TEST(Parameters, TakesDownWhichKeysAreAskedFor) {
+  Element element;
+  element.key_log = std::make_shared<KeyLog>();
+  Parameters parameters(element);
+  parameters.block("rate");
+  parameters.number("rate", 2.5);
+  parameters.boolean("on", true);
+  EXPECT_THROW(parameters.required_text("name"), Error);
+  parameters.ignore({"alwaysOn"});
+  const std::vector<AskedKey>& keys = element.key_log->keys();
+  ASSERT_EQ(keys.size(), 4u);
+  EXPECT_EQ(keys[0].name + " " + keys[0].kind + " " + keys[0].fallback, "rate number 2.5");
+  EXPECT_EQ(keys[1].fallback, "true");
+  EXPECT_TRUE(keys[2].is_required);
+  EXPECT_TRUE(keys[3].is_ignored && !keys[0].is_ignored);
+}
+
 }  // namespace
 }  // namespace ardee
