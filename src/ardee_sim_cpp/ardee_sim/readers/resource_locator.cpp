@@ -2,6 +2,7 @@
 #include "ardee_sim/readers/resource_locator.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <set>
