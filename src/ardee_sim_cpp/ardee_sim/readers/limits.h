@@ -5,8 +5,6 @@
 
 namespace ardee {
 
-/// Files of a newer SDF version are read as this one: 1.12.
-constexpr int kNewestSdf = 112;
 /// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
 constexpr double kAbsurd = 1e9;
 /// Of one instance of a model.

@@ -7,8 +7,8 @@
 #include <memory>
 #include <set>
 
-#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/package_index.h"
+#include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
@@ -57,22 +57,18 @@ std::string first_existing(const std::vector<fs::path>& places, const std::strin
                       (searched.empty() ? "nowhere (no path is set)" : searched));
 }
 
-/// The version of a model.config's <sdf version="1.5">; 0 if it has none.
-double sdf_version(const Node& sdf) {
-  const std::string version = sdf.attribute("version");
-  char* end = nullptr;
-  const double value = std::strtod(version.c_str(), &end);
-  return end == version.c_str() ? 0.0 : value;
-}
-
-/// The file name that a model.config gives for the newest version that we read, else its last.
+/// The file that a model.config gives for the newest version of Gazebo Classic, for whose plugins
+/// it is made; else its last.
 std::string choose_sdf(const Node& config) {
   std::optional<Node> best;
   std::optional<Node> last;
+  int best_version = 0;
   config.each("sdf", [&](const Node& candidate) {
     last = candidate;
-    const double version = sdf_version(candidate);
-    if (version <= kNewestSdf && (!best || version > sdf_version(*best))) best = candidate;
+    const int version = parse_sdf_version(candidate.attribute("version")).value_or(0);
+    if (version > kNewestClassicSdf || (best && version <= best_version)) return;
+    best = candidate;
+    best_version = version;
   });
   if (!last) throw config.error("found no <sdf>, expected one with the name of the model's file");
   return (best ? *best : *last).required_text();

@@ -8,26 +8,11 @@
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/validate.h"
 
 namespace ardee {
 namespace {
-
-/// "1.10" -> 110; none if the text is no version.
-std::optional<int> parse_version(const std::string& text) {
-  const std::size_t point = std::min(text.find('.'), text.size());
-  const auto whole = to_double(std::string_view(text).substr(0, point));
-  const auto minor =
-      point == text.size() ? 0.0 : to_double(std::string_view(text).substr(point + 1));
-  if (!whole || !minor || !(*whole >= 1.0 && *whole < 100.0 && *minor >= 0.0 && *minor < 100.0)) {
-    return std::nullopt;
-  }
-  return 100 * static_cast<int>(*whole) + static_cast<int>(*minor);
-}
-
-std::string version_text(int version) {
-  return std::to_string(version / 100) + "." + std::to_string(version % 100);
-}
 
 /// The one named by the attribute, else the first.
 void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& model) {
@@ -43,12 +28,12 @@ void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& mod
 
 int SdfReader::read_version(const Node& root) {
   const std::string text = root.attribute("version");
-  const std::string newest = version_text(kNewestSdf);
+  const std::string newest = sdf_version_text(kNewestSdf);
   if (text.empty()) {
     assets_.log().warn(root.source(), "found no version, read as SDF " + newest);
     return kNewestSdf;
   }
-  const auto version = parse_version(text);
+  const auto version = parse_sdf_version(text);
   if (!version) throw root.error("found version '" + text + "', expected 1.2 to " + newest);
   if (*version > kNewestSdf) {
     assets_.log().warn(root.source(), "found version " + text + ", read as SDF " + newest);

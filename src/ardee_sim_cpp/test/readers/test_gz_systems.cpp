@@ -149,7 +149,7 @@ TEST_F(GzSystems, ALidarPublishesOnItsTopic) {
   EXPECT_TRUE(sensor("<sensor name='s' type='ray'/>").plugins.empty());
   EXPECT_TRUE(sensor("<sensor name='s' type='ray'><topic>__default_topic__</topic></sensor>")
                   .plugins.empty());
-  EXPECT_TRUE(warnings_->empty());
+  EXPECT_TRUE(warnings_->empty()) << warnings_->front();
 }
 
 TEST_F(GzSystems, CamerasPublishBesideTheirTopic) {

@@ -70,10 +70,11 @@ TEST_F(Locator, NamesEachPlaceThatItSearchedOnceAndInFull) {
              "searched: " + (std::filesystem::current_path() / "beside.dae").string());
 }
 
-TEST_F(Locator, ChoosesTheNewestSdfUpTo16) {
+TEST_F(Locator, ChoosesTheNewestSdfOfGazeboClassic) {
   folder_.write("models/a/model.config",
                 "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf>"
-                "<sdf version='1.5'>mid.sdf</sdf><sdf version='1.9'>new.sdf</sdf></model>");
+                "<sdf version='1.5'>mid.sdf</sdf><sdf version='1.9'>new.sdf</sdf><sdf "
+                "version='1.10'>new.sdf</sdf></model>");
   for (const char* name : {"old", "mid", "model", "new"})
     folder_.write("models/a/" + std::string(name) + ".sdf", "");
   EXPECT_EQ(locator_.resolve_model("model://a", {}), folder_.path() + "/models/a/model.sdf");
