@@ -21,7 +21,7 @@ int read_samples(Parameters& direction, int fallback, Log& log) {
   const double written = direction.number("samples", fallback, 1, kMostRays);
   const double samples = std::floor(written);
   if (samples != written) {
-    log.warn(direction
+    X
                  .error("samples", "expected a whole number: it is cut to " +
                                        std::to_string(static_cast<int>(samples)))
                  .what());
@@ -34,7 +34,7 @@ int read_samples(Parameters& direction, int fallback, Log& log) {
   return std::max(static_cast<int>(rays), 1);
 }
 
-void read_scan(const Element& scan, RayBlock& block) {
+void read_scan(const Element& scan, RayBlock& block, Log& log) {
   Parameters horizontal(required_block(scan, "horizontal"));
   block.columns = read_samples(horizontal, 640, log);
   block.angle_min_rad = horizontal.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
@@ -90,7 +90,7 @@ double RangeNoise::corrupt(double range_m, double normal) const {
   return precision_m > 0.0 ? precision_m * std::round(noisy_m / precision_m) : noisy_m;
 }
 
-RayBlock read_ray_block(const SensorDescription& sensor) {
+RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
   RayBlock block;
   const Element* ray = sensor.element.child("ray");
   if (!ray) ray = sensor.element.child("lidar");
@@ -98,7 +98,7 @@ RayBlock read_ray_block(const SensorDescription& sensor) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +
                                            "': found no <ray>, expected one");
   }
-  read_scan(required_block(*ray, "scan"), block);
+  read_scan(required_block(*ray, "scan"), block, log);
   read_range(required_block(*ray, "range"), block);
   if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise);
   return block;
