@@ -55,9 +55,14 @@ def test_gzserver_takes_a_world_and_leaves_out_what_it_does_not_know(graph: RosG
         "-e",
         "ode",
         "--minimal_comms",
+        "-s",
+        "libsome_plugin.so",
+        "--no_such_option",
     )
     graph.call(probes.call_service, *STATE, {"model_name": "none"})
-    assert "'--minimal_comms' has no meaning here and is left out" in server.output()
+    assert "'--minimal_comms' has no use here and is left out" in server.output()
+    assert "'-s libsome_plugin.so' has no use here and is left out" in server.output()
+    assert "'--no_such_option' is no option known here and is left out" in server.output()
     assert graph.call(probes.clock_stands_still)
 
 

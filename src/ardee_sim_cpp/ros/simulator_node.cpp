@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -43,6 +44,10 @@ World load_world(Loader& loader, const std::string& world) {
   if (std::filesystem::exists(path)) return loader.load_world(world);
   if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
   return loader.load_world(make_locator().resolve(world_uri(world), Source{"", 0, "world"}));
+}
+
+MissingFiles missing_files(bool lenient) {
+  return lenient ? MissingFiles::kLeaveOut : MissingFiles::kRefuse;
 }
 
 /// tf_prefix of a namespace or of one around it, as tf::resolve finds it.
@@ -96,7 +101,7 @@ void log_at_debug_level() {
 }  // namespace
 
 SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
-    : loader_(make_locator(), Log(log_to_ros())),
+    : loader_(make_locator(), Log(log_to_ros()), missing_files(settings.lenient)),
       simulation_(load_world(loader_, settings.world), simulation_options(settings), log_to_ros()),
       frames_(settings.publish_world_tf),
       topics_(frames_),
@@ -129,6 +134,25 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
 
 namespace {
 
+/// Whether a node of this node's name is registered; to register this one would end it.
+bool another_runs() {
+  ros::V_string names;
+  const std::string own = ros::this_node::getName();
+  if (!ros::master::check() || !ros::master::getNodes(names)) return false;
+  return std::find(names.begin(), names.end(), own) != names.end();
+}
+
+/// Reads the world without a word, and throws Error where it cannot be.
+void check_world(const CommandLine& command_line) {
+  std::string world = command_line.world;
+  if (world.empty()) ros::param::get("~world", world);
+  bool lenient = false;
+  ros::param::get("~lenient", lenient);
+  Loader loader(make_locator(), Log([](LogLevel, const std::string&) {}),
+                missing_files(command_line.lenient.value_or(lenient)));
+  if (!world.empty()) load_world(loader, world);
+}
+
 void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
   if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
   const Settings settings = read_settings(command_line, private_node);
@@ -154,6 +178,12 @@ int run_simulator(int argc, char** argv) {
   if (command_line.help) {
     std::cout << usage();
     return 0;
+  }
+  try {
+    if (another_runs()) check_world(command_line);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return kBadInput;
   }
   const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
   try {

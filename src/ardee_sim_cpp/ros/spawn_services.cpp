@@ -27,8 +27,7 @@ std::string spawn(Stage& stage, const gazebo_msgs::SpawnModelRequest& request) {
   wanted.robot_namespace = request.robot_namespace;
   wanted.model =
       stage.loader.load_model_text(request.model_xml, "model_xml of '" + request.model_name + "'");
-  // As gazebo_ros: the <pose> in the model's own text counts from where the request puts it.
-  wanted.X_WM = requested_pose(stage, request) * wanted.model->own_pose;
+  wanted.X_WM = requested_pose(stage, request);
   Entity& entity = stage.simulation.spawn(wanted);
   try {
     stage.topics.add(entity);

@@ -133,7 +133,7 @@ class Reader:
 
     def finish(self) -> None:
         """Refuse what nobody asked for."""
-        for key in sorted(set(self._values) - self._asked):
+        for key in sorted(set(self._values) - self._asked, key=str):
             known = ", ".join(sorted(self._asked))
             raise SettingError(f"{self._path}{key}: unknown; known here are {known}")
 

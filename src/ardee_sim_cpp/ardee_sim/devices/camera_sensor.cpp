@@ -89,6 +89,7 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   add_number_input({topics.fov, params.fov_min_rad, params.fov_max_rad, [this, number](double fov) {
                       Eye& zoomed = eyes_[number];
                       zoomed.params.lens.set_horizontal_fov(zoomed.params.width, fov);
+                      zoomed.is_zoomed = true;
                       set_lens(zoomed);
                     }});
   eyes_.push_back(std::move(eye));
@@ -103,7 +104,9 @@ void CameraSensor::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   asked_ = false;
   for (Eye& eye : eyes_) {
+    if (!eye.is_zoomed) continue;
     eye.params.lens.taken = eye.unzoomed;
+    eye.is_zoomed = false;
     set_lens(eye);
   }
 }

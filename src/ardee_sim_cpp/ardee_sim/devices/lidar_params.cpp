@@ -10,7 +10,7 @@ namespace ardee {
 LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin, SceneKind scene,
                               const char* default_topic, DeviceContext& context) {
   LidarParams params;
-  params.rays = read_ray_block(sensor, context.log);
+  params.rays = read_ray_block(sensor);
   params.rays.noise.growth = plugin.number("noiseGrowth", 0.0, 0.0, 1.0);
   params.optics = read_lidar_optics(plugin);
   params.scene = scene;

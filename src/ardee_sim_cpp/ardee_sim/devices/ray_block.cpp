@@ -22,19 +22,17 @@ int read_samples(Parameters& direction, int fallback) {
   return static_cast<int>(std::clamp(std::round(samples * resolution), 1.0, double(kMostRays)));
 }
 
-void read_scan(const Element& scan, RayBlock& block, Log& log) {
+void read_scan(const Element& scan, RayBlock& block) {
   Parameters horizontal(required_block(scan, "horizontal"));
   block.columns = read_samples(horizontal, 640);
   block.angle_min_rad = horizontal.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.angle_max_rad = horizontal.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
-  horizontal.finish(log);
   const Element* given = scan.child("vertical");
   if (!given) return;
   Parameters vertical(*given);
   block.rows = read_samples(vertical, 1);
   block.elevation_min_rad = vertical.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.elevation_max_rad = vertical.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
-  vertical.finish(log);
   if (block.rows > 1 && block.elevation_max_rad <= block.elevation_min_rad) {
     throw vertical.error("max_angle", "expected more than <min_angle>");
   }
@@ -45,7 +43,7 @@ void read_scan(const Element& scan, RayBlock& block, Log& log) {
   }
 }
 
-void read_range(const Element& range, RayBlock& block, Log& log) {
+void read_range(const Element& range, RayBlock& block) {
   Parameters parameters(range);
   block.range_min_m = parameters.number("min", 0.0, 0.0, 1e6);
   block.range_max_m = parameters.number("max", 0.0, 0.0, 1e6);
@@ -54,18 +52,15 @@ void read_range(const Element& range, RayBlock& block, Log& log) {
   }
   // Checked alone: Gazebo does not quantise ranges either.
   parameters.number("resolution", 0.0, 0.0, 1e6);
-  parameters.finish(log);
 }
 
-void read_noise(const Element& noise, RangeNoise& made, Log& log) {
+void read_noise(const Element& noise, RangeNoise& made) {
   Parameters parameters(noise);
   const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
                                                           : parameters.text("type", "gaussian");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
   const double precision = parameters.number("precision", 0.0, 0.0);
-  parameters.ignore({"type", "bias_mean", "bias_stddev"});
-  parameters.finish(log);
   if (type == "none") return;
   if (type != "gaussian" && type != "gaussian_quantized") {
     throw Error(noise.source,
@@ -83,7 +78,7 @@ double RangeNoise::corrupt(double range_m, double normal) const {
   return precision_m > 0.0 ? precision_m * std::round(noisy_m / precision_m) : noisy_m;
 }
 
-RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
+RayBlock read_ray_block(const SensorDescription& sensor) {
   RayBlock block;
   const Element* ray = sensor.element.child("ray");
   if (!ray) ray = sensor.element.child("lidar");
@@ -91,9 +86,9 @@ RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +
                                            "': found no <ray>, expected one");
   }
-  read_scan(required_block(*ray, "scan"), block, log);
-  read_range(required_block(*ray, "range"), block, log);
-  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise, log);
+  read_scan(required_block(*ray, "scan"), block);
+  read_range(required_block(*ray, "range"), block);
+  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise);
   return block;
 }
 

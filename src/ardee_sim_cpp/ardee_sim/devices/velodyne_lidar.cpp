@@ -70,7 +70,7 @@ VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const 
       track_(mount.rate_hz > 0.0 ? nanoseconds(1.0 / mount.rate_hz) : 0),
       output_(add_output(params.lidar.topic, reading_kind<PointCloudReading>())) {}
 
-void VelodyneLidar::before_step(TimeNs now_ns) {
+void VelodyneLidar::observe(TimeNs now_ns) {
   if (is_distorted()) track_.add(now_ns, pose());
 }
 

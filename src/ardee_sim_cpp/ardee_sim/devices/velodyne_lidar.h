@@ -43,7 +43,7 @@ class VelodyneLidar : public Sensor {
   VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
                 RayScenes& scenes);
 
-  void before_step(TimeNs now_ns) override;
+  void observe(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
 
  protected:

@@ -28,12 +28,19 @@ std::size_t find_root(std::vector<std::size_t>& parents, std::size_t element) {
 }
 
 std::vector<std::size_t> unite_fixed(const Model& model) {
+  const LinkIndex index = index_links(model);
+  const auto index_of = [&](const std::string& link, const Joint& joint) {
+    const auto found = index.find(link);
+    if (found != index.end()) return found->second;
+    throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
+                                  "': found link '" + link + "', expected a link of the model");
+  };
   std::vector<std::size_t> parents(model.links.size() + 1);
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   for (const Joint& joint : model.joints) {
-    const std::size_t child = link_index(model, joint.child, joint);
+    const std::size_t child = index_of(joint.child, joint);
     const std::size_t parent =
-        joint.parent == kWorldName ? model.links.size() : link_index(model, joint.parent, joint);
+        joint.parent == kWorldName ? model.links.size() : index_of(joint.parent, joint);
     if (joint.type != JointType::kFixed) continue;
     const std::size_t a = find_root(parents, child);
     const std::size_t b = find_root(parents, parent);
@@ -73,6 +80,7 @@ void sum_mass(const Model& model, const std::vector<LinkProperties>& links, Body
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_moment = Eigen::Vector3d::Zero();
   group.mass_kg = group.gravity_mass_kg = 0.0;
+  group.linear_decay = group.angular_decay = 0.0;
   for (const std::size_t index : group.links) {
     const std::optional<Inertial>& inertial = links[index].inertial;
     if (!inertial) continue;
@@ -81,11 +89,17 @@ void sum_mass(const Model& model, const std::vector<LinkProperties>& links, Body
     const Eigen::Vector3d com_M = (model.links[index].X_ML * inertial->X_LI).p;
     group.mass_kg += mass_kg;
     moment += mass_kg * com_M;
+    group.linear_decay += mass_kg * model.links[index].linear_decay;
+    group.angular_decay += mass_kg * model.links[index].angular_decay;
     if (!links[index].gravity) continue;
     group.gravity_mass_kg += mass_kg;
     gravity_moment += mass_kg * com_M;
   }
-  if (group.mass_kg > 0.0) group.com_M = moment / group.mass_kg;
+  if (group.mass_kg > 0.0) {
+    group.com_M = moment / group.mass_kg;
+    group.linear_decay /= group.mass_kg;
+    group.angular_decay /= group.mass_kg;
+  }
   if (group.gravity_mass_kg > 0.0) group.gravity_com_M = gravity_moment / group.gravity_mass_kg;
 }
 
@@ -139,12 +153,10 @@ Eigen::Matrix3d nearest_inertia(double mass_kg, const Eigen::Matrix3d& inertia_k
 
 }  // namespace
 
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint) {
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    if (model.links[i].name == link_name) return i;
-  }
-  throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
-                                "': found link '" + link_name + "', expected a link of the model");
+LinkIndex index_links(const Model& model) {
+  LinkIndex index;
+  for (std::size_t i = 0; i < model.links.size(); ++i) index.emplace(model.links[i].name, i);
+  return index;
 }
 
 std::vector<LinkProperties> described_links(const Model& model) {

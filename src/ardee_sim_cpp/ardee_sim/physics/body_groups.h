@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ardee_sim/description/model.h"
@@ -22,6 +24,9 @@ struct BodyGroup {
   /// The part of the mass that gravity pulls on.
   double gravity_mass_kg = 0.0;
   Eigen::Vector3d gravity_com_M{0, 0, 0};
+  // Share of the momentum that a step takes away: each link's part loses its own.
+  double linear_decay = 0.0;
+  double angular_decay = 0.0;
 };
 
 struct BodyGroups {
@@ -32,8 +37,9 @@ struct BodyGroups {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 
-/// Index of a link by name; throws Error naming the joint if there is none.
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint);
+/// The links of a model by name.
+using LinkIndex = std::unordered_map<std::string, std::size_t>;
+LinkIndex index_links(const Model& model);
 
 /// Properties of the links as described.
 std::vector<LinkProperties> described_links(const Model& model);

@@ -43,11 +43,17 @@ void ContactFinder::gather(const std::vector<std::unique_ptr<DynamicModel>>& mod
 
 void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
   if (item.bounds.empty()) return;
+  // Links may be far apart: what lies between them is not looked at.
+  const bool at_once = SceneryIndex::is_small(item.all);
   near_.clear();
-  scenery_.query(item.all, near_);
+  if (at_once) scenery_.query(item.all, near_);
   const std::size_t before = contacts_.count();
   for (std::size_t i = 0; i < item.bounds.size(); ++i) {
     if (!moves(*item.model, i)) continue;
+    if (!at_once) {
+      near_.clear();
+      scenery_.query(item.bounds[i], near_);
+    }
     const ContactSide mine = side(*item.model, i, params);
     for (const CollisionShape* shape : near_) {
       if (!shape->bounds.intersects(item.bounds[i])) continue;
@@ -104,16 +110,22 @@ std::size_t ContactFinder::island_of(std::size_t index) {
   return index;
 }
 
-std::size_t ContactFinder::largest_island_rows() {
-  std::size_t largest = 0;
+std::vector<Island> ContactFinder::islands() {
+  std::vector<Island> found;
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> number(moving_.size(), kNone);  // of the island, at its root
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    Moving& root = moving_[island_of(i)];
-    if (&root != &moving_[i]) root.rows += moving_[i].rows;
+    std::size_t& at_root = number[island_of(i)];
+    if (at_root == kNone) {
+      at_root = found.size();
+      found.emplace_back();
+    }
+    Island& island = found[at_root];
+    island.rows += moving_[i].rows;
+    ++island.models;
+    for (const BodyHandle& body : moving_[i].model->bodies()) island.bodies.push_back(body.get());
   }
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (moving_[i].island == i) largest = std::max(largest, moving_[i].rows);
-  }
-  return largest;
+  return found;
 }
 
 }  // namespace ardee::physics

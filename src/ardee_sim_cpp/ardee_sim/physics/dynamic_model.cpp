@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/physics/dynamic_model.h"
 
+#include <algorithm>
+#include <set>
+
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 
 namespace ardee::physics {
 namespace {
@@ -10,8 +14,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
-constexpr double kWorldReach =
-    1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
 /// The rotation by a rate that is held for a step.
 Quaterniond turn_of(const Vector3d& rate, double step_s) {
@@ -33,7 +35,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
     throw Error(model_->source,
                 "model '" + model_->name + "': found no link, expected one or more");
   }
-  if (!X_WM.is_finite() || X_WM.p.norm() > kWorldReach) {
+  if (!limits::is_valid(X_WM)) {
     throw Error(model_->source, "model '" + model_->name +
                                     "': found a pose that is not finite or "
                                     "beyond the world's range");
@@ -41,6 +43,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
   for (const Joint& joint : model_->joints) check_joint(*model_, joint);
   links_ = described_links(*model_);
   groups_ = group_links(*model_, links_);
+  link_index_ = index_links(*model_);
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     if (model_->links[i].name == model_->canonical_link) canonical_ = i;
   }
@@ -75,6 +78,8 @@ void DynamicModel::set_mass(std::size_t index) {
   const BodyGroup& group = groups_.groups[index];
   dBodySetGravityMode(body(index), group.gravity_mass_kg == group.mass_kg ? 1 : 0);
   if (group.kinematic) return;
+  if (group.linear_decay > 0.0) dBodySetLinearDamping(body(index), group.linear_decay);
+  if (group.angular_decay > 0.0) dBodySetAngularDamping(body(index), group.angular_decay);
   const Eigen::Matrix3d& i = group.inertia_M;
   dMass mass;
   dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
@@ -106,12 +111,12 @@ void DynamicModel::make_shapes(ShapeFactory& factory) {
 }
 
 std::size_t DynamicModel::child_group(const Joint& joint) const {
-  return groups_.of_link[link_index(*model_, joint.child, joint)];
+  return groups_.of_link[link_index_.at(joint.child)];
 }
 
 std::size_t DynamicModel::parent_group(const Joint& joint) const {
   if (joint.parent == "world") return groups_.world;
-  return groups_.of_link[link_index(*model_, joint.parent, joint)];
+  return groups_.of_link[link_index_.at(joint.parent)];
 }
 
 void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
@@ -123,7 +128,7 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
       throw Error(joint.source, "joint '" + joint.name + "' of model '" + model_->name +
                                     "': found its two links fixed to each other");
     }
-    const Link& link = model_->links[link_index(*model_, joint.child, joint)];
+    const Link& link = model_->links[link_index_.at(joint.child)];
     joints_.back() = std::make_unique<ModelJoint>(world, joint, body(child), body(parent),
                                                   X_WM * link.X_ML * joint.X_CJ);
     rows_ += kRowsPerJoint;
@@ -131,24 +136,25 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
 }
 
 void DynamicModel::find_self_pairs() {
-  std::vector<ShapePair> joined;
+  constexpr std::size_t kMostPairs = 1'000'000;
+  std::set<ShapePair> joined;
   for (const Joint& joint : model_->joints) {
-    joined.emplace_back(child_group(joint), parent_group(joint));
+    joined.insert(std::minmax({child_group(joint), parent_group(joint)}));
   }
-  const auto is_joined = [&](std::size_t a, std::size_t b) {
-    for (const ShapePair& pair : joined) {
-      if (pair == ShapePair(a, b) || pair == ShapePair(b, a)) return true;
-    }
-    return false;
-  };
   const auto collides = [&](const Shape& shape) {
     return model_->self_collide || model_->links[shape.link].self_collide;
   };
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    if (!collides(shapes_[i])) continue;
     for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
       const std::size_t a = shapes_[i].group, b = shapes_[j].group;
-      if (a == b || is_joined(a, b) || (is_kinematic(a) && is_kinematic(b))) continue;
-      if (collides(shapes_[i]) && collides(shapes_[j])) self_pairs_.emplace_back(i, j);
+      if (a == b || !collides(shapes_[j]) || (is_kinematic(a) && is_kinematic(b))) continue;
+      if (joined.count(std::minmax({a, b})) == 0) self_pairs_.emplace_back(i, j);
+    }
+    if (self_pairs_.size() > kMostPairs) {
+      throw Error(model_->source, "model '" + model_->name + "': found more than " +
+                                      std::to_string(kMostPairs) +
+                                      " pairs of shapes that may touch each other, expected fewer");
     }
   }
 }
@@ -204,6 +210,7 @@ void DynamicModel::turn_with_carriers(double step_s) {
     turns_[each.group] = turns_[each.carrier] * turn_of(relative, step_s);
     const Quaterniond now = to_quaternion(dBodyGetQuaternion(body(each.group)));
     const Quaterniond turned = turns_[each.group] * before * now;
+    if (!turned.coeffs().allFinite()) continue;  // who asks for the state says so
     const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
     dBodySetQuaternion(body(each.group), q);
   }
@@ -216,21 +223,20 @@ void DynamicModel::finish_step(double step_s) {
   }
 }
 
-void DynamicModel::check_state() const {
+std::string DynamicModel::state_fault() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Pose X_WB = body_pose(body(i));
-    const Vector3d v = to_vector(dBodyGetLinearVel(body(i)));
-    const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
-    const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
-    const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
-                          v.cwiseAbs().maxCoeff() <= kMaxInput &&
-                          w.cwiseAbs().maxCoeff() <= kMaxInput;
-    if (finite && in_range) continue;
+    const Twist twist_W{to_vector(dBodyGetLinearVel(body(i))),
+                        to_vector(dBodyGetAngularVel(body(i)))};
+    if (limits::is_valid(X_WB) && limits::is_valid(twist_W)) continue;
+    const bool finite =
+        X_WB.is_finite() && twist_W.linear.allFinite() && twist_W.angular.allFinite();
     const std::string link =
         groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;
-    throw Error("model '" + model_->name + "', link '" + link + "': found a position or velocity " +
-                (finite ? "beyond the world's range" : "that is not finite"));
+    return "model '" + model_->name + "', link '" + link + "': found a position or velocity " +
+           (finite ? "beyond the world's range" : "that is not finite");
   }
+  return "";
 }
 
 }  // namespace ardee::physics

@@ -13,10 +13,6 @@
 
 namespace ardee::physics {
 
-/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from
-/// where sums overflow.
-constexpr double kMaxInput = 1e9;
-
 /// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one
 /// body, whose frame lies at its centre of mass, parallel to the model's frame when all joints are
 /// at zero.
@@ -37,6 +33,8 @@ class DynamicModel : public PhysicsModel {
   Pose pose() const override;
   void set_pose(const Pose& X_WM) override;
   void set_twist(const Twist& twist_W) override;
+  void set_link_states(const LinkStates& states) override;
+  void set_state(const Pose& X_WM, const Twist& twist_W) override;
   Pose link_pose(std::size_t link) const override;
   Twist link_twist(std::size_t link) const override;
   double joint_position(std::size_t joint) const override;
@@ -69,9 +67,8 @@ class DynamicModel : public PhysicsModel {
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
   void finish_step(double step_s);
-  /// Throws Error naming model and link if a body is not at a finite place within the world's
-  /// range.
-  void check_state() const;
+  /// Model, link and how it has left the contract of a valid state; empty if it has not.
+  std::string state_fault() const;
 
  private:
   void make_bodies(dWorldID world, const Pose& X_WM);
@@ -89,9 +86,15 @@ class DynamicModel : public PhysicsModel {
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
   std::vector<std::size_t> hanging_on(std::size_t joint) const;
   ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
+  /// Throws Error if a motion would take the body out of the world.
+  void check_motion(std::size_t group, const Pose& motion) const;
+  void move_body(std::size_t group, const Pose& motion);
+  /// Velocity of a body where the whole model, turned by `turn`, moves as one.
+  Twist rigid_twist(std::size_t group, const Twist& twist_W, const Eigen::Quaterniond& turn) const;
+  void set_velocities(const Twist& twist_W);
+  void check_twist(const Twist& twist_W, const Eigen::Quaterniond& turn) const;
   /// Throws Error naming the joint if it has no such axis.
   JointDrive& drive(std::size_t joint, std::size_t axis) const;
-  void move_body(std::size_t group, const Pose& motion);
   void set_mass(std::size_t group);
   /// Moves the frame of a body, not what it carries, by so much in its own axes.
   void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
@@ -107,6 +110,7 @@ class DynamicModel : public PhysicsModel {
   std::vector<Shape> shapes_;                        // after the bodies that carry them
   std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
   std::vector<ShapePair> self_pairs_;
+  LinkIndex link_index_;
   struct Carried {
     std::size_t group;
     std::size_t carrier;

@@ -204,7 +204,8 @@ void collide_sphere(const HeightField& field, const Vector3d& center, double rad
       }
     }
   }
-  for (const auto& [triangle, point] : touched) {
+  for (const auto& touch : touched) {
+    const Vector3d& point = touch.second;
     // On an edge whose other face comes nearer, the point is no nearest point of the ground.
     const double distance = (point - center).norm();
     const bool nearest = std::none_of(touched.begin(), touched.end(), [&](const auto& other) {

@@ -24,6 +24,8 @@ class ModelJoint {
   Pose motion_to(double position) const;
   /// The position is taken as it is from now on, whatever turns it has made.
   void set_position(double position) { position_ = position; }
+  /// The position is measured anew: of the turns that give it the one within the limits.
+  void take_position();
   double clamp(double position) const;
 
   /// Axes that can be driven; none of a ball joint, or between bodies that nothing moves.

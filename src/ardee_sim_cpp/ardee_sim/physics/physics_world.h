@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ardee_sim/core/log.h"
@@ -27,6 +28,10 @@ class PhysicsModel {
   /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
   /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
+  /// Puts links, with what is fixed to them, where a saved world says; joints follow.
+  virtual void set_link_states(const LinkStates& states) = 0;
+  /// Both at once: throws Error and changes neither if one of them is not valid.
+  virtual void set_state(const Pose& X_WM, const Twist& twist_W) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
   /// Velocity of the link frame's origin, and angular velocity, in world axes.
   virtual Twist link_twist(std::size_t link) const = 0;
@@ -63,6 +68,12 @@ class PhysicsModel {
   virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
 };
 
+/// A model that has left the contract of a valid state (core/limits.h), and how.
+struct LostModel {
+  PhysicsModel* model = nullptr;
+  std::string why;
+};
+
 /// ODE behind plain data: dynamic models, and scenery in a uniform grid so that the cost of a step
 /// does not depend on the size of the field.
 class PhysicsWorld {
@@ -74,16 +85,20 @@ class PhysicsWorld {
   /// Takes effect with the next step.
   void set_params(const PhysicsParams& params);
 
-  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind.
-  PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM);
+  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind. What
+  /// a step does follows from the names of models and scenery, not from the order in which they
+  /// were added; those of one name go in that order.
+  PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM,
+                          const std::string& name = "");
   void remove_model(PhysicsModel& model);
 
   using SceneryId = std::uint32_t;
-  SceneryId add_scenery(const std::vector<Placement>& placements);
+  SceneryId add_scenery(const std::vector<Placement>& placements, const std::string& name = "");
   void remove_scenery(SceneryId id);
 
-  /// One step of params().step_s. Throws Error naming model and link if a state is not finite.
-  void step();
+  /// One step of params().step_s. Returns the models that have left the contract of a valid state:
+  /// while one of them is there, no further step is taken. Throws Error if memory runs out.
+  std::vector<LostModel> step();
   /// What the last step dealt with.
   struct Stats {
     std::size_t contacts = 0;        // points of contact

@@ -31,14 +31,17 @@ std::uint64_t cell_key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
-bool fits_cells(const Eigen::AlignedBox3f& box) {
-  if (!(box.min().head<2>().minCoeff() > -kMaxCoordinate)) return false;
-  if (!(box.max().head<2>().maxCoeff() < kMaxCoordinate)) return false;
+/// How many cells a box meets; infinitely many if it reaches beyond where cells are counted.
+double count_cells(const Eigen::AlignedBox3f& box) {
+  const bool counted = box.min().head<2>().minCoeff() > -kMaxCoordinate &&
+                       box.max().head<2>().maxCoeff() < kMaxCoordinate;
+  if (!counted) return std::numeric_limits<double>::infinity();
   const Cells cells = cells_of(box);
   return (static_cast<double>(cells.last_x) - cells.first_x + 1.0) *
-             (static_cast<double>(cells.last_y) - cells.first_y + 1.0) <=
-         kMaxCells;
+         (static_cast<double>(cells.last_y) - cells.first_y + 1.0);
 }
+
+bool fits_cells(const Eigen::AlignedBox3f& box) { return count_cells(box) <= kMaxCells; }
 
 /// The box in floats, never smaller.
 Eigen::AlignedBox3f round_outwards(const Eigen::AlignedBox3d& box) {
@@ -95,8 +98,10 @@ void SceneryIndex::add_instance(const Placement& placement, std::uint32_t protot
   }
 }
 
-std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements) {
+std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements,
+                                const std::string& name) {
   Set set;
+  set.name = name;
   std::map<const Model*, std::uint32_t> known;
   set.instances.reserve(placements.size());
   set.entries.reserve(placements.size());
@@ -151,9 +156,18 @@ void SceneryIndex::begin_step() {
   }
 }
 
+const SceneryIndex::Set& SceneryIndex::set_of(Reference reference) const {
+  return sets_.find(static_cast<std::uint32_t>(reference >> 32))->second;
+}
+
 const SceneryIndex::Entry& SceneryIndex::entry(Reference reference) const {
-  return sets_.find(static_cast<std::uint32_t>(reference >> 32))
-      ->second.entries[static_cast<std::uint32_t>(reference)];
+  return set_of(reference).entries[static_cast<std::uint32_t>(reference)];
+}
+
+bool SceneryIndex::comes_before(Reference one, Reference other) const {
+  if (one >> 32 == other >> 32) return one < other;
+  const int order = set_of(one).name.compare(set_of(other).name);
+  return order != 0 ? order < 0 : one < other;
 }
 
 void SceneryIndex::gather(const std::vector<Reference>& references,
@@ -170,7 +184,7 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
     found->second.last_used = step_;
     return found->second.shape;
   }
-  const Set& set = sets_.find(static_cast<std::uint32_t>(reference >> 32))->second;
+  const Set& set = set_of(reference);
   const Entry& item = set.entries[static_cast<std::uint32_t>(reference)];
   const Instance& instance = set.instances[item.instance];
   const PrototypeShape& shape = set.prototypes[instance.prototype].shapes[item.shape];
@@ -179,16 +193,26 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
   return active_.emplace(reference, std::move(active)).first->second.shape;
 }
 
+bool SceneryIndex::is_small(const Eigen::AlignedBox3d& box) {
+  return fits_cells(round_outwards(box));
+}
+
 void SceneryIndex::query(const Eigen::AlignedBox3d& box,
                          std::vector<const CollisionShape*>& shapes) {
   const Eigen::AlignedBox3f bounds = round_outwards(box);
   hits_.clear();
   gather(everywhere_, bounds);
-  for_each_cell(bounds, [&](std::uint64_t key) {
-    const auto cell = cells_.find(key);
-    if (cell != cells_.end()) gather(cell->second, bounds);
-  });
-  std::sort(hits_.begin(), hits_.end());
+  if (count_cells(bounds) <= static_cast<double>(cells_.size())) {
+    for_each_cell(bounds, [&](std::uint64_t key) {
+      const auto cell = cells_.find(key);
+      if (cell != cells_.end()) gather(cell->second, bounds);
+    });
+  } else {
+    // Fewer cells hold something than lie under the box.
+    for (const auto& cell : cells_) gather(cell.second, bounds);
+  }
+  std::sort(hits_.begin(), hits_.end(),
+            [this](Reference one, Reference other) { return comes_before(one, other); });
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
   for (const Reference reference : hits_) shapes.push_back(&activate(reference));
 }

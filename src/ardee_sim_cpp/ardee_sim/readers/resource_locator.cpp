@@ -36,7 +36,12 @@ void add_exports(const ResourceLocator::PathExports& exports, const std::string&
   for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
 }
 
-/// The first of `places` that exists, or an Error that lists them.
+/// One name of a file, whoever refers to it.
+std::string name_of(const std::string& uri, const Source& source) {
+  return uri.find("://") == std::string::npos ? folder_of(source.file) + "/" + uri : uri;
+}
+
+/// The first of `places` that exists, or a FileError that lists them.
 std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
                            const Source& source) {
   std::string searched;
@@ -47,8 +52,9 @@ std::string first_existing(const std::vector<fs::path>& places, const std::strin
     const std::string whole = normal(fs::absolute(place, error));
     if (named.insert(whole).second) searched += (searched.empty() ? "" : ", ") + whole;
   }
-  throw Error(source, "found '" + uri + "', expected an existing file; searched: " +
-                          (searched.empty() ? "nowhere (no path is set)" : searched));
+  throw FileError(source, name_of(uri, source),
+                  "found '" + uri + "', expected an existing file; searched: " +
+                      (searched.empty() ? "nowhere (no path is set)" : searched));
 }
 
 /// The version of a model.config's <sdf version="1.5">; 0 if it has none.
@@ -128,8 +134,9 @@ std::string ResourceLocator::resolve_package(const std::string& uri, const std::
   const std::string package = rest.substr(0, slash);
   const auto folder = find_package_ ? find_package_(package) : std::nullopt;
   if (!folder) {
-    throw Error(source, "found '" + uri + "', expected a known package; searched for package '" +
-                            package + "' on ROS_PACKAGE_PATH and in /usr/share");
+    throw FileError(source, uri,
+                    "found '" + uri + "', expected a known package; searched for package '" +
+                        package + "' on ROS_PACKAGE_PATH and in /usr/share");
   }
   const std::string inside = slash < rest.size() ? rest.substr(slash + 1) : "";
   return first_existing({fs::path(*folder) / inside}, uri, source);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ardee_sim/core/limits.h"
+
 namespace ardee {
 namespace {
 
@@ -11,23 +13,27 @@ void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
 }
 
-constexpr double kMost = 1e9;      // N, N m: far beyond anything on a field
-constexpr double kFarthest = 1e6;  // m from the link; with the link's place still within 1e9
-
-bool is_sane(const Eigen::Vector3d& vector, double most) {
-  return vector.allFinite() && vector.cwiseAbs().maxCoeff() <= most;
-}
-
 }  // namespace
 
 void Wrenches::add(const Wrench& wrench) {
-  if (!is_sane(wrench.force_W, kMost) || !is_sane(wrench.torque_W, kMost) ||
-      !is_sane(wrench.point_L, kFarthest)) {
+  using limits::is_within, limits::kStrongest;
+  if (!is_within(wrench.force_W, kStrongest) || !is_within(wrench.torque_W, kStrongest) ||
+      !is_within(wrench.point_L, limits::kFarthest_m)) {
     throw Error(
         "found a wrench with a number that is not finite or beyond 1e9 N, 1e9 N m or 1e6 m from "
         "the body, expected less");
   }
-  wrenches_.push_back(wrench);
+  // As in Gazebo, force and torque are made once: the point does not turn with the body.
+  const Pose X_WL = wrench.robot->link_pose(wrench.link);
+  const auto& inertial = wrench.robot->dynamics().link_properties(wrench.link).inertial;
+  const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d(0, 0, 0);
+  Wrench fixed = wrench;
+  fixed.torque_W += (X_WL.q * (wrench.point_L - center_L)).cross(wrench.force_W);
+  fixed.point_L = center_L;
+  if (!is_within(fixed.torque_W, kStrongest)) {
+    throw Error("found a wrench whose torque about the centre of mass is beyond 1e9 N m");
+  }
+  wrenches_.push_back(fixed);
 }
 
 void Wrenches::clear(const Robot& robot, std::size_t link) {

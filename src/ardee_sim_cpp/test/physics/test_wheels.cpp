@@ -16,6 +16,7 @@ struct Tread {
   bool friction_cone = true;
   int max_contacts = 10;
   double mass_left_m = 0.0;  // of the hull
+  Geometry foot = Sphere{kRadius_m};
 };
 
 /// A hull on two driven wheels and a sliding foot behind. Joints: left, right.
@@ -23,7 +24,7 @@ std::shared_ptr<Model> differential_drive(const Tread& tread) {
   auto robot = model(link("hull", box_inertial(4.0, {0.4, 0.3, 0.1})));
   Surface slippery;
   slippery.mu = slippery.mu2 = 0.0;
-  robot->links[0].collisions.push_back(collision(Sphere{kRadius_m}, slippery));
+  robot->links[0].collisions.push_back(collision(tread.foot, slippery));
   robot->links[0].collisions[0].X_LC.p = {-0.3, 0, 0};
   robot->links[0].inertial->X_LI.p = {-0.05, tread.mass_left_m, 0};
   for (const double side : {1.0, -1.0}) {
@@ -104,6 +105,15 @@ TEST(Wheels, TheirMiddleCountsWhereFewContactsAreWanted) {
       tread.max_contacts = max_contacts;
       expect_turns(tread, ground, 0.001);
     }
+  }
+}
+
+TEST(Wheels, AHardSquareFootBesideThemLeavesThemOnTheirMiddles) {
+  Tread tread;
+  tread.foot = Box{{0.1, 0.1, 2 * kRadius_m}};
+  for (const double kp : {1e6, 1e12}) {
+    tread.kp_n_per_m = kp;
+    expect_turns(tread, Plane{}, 0.001);
   }
 }
 

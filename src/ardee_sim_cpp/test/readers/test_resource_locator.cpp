@@ -115,6 +115,20 @@ TEST_F(Locator, FindsModelsThatPackagesExportToGazebo) {
   EXPECT_EQ(locator_.resolve_model("model://barn", {}), own) << "GAZEBO_MODEL_PATH comes first";
 }
 
+TEST_F(Locator, ReadsEveryExportOfAPackage) {
+  folder_.write("src/farm/package.xml",
+                "<package><name>farm</name><export><gazebo_ros gazebo_media_path='${prefix}'/>"
+                "<other gazebo_model_path='/nowhere'/>"
+                "<gazebo_ros plugin_path='${prefix}/lib' gazebo_model_path='${prefix}/a'/>"
+                "<gazebo_ros gazebo_model_path='${prefix}/b:${prefix}/c/${prefix}'"
+                " gazebo_media_path='/media'/></export></package>");
+  PackageIndex index({folder_.path() + "/src"});
+  const std::string farm = folder_.path() + "/src/farm";
+  EXPECT_EQ(index.exported_model_paths(),
+            (std::vector<std::string>{farm + "/a", farm + "/b", farm + "/c/" + farm}));
+  EXPECT_EQ(index.exported_media_paths(), (std::vector<std::string>{farm, "/media"}));
+}
+
 TEST_F(Locator, FindsWorldsBelowTheMediaPathsThatPackagesExport) {
   folder_.write("src/farm/package.xml",
                 "<package><name>farm</name><export><gazebo_ros "

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+"""Targets of scripts/fuzz in this package: each takes any bytes and raises only what is a finding."""
+
+import tempfile
+from pathlib import Path
+from typing import Callable, Dict
+
+from ardee_models.errors import GeneratorError
+from ardee_models.strict_yaml import read_yaml_lines
+from ardee_models.terrain_recipe import read_recipe
+
+_FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
+_FILE = Path(_FOLDER.name) / "input.yaml"
+
+
+def _read(reader: Callable[[Path], object], data: bytes) -> None:
+    _FILE.write_bytes(data)
+    try:
+        reader(_FILE)
+    except GeneratorError:
+        pass
+
+
+def yaml_lines(data: bytes) -> None:
+    """YAML with lines."""
+    _read(read_yaml_lines, data)
+
+
+def recipe(data: bytes) -> None:
+    """A terrain's recipe."""
+    _read(read_recipe, data)
+
+
+TARGETS: Dict[str, Callable[[bytes], None]] = {"yaml": yaml_lines, "recipe": recipe}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <tinyxml2.h>
+
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "ardee_sim/simulation/simulation.h"
+#include "fuzz/inputs.h"
+#include "fuzz/targets.h"
+
+namespace ardee::fuzz {
+namespace {
+
+constexpr int kSteps = 5;
+
+/// A place to stand and light to see by, for a model that comes without a world. Five steps last
+/// as long as most sensors take from sample to sample.
+constexpr const char* kPlainWorld =
+    "<sdf version='1.6'><world name='plain'><physics type='ode'><max_step_size>0.02"
+    "</max_step_size></physics><light name='sun' type='directional'><cast_shadows>1</cast_shadows>"
+    "</light><model name='ground'><static>1</static><link name='l'><collision name='c'><geometry>"
+    "<plane/></geometry></collision><visual name='v'><geometry><plane/></geometry></visual></link>"
+    "</model></world></sdf>";
+
+/// Sizes of pictures, scans and populations: what is right for few is right for many.
+struct Cut {
+  const char* element;
+  double most;
+};
+constexpr std::array<Cut, 5> kCuts{
+    {{"width", 16}, {"height", 12}, {"samples", 32}, {"resolution", 2}, {"model_count", 5}}};
+
+void cut_sizes(tinyxml2::XMLElement& element) {
+  for (const Cut& cut : kCuts) {
+    const char* text = element.GetText();
+    if (std::string(element.Name()) == cut.element && text && std::atof(text) > cut.most) {
+      element.SetText(cut.most);
+    }
+  }
+  for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    cut_sizes(*child);
+  }
+}
+
+/// The text with sizes that take long cut down; as it is where it is no XML.
+std::string with_small_sizes(const std::string& text) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return text;
+  tinyxml2::XMLElement* root = document.RootElement();
+  if (!root) return text;
+  cut_sizes(*root);
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+/// Everything listens, and takes nothing.
+class Listener : public ReadingSink {
+ public:
+  void on_reading(const Output&, const Reading&) override { ++count; }
+  std::size_t count = 0;
+};
+
+/// Where everything is after some steps.
+std::vector<Pose> run(Simulation& simulation) {
+  for (int i = 0; i < kSteps; ++i) simulation.step();
+  std::vector<Pose> poses;
+  for (const auto& entity : simulation.entities()) {
+    for (std::size_t link = 0; link < entity->robot->model().links.size(); ++link) {
+      poses.push_back(entity->robot->link_pose(link));
+      if (!poses.back().p.allFinite() || !poses.back().q.coeffs().allFinite()) {
+        throw std::logic_error("a link of " + entity->name() + " is nowhere");
+      }
+    }
+  }
+  return poses;
+}
+
+void command(Device& device) {
+  for (Input& input : device.inputs()) input.on_command({{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
+  for (const NumberInput& input : device.number_inputs()) input.on_number(input.high);
+  for (const Trigger& trigger : device.triggers()) trigger.on_trigger();
+  for (const Tuning& tuning : device.tunings()) {
+    for (const Tunable& tunable : tuning.parameters) tunable.set(tunable.high);
+  }
+}
+
+void check_same(const std::vector<Pose>& found, const std::vector<Pose>& expected) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (found.size() != expected.size() || found[i].p != expected[i].p ||
+        found[i].q.coeffs() != expected[i].q.coeffs()) {
+      throw std::logic_error("reset_simulation did not give what construction gave");
+    }
+  }
+}
+
+void exercise(Simulation& simulation) {
+  Listener listener;
+  simulation.set_sink(&listener);
+  const std::vector<Pose> first = run(simulation);
+  for (const auto& entity : simulation.entities()) {
+    for (const auto& device : entity->devices) command(*device);
+    if (entity->robot->is_dynamic()) {
+      simulation.wrenches().add({entity->robot.get(), 0, {10, 0, 0}, {0, 0, 1}, {}, 0, -1});
+    }
+  }
+  run(simulation);
+  simulation.reset_world();
+  run(simulation);
+  simulation.reset_simulation();
+  check_same(run(simulation), first);
+  while (!simulation.entities().empty()) simulation.remove(simulation.entities().back()->name());
+  run(simulation);
+}
+
+}  // namespace
+
+void simulate(const std::string& input) {
+  const std::string text = with_small_sizes(input);
+  Loader loader = make_loader();
+  std::shared_ptr<const Model> model;
+  std::optional<World> world;
+  try {
+    world = loader.load_world_text(text, "fuzz.world");
+  } catch (const Error&) {
+    model = loader.load_model_text(text, "fuzz.xml");
+  }
+  if (world) {
+    try {
+      model = loader.load_model_text(text, "fuzz.xml");
+    } catch (const Error&) {
+      // The world runs without a model beside it.
+    }
+  }
+  if (!world) world = loader.load_world_text(kPlainWorld, "plain.world");
+  SimulationOptions options;
+  options.rays.threads = 1;
+  Simulation simulation(*world, options, [](LogLevel, const std::string&) {});
+  if (model) {
+    SpawnRequest request;
+    request.name = "spawned by the fuzzer";
+    request.model = model;
+    request.X_WM.p.z() = 0.2;
+    simulation.spawn(request);
+  }
+  exercise(simulation);
+}
+
+}  // namespace ardee::fuzz

@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: MIT
+"""Inputs of scripts/fuzz: none of them raises what its target does not expect of bad input."""
+from pathlib import Path
+from typing import Callable
+
+import pytest
+from fuzz_python import corpus
+
+
+@pytest.mark.parametrize(
+    "target, path", corpus("ardee_world"), ids=lambda value: getattr(value, "name", "")
+)
+def test_corpus(target: Callable[[bytes], None], path: Path) -> None:
+    target(path.read_bytes())
