@@ -28,13 +28,21 @@ struct Surface {
   double slip2 = 0.0;
   double kp_n_per_m = 1e12;
   double kd_n_s_per_m = 1.0;
-  double soft_cfm = 0.0;
-  double soft_erp = 0.2;
-  double max_correcting_velocity_m_per_s = 0.01;
-  double min_depth_m = 0.0;
+  double max_correcting_velocity_m_per_s = 0.01;  // negative: unlimited
+  double min_depth_m = 0.0;                       // not positive: none of its own
   double restitution = 0.0;
   double bounce_threshold_m_per_s = 1e5;
   int max_contacts = 10;
+  // Two surfaces meet where one's category and the other's mask have a bit in common.
+  std::uint32_t collide_bitmask = 0xFFFF;
+  std::uint32_t category_bitmask = 0xFFFF;
+  // Friction against turning on the spot: what a round patch of that radius has, or the patch of a
+  // surface of that radius at the depth of the contact.
+  double torsional_mu = 1.0;
+  bool use_patch_radius = true;
+  double patch_radius_m = 0.0;
+  double surface_radius_m = 0.0;
+  bool collide_without_contact = false;  // no force acts where it touches
 };
 
 struct Collision {
@@ -90,7 +98,8 @@ struct Link {
   bool gravity = true;
   bool kinematic = false;
   bool self_collide = false;
-  // Share of the velocity that a step takes away (SDF <velocity_decay>, URDF <dampingFactor>).
+  // Share of the velocity that a step takes away above 0.01 m/s or rad/s, as in ODE (SDF
+  // <velocity_decay>, URDF <dampingFactor>).
   double linear_decay = 0.0;
   double angular_decay = 0.0;
   Source source;

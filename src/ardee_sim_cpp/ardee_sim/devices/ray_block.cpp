@@ -21,7 +21,7 @@ int read_samples(Parameters& direction, int fallback, Log& log) {
   const double written = direction.number("samples", fallback, 1, kMostRays);
   const double samples = std::floor(written);
   if (samples != written) {
-    X
+    log.warn(direction
                  .error("samples", "expected a whole number: it is cut to " +
                                        std::to_string(static_cast<int>(samples)))
                  .what());

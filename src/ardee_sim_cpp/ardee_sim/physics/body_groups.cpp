@@ -80,6 +80,7 @@ void sum_mass(const Model& model, const std::vector<LinkProperties>& links, Body
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_moment = Eigen::Vector3d::Zero();
   group.mass_kg = group.gravity_mass_kg = 0.0;
+  group.linear_decay = group.angular_decay = 0.0;
   for (const std::size_t index : group.links) {
     const std::optional<Inertial>& inertial = links[index].inertial;
     if (!inertial) continue;
@@ -88,11 +89,17 @@ void sum_mass(const Model& model, const std::vector<LinkProperties>& links, Body
     const Eigen::Vector3d com_M = (model.links[index].X_ML * inertial->X_LI).p;
     group.mass_kg += mass_kg;
     moment += mass_kg * com_M;
+    group.linear_decay += mass_kg * model.links[index].linear_decay;
+    group.angular_decay += mass_kg * model.links[index].angular_decay;
     if (!links[index].gravity) continue;
     group.gravity_mass_kg += mass_kg;
     gravity_moment += mass_kg * com_M;
   }
-  if (group.mass_kg > 0.0) group.com_M = moment / group.mass_kg;
+  if (group.mass_kg > 0.0) {
+    group.com_M = moment / group.mass_kg;
+    group.linear_decay /= group.mass_kg;
+    group.angular_decay /= group.mass_kg;
+  }
   if (group.gravity_mass_kg > 0.0) group.gravity_com_M = gravity_moment / group.gravity_mass_kg;
 }
 

@@ -24,6 +24,9 @@ struct BodyGroup {
   /// The part of the mass that gravity pulls on.
   double gravity_mass_kg = 0.0;
   Eigen::Vector3d gravity_com_M{0, 0, 0};
+  // Share of the momentum that a step takes away: each link's part loses its own.
+  double linear_decay = 0.0;
+  double angular_decay = 0.0;
 };
 
 struct BodyGroups {

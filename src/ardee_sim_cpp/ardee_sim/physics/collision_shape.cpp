@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/description/bounds.h"
 
 namespace ardee::physics {
 namespace {
@@ -45,15 +46,17 @@ struct Fault {
 };
 
 bool is_valid(const Surface& surface) {
-  const double numbers[] = {surface.mu,          surface.mu2,
-                            surface.slip1,       surface.slip2,
-                            surface.kp_n_per_m,  surface.kd_n_s_per_m,
-                            surface.min_depth_m, surface.max_correcting_velocity_m_per_s,
-                            surface.restitution, surface.bounce_threshold_m_per_s};
-  for (const double number : numbers) {
-    if (!(number >= 0.0)) return false;
-  }
-  return surface.fdir1.allFinite();
+  return bounds::kFriction.holds(surface.mu) && bounds::kFriction.holds(surface.mu2) &&
+         bounds::kSlip.holds(surface.slip1) && bounds::kSlip.holds(surface.slip2) &&
+         bounds::kStiffness.holds(surface.kp_n_per_m) &&
+         bounds::kDamping.holds(surface.kd_n_s_per_m) &&
+         bounds::kMinDepth.holds(surface.min_depth_m) &&
+         bounds::kMaxVelocity.holds(surface.max_correcting_velocity_m_per_s) &&
+         bounds::kRestitution.holds(surface.restitution) &&
+         bounds::kBounceThreshold.holds(surface.bounce_threshold_m_per_s) &&
+         bounds::kFriction.holds(surface.torsional_mu) &&
+         bounds::kRadius_m.holds(surface.patch_radius_m) &&
+         bounds::kRadius_m.holds(surface.surface_radius_m) && surface.fdir1.allFinite();
 }
 
 Eigen::AlignedBox3d transformed(const Eigen::AlignedBox3d& box, const Pose& X_WS) {
@@ -107,7 +110,7 @@ void place(dGeomID geom, const Pose& X_WS) {
 void check_collision(const Model& model, const Link& link, const Collision& collision) {
   std::string fault = std::visit(Fault{}, collision.geometry);
   if (!collision.X_LC.is_finite()) fault = "found a pose that is not finite";
-  if (!is_valid(collision.surface)) fault = "found a surface number below zero or not a number";
+  if (!is_valid(collision.surface)) fault = "found a number of its surface that is out of bounds";
   if (fault.empty()) return;
   throw Error(link.source, "model '" + model.name + "', link '" + link.name + "', collision '" +
                                collision.name + "': " + fault);

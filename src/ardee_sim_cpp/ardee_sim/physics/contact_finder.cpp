@@ -43,11 +43,17 @@ void ContactFinder::gather(const std::vector<std::unique_ptr<DynamicModel>>& mod
 
 void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
   if (item.bounds.empty()) return;
+  // Links may be far apart: what lies between them is not looked at.
+  const bool at_once = SceneryIndex::is_small(item.all);
   near_.clear();
-  scenery_.query(item.all, near_);
+  if (at_once) scenery_.query(item.all, near_);
   const std::size_t before = contacts_.count();
   for (std::size_t i = 0; i < item.bounds.size(); ++i) {
     if (!moves(*item.model, i)) continue;
+    if (!at_once) {
+      near_.clear();
+      scenery_.query(item.bounds[i], near_);
+    }
     const ContactSide mine = side(*item.model, i, params);
     for (const CollisionShape* shape : near_) {
       if (!shape->bounds.intersects(item.bounds[i])) continue;

@@ -44,6 +44,7 @@ Eigen::Vector3d velocity_at(dBodyID body, const Eigen::Vector3d& p) {
 /// slide independently, has a skid-steering robot turn about its heavier axle, or not at all.
 void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& normal,
                     dContact& contact) {
+  if (std::isinf(contact.surface.mu) || std::isinf(contact.surface.mu2)) return;  // never slides
   const Eigen::Vector3d first = to_vector(contact.fdir1);
   const double grip1 = contact.surface.mu * std::abs(sliding.dot(first));
   const double grip2 = contact.surface.mu2 * std::abs(sliding.dot(normal.cross(first)));
@@ -53,6 +54,42 @@ void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& norma
   const double slides = std::min(1.0, speed / kSlidingSpeed);
   contact.surface.mu *= 1.0 - slides * (1.0 - grip1 / grip);
   contact.surface.mu2 *= 1.0 - slides * (1.0 - grip2 / grip);
+}
+
+/// How deep a body may lie in another before it is pushed out: what its surface says, which takes
+/// the place of the world's layer. A surface that says nothing has no depth of its own in Gazebo
+/// either; here it keeps of the world's layer what ODE has by default, so that it rests and does not
+/// hop.
+double own_layer(const ContactSide& side, const PhysicsParams& params) {
+  constexpr double kDefaultLayer_m = 0.001;
+  if (!side.body) return dInfinity;
+  const double own_m = side.shape->collision->surface.min_depth_m;
+  return own_m > 0.0 ? own_m : std::min(params.contact_surface_layer_m, kDefaultLayer_m);
+}
+
+/// How fast a body may be pushed out.
+double own_push(const ContactSide& side) {
+  const double own = side.shape->collision->surface.max_correcting_velocity_m_per_s;
+  return side.body && own >= 0.0 ? own : dInfinity;
+}
+
+/// Radius of the sphere that meets a plane as two spheres meet; zero: flat.
+double combine_radii(double a_m, double b_m) {
+  if (a_m > 0.0 && b_m > 0.0) return 1.0 / (1.0 / a_m + 1.0 / b_m);
+  return std::max(a_m, b_m);
+}
+
+/// Friction against turning about the normal, as a lever of the normal force (m): that of a round
+/// patch under Hertz's pressure.
+double spinning_lever(const ContactLaw& law, double depth_m) {
+  const double radius_m =
+      law.use_patch_radius ? law.patch_radius_m : std::sqrt(law.surface_radius_m * depth_m);
+  return radius_m > 0.0 ? 3.0 * M_PI / 16.0 * radius_m * law.torsional_mu : 0.0;
+}
+
+bool meet(const Surface& a, const Surface& b) {
+  if (a.collide_without_contact || b.collide_without_contact) return false;
+  return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
 }
 
 /// The axis that ODE itself takes for the first of its pyramid.
@@ -65,24 +102,31 @@ Eigen::Vector3d default_direction(const Eigen::Vector3d& normal) {
 
 }  // namespace
 
-ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
-                            double weight_n) {
+ContactLaw combine_surfaces(const ContactSide& side_a, const ContactSide& side_b,
+                            const PhysicsParams& params) {
+  const Surface& a = side_a.shape->collision->surface;
+  const Surface& b = side_b.shape->collision->surface;
   ContactLaw law;
   law.mu = std::min(a.mu, b.mu);
   law.mu2 = std::min(a.mu2, b.mu2);
   law.friction_cone = a.friction_cone && b.friction_cone;
   law.slip1 = a.slip1 + b.slip1;
   law.slip2 = a.slip2 + b.slip2;
+  law.torsional_mu = std::min(a.torsional_mu, b.torsional_mu);
+  law.use_patch_radius = a.use_patch_radius && b.use_patch_radius;
+  law.patch_radius_m = std::max(a.patch_radius_m, b.patch_radius_m);
+  law.surface_radius_m = combine_radii(a.surface_radius_m, b.surface_radius_m);
   const double kp = std::min(1.0 / (1.0 / a.kp_n_per_m + 1.0 / b.kp_n_per_m), kMaxStiffness);
   const double kd = std::min(a.kd_n_s_per_m + b.kd_n_s_per_m, kMaxStiffness);
   const double total = std::max(params.step_s * kp + kd, kLeastStiffness);
   law.erp = params.step_s * kp / total;
   law.cfm = 1.0 / total;
-  law.min_depth_m = std::max({params.contact_surface_layer_m, a.min_depth_m, b.min_depth_m});
-  law.max_push_m_per_s =
-      std::min({params.max_correcting_velocity_m_per_s, a.max_correcting_velocity_m_per_s,
-                b.max_correcting_velocity_m_per_s}) +
-      2.0 * weight_n * law.cfm;
+  law.min_depth_m = std::min(own_layer(side_a, params), own_layer(side_b, params));
+  const double weight_n =
+      side_b.body ? std::min(side_a.weight_n, side_b.weight_n) : side_a.weight_n;
+  law.max_push_m_per_s = std::min({params.max_correcting_velocity_m_per_s, own_push(side_a),
+                                   own_push(side_b)}) +
+                         2.0 * weight_n * law.cfm;
   law.restitution = std::min(a.restitution, b.restitution);
   law.bounce_threshold_m_per_s = std::min(a.bounce_threshold_m_per_s, b.bounce_threshold_m_per_s);
   return law;
@@ -102,7 +146,7 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   contact.surface.mu = law.mu;
   contact.surface.mu2 = law.mu2;
   contact.surface.soft_erp = law.erp;
-  contact.surface.soft_cfm = law.cfm;
+  contact.surface.soft_cfm = law.cfm / point.share;
   if (law.restitution > 0.0) {
     contact.surface.mode |= dContactBounce;
     contact.surface.bounce = law.restitution;
@@ -114,6 +158,8 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   contact.surface.slip2 = law.slip2;
   copy(point.position, contact.geom.pos);
   copy(point.normal, contact.geom.normal);
+  contact.surface.rhoN = spinning_lever(law, point.depth_m);
+  if (contact.surface.rhoN > 0.0) contact.surface.mode |= dContactRolling;
   // The engine knows one layer and one greatest push for all contacts; here each has its own, so
   // the push is worked out here and handed on as the depth that gives it.
   const double rate = law.erp / step_s;
@@ -135,12 +181,12 @@ void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
                             const PhysicsParams& params) {
   const Surface& surface_a = a.shape->collision->surface;
   const Surface& surface_b = b.shape->collision->surface;
+  if (!meet(surface_a, surface_b)) return;
   points_.clear();
   const int most = std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});
   collide_shapes(*a.shape, *b.shape, most, points_);
   if (points_.empty()) return;
-  const double weight_n = b.body ? std::min(a.weight_n, b.weight_n) : a.weight_n;
-  const ContactLaw law = combine_surfaces(surface_a, surface_b, params, weight_n);
+  const ContactLaw law = combine_surfaces(a, b, params);
   for (const ContactPoint& point : points_) join(a, b, law, params.step_s, point);
 }
 

@@ -18,13 +18,18 @@ struct ContactSide {
 };
 
 /// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in
-/// parallel, the smaller friction, restitution and threshold of the two.
+/// parallel, the smaller friction, restitution and threshold of the two. Depth and speed of
+/// correction are those of bodies, which scenery is not: the smaller of two bodies'.
 struct ContactLaw {
   double mu = 0.0;
   double mu2 = 0.0;
   bool friction_cone = false;
   double slip1 = 0.0;
   double slip2 = 0.0;
+  double torsional_mu = 0.0;
+  bool use_patch_radius = true;
+  double patch_radius_m = 0.0;
+  double surface_radius_m = 0.0;
   double erp = 0.0;
   double cfm = 0.0;
   double min_depth_m = 0.0;
@@ -33,10 +38,10 @@ struct ContactLaw {
   double bounce_threshold_m_per_s = 0.0;
 };
 
-/// `weight_n`: that of the lighter model; a soft contact may always push with twice that, else it
-/// would sink for ever.
-ContactLaw combine_surfaces(const Surface& a, const Surface& b, const PhysicsParams& params,
-                            double weight_n);
+/// A soft contact may always push with twice the weight of the lighter model, else it would sink
+/// for ever.
+ContactLaw combine_surfaces(const ContactSide& a, const ContactSide& b,
+                            const PhysicsParams& params);
 
 /// The contacts of one step.
 class ContactJoints {

@@ -78,6 +78,8 @@ void DynamicModel::set_mass(std::size_t index) {
   const BodyGroup& group = groups_.groups[index];
   dBodySetGravityMode(body(index), group.gravity_mass_kg == group.mass_kg ? 1 : 0);
   if (group.kinematic) return;
+  if (group.linear_decay > 0.0) dBodySetLinearDamping(body(index), group.linear_decay);
+  if (group.angular_decay > 0.0) dBodySetAngularDamping(body(index), group.angular_decay);
   const Eigen::Matrix3d& i = group.inertia_M;
   dMass mass;
   dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
@@ -208,6 +210,7 @@ void DynamicModel::turn_with_carriers(double step_s) {
     turns_[each.group] = turns_[each.carrier] * turn_of(relative, step_s);
     const Quaterniond now = to_quaternion(dBodyGetQuaternion(body(each.group)));
     const Quaterniond turned = turns_[each.group] * before * now;
+    if (!turned.coeffs().allFinite()) continue;  // who asks for the state says so
     const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
     dBodySetQuaternion(body(each.group), q);
   }

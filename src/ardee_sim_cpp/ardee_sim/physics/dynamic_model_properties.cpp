@@ -4,16 +4,13 @@
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/core/limits.h"
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/physics/dynamic_model.h"
 
 namespace ardee::physics {
 namespace {
 
 using Eigen::Vector3d;
-
-bool is_finite_input(double value) { return std::abs(value) <= limits::kStrongest; }
-
-bool is_positive_input(double value) { return value >= 0.0 && value <= limits::kStrongest; }
 
 /// What is wrong with an axis's numbers; empty if nothing.
 std::string fault_of(const JointProperties& properties) {
@@ -22,13 +19,15 @@ std::string fault_of(const JointProperties& properties) {
   if (!(properties.max_effort >= 0.0) || !(properties.max_velocity >= 0.0)) {
     return "found a negative limit of effort or velocity";
   }
-  if (!is_positive_input(spring.stiffness) || !is_positive_input(spring.damping) ||
-      !is_positive_input(properties.friction) || !is_finite_input(spring.reference)) {
+  using bounds::kJointCoefficient, bounds::kJointSoftness;
+  if (!kJointCoefficient.holds(spring.stiffness) || !kJointCoefficient.holds(spring.damping) ||
+      !kJointCoefficient.holds(properties.friction) ||
+      !bounds::kJointReference.holds(spring.reference)) {
     return "found a stiffness, damping, friction or reference that is negative, not finite or "
            "above 1e9";
   }
-  if (!is_finite_input(properties.stop_erp) || !is_finite_input(properties.stop_cfm) ||
-      !is_finite_input(properties.motor_cfm)) {
+  if (!kJointSoftness.holds(properties.stop_erp) || !kJointSoftness.holds(properties.stop_cfm) ||
+      !kJointSoftness.holds(properties.motor_cfm)) {
     return "found an ERP or CFM that is not finite or above 1e9";
   }
   return "";
@@ -130,7 +129,7 @@ const JointMotor& DynamicModel::joint_motor(std::size_t joint, std::size_t axis)
 }
 
 void DynamicModel::set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) {
-  if (!is_finite_input(motor.velocity) || !(motor.max_effort >= 0.0)) {
+  if (!(std::abs(motor.velocity) <= limits::kFastest) || !(motor.max_effort >= 0.0)) {
     throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
                 "': found a motor's velocity that is not finite or above 1e9, or an effort below "
                 "zero");

@@ -11,6 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSamePoint = 1e-6;  // m: two contacts nearer than this are one
+constexpr double kRidgeHeight = 1e-4;  // m: how far the ground must rise to touch between the rims
+constexpr double kPastEnd = 1e-9;      // share of an edge: rounding at its ends
 constexpr double kOnEnd =
     0.7;  // |cos| of a cylinder's axis to the vertical from which it stands on end
 constexpr int kRimPoints = 8;
@@ -88,7 +90,7 @@ bool cross_edge(const Circle& circle, const Vector3d& start, const Vector3d& end
   point = circle.center + std::cos(angle) * down + std::sin(angle) * along;
   const Vector3d edge = end - start;
   const double t = (point - start).head<2>().dot(edge.head<2>()) / edge.head<2>().squaredNorm();
-  if (t < 0.0 || t > 1.0) return false;
+  if (t < -kPastEnd || t > 1.0 + kPastEnd) return false;
   point.z() =
       (1.0 - t) * start.z() + t * end.z() - point.z();  // depth below the edge, for the caller
   return true;
@@ -228,8 +230,15 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
   const CircleContacts left = touch_circle(field, {X_FC.p - half, axis, cylinder.radius_m});
   const CircleContacts middle = touch_circle(field, {X_FC.p, axis, cylinder.radius_m});
   const CircleContacts right = touch_circle(field, {X_FC.p + half, axis, cylinder.radius_m});
-  for (const auto* circle : {&left, &right, &middle}) {
+  for (const auto* circle : {&left, &right}) {
     for (const GroundContact& contact : circle->contacts) add_contact(contact, contacts);
+  }
+  const auto ends = static_cast<double>(contacts.size());
+  for (const GroundContact& contact : middle.contacts) add_contact(contact, contacts);
+  const bool is_ridge = middle.deepest_m > 0.5 * (left.deepest_m + right.deepest_m) + kRidgeHeight;
+  if (is_ridge || ends == 0.0) return;
+  for (GroundContact& contact : contacts) {
+    contact.share = ends / static_cast<double>(contacts.size());
   }
 }
 

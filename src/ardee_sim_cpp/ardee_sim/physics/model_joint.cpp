@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/description/bounds.h"
 
 namespace ardee::physics {
 namespace {
@@ -13,7 +14,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kRightAngle = 1e-3;  // |cos| up to which two axes count as at right angles
-constexpr double kMaxNumber = 1e9;  // SI: beyond any robot's, and far from where sums overflow
 
 bool has_two_axes(JointType type) {
   return type == JointType::kUniversal || type == JointType::kRevolute2;
@@ -41,12 +41,12 @@ void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
   }
   const double numbers[] = {axis.damping, axis.friction, axis.spring_stiffness};
   for (const double number : numbers) {
-    if (number >= 0.0 && number <= kMaxNumber) continue;
+    if (bounds::kJointCoefficient.holds(number)) continue;
     what << "found damping, friction or stiffness " << number << ", expected one in [0, "
-         << kMaxNumber << "]";
+         << bounds::kJointCoefficient.high << "]";
     throw Error(joint.source, what.str());
   }
-  if (!(std::abs(axis.spring_reference) <= kMaxNumber) || !(axis.effort >= 0.0) ||
+  if (!bounds::kJointReference.holds(axis.spring_reference) || !(axis.effort >= 0.0) ||
       !(axis.velocity >= 0.0)) {
     throw Error(joint.source,
                 what.str() +

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "ardee_sim/physics/height_field_contacts.h"
 
@@ -10,6 +11,7 @@ namespace ardee::physics {
 namespace {
 
 constexpr int kMaxPoints = 64;
+constexpr int kLeastOfCylinder = 3;   // two ends and the middle
 constexpr double kLying = 0.1;        // |cos| of a cylinder's axis to a contact's normal
 constexpr double kSameNormal = 0.99;  // cos between two contacts of one flat ground
 constexpr double kLeastWidth = 1e-4;  // m: two contacts nearer than this are one
@@ -20,12 +22,16 @@ Pose geom_pose(dGeomID geom) {
   return {to_vector(dGeomGetPosition(geom)), to_quaternion(q)};
 }
 
-void keep_nearest(const Eigen::Vector3d& center, GroundContacts& contacts) {
+/// The middle of a lying cylinder stands for its ends where few contacts are wanted.
+void keep_nearest(const Eigen::Vector3d& center, int max_contacts, GroundContacts& contacts) {
   const auto nearest = std::min_element(
       contacts.begin(), contacts.end(), [&center](const GroundContact& a, const GroundContact& b) {
         return (a.position - center).squaredNorm() < (b.position - center).squaredNorm();
       });
-  if (nearest != contacts.end()) contacts = {*nearest};
+  if (nearest == contacts.end()) return;
+  const double share = std::min<double>(max_contacts, static_cast<double>(contacts.size()));
+  contacts = {*nearest};
+  contacts.front().share = share;
 }
 
 /// Works in the field's own frame and unscaled metres: the shape is shrunk by the field's scale
@@ -44,7 +50,7 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.collision->geometry)) {
     const Cylinder scaled{scale * cylinder->radius_m, scale * cylinder->length_m};
     collide_cylinder(field, X_FS, scaled, contacts);
-    if (max_contacts == 1) keep_nearest(X_FS.p, contacts);  // the middle, not an end
+    if (max_contacts < kLeastOfCylinder) keep_nearest(X_FS.p, max_contacts, contacts);
   } else if (const auto* box = std::get_if<Box>(&shape.collision->geometry)) {
     collide_box(field, X_FS, {scale * box->size_m}, contacts);
   } else if (shape.mesh) {
@@ -54,7 +60,8 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
   reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
   for (const GroundContact& contact : contacts) {
     points.push_back({ground.X_WS * (ground.scale * contact.position),
-                      ground.X_WS.q * contact.normal, ground.scale * contact.depth_m});
+                      ground.X_WS.q * contact.normal, ground.scale * contact.depth_m,
+                      contact.share});
   }
 }
 
@@ -72,36 +79,44 @@ bool is_cylinder(const CollisionShape& shape) {
   return std::holds_alternative<Cylinder>(shape.collision->geometry);
 }
 
-/// Two ends of a lying cylinder that touch do not say where it rolls: the solver may give either of
-/// them all of the load. A third contact between them, put first, is where a wheel as wide as it is
-/// rolls.
-void add_middle(const CollisionShape& cylinder, std::vector<ContactPoint>& points) {
+/// Where two ends of a lying cylinder touch, or nothing if it does not lie.
+std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
+                                      const std::vector<ContactPoint>& points) {
   const Pose X_WS = geom_pose(cylinder.geom.get());
   const Eigen::Vector3d axis = X_WS.q * Eigen::Vector3d::UnitZ();
   const ContactPoint *low = nullptr, *high = nullptr;
   double low_m = 0.0, high_m = 0.0;
   for (const ContactPoint& point : points) {
-    if (std::abs(point.normal.dot(axis)) > kLying) return;
+    if (std::abs(point.normal.dot(axis)) > kLying) return std::nullopt;
     const double along_m = axis.dot(point.position - X_WS.p);
     if (!low || along_m < low_m) low = &point, low_m = along_m;
     if (!high || along_m > high_m) high = &point, high_m = along_m;
   }
-  if (!low || high_m - low_m < kLeastWidth) return;
-  if (low->normal.dot(high->normal) < kSameNormal) return;
-  const ContactPoint middle{0.5 * (low->position + high->position),
-                            (low->normal + high->normal).normalized(),
-                            0.5 * (low->depth_m + high->depth_m)};
-  points.insert(points.begin(), middle);
+  if (!low || high_m - low_m < kLeastWidth) return std::nullopt;
+  if (low->normal.dot(high->normal) < kSameNormal) return std::nullopt;
+  return ContactPoint{0.5 * (low->position + high->position),
+                      (low->normal + high->normal).normalized(),
+                      0.5 * (low->depth_m + high->depth_m)};
 }
 
+/// Two ends of a lying cylinder that touch do not say where it rolls: the solver may give either of
+/// them all of the load. A third contact between them is where a wheel as wide as it is rolls; where
+/// fewer are wanted it stands for all. Together they are as stiff as they are without it.
 void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b, int max_contacts,
                             std::vector<ContactPoint>& points) {
-  constexpr int kLeast = 4;  // ends and what else there is, whatever number is wanted
-  collide_geoms(a, b, std::max(max_contacts, kLeast), points);
-  add_middle(cylinder, points);
-  if (points.size() > static_cast<std::size_t>(max_contacts)) {
-    points.resize(static_cast<std::size_t>(max_contacts));
+  collide_geoms(a, b, std::max(max_contacts, kLeastOfCylinder), points);
+  const auto most = static_cast<std::size_t>(max_contacts);
+  auto middle = middle_of(cylinder, points);
+  if (middle && max_contacts < kLeastOfCylinder) {
+    middle->share = std::min<double>(max_contacts, static_cast<double>(points.size()));
+    points.assign(1, *middle);
+    return;
   }
+  if (points.size() > most) points.resize(most);
+  if (!middle) return;
+  const auto count = static_cast<double>(points.size());
+  points.push_back(*middle);
+  for (ContactPoint& point : points) point.share = count / (count + 1.0);
 }
 
 }  // namespace

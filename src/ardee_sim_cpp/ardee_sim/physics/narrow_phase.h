@@ -13,6 +13,7 @@ struct ContactPoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
   double depth_m = 0.0;
+  double share = 1.0;  // of the surfaces' stiffness
 };
 
 /// Finds at most `max_contacts` points where `a`, which moves, overlaps `b`.

@@ -2,8 +2,10 @@
 #include "ardee_sim/physics/physics_world.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/physics/contact_finder.h"
 #include "ardee_sim/physics/contact_joints.h"
 #include "ardee_sim/physics/dynamic_model.h"
@@ -17,14 +19,28 @@ namespace {
 using physics::DynamicModel;
 
 void check_params(const PhysicsParams& params) {
-  const bool valid =
-      params.step_s >= 1e-6 && params.step_s <= 1.0 && params.gravity_m_per_s2.norm() < 1e6 &&
-      params.iterations > 0 && params.sor > 0.0 && params.sor < 2.0 && params.cfm >= 0.0 &&
-      params.cfm <= 1e6 && params.erp >= 0.0 && params.erp <= 1.0 && params.max_contacts >= 0;
-  if (!valid) {
-    throw Error(
-        "physics: found a step, iteration count, SOR, CFM, ERP or gravity out of range, "
-        "expected 1e-6 <= step <= 1, iterations > 0, 0 < sor < 2, cfm >= 0, 0 <= erp <= 1");
+  const struct {
+    const char* name;
+    double value;
+    bounds::Range range;
+  } numbers[] = {
+      {"a step of", params.step_s, bounds::kStep_s},
+      {"iterations", static_cast<double>(params.iterations), bounds::kIterations},
+      {"SOR", params.sor, bounds::kRelaxation},
+      {"CFM", params.cfm, bounds::kCfm},
+      {"ERP", params.erp, bounds::kErp},
+      {"a greatest correcting velocity of", params.max_correcting_velocity_m_per_s,
+       bounds::kCorrectingVelocity},
+      {"a contact surface layer of", params.contact_surface_layer_m, bounds::kSurfaceLayer_m}};
+  for (const auto& number : numbers) {
+    if (number.range.holds(number.value)) continue;
+    std::ostringstream what;
+    what << "physics: found " << number.name << " " << number.value << ", expected one in ["
+         << number.range.low << ", " << number.range.high << "]";
+    throw Error(what.str());
+  }
+  if (!(params.gravity_m_per_s2.norm() < 1e6) || params.max_contacts < 0) {
+    throw Error("physics: found gravity of 1e6 m/s^2 or more, or a negative number of contacts");
   }
 }
 

@@ -31,14 +31,17 @@ std::uint64_t cell_key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
-bool fits_cells(const Eigen::AlignedBox3f& box) {
-  if (!(box.min().head<2>().minCoeff() > -kMaxCoordinate)) return false;
-  if (!(box.max().head<2>().maxCoeff() < kMaxCoordinate)) return false;
+/// How many cells a box meets; infinitely many if it reaches beyond where cells are counted.
+double count_cells(const Eigen::AlignedBox3f& box) {
+  const bool counted = box.min().head<2>().minCoeff() > -kMaxCoordinate &&
+                       box.max().head<2>().maxCoeff() < kMaxCoordinate;
+  if (!counted) return std::numeric_limits<double>::infinity();
   const Cells cells = cells_of(box);
   return (static_cast<double>(cells.last_x) - cells.first_x + 1.0) *
-             (static_cast<double>(cells.last_y) - cells.first_y + 1.0) <=
-         kMaxCells;
+         (static_cast<double>(cells.last_y) - cells.first_y + 1.0);
 }
+
+bool fits_cells(const Eigen::AlignedBox3f& box) { return count_cells(box) <= kMaxCells; }
 
 /// The box in floats, never smaller.
 Eigen::AlignedBox3f round_outwards(const Eigen::AlignedBox3d& box) {
@@ -189,15 +192,24 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
   return active_.emplace(reference, std::move(active)).first->second.shape;
 }
 
+bool SceneryIndex::is_small(const Eigen::AlignedBox3d& box) {
+  return fits_cells(round_outwards(box));
+}
+
 void SceneryIndex::query(const Eigen::AlignedBox3d& box,
                          std::vector<const CollisionShape*>& shapes) {
   const Eigen::AlignedBox3f bounds = round_outwards(box);
   hits_.clear();
   gather(everywhere_, bounds);
-  for_each_cell(bounds, [&](std::uint64_t key) {
-    const auto cell = cells_.find(key);
-    if (cell != cells_.end()) gather(cell->second, bounds);
-  });
+  if (count_cells(bounds) <= static_cast<double>(cells_.size())) {
+    for_each_cell(bounds, [&](std::uint64_t key) {
+      const auto cell = cells_.find(key);
+      if (cell != cells_.end()) gather(cell->second, bounds);
+    });
+  } else {
+    // Fewer cells hold something than lie under the box.
+    for (const auto& cell : cells_) gather(cell.second, bounds);
+  }
   std::sort(hits_.begin(), hits_.end(),
             [this](Reference one, Reference other) { return comes_before(one, other); });
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());

@@ -31,6 +31,9 @@ class SceneryIndex {
   /// they were added. They stay until the next begin_step.
   void query(const Eigen::AlignedBox3d& box, std::vector<const CollisionShape*>& shapes);
 
+  /// Whether a box lies over few cells.
+  static bool is_small(const Eigen::AlignedBox3d& box);
+
   /// Bounds compared by the queries of this step, and shapes alive: what a step costs.
   std::size_t tested() const { return tested_; }
   std::size_t built() const { return active_.size(); }

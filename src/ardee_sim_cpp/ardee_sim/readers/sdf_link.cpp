@@ -2,8 +2,9 @@
 #include "ardee_sim/readers/sdf_link.h"
 
 #include <cmath>
-#include <limits>
+#include <string>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/readers/sdf_geometry.h"
 #include "ardee_sim/readers/sdf_material.h"
@@ -12,7 +13,6 @@ namespace ardee {
 namespace {
 
 constexpr int kMaxContacts = 100000;
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// "nan" is a number here, which what never moves may have.
 double read_inertia(const Node& element, const char* name, double fallback) {
@@ -41,14 +41,39 @@ Inertial read_inertial(const Node& link, const SdfFrames& frames, const std::str
   return made;
 }
 
+double read(const Node& node, const char* path, double fallback, const bounds::Range& range) {
+  return node.number(path, fallback, range.low, range.high);
+}
+
+/// A mask in decimal, or in hexadecimal after 0x.
+std::uint32_t read_mask(const Node& contact, const char* name, std::uint32_t fallback) {
+  const std::string text = contact.text(name, "");
+  if (text.empty()) return fallback;
+  std::size_t read = 0;
+  unsigned long value = 0;
+  try {
+    value = std::stoul(text, &read, text.compare(0, 2, "0x") == 0 ? 16 : 10);
+  } catch (const std::exception&) {
+    read = 0;
+  }
+  constexpr unsigned long kLargest = 0xFFFFFFFF;
+  if (read == text.size() && text[0] != '-' && value <= kLargest) {
+    return static_cast<std::uint32_t>(value);
+  }
+  throw contact.required(name).error("found '" + text +
+                                     "', expected a whole number of 32 bits, or 0x and one");
+}
+
 void read_contact(const Node& contact, Surface& surface) {
-  surface.kp_n_per_m = contact.number("ode/kp", surface.kp_n_per_m, 0.0, kUnlimited);
-  surface.kd_n_s_per_m = contact.number("ode/kd", surface.kd_n_s_per_m, 0.0, kUnlimited);
-  surface.soft_cfm = contact.number("ode/soft_cfm", surface.soft_cfm, 0.0);
-  surface.soft_erp = contact.number("ode/soft_erp", surface.soft_erp, 0.0);
-  surface.max_correcting_velocity_m_per_s =
-      contact.number("ode/max_vel", surface.max_correcting_velocity_m_per_s, -1.0);
-  surface.min_depth_m = contact.number("ode/min_depth", surface.min_depth_m);
+  surface.kp_n_per_m = read(contact, "ode/kp", surface.kp_n_per_m, bounds::kStiffness);
+  surface.kd_n_s_per_m = read(contact, "ode/kd", surface.kd_n_s_per_m, bounds::kDamping);
+  surface.max_correcting_velocity_m_per_s = read(
+      contact, "ode/max_vel", surface.max_correcting_velocity_m_per_s, bounds::kMaxVelocity);
+  surface.min_depth_m = read(contact, "ode/min_depth", surface.min_depth_m, bounds::kMinDepth);
+  surface.collide_without_contact =
+      contact.boolean("collide_without_contact", surface.collide_without_contact);
+  surface.collide_bitmask = read_mask(contact, "collide_bitmask", surface.collide_bitmask);
+  surface.category_bitmask = read_mask(contact, "category_bitmask", surface.collide_bitmask);
 }
 
 Collision read_collision(const Node& node, const Pose& X_LC, Geometry geometry) {
@@ -81,15 +106,24 @@ Surface read_sdf_surface(const Node& collision, Surface made) {
   made.max_contacts = collision.integer("max_contacts", made.max_contacts, 0, kMaxContacts);
   const auto surface = collision.child("surface");
   if (!surface) return made;
-  made.mu = surface->number("friction/ode/mu", made.mu, 0.0, kUnlimited);
-  made.mu2 = surface->number("friction/ode/mu2", made.mu2, 0.0, kUnlimited);
+  made.mu = read(*surface, "friction/ode/mu", made.mu, bounds::kFriction);
+  made.mu2 = read(*surface, "friction/ode/mu2", made.mu2, bounds::kFriction);
   made.fdir1 = surface->vector3("friction/ode/fdir1", made.fdir1);
-  made.slip1 = surface->number("friction/ode/slip1", made.slip1, 0.0);
-  made.slip2 = surface->number("friction/ode/slip2", made.slip2, 0.0);
+  made.slip1 = read(*surface, "friction/ode/slip1", made.slip1, bounds::kSlip);
+  made.slip2 = read(*surface, "friction/ode/slip2", made.slip2, bounds::kSlip);
+  made.torsional_mu =
+      read(*surface, "friction/torsional/coefficient", made.torsional_mu, bounds::kFriction);
+  made.use_patch_radius =
+      surface->boolean("friction/torsional/use_patch_radius", made.use_patch_radius);
+  made.patch_radius_m =
+      read(*surface, "friction/torsional/patch_radius", made.patch_radius_m, bounds::kRadius_m);
+  made.surface_radius_m = read(*surface, "friction/torsional/surface_radius",
+                               made.surface_radius_m, bounds::kRadius_m);
   if (const auto contact = surface->child("contact")) read_contact(*contact, made);
-  made.restitution = surface->number("bounce/restitution_coefficient", made.restitution, 0.0, 1.0);
-  made.bounce_threshold_m_per_s =
-      surface->number("bounce/threshold", made.bounce_threshold_m_per_s, 0.0, kUnlimited);
+  made.restitution =
+      read(*surface, "bounce/restitution_coefficient", made.restitution, bounds::kRestitution);
+  made.bounce_threshold_m_per_s = read(*surface, "bounce/threshold", made.bounce_threshold_m_per_s,
+                                       bounds::kBounceThreshold);
   return made;
 }
 
@@ -138,8 +172,8 @@ Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets) {
   made.gravity = link.boolean("gravity", true);
   made.kinematic = link.boolean("kinematic", false);
   made.self_collide = link.boolean("self_collide", false);
-  made.linear_decay = link.number("velocity_decay/linear", 0.0, 0.0, 1.0);
-  made.angular_decay = link.number("velocity_decay/angular", 0.0, 0.0, 1.0);
+  made.linear_decay = read(link, "velocity_decay/linear", 0.0, bounds::kDecay);
+  made.angular_decay = read(link, "velocity_decay/angular", 0.0, bounds::kDecay);
   return made;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/sdf_scene.h"
 
+#include "ardee_sim/description/bounds.h"
+
 namespace ardee {
 namespace {
 
@@ -28,15 +30,20 @@ PhysicsParams::Solver solver_type(const Node& physics) {
 
 void read_ode(const Node& physics, PhysicsParams& made) {
   made.solver = solver_type(physics);
-  made.iterations = physics.integer("ode/solver/iters", made.iterations, 1, 100000);
-  made.sor = physics.number("ode/solver/sor", made.sor, 1e-6, 2.0);
-  made.cfm = physics.number("ode/constraints/cfm", made.cfm, 0.0);
-  made.erp = physics.number("ode/constraints/erp", made.erp, 0.0, 1.0);
+  const auto read = [&physics](const char* path, double fallback, const bounds::Range& range) {
+    return physics.number(path, fallback, range.low, range.high);
+  };
+  made.iterations = physics.integer("ode/solver/iters", made.iterations,
+                                    static_cast<int>(bounds::kIterations.low),
+                                    static_cast<int>(bounds::kIterations.high));
+  made.sor = read("ode/solver/sor", made.sor, bounds::kRelaxation);
+  made.cfm = read("ode/constraints/cfm", made.cfm, bounds::kCfm);
+  made.erp = read("ode/constraints/erp", made.erp, bounds::kErp);
   made.max_correcting_velocity_m_per_s =
-      physics.number("ode/constraints/contact_max_correcting_vel",
-                     made.max_correcting_velocity_m_per_s, 0.0, 1e12);
-  made.contact_surface_layer_m =
-      physics.number("ode/constraints/contact_surface_layer", made.contact_surface_layer_m, 0.0);
+      read("ode/constraints/contact_max_correcting_vel", made.max_correcting_velocity_m_per_s,
+           bounds::kCorrectingVelocity);
+  made.contact_surface_layer_m = read("ode/constraints/contact_surface_layer",
+                                      made.contact_surface_layer_m, bounds::kSurfaceLayer_m);
 }
 
 /// Steps per second of wall time, 0: as fast as the machine can. Gazebo heeds
@@ -54,7 +61,6 @@ double read_update_rate(const Node& physics, double step_s) {
 }  // namespace
 
 PhysicsParams read_sdf_physics(const Node& world, Log& log) {
-  constexpr double kSmallestStep_s = 1e-6;
   PhysicsParams made;
   if (const auto physics = choose_physics(world)) {
     const std::string type = physics->attribute("type", "ode");
@@ -62,8 +68,8 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
       log.warn(physics->source().to_string() + ": found type '" + type + "', ode is used");
     }
     // SDF 1.2 and 1.3 said <ode><solver><dt> and <update_rate>.
-    const double old_step = physics->number("ode/solver/dt", made.step_s, kSmallestStep_s, 1.0);
-    made.step_s = physics->number("max_step_size", old_step, kSmallestStep_s, 1.0);
+    const double old_step = physics->number("ode/solver/dt", made.step_s, bounds::kStep_s.low, bounds::kStep_s.high);
+    made.step_s = physics->number("max_step_size", old_step, bounds::kStep_s.low, bounds::kStep_s.high);
     made.real_time_update_rate_hz = read_update_rate(*physics, made.step_s);
     made.max_contacts = physics->integer("max_contacts", made.max_contacts, 1, 1000000);
     made.gravity_m_per_s2 = physics->vector3("gravity", made.gravity_m_per_s2);

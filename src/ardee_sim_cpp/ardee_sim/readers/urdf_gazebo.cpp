@@ -2,10 +2,10 @@
 #include "ardee_sim/readers/urdf_gazebo.h"
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <unordered_map>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
@@ -14,7 +14,9 @@
 namespace ardee {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+double read(const Node& node, const bounds::Range& range) {
+  return node.to_number(range.low, range.high);
+}
 
 void each_surface(Link& link, const std::function<void(Surface&)>& change) {
   for (Collision& collision : link.collisions) change(collision.surface);
@@ -25,17 +27,19 @@ using SurfaceRule = std::function<void(const Node&, Surface&)>;
 const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   static const std::map<std::string, SurfaceRule, std::less<>> rules = [] {
     std::map<std::string, SurfaceRule, std::less<>> made;
-    made["mu1"] = [](const Node& n, Surface& s) { s.mu = n.to_number(0.0, kUnlimited); };
-    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = n.to_number(0.0, kUnlimited); };
+    made["mu1"] = [](const Node& n, Surface& s) { s.mu = read(n, bounds::kFriction); };
+    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = read(n, bounds::kFriction); };
     made["fdir1"] = [](const Node& n, Surface& s) { s.fdir1 = n.to_vector3(); };
     made["frictionCone"] = [](const Node& n, Surface& s) { s.friction_cone = n.to_boolean(); };
-    made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = n.to_number(0.0); };
-    made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = n.to_number(0.0); };
-    made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kUnlimited); };
-    made["kd"] = [](const Node& n, Surface& s) { s.kd_n_s_per_m = n.to_number(0.0, kUnlimited); };
-    made["minDepth"] = [](const Node& n, Surface& s) { s.min_depth_m = n.to_number(); };
+    made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = read(n, bounds::kSlip); };
+    made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = read(n, bounds::kSlip); };
+    made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = read(n, bounds::kStiffness); };
+    made["kd"] = [](const Node& n, Surface& s) { s.kd_n_s_per_m = read(n, bounds::kDamping); };
+    made["minDepth"] = [](const Node& n, Surface& s) {
+      s.min_depth_m = read(n, bounds::kMinDepth);
+    };
     made["maxVel"] = [](const Node& n, Surface& s) {
-      s.max_correcting_velocity_m_per_s = n.to_number(-1.0);
+      s.max_correcting_velocity_m_per_s = read(n, bounds::kMaxVelocity);
     };
     made["maxContacts"] = [](const Node& n, Surface& s) {
       s.max_contacts = n.to_integer(0, 100000);
@@ -98,7 +102,7 @@ void apply_to_link(const Node& node, Link& link, Assets& assets) {
   } else if (name == "kinematic") {
     link.kinematic = node.to_boolean();
   } else if (name == "dampingFactor") {
-    link.linear_decay = link.angular_decay = node.to_number(0.0, 1.0);
+    link.linear_decay = link.angular_decay = read(node, bounds::kDecay);
   } else if (name == "velocity_decay") {
     link.linear_decay = node.number("linear", link.linear_decay, 0.0, 1.0);
     link.angular_decay = node.number("angular", link.angular_decay, 0.0, 1.0);

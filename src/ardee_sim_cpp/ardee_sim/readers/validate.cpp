@@ -23,39 +23,40 @@ std::string comma_list(const Eigen::Vector3d& v) {
   return text.str();
 }
 
-/// Says that a link has no mass or inertia of its own, which one fixed to another can do without:
-/// a frame, a point mass.
-void lacks_inertia(const Link& link, bool is_fixed, const std::string& what, Log& log) {
-  if (!is_fixed) throw Error(link.source, what);
-  log.warn(link.source.to_string() + ": " + what + "; it moves with the link that it is fixed to");
+/// A link that is fixed to another can do without a mass of its own: a frame.
+void check_mass(const Link& link, bool is_fixed, Log& log) {
+  const double mass_kg = link.inertial->mass_kg;
+  if (mass_kg > 0.0) return;
+  std::ostringstream what;
+  what << "found mass " << mass_kg << " kg of link '" << link.name << "', expected a positive one";
+  if (!is_fixed || mass_kg != 0.0) throw Error(link.source, what.str());
+  log.warn(link.source, what.str() + "; it moves with the link that it is fixed to");
 }
 
-void check_inertial(const Link& link, bool is_fixed, Log& log) {
-  const Inertial& inertial = *link.inertial;
+/// What no body has is taken with a warning, as in Gazebo: the physics sums the inertias of links
+/// that are fixed to each other, and takes the nearest possible one where even the sum is none.
+void check_inertia(const Link& link, bool is_fixed, Log& log) {
+  const Eigen::Matrix3d& inertia = link.inertial->inertia_kg_m2;
   const std::string of = " of link '" + link.name + "'";
-  if (!(inertial.mass_kg > 0.0)) {
-    std::ostringstream what;
-    what << "found mass " << inertial.mass_kg << " kg" << of << ", expected a positive one";
-    lacks_inertia(link, is_fixed && inertial.mass_kg == 0.0, what.str(), log);
+  if (!inertia.allFinite()) {
+    throw Error(link.source, "found an inertia" + of + " that is not finite, expected one that is");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertial.inertia_kg_m2,
-                                                              Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia, Eigen::EigenvaluesOnly);
   const Eigen::Vector3d& moments = solver.eigenvalues();  // ascending
-  if (!(moments[0] > 0.0)) {
-    std::ostringstream what;
-    what << "found an inertia" << of << " with principal moments " << comma_list(moments)
-         << " kg m^2, expected three positive ones";
-    lacks_inertia(link, is_fixed && moments[0] == 0.0, what.str(), log);
-    return;
+  constexpr double kSlack = 1.001;                        // rounding of hand-written files
+  const bool is_positive = moments[0] > 0.0;
+  if (is_positive && kSlack * (moments[0] + moments[1]) >= moments[2]) return;
+  std::ostringstream what;
+  what << "found an inertia" << of << " with principal moments " << comma_list(moments)
+       << " kg m^2, which no body has";
+  if (is_positive) {
+    what << " (the largest exceeds the others' sum)";
+  } else if (is_fixed) {
+    what << ": it counts as a part of the body that the link is fixed to";
+  } else {
+    what << ": the nearest possible one is taken";
   }
-  constexpr double kSlack = 1.001;  // rounding of hand-written files
-  if (kSlack * (moments[0] + moments[1]) < moments[2]) {
-    std::ostringstream what;
-    what << link.source.to_string() << ": found an inertia" << of << " with principal moments "
-         << comma_list(moments)
-         << " kg m^2, which no body has (the largest exceeds the others' sum)";
-    log.warn(what.str());
-  }
+  log.warn(link.source, what.str());
 }
 
 template <typename Item>
@@ -100,8 +101,10 @@ void validate_model(const Model& model, Log& log) {
   std::set<std::string> links;
   for (const Link& link : model.links) {
     links.insert(link.name);
-    if (!link.inertial || model.is_static) continue;
-    check_inertial(link, fixed.count(link.name) != 0, log);
+    // What no force moves may have any.
+    if (!link.inertial || model.is_static || link.kinematic) continue;
+    check_mass(link, fixed.count(link.name) != 0, log);
+    check_inertia(link, fixed.count(link.name) != 0, log);
   }
   for (const Joint& joint : model.joints) check_joint(joint, links, model);
 }

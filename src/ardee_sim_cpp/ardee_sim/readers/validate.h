@@ -10,8 +10,8 @@ namespace ardee {
 
 /// Checks what holds between the parts of a model: names that are unique and not empty, joints
 /// between links that exist, masses and inertias that a body can have. Throws Error at the link or
-/// joint concerned; an inertia against the triangle inequality is a warning. Static models need no
-/// inertia, URDF's massless links none.
+/// joint concerned; an inertia that no body has is a warning. What no force moves may have any
+/// inertia, URDF's massless links need none.
 void validate_model(const Model& model, Log& log);
 
 /// For messages: what was found and which links there are.

@@ -23,7 +23,17 @@ void Wrenches::add(const Wrench& wrench) {
         "found a wrench with a number that is not finite or beyond 1e9 N, 1e9 N m or 1e6 m from "
         "the body, expected less");
   }
-  wrenches_.push_back(wrench);
+  // As in Gazebo, force and torque are made once: the point does not turn with the body.
+  const Pose X_WL = wrench.robot->link_pose(wrench.link);
+  const auto& inertial = wrench.robot->dynamics().link_properties(wrench.link).inertial;
+  const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d(0, 0, 0);
+  Wrench fixed = wrench;
+  fixed.torque_W += (X_WL.q * (wrench.point_L - center_L)).cross(wrench.force_W);
+  fixed.point_L = center_L;
+  if (!is_within(fixed.torque_W, kStrongest)) {
+    throw Error("found a wrench whose torque about the centre of mass is beyond 1e9 N m");
+  }
+  wrenches_.push_back(fixed);
 }
 
 void Wrenches::clear(const Robot& robot, std::size_t link) {

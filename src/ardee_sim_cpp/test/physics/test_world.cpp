@@ -147,9 +147,9 @@ TEST(PhysicsWorld, FailedModelLeavesNothingBehind) {
   auto massless = box_model(0.0, {0.1, 0.1, 0.1});
   EXPECT_NE(error_of([&] { world.add_model(massless, at(0, 0, 0.05)); }).find("link 'box'"),
             std::string::npos);
-  auto flat = box_model(1.0, {0.1, 0.1, 0.1});
-  flat->links[0].inertial->inertia_kg_m2(2, 2) = 0.0;
-  EXPECT_NE(error_of([&] { world.add_model(flat, at(0, 0, 0.05)); }).find("principal moments"),
+  auto huge = box_model(1.0, {0.1, 0.1, 0.1});
+  huge->links[0].inertial->inertia_kg_m2 *= 1e30;
+  EXPECT_NE(error_of([&] { world.add_model(huge, at(0, 0, 0.05)); }).find("principal moments"),
             std::string::npos);
   auto rover = rover_model();
   rover->joints.back().child = "nothing";
@@ -257,6 +257,73 @@ TEST(PhysicsWorld, FixedLinksMoveAsOneAndKeepTheirFrames) {
   world.step();
   EXPECT_LT(body.link_twist(0).angular.norm(), 1e-12);
   EXPECT_NEAR(body.link_twist(0).linear.y(), 10.0 * 0.001, 1e-12);
+}
+
+TEST(PhysicsWorld, AnImpossibleInertiaIsTheNearestPossibleOne) {
+  // A body with the second moments of mass p has the principal moments p_j + p_k; what is less than
+  // that of a ball of water of its mass becomes that.
+  const double a = 0.02;
+  const double ball = 0.2 * std::pow(1.0 / (4.0 / 3.0 * M_PI * 1000.0), 2.0 / 3.0);
+  for (const auto& [given, expected] :
+       {std::pair(Eigen::Vector3d(a, a, 0), Eigen::Vector3d(a + ball, a + ball, 2 * ball)),
+        std::pair(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2 * ball, 2 * ball, 2 * ball)),
+        std::pair(Eigen::Vector3d(-a, a, 2 * a),
+                  Eigen::Vector3d(2 * ball, 2 * a + ball, 2 * a + ball))}) {
+    auto flat = box_model(1.0, {0.1, 0.1, 0.1});
+    flat->links[0].inertial->inertia_kg_m2 = given.asDiagonal();
+    PhysicsWorld world(weightless(0.001), silent());
+    PhysicsModel& body = world.add_model(flat, Pose{});
+    for (int i = 0; i < 3; ++i) {
+      body.set_twist({});
+      body.set_pose(Pose{});
+      body.apply_wrench(0, {0, 0, 0}, {0, 0, 0}, 1e-3 * Eigen::Vector3d::Unit(i));
+      world.step();
+      const double moment = 1e-3 * 0.001 / body.link_twist(0).angular[i];
+      EXPECT_NEAR(moment, expected[i], 1e-6) << given.transpose() << ", axis " << i;
+    }
+  }
+}
+
+TEST(PhysicsWorld, AnImpossibleInertiaCountsInTheSumOfWhatItIsFixedTo) {
+  auto description = box_model(4.0, {0.3, 0.3, 0.1});
+  description->links[0].inertial->inertia_kg_m2 = 0.05 * Eigen::Matrix3d::Identity();
+  Link lid = link("lid", box_inertial(2.0, {0.1, 0.1, 0.1}));
+  lid.inertial->inertia_kg_m2 << 0.02, 0.02, 0, 0.02, 0.02, 0.02, 0, 0.02, 0.02;
+  description->links.push_back(lid);
+  Joint joint;
+  joint.name = "screwed";
+  joint.parent = "box";
+  joint.child = "lid";
+  description->joints.push_back(joint);
+  PhysicsWorld world(weightless(0.001), silent());
+  PhysicsModel& body = world.add_model(description, Pose{});
+  body.apply_wrench(0, {0, 0, 0}, {0, 0, 0}, {1, 0, 0});
+  world.step();
+  Eigen::Matrix3d sum = lid.inertial->inertia_kg_m2 + 0.05 * Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d expected = 0.001 * sum.inverse() * Eigen::Vector3d(1, 0, 0);
+  EXPECT_LT((body.link_twist(0).angular - expected).norm(), 1e-6);
+}
+
+TEST(PhysicsWorld, LinksFarApartAndWideFloorsCostNoMoreThanWhatIsThere) {
+  PhysicsWorld world(weightless(0.001), silent());
+  std::vector<Placement> posts;
+  const auto post = static_model(Box{{0.1, 0.1, 1}});
+  for (int i = 0; i < 2000; ++i) posts.push_back(placement(post, at(3.0 * i, 3.0 * i, 5)));
+  world.add_scenery(posts);
+  auto pair = box_model(1, {0.2, 0.2, 0.2});
+  Link far = pair->links[0];
+  far.name = "far";
+  far.X_ML.p = {20e3, 20e3, 0};
+  pair->links.push_back(far);
+  world.add_model(pair, Pose{});
+  world.step();
+  EXPECT_LT(world.stats().scenery_tested, 10u) << "what lies between the links is not looked at";
+  PhysicsWorld wide(weightless(0.001), silent());
+  wide.add_scenery(posts);
+  wide.add_model(box_model(1e6, {1e5, 1e5, 0.1}), Pose{});
+  wide.step();  // 10^10 cells, of which 2,000 hold something
+  EXPECT_LE(wide.stats().scenery_tested, 4u * 2000u);
+  EXPECT_EQ(wide.stats().scenery_built, 0u);
 }
 
 TEST(PhysicsWorld, GravityAndKinematicArePerLink) {

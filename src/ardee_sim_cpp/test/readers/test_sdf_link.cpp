@@ -49,8 +49,8 @@ TEST_F(SdfLink, ReadsSurfaces) {
       <geometry><box><size>1 2 3</size></box></geometry>
       <surface>
         <friction><ode><mu>0.7</mu><mu2>0.6</mu2><fdir1>0 1 0</fdir1><slip1>0.1</slip1><slip2>0.2</slip2></ode></friction>
-        <contact><ode><kp>1e5</kp><kd>1e4</kd><max_vel>0.5</max_vel><min_depth>0.002</min_depth>
-          <soft_cfm>0.01</soft_cfm><soft_erp>0.3</soft_erp></ode></contact>
+        <contact><ode><kp>1e5</kp><kd>1e4</kd><max_vel>0.5</max_vel><min_depth>0.002</min_depth></ode>
+          <collide_bitmask>0x0a</collide_bitmask><category_bitmask>3</category_bitmask></contact>
         <bounce><restitution_coefficient>0.9</restitution_coefficient><threshold>2</threshold></bounce>
       </surface></collision></link>)");
   const Collision& c = m->links.at(0).collisions.at(0);
@@ -68,11 +68,29 @@ TEST_F(SdfLink, ReadsSurfaces) {
   EXPECT_EQ(s.kd_n_s_per_m, 1e4);
   EXPECT_EQ(s.max_correcting_velocity_m_per_s, 0.5);
   EXPECT_EQ(s.min_depth_m, 0.002);
-  EXPECT_EQ(s.soft_cfm, 0.01);
-  EXPECT_EQ(s.soft_erp, 0.3);
+  EXPECT_EQ(s.collide_bitmask, 10u);
+  EXPECT_EQ(s.category_bitmask, 3u);
   EXPECT_EQ(s.restitution, 0.9);
   EXPECT_EQ(s.bounce_threshold_m_per_s, 2.0);
   EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(SdfLink, ReadsMasksInDecimalAndHexadecimalAndNothingElse) {
+  const auto surface = [this](const std::string& mask) {
+    return model("<link name='a'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+                 "</geometry><surface><contact><collide_bitmask>" +
+                 mask + "</collide_bitmask></contact></surface></collision></link>")
+        ->links.at(0)
+        .collisions.at(0)
+        .surface;
+  };
+  EXPECT_EQ(surface("0xFFFF").collide_bitmask, 0xFFFFu);
+  EXPECT_EQ(surface("0x02").category_bitmask, 2u) << "as the mask, unless it is given";
+  EXPECT_EQ(surface("12").collide_bitmask, 12u);
+  for (const std::string bad : {"-1", "0x", "x", "1.5", "0x100000000", "12 3"}) {
+    EXPECT_HAS(error_of([&] { surface(bad); }),
+               "<collide_bitmask>: found '" + bad + "', expected a whole number of 32 bits");
+  }
 }
 
 TEST_F(SdfLink, ReadsShapes) {

@@ -211,6 +211,9 @@ void add_surfaces(std::vector<Effect>& rows) {
   const auto friction = [](const std::string& more) {
     return thrown("<surface><friction><ode>" + more + "</ode></friction></surface>");
   };
+  const auto torsional = [](const std::string& more) {
+    return thrown("<surface><friction><torsional>" + more + "</torsional></friction></surface>");
+  };
   const auto contact = [](const std::string& more) {
     return thrown("<surface><contact>" + more + "</contact></surface>");
   };
@@ -228,13 +231,19 @@ void add_surfaces(std::vector<Effect>& rows) {
        {"friction/ode/slip1", friction("{}"), "0", "1"},
        {"friction/ode/slip2", friction("{}"), "0", "1"},
        {"surface/contact/collide_bitmask", contact("{}"), "65535", "0"},
+       {"surface/contact/category_bitmask", contact("<collide_bitmask>0</collide_bitmask>{}"), "0",
+        "1"},
        {"surface/contact/collide_without_contact", contact("{}"), "0", "1"},
        {"contact/ode/kp", contact("<ode>{}</ode>"), "1e12", "1e3"},
        {"contact/ode/kd", contact("<ode><kp>1e4</kp>{}</ode>"), "1", "1000"},
        {"contact/ode/max_vel", contact("<ode>{}</ode>"), "0.01", "0"},
        {"contact/ode/min_depth", contact("<ode>{}</ode>"), "0", "0.0005"},
-       {"contact/ode/soft_cfm", contact("<ode>{}</ode>"), "0", "0.1"},
-       {"contact/ode/soft_erp", contact("<ode>{}</ode>"), "0.2", "0.8"}});
+       {"torsional/coefficient", torsional("<patch_radius>0.5</patch_radius>{}"), "1", "0.1"},
+       {"torsional/use_patch_radius",
+        torsional("<patch_radius>0.5</patch_radius><surface_radius>1</surface_radius>{}"), "1", "0"},
+       {"torsional/patch_radius", torsional("{}"), "0", "0.5"},
+       {"torsional/surface_radius", torsional("<use_patch_radius>0</use_patch_radius>{}"), "0",
+        "1"}});
 }
 
 void add_joints(std::vector<Effect>& rows) {

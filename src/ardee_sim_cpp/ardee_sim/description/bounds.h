@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+
+/// The numbers that the physics can simulate, in SI units: readers refuse a file with others where
+/// it says so, physics refuses those that come another way.
+namespace ardee::bounds {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Range {
+  double low;
+  double high;
+  /// False for what is not a number, too.
+  constexpr bool holds(double value) const { return value >= low && value <= high; }
+};
+
+// Of a surface. ODE itself takes infinite friction and stiffness.
+constexpr Range kFriction{0.0, kInfinity};
+constexpr Range kSlip{0.0, 1e9};
+constexpr Range kRadius_m{0.0, 1e9};
+constexpr Range kStiffness{0.0, kInfinity};
+constexpr Range kDamping{0.0, kInfinity};
+constexpr Range kMinDepth{-1e9, 1e9};             // not positive: none of its own
+constexpr Range kMaxVelocity{-1e9, kInfinity};    // negative: unlimited
+constexpr Range kRestitution{0.0, 1.0};
+constexpr Range kBounceThreshold{0.0, kInfinity};
+
+// Of a link.
+constexpr Range kDecay{0.0, 1.0};
+
+// Of an axis of a joint.
+constexpr Range kJointCoefficient{0.0, 1e9};  // damping, friction, stiffness
+constexpr Range kJointReference{-1e9, 1e9};
+constexpr Range kJointSoftness{-1e9, 1e9};  // ERP, CFM; negative: the world's
+
+// Of a world.
+constexpr Range kStep_s{1e-6, 1.0};
+constexpr Range kIterations{1.0, 100000.0};
+constexpr Range kRelaxation{1e-6, 2.0};
+constexpr Range kCfm{0.0, 1e6};
+constexpr Range kErp{0.0, 1.0};
+constexpr Range kCorrectingVelocity{0.0, kInfinity};
+constexpr Range kSurfaceLayer_m{0.0, 1e9};
+
+}  // namespace ardee::bounds
