@@ -2,7 +2,7 @@
 """What tests ask of a running graph; each function runs in a process of its own (RosGraph.call)."""
 import importlib
 import time
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Set, Tuple
 
 import rosgraph
 import rospy
@@ -31,6 +31,19 @@ def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[
     rospy.Subscriber(topic, _type(kind), messages.append, queue_size=1000)
     wait_until(lambda: len(messages) >= count, f"{count} messages on {topic}", timeout_s)
     return messages[:count]
+
+
+def performance_of(topic: str, kind: str, count: int = 2) -> Any:
+    """The simulator's performance metrics, the `count`-th that tells of a sensor, while somebody listens to `topic`."""
+    from gazebo_msgs.msg import PerformanceMetrics
+
+    _start()
+    found = []  # type: List[Any]
+    rospy.Subscriber(topic, _type(kind), lambda message: None)
+    rospy.Subscriber("/gazebo/performance_metrics", PerformanceMetrics, found.append)
+    told = lambda: [message for message in found if message.sensors]  # noqa: E731
+    wait_until(lambda: len(told()) >= count, "performance metrics", 30.0)
+    return told()[count - 1]
 
 
 def joint_positions(topic: str, count: int = 20) -> Dict[str, float]:
@@ -62,6 +75,24 @@ def topics(namespace: str = "/") -> Dict[str, str]:
     """Names and types of the published topics below a namespace."""
     _start()
     return dict(rospy.get_published_topics(namespace))
+
+
+def services_of(node: str) -> Dict[str, str]:
+    """Names and types of the services of a node."""
+    import rosservice
+
+    _start()
+    names = rosservice.get_service_list(node=node)
+    return {name: rosservice.get_service_type(name) for name in names}
+
+
+def topics_of(node: str) -> Tuple[List[str], List[str]]:
+    """Topics that a node publishes, and those that it is subscribed to."""
+    publishers, subscribers, _ = rosgraph.Master("probe").getSystemState()
+    return (
+        [name for name, nodes in publishers if node in nodes],
+        [name for name, nodes in subscribers if node in nodes],
+    )
 
 
 def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60.0) -> List[str]:
@@ -137,3 +168,23 @@ def clock_stands_still(wall_time_s: float = 0.5) -> bool:
     rospy.Subscriber("/clock", Clock, lambda message: times.append(message.clock), queue_size=1000)
     time.sleep(wall_time_s)
     return len(set(times[1:])) <= 1
+
+
+def parameter(name: str, timeout_s: float = 30.0) -> Any:
+    """The value of a parameter, once it is set."""
+    master = rosgraph.Master("probe")
+    wait_until(lambda: master.hasParam(name), f"parameter {name}", timeout_s)
+    return master.getParam(name)
+
+
+def parents_in_tf(child: str, wall_time_s: float) -> Set[str]:
+    """The parents that a frame has in what is published in a while on /tf and /tf_static."""
+    from tf2_msgs.msg import TFMessage
+
+    _start()
+    messages = []  # type: List[Any]
+    for topic in ("/tf", "/tf_static"):
+        rospy.Subscriber(topic, TFMessage, messages.append, queue_size=1000)
+    time.sleep(wall_time_s)
+    all_of_them = [transform for message in messages for transform in message.transforms]
+    return {t.header.frame_id for t in all_of_them if t.child_frame_id == child}

@@ -2,6 +2,7 @@
 """A simulator that is given no good world, or no good parameter, says so once and ends."""
 import pathlib
 
+import probes
 import pytest
 from ros_graph import RosGraph
 
@@ -43,6 +44,20 @@ def test_one_message_and_an_exit_code(graph: RosGraph, tmp_path: pathlib.Path, w
     lines = [line for line in simulator.output().splitlines() if "bad.world" in line]
     assert len(lines) == 1, simulator.output()
     assert named in lines[0]
+
+
+def test_a_world_that_cannot_be_read_does_not_end_the_simulator_that_runs(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    """Both are nodes of one name, of which a master ends the first."""
+    file = tmp_path / "bad.world"
+    file.write_text("a field of corn")
+    running = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(DATA / "plane.world"))
+    before_s = graph.call(probes.clock_at_least, 0.1)
+    second = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file))
+    assert second.wait(20.0) == 2 and second.output().count("bad.world") == 1
+    assert graph.call(probes.clock_at_least, before_s + 0.5)
+    assert running.exit_code() is None
 
 
 def test_a_missing_file(graph: RosGraph) -> None:

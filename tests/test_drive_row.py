@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The row that scripts/drive_row sees in a scan of two lines whose place is known."""
 import pathlib
+import subprocess
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
@@ -72,3 +73,12 @@ def test_turns_towards_the_middle() -> None:
 def test_it_says_on_which_side_of_the_middle_it_is(middle_m: float, place: str) -> None:
     assert drive_row.place_in(np.array([middle_m, 0.0, 0.38])) == place
     assert drive_row.place_in(None) == "no row in sight"
+
+
+@pytest.mark.parametrize(
+    "option, text", [("--speed-m-s", "nan"), ("--speed-m-s", "inf"), ("--distance-m", "nan")]
+)
+def test_a_speed_that_is_no_finite_number_is_refused(option: str, text: str) -> None:
+    done = subprocess.run([str(SCRIPT), option, text], capture_output=True, text=True)
+    assert done.returncode == 2
+    assert f"argument {option}: found {text}, expected a" in done.stderr

@@ -55,10 +55,24 @@ def test_gzserver_takes_a_world_and_leaves_out_what_it_does_not_know(graph: RosG
         "-e",
         "ode",
         "--minimal_comms",
+        "-s",
+        "libsome_plugin.so",
+        "--no_such_option",
     )
     graph.call(probes.call_service, *STATE, {"model_name": "none"})
-    assert "'--minimal_comms' has no meaning here and is left out" in server.output()
+    assert "'--minimal_comms' has no use here and is left out" in server.output()
+    assert "'-s libsome_plugin.so' has no use here and is left out" in server.output()
+    assert "'--no_such_option' is no option known here and is left out" in server.output()
     assert graph.call(probes.clock_stands_still)
+
+
+def test_gazebo_is_server_and_window_and_ends_with_ctrl_c(graph: RosGraph) -> None:
+    gazebo = graph.spawn("rosrun", "gazebo_ros", "gazebo", "worlds/empty.world", "--seed", "3")
+    assert graph.call(probes.clock_at_least, 0.1) >= 0.1
+    assert "seed 3, " in gazebo.output()
+    assert gazebo.output().count("gzclient: there is no display") == 1
+    gazebo.interrupt()
+    assert gazebo.wait(20.0) == 0, gazebo.output()
 
 
 def test_gzserver_refuses_an_engine_that_there_is_not(graph: RosGraph) -> None:

@@ -4,9 +4,11 @@ import os
 import pathlib
 import subprocess
 
+import numpy as np
 import probes
 import pytest
 from ros_graph import RosGraph, wait_until
+from test_drive_row import drive_row
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 LISTING_4_4 = ("ardee_world/urdf/corn_plot.urdf.xacro", "ardee_models/heightmap_ground")
@@ -62,6 +64,34 @@ def test_without_names_the_world_is_empty_and_its_files_can_be_kept(
     geofence = (kept / "ardee_geofence" / "custom_gps_behavior.geofence").read_bytes()
     source = SCRIPTS.parent / "src" / "ardee_geofence" / "default_gps_behavior.geofence"
     assert geofence == source.read_bytes()
+
+
+def test_a_field_of_ones_own_stands_where_plots_truth_and_start_say(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    """The README's sequence: the robot looks into a lane, and the GPS's plot is around the plants."""
+    words = ["--models", "corn_variant_8", "--rows", "4", "--row-length", "5", "--seed", "1"]
+    words += ["--terrain", "heightmap_ground", "--name", "my_field", "--output", str(tmp_path)]
+    graph.run("rosrun", "ardee_world", "generate_field", *words)
+    recipe = SCRIPTS.parent / "src" / "ardee_world" / "terrains" / "heightmap_rough.yaml"
+    words = [str(recipe), "--name", "my_ground", "--output", str(tmp_path)]
+    graph.run("rosrun", "ardee_world", "generate_terrain", *words)
+    names = [str(tmp_path / "my_field/my_field.urdf.xacro"), str(tmp_path / "my_ground")]
+    graph.spawn(str(SCRIPTS / "run_custom_world"), "-y", *names, "use_rviz:=false")
+    scan = graph.call(probes.collect, "/ardee/hokuyo", "sensor_msgs/LaserScan", 5)[-1]
+    angles = scan.angle_min + scan.angle_increment * np.arange(len(scan.ranges))
+    middle_m, slope, half_width_m = drive_row.row_ahead(np.array(scan.ranges), angles)
+    assert abs(middle_m) < 0.2 and abs(slope) < 0.2  # leaves hang into the lane
+    assert half_width_m == pytest.approx(0.762 / 2, abs=0.08)
+    states = [("my_field", -1.57), ("TerraSentia_0", -1.57 - np.pi / 2)]
+    for name, yaw in states:
+        service = ("/gazebo/get_model_state", "gazebo_msgs/GetModelState", {"model_name": name})
+        answer = graph.call(probes.call_service, *service)
+        assert answer.success
+        pose = answer.pose
+        turn = 2.0 * np.arctan2(pose.orientation.z, pose.orientation.w)
+        assert np.hypot(pose.position.x, pose.position.y) < 0.05
+        assert abs(np.sin((turn - yaw) / 2.0)) < 0.02
 
 
 def test_a_running_simulator_is_left_alone(graph: RosGraph) -> None:

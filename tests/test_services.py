@@ -2,11 +2,12 @@
 """The services of the running simulator, on level ground, with answers known by hand."""
 import math
 import pathlib
-from typing import Any, Dict, Iterator, List, Tuple
+from typing import Any, Iterator
 
 import probes
 import pytest
-from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
+from gazebo_calls import call, delete, empty, pose, push, spawn, state, step
+from geometry_msgs.msg import Quaternion, Twist, Vector3
 from ros_graph import RosGraph
 
 from gazebo_msgs.msg import ModelState
@@ -15,8 +16,6 @@ DATA = pathlib.Path(__file__).parent / "data"
 BALL = (DATA / "ball.sdf").read_text()
 POST = (DATA / "lidar_post.urdf").read_text()
 BALL_RADIUS_M, BALL_MASS_KG, STEP_S = 0.1, 2.0, 0.005
-
-Call = Tuple[str, str, Dict[str, Any]]
 
 
 @pytest.fixture(scope="module")
@@ -34,50 +33,6 @@ def as_before(world: RosGraph) -> Iterator[None]:
     names = properties(world).model_names
     ours = [delete(name) for name in names if name not in ("ground", "wall")]
     world.call(probes.call_services, [*ours, empty("unpause_physics")])
-
-
-def pose(x: float = 0, y: float = 0, z: float = 0, yaw: float = 0) -> Pose:
-    """A level pose [m, rad]."""
-    turn = Quaternion(0, 0, math.sin(yaw / 2), math.cos(yaw / 2))
-    return Pose(Point(x, y, z), turn)
-
-
-def spawn(name: str, xml: str, at: Pose, kind: str = "sdf", **more: str) -> Call:
-    fields = dict(model_name=name, model_xml=xml, initial_pose=at, **more)
-    return f"/gazebo/spawn_{kind}_model", "gazebo_msgs/SpawnModel", fields
-
-
-def delete(name: str) -> Call:
-    return "/gazebo/delete_model", "gazebo_msgs/DeleteModel", {"model_name": name}
-
-
-def empty(name: str) -> Call:
-    return f"/gazebo/{name}", "std_srvs/Empty", {}
-
-
-def state(name: str, relative_to: str = "") -> Call:
-    fields = {"model_name": name, "relative_entity_name": relative_to}
-    return "/gazebo/get_model_state", "gazebo_msgs/GetModelState", fields
-
-
-def step(steps: int) -> Call:
-    return "/ardee/step", "ardee_msgs/Step", {"steps": steps}
-
-
-def push(body: str, force_n: Vector3, duration_s: float, frame: str = "") -> Call:
-    import rospy
-
-    fields = {
-        "body_name": body,
-        "reference_frame": frame,
-        "wrench": Wrench(force_n, Vector3()),
-        "duration": rospy.Duration.from_sec(duration_s),
-    }
-    return "/gazebo/apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", fields
-
-
-def call(graph: RosGraph, *calls: Call) -> List[Any]:
-    return graph.call(probes.call_services, list(calls))
 
 
 def properties(graph: RosGraph) -> Any:
@@ -147,6 +102,27 @@ def test_topics_come_with_a_robot_and_go_with_it(world: RosGraph) -> None:
     assert answer.success, answer.status_message
     world.call(probes.wait_for_topics, ["/clock"], ["/here/scan"])
     assert "post" not in properties(world).model_names
+
+
+def test_the_warnings_of_a_spawn_reach_its_caller(world: RosGraph) -> None:
+    odd = BALL.replace("<mass>", "<frobnication>7</frobnication><mass>")
+    clean, warned = call(world, spawn("a", BALL, pose(z=1)), spawn("b", odd, pose(z=2)))
+    assert clean.success and warned.success
+    assert clean.status_message == "SpawnModel: Successfully spawned entity"
+    first, *warnings = warned.status_message.splitlines()
+    assert first == clean.status_message
+    assert any("frobnication" in line for line in warnings)
+
+
+def test_performance_is_told_while_somebody_listens(world: RosGraph) -> None:
+    call(world, spawn("post", POST, pose(z=0.2), "urdf", robot_namespace="fast"))
+    told = world.call(probes.performance_of, "/fast/scan", "sensor_msgs/LaserScan")
+    assert told.real_time_factor > 0
+    sensor = told.sensors[0]
+    assert sensor.name == "post::lidar::lidar_sensor"
+    assert sensor.sim_update_rate == pytest.approx(20.0, rel=1e-6)
+    assert sensor.real_update_rate > 0
+    assert sensor.fps == -1
 
 
 def test_a_name_is_taken_once(world: RosGraph) -> None:

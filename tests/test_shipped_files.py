@@ -29,7 +29,8 @@ def models() -> Dict[str, pathlib.Path]:
     return {name: p for name, p in found.items() if "<model" in (p / "model.sdf").read_text()}
 
 
-WORLDS = shipped("worlds/*.world")
+# the model of Willow Garage is of Gazebo's database
+WORLDS = {n: f for n, f in shipped("worlds/*.world").items() if f.stem != "willowgarage"}
 ROBOTS = shipped("robots/*.urdf.xacro")
 LAUNCH_FILES = {**shipped("launch/*.launch"), **{f.name: f for f in ROOT.glob("launch/*.launch")}}
 YAML_FILES = {**shipped("config/**/*.yaml"), **shipped("**/*.rviz")}

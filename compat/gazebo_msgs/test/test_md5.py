@@ -26,20 +26,28 @@ MESSAGES = {
     "ModelStates": "48c080191eb15c41858319b4d8a609c2",
     "ODEJointProperties": "1b744c32a920af979f53afe2f9c3511f",
     "ODEPhysics": "667d56ddbd547918c32d1934503dc335",
+    "PerformanceMetrics": "884f71fd5037b886ec5e126b83c4425a",
+    "SensorPerformanceMetric": "01762ded18cfe9ebc7c8222667c99547",
     "WorldState": "de1a9de3ab7ba97ac0e9ec01a4eb481e",
 }
 
 NOTHING = "d41d8cd98f00b204e9800998ecf8427e"  # md5 of no text
 OUTCOME = "2ec6f3eff0161f4257b808b12bc830c2"  # bool success, string status_message
+LIGHT_NAME = "4fb676dfb4741fc866365702a859441c"
 MODEL_NAME = "ea31c8eab6fc401383cf528a7c0984ba"
 SERVICES = {
     "ApplyBodyWrench": ("e37e6adf97eba5095baa77dffb71e5bd", OUTCOME),
     "ApplyJointEffort": ("2c3396ab9af67a509ecd2167a8fe41a2", OUTCOME),
     "BodyRequest": ("5eade9afe7f232d78005bd0cafeab755", NOTHING),
+    "DeleteLight": (LIGHT_NAME, OUTCOME),
     "DeleteModel": (MODEL_NAME, OUTCOME),
+    "GetLightProperties": (LIGHT_NAME, "9a19ddd5aab4c13b7643d1722c709f1f"),
     "GetModelState": ("19d412713cefe4a67437e17a951e759e", "ccd51739bb00f0141629e87b792e92b9"),
     "GetPhysicsProperties": (NOTHING, "575a5e74786981b7df2e3afc567693a6"),
     "GetWorldProperties": (NOTHING, "36bb0f2eccf4d8be971410c22818ba3f"),
+    "SetJointProperties": ("331fd8f35fd27e3c1421175590258e26", OUTCOME),
+    "SetJointTrajectory": ("649dd2eba5ffd358069238825f9f85ab", OUTCOME),
+    "SetLinkProperties": ("68ac74a4be01b165bc305b5ccdc45e91", OUTCOME),
     "SetLinkState": ("22a2c757d56911b6f27868159e9a872d", OUTCOME),
     "SetModelState": ("cb042b0e91880f4661b29ea5b6234350", OUTCOME),
     "SpawnModel": ("6d0eba5753761cd57e6263a056b79930", OUTCOME),
@@ -54,7 +62,7 @@ WHOLE_SERVICES = {
 def search_path() -> dict:
     """Where the .msg files of the packages that these messages use lie."""
     path = {"gazebo_msgs": [str(PACKAGE / "msg")]}
-    for name in ("geometry_msgs", "std_msgs"):
+    for name in ("geometry_msgs", "std_msgs", "trajectory_msgs"):
         path[name] = [str(pathlib.Path(rospkg.RosPack().get_path(name)) / "msg")]
     return path
 

@@ -29,7 +29,7 @@
 
 #include "ardee_message.h"
 
-enum { MAX_DATAGRAM = 65535, COMMAND_HZ = 20, LEASE_S = 5, MULTIPLIER = 1000000, MAX_SEEN = 64 };
+enum { MAX_DATAGRAM = 65535, COMMAND_HZ = 20, LEASE_S = 5, MAX_SEEN = 64 };
 
 typedef struct Options {
   const char *simulator, *group;
@@ -64,28 +64,26 @@ static struct sockaddr_in address_of(const char *host, int port) {
 }
 
 /* A message is two datagrams: header, then data. */
-static void send_message(int fd, const struct sockaddr_in *to, int32_t msg_type, const void *data,
-                         size_t size) {
-  Ardee_Msg_Data_Header header;
-  memset(&header, 0, sizeof header);
-  header.msg_type = msg_type;
-  header.data_type = ARDEE_DATA_NONE;
-  header.measurement_length = 1;
-  if (sendto(fd, &header, sizeof header, 0, (const struct sockaddr *)to, sizeof *to) < 0 ||
+static void send_message(int fd, const struct sockaddr_in *to, const Ardee_Msg_Data_Header *header,
+                         const void *data, size_t size) {
+  if (sendto(fd, header, sizeof *header, 0, (const struct sockaddr *)to, sizeof *to) < 0 ||
       sendto(fd, data, size, 0, (const struct sockaddr *)to, sizeof *to) < 0)
     perror("ardee_client: send");
 }
 
 static void send_motion(int fd, const struct sockaddr_in *to, double speed, double yaw_rate) {
-  const Ardee_Msg_MotionCommands commands = {(int32_t)(speed * MULTIPLIER),
-                                             (int32_t)(yaw_rate * MULTIPLIER), MULTIPLIER};
-  send_message(fd, to, ARDEE_MESSAGE_DATA_RCCOMMANDS, &commands, sizeof commands);
+  Ardee_Msg_Data_Header header;
+  Ardee_Msg_MotionCommands commands;
+  if (ardee_encode_motion(speed, yaw_rate, &header, &commands))
+    send_message(fd, to, &header, &commands, sizeof commands);
 }
 
 static void ask_for_everything(int fd, const struct sockaddr_in *to) {
   const Ardee_Ext_SetPort request = {0, 1 << ARDEE_DATA_ALL | 1 << ARDEE_DATA_TIME,
                                      ARDEE_ALL_COMPONENTS};
-  send_message(fd, to, ARDEE_MESSAGE_SET_PORT, &request, sizeof request);
+  const Ardee_Msg_Data_Header header = {
+      {0}, ARDEE_MESSAGE_SET_PORT, ARDEE_DATA_NONE, ARDEE_MEASUREMENT_SINGLE, 1};
+  send_message(fd, to, &header, &request, sizeof request);
 }
 
 /* Size of the data datagram that a header asks for, 0 for a message this client does not know. */

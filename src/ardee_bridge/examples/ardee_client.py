@@ -40,11 +40,19 @@ def options() -> argparse.Namespace:
         help="ask the sensor server at this port, usually 30001, for every sensor and for time stamps",
     )
     parser.add_argument("--controls", type=int, default=35555, help="port of the controls client")
-    parser.add_argument("--speed", type=float, help="-1...1 of the robot's limit")
-    parser.add_argument("--yaw-rate", type=float, help="-1...1 of the robot's limit")
+    parser.add_argument("--speed", type=share, help="-1...1 of the robot's limit")
+    parser.add_argument("--yaw-rate", type=share, help="-1...1 of the robot's limit")
     parser.add_argument("--control", choices=[code.name for code in codec.ControlCode])
     parser.add_argument("--seconds", type=float, default=5.0)
     return parser.parse_args()
+
+
+def share(text: str) -> float:
+    """A share of a limit, -1...1."""
+    value = float(text)
+    if not -1.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"found {text}, expected a share of the limit, -1 to 1")
+    return value
 
 
 def join(opened: socket.socket, group: str, simulator: str) -> None:

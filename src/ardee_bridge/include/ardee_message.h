@@ -261,6 +261,28 @@ typedef struct Ardee_Ext_Point {
 /* An int32 field of this value has no value. */
 #define ARDEE_NO_VALUE INT32_MIN
 
+#define ARDEE_MOTION_MULTIPLIER 1000000
+
+/* Rounds a share of a limit, cut to -1...1, to whole millionths. */
+static inline int32_t ardee_to_millionths_(double share) {
+  const double cut = share < -1.0 ? -1.0 : share > 1.0 ? 1.0 : share;
+  return (int32_t)(cut * ARDEE_MOTION_MULTIPLIER + (cut < 0.0 ? -0.5 : 0.5));
+}
+
+/* Fills in a motion command: speed and yaw rate as shares of the robot's limits, cut to -1...1.
+ * Returns 1; returns 0 and leaves both structs as they are where a share is NaN or infinite. */
+static inline int ardee_encode_motion(double speed, double yaw_rate, Ardee_Msg_Data_Header *header,
+                                      Ardee_Msg_MotionCommands *commands) {
+  const Ardee_Msg_Data_Header motion = {
+      {0}, ARDEE_MESSAGE_DATA_RCCOMMANDS, ARDEE_DATA_NONE, ARDEE_MEASUREMENT_SINGLE, 1};
+  if (!(speed - speed == 0.0 && yaw_rate - yaw_rate == 0.0)) return 0;
+  *header = motion;
+  commands->normalized_speed = ardee_to_millionths_(speed);
+  commands->normalized_yaw_rate = ardee_to_millionths_(yaw_rate);
+  commands->multiplier = ARDEE_MOTION_MULTIPLIER;
+  return 1;
+}
+
 #define ARDEE_SIZE_(type, bytes) static_assert(sizeof(type) == (bytes), "size of " #type)
 #define ARDEE_AT_(type, member, byte) \
   static_assert(offsetof(type, member) == (byte), "place of " #type "." #member)

@@ -78,6 +78,14 @@ def test_si_commands_are_clamped_to_the_limits():
     assert command.normalized_yaw_rate == -command.multiplier // 2
 
 
+@pytest.mark.parametrize("encode", [codec.encode_motion, codec.encode_motion_si])
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_a_motion_that_is_not_finite_is_refused(encode, bad):
+    for command in ((bad, 0.0), (0.0, bad)):
+        with pytest.raises(ValueError, match=f"found {bad}, expected a finite number"):
+            encode(*command)
+
+
 def test_imu_and_front_camera_share_a_message_type_and_differ_in_data_type():
     assert codec.MessageType.DATA_IMU == codec.MessageType.DATA_FRONT_CAM == 9
     assert codec.data_struct(codec.Header(msg_type=9, data_type=9)) is codec.IMUData

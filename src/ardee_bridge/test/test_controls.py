@@ -198,6 +198,8 @@ def test_control_codes_are_answered(bench):
     [
         (codec.encode_motion(0.5, 0.0, multiplier=0), "malformed motion command"),
         (codec.encode_motion(0.5, 0.0, multiplier=-5), "malformed motion command"),
+        (codec.encode_motion(-(2**31), 0.0, multiplier=1), "malformed motion command"),
+        (codec.encode_motion(0.0, -(2**31), multiplier=1), "malformed motion command"),
         (codec.encode_control(9), "unknown control code"),
         (codec.encode_set_port([]), "neither motion nor control"),
         (codec.encode(codec.DataType.BATTERY, 0, bytes(12)), "neither motion nor control"),

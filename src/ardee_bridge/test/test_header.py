@@ -20,7 +20,7 @@ def run_c(body, package, folder, standard):
     """What a main() of this body prints, line by line."""
     source = folder / "main.txt"
     source.write_text(
-        "#include <ardee_message.h>\n#include <stdio.h>\n#include <string.h>\nint main(void) {\n"
+        "#include <ardee_message.h>\n#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\nint main(void) {\n"
         + body
         + "\nreturn 0;\n}\n"
     )
@@ -80,6 +80,29 @@ def test_bytes_as_a_c_compiler_writes_them(package, tmp_path):
         latitude=401234567, velocity=velocity, covariance_type=2, service=513, status=-1
     )
     assert run_c(body, package, tmp_path, "c11") == gps.pack()
+
+
+@pytest.mark.parametrize("standard", COMPILERS)
+def test_a_motion_is_encoded_as_the_codec_does_and_refused_where_it_is_not_finite(
+    standard, package, tmp_path
+):
+    body = """
+    const double none = strtod("nan", NULL), infinite = strtod("inf", NULL);
+    const double shares[][2] = {{0.5, -1.0}, {-2.0, 1e300}, {1.0 / 3, -0.1234567}, {none, 0.0},
+                                {0.0, none}, {infinite, 0.0}, {0.0, -infinite}};
+    for (int i = 0; i < 7; ++i) {
+      Ardee_Msg_Data_Header header;
+      Ardee_Msg_MotionCommands commands;
+      memset(&header, 1, sizeof header);
+      memset(&commands, 1, sizeof commands);
+      fputc(ardee_encode_motion(shares[i][0], shares[i][1], &header, &commands), stdout);
+      fwrite(&header, sizeof header, 1, stdout);
+      fwrite(&commands, sizeof commands, 1, stdout);
+    }"""
+    expected = b""
+    for speed, yaw_rate in ((0.5, -1.0), (-1.0, 1.0), (1 / 3, -0.1234567)):
+        expected += b"\1" + b"".join(codec.encode_motion(speed, yaw_rate))
+    assert run_c(body, package, tmp_path, standard) == expected + 4 * (b"\0" + 32 * b"\1")
 
 
 def test_every_enumerator_of_the_header_is_in_the_codec(package):

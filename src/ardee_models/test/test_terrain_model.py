@@ -80,6 +80,29 @@ def test_what_is_read_back_is_what_was_written(tmp_path):
         assert image.size == (65, 65) and image.mode in ("I", "I;16")
 
 
+@pytest.mark.parametrize(
+    "pixels, heights_m",
+    [
+        (np.array([[0, 60], [120, 30]], np.uint8), [[0, 1.5], [3, 0.75]]),
+        (np.array([[0, 51], [255, 1]], np.uint8), [[0, 0.6], [3, 3 / 255]]),
+        (np.array([[0, 1], [1, 0]], np.uint8), [[0, 3 / 255], [3 / 255, 0]]),
+        (np.zeros((2, 2), np.uint8), [[0, 0], [0, 0]]),
+        (np.array([[0, 13107], [257, 0]], np.uint16), [[0, 0.6], [3 / 255, 0]]),
+        (np.array([[7.5, 9.5], [8.5, 7.5]], np.float32), [[0, 3], [1.5, 0]]),
+    ],
+)
+def test_images_are_read_as_the_simulator_reads_them(tmp_path, pixels, heights_m):
+    model = write_terrain(Terrain(np.zeros((2, 2)), 1.0), 0.8, "ground", "rows", tmp_path)
+    sdf = (model / "model.sdf").read_text()
+    size = "<size>1 1 1</size>"
+    assert size in sdf
+    (model / "model.sdf").write_text(
+        sdf.replace(size, "<size>1 1 3</size>").replace("rows.png", "rows.tif")
+    )
+    Image.fromarray(pixels).save(model / "meshes/heightmaps/rows.tif")
+    np.testing.assert_allclose(terrain_model("ground", [tmp_path]).heights_m, heights_m, atol=1e-6)
+
+
 @pytest.mark.parametrize("name", ["heightmap_ground", "heightmap_flat"])
 def test_shipped_terrain_shows_what_it_collides_with(share, name):
     root = ElementTree.parse(share / "models" / name / "model.sdf").getroot()

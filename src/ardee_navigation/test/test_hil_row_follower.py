@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The row follower of a target computer, on sockets of the loopback."""
 import socket
+from dataclasses import replace
 from typing import Any, Iterator, Tuple
 
 import numpy as np
@@ -154,3 +155,23 @@ def test_without_a_period_either_the_wait_counts(period_s: float) -> None:
     clock.stamp(codec.TimeStamp(sec=7, nsec=0, data_type=codec.DataType.LIDAR))
     assert clock.of_scan(0, period_s, 100.05) == 7.0
     assert clock.of_scan(0, period_s, 100.07) == pytest.approx(7.02)
+
+
+def test_an_answer_that_is_not_finite_stops_the_robot_and_is_said_once(
+    ends: tuple, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    target, server, robot = ends
+    address = asked_by(target, server)
+    update = target._follower.update
+    monkeypatch.setattr(
+        target._follower, "update", lambda *scan: replace(update(*scan), turn_rad_s=float("nan"))
+    )
+    for _ in range(2):
+        for datagram in scan_message(scan_of(*lane_walls(0.05, 0.0))):
+            server.sendto(datagram, address)
+        answer_to(target, 2)
+        _, command = (robot.recvfrom(65535)[0] for _ in range(2))
+        motion = codec.MotionCommands.unpack(command)
+        assert (motion.normalized_speed, motion.normalized_yaw_rate) == (0, 0)
+    found = "yaw_rate_rad_s: found nan, expected a finite number"
+    assert capsys.readouterr().err == f"hil_row_follower: {found}; stopped\n"

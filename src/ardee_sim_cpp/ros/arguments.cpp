@@ -60,22 +60,24 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
 }  // namespace
 
 std::string usage() {
-  return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--verbose] [-h]\n"
+  return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--lenient] [--verbose] [-h]\n"
          "  WORLD         world file (SDF 1.2 to 1.7); default: the parameter ~world\n"
          "  -u, --paused  start with the clock stopped\n"
          "  --seed N      root of all random numbers, a whole number from 0\n"
+         "  --lenient     leave out includes, meshes and heightmaps whose files are missing, with "
+         "an "
+         "error\n"
          "  --verbose     log at debug level\n"
          "  -h, --help    this text\n"
          "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
-         "            ~publish_world_tf ~scenery_radius ~realtime_priority ~verbose\n";
+         "            ~publish_world_tf ~lenient ~scenery_radius ~realtime_priority ~verbose\n";
 }
 
 CommandLine parse_command_line(int argc, char** argv) {
-  static const option kOptions[] = {{"paused", no_argument, nullptr, 'u'},
-                                    {"seed", required_argument, nullptr, 's'},
-                                    {"verbose", no_argument, nullptr, 'v'},
-                                    {"help", no_argument, nullptr, 'h'},
-                                    {nullptr, 0, nullptr, 0}};
+  static const option kOptions[] = {
+      {"paused", no_argument, nullptr, 'u'},  {"seed", required_argument, nullptr, 's'},
+      {"lenient", no_argument, nullptr, 'l'}, {"verbose", no_argument, nullptr, 'v'},
+      {"help", no_argument, nullptr, 'h'},    {nullptr, 0, nullptr, 0}};
   CommandLine line;
   opterr = 0;
   for (int found = 0; (found = getopt_long(argc, argv, ":uh", kOptions, nullptr)) != -1;) {
@@ -85,6 +87,9 @@ CommandLine parse_command_line(int argc, char** argv) {
         break;
       case 's':
         line.seed = parse_seed(optarg);
+        break;
+      case 'l':
+        line.lenient = true;
         break;
       case 'v':
         line.verbose = true;
@@ -117,7 +122,9 @@ Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& n
   if (factor >= 0.0) settings.real_time_factor = factor;
   settings.threads = whole_number(node, "threads", 0);
   settings.clock_rate_hz = number(node, "pub_clock_frequency", settings.clock_rate_hz, 0.0, 1e9);
-  settings.publish_world_tf = parameter(node, "publish_world_tf", true, "true or false");
+  settings.publish_world_tf = parameter(node, "publish_world_tf", false, "true or false");
+  settings.lenient =
+      command_line.lenient.value_or(parameter(node, "lenient", false, "true or false"));
   settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
   constexpr int kHighestPriority = 99;  // of SCHED_RR
   settings.realtime_priority = whole_number(node, "realtime_priority", 0, kHighestPriority);

@@ -14,6 +14,7 @@ struct CommandLine {
   std::string world;
   std::optional<bool> paused;
   std::optional<std::uint64_t> seed;
+  std::optional<bool> lenient;
   bool verbose = false;
   bool help = false;
 };
@@ -32,7 +33,8 @@ struct Settings {
   std::optional<double> real_time_factor;  // 0: as fast as the machine can; none: the world's
   int threads = 0;                         // of the ray casts; 0: all cores
   double clock_rate_hz = 100.0;            // of /clock, in simulated time; 0: each step
-  bool publish_world_tf = true;
+  bool publish_world_tf = false;
+  bool lenient = false;  // leave out what is missing, with an error; else refuse the whole
   double scenery_radius_m = 6.0;
   int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none
 };

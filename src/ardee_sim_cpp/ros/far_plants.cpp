@@ -68,7 +68,8 @@ const FarPlants::Triangles& FarPlants::triangles_of(const std::string& path) {
   if (found != files_.end()) return found->second;
   Triangles& triangles = files_[path];
   try {
-    const MeshFile file = read_mesh_file(path, Source{path, 0, "mesh"});
+    Log quiet([](LogLevel, const std::string&) {});  // who placed the plant has been told
+    const MeshFile file = read_mesh_file(path, Source{path, 0, "mesh"}, quiet);
     for (const SubMesh& part : file.parts) {
       const Paint paint(file, part);
       for (const auto& corners : part.triangles) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ros/conversions.h"
 #include "ros/services.h"
 
@@ -46,8 +47,7 @@ std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest
 
 std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortRequest& request) {
   const JointRef ref = require_joint(stage, request.joint_name);
-  constexpr double kMostEffort = 1e9;  // N m or N; the physics takes no more
-  if (!(std::abs(request.effort) <= kMostEffort)) {
+  if (!(std::abs(request.effort) <= limits::kStrongest)) {
     throw Error("found an effort that is not finite or above 1e9 N m or N");
   }
   if (ref.entity.robot->model().joints[ref.joint].type == JointType::kFixed) {

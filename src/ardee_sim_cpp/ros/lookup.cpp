@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Names in requests: models, links, joints, reference frames.
+// What requests hold: numbers; names of models, links, joints, reference frames.
 #include <optional>
+#include <sstream>
 
 #include "ros/services.h"
 
 namespace ardee::node {
+
+double checked(const std::string& field, double value, double low, double high) {
+  if (value >= low && value <= high) return value;
+  std::ostringstream text;
+  text << field << ": found " << value << ", expected " << low << " to " << high;
+  throw Error(text.str());
+}
 
 Entity& require_model(Stage& stage, const std::string& name) {
   Entity* entity = stage.simulation.find(name);

@@ -3,13 +3,13 @@
 #include <gazebo_msgs/SetModelConfiguration.h>
 #include <gazebo_msgs/SetModelState.h>
 
-#include <cmath>
-
 #include "ros/conversions.h"
 #include "ros/services.h"
 
 namespace ardee::node {
 namespace {
+
+constexpr double kMostPosition = 1e6;  // rad or m: no joint of a field's robot is there
 
 std::string get_state(Stage& stage, const gazebo_msgs::GetModelStateRequest& request,
                       gazebo_msgs::GetModelStateResponse& response) {
@@ -32,7 +32,26 @@ void set_state(Stage& stage, const gazebo_msgs::ModelState& wanted) {
   stage.simulation.set_state(wanted.model_name, state, wanted.reference_frame);
 }
 
-/// All joints are found before the first is moved.
+/// Moves all or none: what only a motion tells (a closed chain, a link out of the world) puts back
+/// those that have moved.
+void move_joints(PhysicsModel& dynamics, const std::vector<std::size_t>& joints,
+                 const std::vector<double>& positions) {
+  std::vector<double> before;
+  try {
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const double now = dynamics.joint_position(joints[i]);
+      dynamics.set_joint_position(joints[i], positions[i]);
+      before.push_back(now);
+    }
+  } catch (...) {
+    for (std::size_t i = before.size(); i > 0; --i) {
+      dynamics.set_joint_position(joints[i - 1], before[i - 1]);
+    }
+    throw;
+  }
+}
+
+/// All joints are found and all numbers checked before the first is moved.
 std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationRequest& request) {
   const Entity& entity = require_model(stage, request.model_name);
   if (request.joint_names.size() != request.joint_positions.size()) {
@@ -46,14 +65,11 @@ std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationReq
     if (entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
       throw Error("joint '" + request.joint_names[i] + "' is fixed");
     }
-    if (!std::isfinite(request.joint_positions[i])) {
-      throw Error("joint '" + request.joint_names[i] + "': found a position that is not finite");
-    }
+    checked("joint '" + request.joint_names[i] + "'", request.joint_positions[i], -kMostPosition,
+            kMostPosition);
     joints.push_back(ref.joint);
   }
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    entity.robot->dynamics().set_joint_position(joints[i], request.joint_positions[i]);
-  }
+  move_joints(entity.robot->dynamics(), joints, request.joint_positions);
   return "SetModelConfiguration: success";
 }
 

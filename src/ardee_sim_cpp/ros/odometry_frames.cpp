@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ros/odometry_frames.h"
 
-#include <tf2_msgs/TFMessage.h>
+#include <ros/node_handle.h>
 
 #include "ros/conversions.h"
 
@@ -24,10 +24,10 @@ Pose level_frame(const Pose& X_WB, const Pose& X_OB, bool planar) {
 
 }  // namespace
 
-OdometryFrames::OdometryFrames(bool enabled) : enabled_(enabled) {
-  if (enabled) {
-    publisher_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 10, true);
-  }
+OdometryFrames::OdometryFrames(bool enabled) {
+  if (!enabled) return;
+  send_ = [publisher = ros::NodeHandle().advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)](
+              const tf2_msgs::TFMessage& message) { publisher.publish(message); };
 }
 
 void OdometryFrames::on_reading(const Robot& robot, const OdometryReading& reading) {
@@ -37,12 +37,12 @@ void OdometryFrames::on_reading(const Robot& robot, const OdometryReading& readi
 }
 
 void OdometryFrames::on_reading(const Robot& robot, const TransformReading& reading) {
-  learn(robot, reading.header, reading.pose, false);
+  if (reading.places_frame) learn(robot, reading.header, reading.pose, false);
 }
 
 void OdometryFrames::learn(const Robot& robot, const Header& header, const Pose& X_OB,
                            bool planar) {
-  if (!enabled_ || header.frame_id == kWorldFrame || frames_.count(header.frame_id) > 0) return;
+  if (!send_ || header.frame_id == kWorldFrame || frames_.count(header.frame_id) > 0) return;
   frames_[header.frame_id] = {robot.name(), level_frame(robot.pose(), X_OB, planar)};
   publish();
 }
@@ -51,7 +51,7 @@ void OdometryFrames::forget(const std::string& robot_name) {
   for (auto frame = frames_.begin(); frame != frames_.end();) {
     frame = frame->second.robot_name == robot_name ? frames_.erase(frame) : std::next(frame);
   }
-  if (enabled_) publish();
+  if (send_) publish();
 }
 
 void OdometryFrames::publish() {
@@ -63,7 +63,7 @@ void OdometryFrames::publish() {
     transform.transform = to_transform(frame.X_WO);
     message.transforms.push_back(transform);
   }
-  publisher_.publish(message);
+  send_(message);
 }
 
 }  // namespace ardee::node

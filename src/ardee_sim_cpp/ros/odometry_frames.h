@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <ros/node_handle.h>
-#include <ros/publisher.h>
+#include <tf2_msgs/TFMessage.h>
 
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "ardee_sim/devices/reading.h"
 #include "ardee_sim/devices/robot.h"
@@ -18,7 +19,12 @@ namespace ardee::node {
 /// wheels'.
 class OdometryFrames {
  public:
+  using Send = std::function<void(const tf2_msgs::TFMessage&)>;
+
+  /// Publishes on /tf_static if enabled.
   explicit OdometryFrames(bool enabled);
+  /// `send` gets all frames whenever one of them has changed.
+  explicit OdometryFrames(Send send) : send_(std::move(send)) {}
 
   void on_reading(const Robot& robot, const OdometryReading& reading);
   void on_reading(const Robot& robot, const TransformReading& reading);
@@ -38,8 +44,7 @@ class OdometryFrames {
   void learn(const Robot& robot, const Header& header, const Pose& X_OB, bool planar);
   void publish();
 
-  bool enabled_;
-  ros::Publisher publisher_;
+  Send send_;  // none: disabled
   std::map<std::string, Frame> frames_;
 };
 

@@ -2,7 +2,10 @@
 #include <gazebo_msgs/GetPhysicsProperties.h>
 #include <gazebo_msgs/SetPhysicsProperties.h>
 
+#include <memory>
+
 #include "ros/conversions.h"
+#include "ros/physics_tuning.h"
 #include "ros/services.h"
 
 namespace ardee::node {
@@ -23,12 +26,6 @@ std::string get_physics(Stage& stage, gazebo_msgs::GetPhysicsPropertiesResponse&
   response.ode_config.erp = physics.erp;
   response.ode_config.max_contacts = static_cast<std::uint32_t>(physics.max_contacts);
   return "GetPhysicsProperties: got properties";
-}
-
-double checked(const char* field, double value, double low, double high) {
-  if (value >= low && value <= high) return value;
-  throw Error(std::string(field) + ": found " + std::to_string(value) + ", expected " +
-              std::to_string(low) + " to " + std::to_string(high));
 }
 
 /// A value below 1 (a field nobody filled in) leaves what is in force.
@@ -57,6 +54,10 @@ std::string set_physics(Stage& stage, const gazebo_msgs::SetPhysicsPropertiesReq
       checked("ode_config.contact_max_correcting_vel", ode.contact_max_correcting_vel, 0.0, kLarge);
   physics.cfm = checked("ode_config.cfm", ode.cfm, 0.0, kLarge);
   physics.erp = checked("ode_config.erp", ode.erp, 0.0, 1.0);
+  checked("ode_config.sor_pgs_rms_error_tol", ode.sor_pgs_rms_error_tol, 0.0, kLarge);
+  if (ode.auto_disable_bodies || ode.sor_pgs_precon_iters > 0 || ode.sor_pgs_rms_error_tol > 0.0) {
+    warn_of_inert_physics();
+  }
   stage.simulation.set_physics(physics);
   stage.runner.follow_physics();
   return "physics engine updated";
@@ -65,12 +66,17 @@ std::string set_physics(Stage& stage, const gazebo_msgs::SetPhysicsPropertiesReq
 }  // namespace
 
 void add_physics_services(ServiceServers& servers, Stage& stage) {
+  const auto tuning = std::make_shared<PhysicsTuning>(servers.space(), stage);
   servers.add<gazebo_msgs::GetPhysicsProperties>(
       "get_physics_properties", "GetPhysicsProperties",
       [&stage](const auto&, auto& response) { return get_physics(stage, response); });
-  servers.add<gazebo_msgs::SetPhysicsProperties>(
-      "set_physics_properties", "SetPhysicsProperties",
-      [&stage](const auto& request, auto&) { return set_physics(stage, request); });
+  servers.add<gazebo_msgs::SetPhysicsProperties>("set_physics_properties", "SetPhysicsProperties",
+                                                 [&stage, tuning](const auto& request, auto&) {
+                                                   const std::string done =
+                                                       set_physics(stage, request);
+                                                   tuning->publish();
+                                                   return done;
+                                                 });
 }
 
 }  // namespace ardee::node

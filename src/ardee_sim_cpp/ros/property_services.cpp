@@ -39,7 +39,11 @@ std::string get_model(Stage& stage, const std::string& name,
 std::string get_link(Stage& stage, const std::string& name,
                      gazebo_msgs::GetLinkPropertiesResponse& response) {
   const LinkRef ref = require_link(stage, name);
-  const Link& link = ref.entity.robot->model().links[ref.link];
+  const Robot& robot = *ref.entity.robot;
+  const Link& described = robot.model().links[ref.link];
+  const LinkProperties link = robot.is_dynamic()
+                                  ? robot.dynamics().link_properties(ref.link)
+                                  : LinkProperties{described.inertial, described.gravity};
   response.gravity_mode = link.gravity;
   const Inertial inertial = link.inertial.value_or(Inertial{});
   response.com = to_ros(inertial.X_LI);
@@ -79,10 +83,13 @@ std::string get_joint(Stage& stage, const std::string& name,
   const JointRef ref = require_joint(stage, name);
   const Joint& joint = ref.entity.robot->model().joints[ref.joint];
   response.type = gazebo_type(joint.type);
-  response.damping = {joint.axis.damping};
+  const PhysicsModel& dynamics = ref.entity.robot->dynamics();
+  for (std::size_t axis = 0; axis < dynamics.joint_axes(ref.joint); ++axis) {
+    response.damping.push_back(dynamics.joint_properties(ref.joint, axis).spring.damping);
+  }
   if (joint.type != JointType::kFixed) {
-    response.position = {ref.entity.robot->dynamics().joint_position(ref.joint)};
-    response.rate = {ref.entity.robot->dynamics().joint_velocity(ref.joint)};
+    response.position = {dynamics.joint_position(ref.joint)};
+    response.rate = {dynamics.joint_velocity(ref.joint)};
   }
   return "GetJointProperties: got properties";
 }

@@ -89,8 +89,12 @@ sensor_msgs::NavSatFix to_message(const FixReading& reading) {
   message.latitude = reading.latitude_deg;
   message.longitude = reading.longitude_deg;
   message.altitude = reading.altitude_m;
-  set_diagonal(reading.covariance, message.position_covariance);
-  message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  if (message.status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX) {
+    message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
+  } else {
+    set_diagonal(reading.covariance, message.position_covariance);
+    message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN;
+  }
   return message;
 }
 

@@ -29,6 +29,7 @@ nav_msgs::Odometry to_message(const OdometryReading& reading);
 tf2_msgs::TFMessage to_message(const TransformReading& reading);
 sensor_msgs::JointState to_message(const JointStateReading& reading);
 sensor_msgs::Imu to_message(const ImuReading& reading);
+/// Without a fix nothing is known of the covariance.
 sensor_msgs::NavSatFix to_message(const FixReading& reading);
 geometry_msgs::Vector3Stamped to_message(const VectorReading& reading);
 sensor_msgs::MagneticField to_message(const MagneticFieldReading& reading);
@@ -38,7 +39,6 @@ visualization_msgs::MarkerArray to_message(const RegionsReading& reading);
 ardee_msgs::Encoder to_message(const EncoderReading& reading);
 ardee_msgs::Battery to_message(const BatteryReading& reading);
 sensor_msgs::BatteryState to_message(const BatteryStateReading& reading);
-/// time_increment and scan_time of a scan are 0, as the stock plugins leave them.
 sensor_msgs::LaserScan to_message(const LidarReading& reading);
 sensor_msgs::Range to_message(const RangeReading& reading);
 sensor_msgs::PointCloud2 to_message(const PointCloudReading& reading);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/devices/sensor.h"
 #include "ros/conversions.h"
 #include "ros/reading_to_message.h"
 
@@ -45,6 +46,8 @@ bool always_demanded(const Output& output) {
          output.kind == reading_kind<TransformReading>();
 }
 
+bool is_picture(const Output& output) { return output.kind == reading_kind<ImageReading>(); }
+
 void require_valid(const std::string& topic) {
   std::string why;
   if (!ros::names::validate(topic, why)) {
@@ -67,16 +70,21 @@ class Complaint {
   ros::WallTime last_;
 };
 
+/// "model::link::sensor", or nothing for a device that is no sensor.
+std::string sensor_name(const Device& device, const Robot& robot) {
+  const auto* sensor = dynamic_cast<const Sensor*>(&device);
+  if (!sensor) return "";
+  return robot.name() + "::" + robot.model().links[sensor->link()].name + "::" + device.name();
+}
+
 /// roscpp would say so of each, and not whose they are.
-void warn_of_taken(const std::vector<std::string>& services, const Robot& robot) {
+void warn_of_taken(const std::vector<std::string>& services, const Robot& robot, Log& log) {
   if (services.empty()) return;
   const std::size_t others = services.size() - 1;
-  ROS_WARN_STREAM(robot.model().source.to_string()
-                  << ": service " << services.front()
-                  << (others > 0 ? " and " + std::to_string(others) + " more are" : " is")
-                  << " there already and "
-                  << (others > 0 ? "stay what they were" : "stays what it was")
-                  << "; a namespace of its own gives a robot its own");
+  log.warn(robot.model().source.to_string() + ": service " + services.front() +
+           (others > 0 ? " and " + std::to_string(others) + " more are" : " is") +
+           " there already and " + (others > 0 ? "stay what they were" : "stays what it was") +
+           "; a namespace of its own gives a robot its own");
 }
 
 template <typename Message, typename OnMessage>
@@ -97,8 +105,8 @@ bool RobotTopics::Route::has_listeners() const {
 
 RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
   require_valid(output.topic);
-  Route route{&output, &robot, {}, nullptr};
-  if (output.kind == reading_kind<ImageReading>()) {
+  Route route{&output, &robot, "", false, {}, nullptr};
+  if (is_picture(output)) {
     const image_transport::Publisher pictures = images_.advertise(output.topic, kImageQueue);
     if (pictures) route.pictures = std::make_unique<PictureSender>(pictures, kImageQueue);
   } else {
@@ -144,7 +152,13 @@ void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
   for (const Trigger& trigger : device.triggers()) require_valid(trigger.topic);
   std::vector<Route> routes;
   std::vector<ros::Subscriber> subscribers;
-  for (Output& output : device.outputs()) routes.push_back(advertise(output, robot));
+  const auto& outputs = device.outputs();
+  const bool is_camera = std::any_of(outputs.begin(), outputs.end(), is_picture);
+  for (Output& output : device.outputs()) {
+    routes.push_back(advertise(output, robot));
+    routes.back().sensor = sensor_name(device, robot);
+    routes.back().is_camera = is_camera;
+  }
   for (const Input& input : device.inputs()) subscribers.push_back(subscribe(input));
   for (const NumberInput& input : device.number_inputs()) subscribers.push_back(subscribe(input));
   topics.services->add(device);
@@ -163,7 +177,7 @@ void RobotTopics::add(Entity& entity) {
       const Error placed(entity.robot->model().source,
                          "plugin '" + device->name() + "': " + error.what());
       if (!device->is_dispensable()) throw placed;
-      ROS_ERROR_STREAM(placed.what() << "; it is left out");
+      log_.error(std::string(placed.what()) + "; it is left out");
       left_out.insert(device.get());
     }
   }
@@ -171,7 +185,7 @@ void RobotTopics::add(Entity& entity) {
   devices.erase(std::remove_if(devices.begin(), devices.end(),
                                [&](const auto& device) { return left_out.count(device.get()); }),
                 devices.end());
-  warn_of_taken(topics.services->taken(), *entity.robot);
+  warn_of_taken(topics.services->taken(), *entity.robot, log_);
   const Topics& kept = topics_[entity.name()] = std::move(topics);
   for (const Route& route : kept.routes) routes_[route.output] = &route;
 }
@@ -193,6 +207,11 @@ void RobotTopics::update_demand() {
   }
 }
 
+void RobotTopics::count(const Route& route, TimeNs now_ns) {
+  if (route.sensor.empty() || !metrics_.has_listeners()) return;
+  metrics_.on_measured(route.sensor, route.is_camera, now_ns);
+}
+
 void RobotTopics::on_reading(const Output& output, const Reading& reading) {
   const auto found = routes_.find(&output);
   if (found == routes_.end()) return;
@@ -200,6 +219,7 @@ void RobotTopics::on_reading(const Output& output, const Reading& reading) {
   std::visit(
       [&](const auto& measured) {
         frames_.on_reading(*route.robot, measured);
+        count(route, measured.header.stamp_ns);
         if (!output.latched && !route.has_listeners()) return;
         if (route.publisher) {
           route.publisher.publish(to_message(measured));

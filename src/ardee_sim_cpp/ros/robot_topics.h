@@ -9,11 +9,14 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/simulation/entity.h"
 #include "ros/device_services.h"
 #include "ros/odometry_frames.h"
+#include "ros/performance_metrics.h"
 #include "ros/picture_sender.h"
 
 namespace ardee::node {
@@ -22,7 +25,8 @@ namespace ardee::node {
 /// their commands. They come when a robot is spawned and go when it is removed.
 class RobotTopics : public ReadingSink {
  public:
-  explicit RobotTopics(OdometryFrames& frames) : frames_(frames) {}
+  RobotTopics(OdometryFrames& frames, PerformanceMetrics& metrics, Log log)
+      : frames_(frames), metrics_(metrics), log_(std::move(log)) {}
 
   /// A sensor whose topics cannot be had is taken off the entity, with a message. Throws Error if
   /// those of another device cannot; then none of the entity's is there.
@@ -36,6 +40,8 @@ class RobotTopics : public ReadingSink {
   struct Route {
     Output* output = nullptr;
     const Robot* robot = nullptr;
+    std::string sensor;  // its scoped name where a sensor is what measures
+    bool is_camera = false;
     ros::Publisher publisher;
     std::unique_ptr<PictureSender> pictures;  // in its place, for pictures
 
@@ -48,10 +54,13 @@ class RobotTopics : public ReadingSink {
   };
   void add(Device& device, const Robot& robot, Topics& topics);
   Route advertise(Output& output, const Robot& robot);
+  void count(const Route& route, TimeNs now_ns);
   ros::Subscriber subscribe(const Input& input);
   ros::Subscriber subscribe(const NumberInput& input);
 
   OdometryFrames& frames_;
+  PerformanceMetrics& metrics_;
+  Log log_;
   ros::NodeHandle node_;
   image_transport::ImageTransport images_{node_};
   std::map<std::string, Topics> topics_;

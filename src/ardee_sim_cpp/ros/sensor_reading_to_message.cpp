@@ -13,6 +13,8 @@ sensor_msgs::LaserScan to_message(const LidarReading& reading) {
   message.angle_min = static_cast<float>(reading.angle_min_rad);
   message.angle_max = static_cast<float>(reading.angle_max_rad);
   message.angle_increment = static_cast<float>(reading.angle_increment_rad);
+  message.time_increment = static_cast<float>(reading.time_increment_s);
+  message.scan_time = static_cast<float>(reading.scan_time_s);
   message.range_min = static_cast<float>(reading.range_min_m);
   message.range_max = static_cast<float>(reading.range_max_m);
   message.ranges = reading.ranges_m;

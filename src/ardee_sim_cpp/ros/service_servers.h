@@ -19,6 +19,9 @@ class ServiceServers {
  public:
   explicit ServiceServers(const ros::NodeHandle& node) : node_(node) {}
 
+  /// The namespace that relative names of services are in.
+  const std::string& space() const { return node_.getNamespace(); }
+
   /// `act` fills the response in and returns the message of success; `label` heads the messages of
   /// failure.
   template <typename Service>

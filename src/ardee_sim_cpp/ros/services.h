@@ -3,6 +3,7 @@
 
 #include "ardee_sim/readers/loader.h"
 #include "ardee_sim/simulation/simulation.h"
+#include "ros/message_tap.h"
 #include "ros/robot_topics.h"
 #include "ros/runner.h"
 #include "ros/service_servers.h"
@@ -15,6 +16,7 @@ struct Stage {
   Loader& loader;
   RobotTopics& topics;
   Runner& runner;
+  MessageTap& messages;
 };
 
 /// The services of Gazebo's node API and /ardee/step, one file a group.
@@ -23,8 +25,14 @@ void add_control_services(ServiceServers& servers, Stage& stage);
 void add_model_state_services(ServiceServers& servers, Stage& stage);
 void add_link_state_services(ServiceServers& servers, Stage& stage);
 void add_property_services(ServiceServers& servers, Stage& stage);
+void add_set_property_services(ServiceServers& servers, Stage& stage);
 void add_physics_services(ServiceServers& servers, Stage& stage);
 void add_force_services(ServiceServers& servers, Stage& stage);
+void add_light_services(ServiceServers& servers, Stage& stage);
+
+/// `value` if it lies between the two; throws Error naming the request's field otherwise, and for
+/// NaN.
+double checked(const std::string& field, double value, double low, double high);
 
 /// The model of that name; throws Error if there is none.
 Entity& require_model(Stage& stage, const std::string& name);

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -43,6 +44,10 @@ World load_world(Loader& loader, const std::string& world) {
   if (std::filesystem::exists(path)) return loader.load_world(world);
   if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
   return loader.load_world(make_locator().resolve(world_uri(world), Source{"", 0, "world"}));
+}
+
+MissingFiles missing_files(bool lenient) {
+  return lenient ? MissingFiles::kLeaveOut : MissingFiles::kRefuse;
 }
 
 /// tf_prefix of a namespace or of one around it, as tf::resolve finds it.
@@ -96,15 +101,22 @@ void log_at_debug_level() {
 }  // namespace
 
 SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
-    : loader_(make_locator(), Log(log_to_ros())),
-      simulation_(load_world(loader_, settings.world), simulation_options(settings), log_to_ros()),
+    : messages_(log_to_ros()),
+      loader_(make_locator(), Log(messages_.sink()), missing_files(settings.lenient)),
+      simulation_(load_world(loader_, settings.world), simulation_options(settings),
+                  messages_.sink()),
       frames_(settings.publish_world_tf),
-      topics_(frames_),
+      metrics_(private_node),
+      topics_(frames_, metrics_, Log(messages_.sink())),
       states_(private_node, simulation_),
       clock_(settings.clock_rate_hz),
       scenery_(simulation_, settings.scenery_radius_m),
-      runner_(simulation_, {topics_, states_, clock_, frames_}, [this] { scenery_.update(); }),
-      stage_{simulation_, loader_, topics_, runner_},
+      runner_(simulation_, {topics_, states_, clock_, frames_},
+              [this] {
+                scenery_.update();
+                metrics_.publish(simulation_.now_ns());
+              }),
+      stage_{simulation_, loader_, topics_, runner_, messages_},
       servers_(private_node) {
   for (const auto& entity : simulation_.entities()) topics_.add(*entity);
   simulation_.set_sink(&topics_);
@@ -120,14 +132,35 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
   add_model_state_services(servers_, stage_);
   add_link_state_services(servers_, stage_);
   add_property_services(servers_, stage_);
+  add_set_property_services(servers_, stage_);
   add_physics_services(servers_, stage_);
   add_force_services(servers_, stage_);
+  add_light_services(servers_, stage_);
   ROS_INFO_STREAM("seed " << settings.seed << ", " << simulation_.entities().size()
                           << " models, step " << simulation_.physics().step_s << " s"
                           << (settings.paused ? ", paused" : ""));
 }
 
 namespace {
+
+/// Whether a node of this node's name is registered; to register this one would end it.
+bool another_runs() {
+  ros::V_string names;
+  const std::string own = ros::this_node::getName();
+  if (!ros::master::check() || !ros::master::getNodes(names)) return false;
+  return std::find(names.begin(), names.end(), own) != names.end();
+}
+
+/// Reads the world without a word, and throws Error where it cannot be.
+void check_world(const CommandLine& command_line) {
+  std::string world = command_line.world;
+  if (world.empty()) ros::param::get("~world", world);
+  bool lenient = false;
+  ros::param::get("~lenient", lenient);
+  Loader loader(make_locator(), Log([](LogLevel, const std::string&) {}),
+                missing_files(command_line.lenient.value_or(lenient)));
+  if (!world.empty()) load_world(loader, world);
+}
 
 void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
   if (command_line.verbose || private_node.param("verbose", false)) log_at_debug_level();
@@ -154,6 +187,12 @@ int run_simulator(int argc, char** argv) {
   if (command_line.help) {
     std::cout << usage();
     return 0;
+  }
+  try {
+    if (another_runs()) check_world(command_line);
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM(error.what());
+    return kBadInput;
   }
   const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
   try {

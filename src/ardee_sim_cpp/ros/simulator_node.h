@@ -7,7 +7,9 @@
 #include "ardee_sim/simulation/simulation.h"
 #include "ros/arguments.h"
 #include "ros/clock_publisher.h"
+#include "ros/message_tap.h"
 #include "ros/odometry_frames.h"
+#include "ros/performance_metrics.h"
 #include "ros/robot_topics.h"
 #include "ros/runner.h"
 #include "ros/scenery_markers.h"
@@ -26,9 +28,11 @@ class SimulatorNode {
   void run() { runner_.run(); }
 
  private:
+  MessageTap messages_;
   Loader loader_;
   Simulation simulation_;
   OdometryFrames frames_;
+  PerformanceMetrics metrics_;
   RobotTopics topics_;
   StateTopics states_;
   ClockPublisher clock_;

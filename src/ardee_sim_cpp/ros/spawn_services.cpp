@@ -15,7 +15,9 @@ Pose requested_pose(Stage& stage, const gazebo_msgs::SpawnModelRequest& request)
   return frame_in_world(stage, request.reference_frame, "reference_frame").pose * X_RM;
 }
 
+/// The answer's first line is gazebo_ros's; what came to light follows, a line each.
 std::string spawn(Stage& stage, const gazebo_msgs::SpawnModelRequest& request) {
+  const MessageTap::Kept warnings(stage.messages);
   if (request.model_name.empty()) throw Error("found an empty model_name, expected a name");
   if (stage.simulation.find(request.model_name)) throw Error("Failure - entity already exists.");
   std::string why;
@@ -27,8 +29,7 @@ std::string spawn(Stage& stage, const gazebo_msgs::SpawnModelRequest& request) {
   wanted.robot_namespace = request.robot_namespace;
   wanted.model =
       stage.loader.load_model_text(request.model_xml, "model_xml of '" + request.model_name + "'");
-  // As gazebo_ros: the <pose> in the model's own text counts from where the request puts it.
-  wanted.X_WM = requested_pose(stage, request) * wanted.model->own_pose;
+  wanted.X_WM = requested_pose(stage, request);
   Entity& entity = stage.simulation.spawn(wanted);
   try {
     stage.topics.add(entity);
@@ -36,7 +37,9 @@ std::string spawn(Stage& stage, const gazebo_msgs::SpawnModelRequest& request) {
     stage.simulation.remove(request.model_name);
     throw;
   }
-  return "SpawnModel: Successfully spawned entity";
+  std::string message = "SpawnModel: Successfully spawned entity";
+  for (const std::string& text : warnings.texts()) message += "\n" + text;
+  return message;
 }
 
 std::string remove(Stage& stage, const std::string& name) {

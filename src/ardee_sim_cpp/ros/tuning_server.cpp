@@ -58,8 +58,7 @@ dynamic_reconfigure::ConfigDescription describe(const Tuning& tuning) {
   return description;
 }
 
-/// Sets what the request names; what is not known or not a number is ignored and said.
-void apply(const Tuning& tuning, const std::string& name, double value) {
+void set_alone(const Tuning& tuning, const std::string& name, double value) {
   const auto found = std::find_if(tuning.parameters.begin(), tuning.parameters.end(),
                                   [&name](const Tunable& each) { return each.name == name; });
   if (found == tuning.parameters.end() || !std::isfinite(value)) {
@@ -73,24 +72,37 @@ void apply(const Tuning& tuning, const std::string& name, double value) {
 }  // namespace
 
 TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning)
+    : TuningServer(node, tuning, [&tuning](const Values& values) {
+        for (const auto& [name, value] : values) set_alone(tuning, name, value);
+      }) {}
+
+TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning,
+                           std::function<void(const Values&)> set)
     : tuning_(tuning),
+      set_(std::move(set)),
       descriptions_(node.advertise<dynamic_reconfigure::ConfigDescription>(
           tuning.name + "/parameter_descriptions", 1, true)),
       updates_(node.advertise<Config>(tuning.name + "/parameter_updates", 1, true)),
-      service_(node.advertiseService(service_of(tuning), &TuningServer::set, this)) {
+      service_(node.advertiseService(service_of(tuning), &TuningServer::serve, this)) {
   descriptions_.publish(describe(tuning_));
-  updates_.publish(current());
+  publish();
 }
 
 Config TuningServer::current() const {
   return config_of(tuning_, [](const Tunable& each) { return each.get(); });
 }
 
-bool TuningServer::set(dynamic_reconfigure::Reconfigure::Request& request,
-                       dynamic_reconfigure::Reconfigure::Response& response) {
-  for (const auto& each : request.config.doubles) apply(tuning_, each.name, each.value);
-  for (const auto& each : request.config.ints) apply(tuning_, each.name, each.value);
-  for (const auto& each : request.config.bools) apply(tuning_, each.name, each.value);
+bool TuningServer::serve(dynamic_reconfigure::Reconfigure::Request& request,
+                         dynamic_reconfigure::Reconfigure::Response& response) {
+  Values values;
+  for (const auto& each : request.config.doubles) values.emplace_back(each.name, each.value);
+  for (const auto& each : request.config.ints) values.emplace_back(each.name, each.value);
+  for (const auto& each : request.config.bools) values.emplace_back(each.name, each.value);
+  try {
+    set_(values);
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM(tuning_.name << ": " << error.what() << "; nothing is changed");
+  }
   response.config = current();
   updates_.publish(response.config);
   return true;

@@ -5,7 +5,10 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "ardee_sim/devices/device.h"
 
@@ -17,16 +20,26 @@ namespace ardee::node {
 /// spawned.)
 class TuningServer {
  public:
-  /// `tuning` outlives the server.
+  /// The numbers of one request, by name; a truth is 0 or 1.
+  using Values = std::vector<std::pair<std::string, double>>;
+
+  /// Each number is set by itself: one beyond its bounds becomes the nearest within, one that is
+  /// not finite or not known is ignored. `tuning` outlives the server.
   TuningServer(ros::NodeHandle& node, const Tuning& tuning);
+  /// `set` sets all numbers of a request together, or throws Error and sets none.
+  TuningServer(ros::NodeHandle& node, const Tuning& tuning, std::function<void(const Values&)> set);
+
+  /// The numbers have changed by other ways: whoever follows them is told.
+  void publish() { updates_.publish(current()); }
   static std::string service_of(const Tuning& tuning) { return tuning.name + "/set_parameters"; }
 
  private:
   dynamic_reconfigure::Config current() const;
-  bool set(dynamic_reconfigure::Reconfigure::Request& request,
-           dynamic_reconfigure::Reconfigure::Response& response);
+  bool serve(dynamic_reconfigure::Reconfigure::Request& request,
+             dynamic_reconfigure::Reconfigure::Response& response);
 
   const Tuning& tuning_;
+  std::function<void(const Values&)> set_;
   ros::Publisher descriptions_;
   ros::Publisher updates_;
   ros::ServiceServer service_;

@@ -8,9 +8,11 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
+import yaml
 
 from ardee_models.lookup import terrain_model
 from ardee_world import assemble
+from ardee_world.layout import to_world
 from ardee_world.urdf_file import EMPTY, SEPARATOR
 
 BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", "0", "0")
@@ -52,13 +54,15 @@ def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
     return call
 
 
-def test_the_world_includes_both_at_its_origin(put_together, tmp_path):
+def test_the_world_includes_the_terrain_at_its_origin_and_the_field_where_its_own_pose_says(
+    put_together, tmp_path
+):
     assert put_together() == (0, "")
     world = ElementTree.parse(tmp_path / "out/worlds/custom.world").getroot().find("world")
     includes = [(i.findtext("uri"), i.findtext("pose")) for i in world.findall("include")]
     assert includes == [
         ("model://custom_heightmap", "0 0 0 0 0 0"),
-        ("model://custom_field", "0 0 0 0 0 0"),
+        ("model://custom_field", None),
     ]
     assert world.findtext("physics/max_step_size") == "0.005"
     for name in (
@@ -98,6 +102,68 @@ def test_plants_of_a_generated_field_stand_on_the_terrain(put_together, tmp_path
     )
     planned = np.array([[float(v) for v in pose.text.split()] for pose in before])
     np.testing.assert_array_equal(np.delete(values, 2, axis=1), np.delete(planned, 2, axis=1))
+
+
+def world_places(folder):
+    """x, y, z [m] of the plants of an assembled world."""
+    model = ElementTree.parse(folder / "models/custom_field/model.sdf").getroot().find("model")
+    x, y, z, roll, pitch, yaw = map(float, model.findtext("pose").split())
+    assert (z, roll, pitch) == (0.0, 0.0, 0.0)
+    if model.find("{urn:ardee:sdf}instances") is not None:
+        rows = np.genfromtxt(
+            folder / "models/custom_field/plants.csv", delimiter=",", skip_header=1
+        )
+        places = rows[:, 2:5]
+    else:
+        poses = [pose.text.split() for pose in model.findall("include/pose")]
+        places = np.array(poses, dtype=float)[:, :3]
+    return np.column_stack((to_world(places[:, :2], (x, y, yaw)), places[:, 2]))
+
+
+@pytest.mark.parametrize("form", ["sdf", "stream"])
+@pytest.mark.parametrize("pose", [None, (3.0, -2.0, 0.7), (0.0, 0.0, 0.0)])
+def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned(
+    put_together, generate_field, tmp_path, models, form, pose
+):
+    words = ("--models", "corn_a", "--name", "turned", "--rows", "2", "--format", form)
+    words += ("--world-pose", *map(str, pose)) if pose else ()
+    assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
+    assert put_together("models/turned/turned.urdf.xacro") == (0, "")
+    places = world_places(tmp_path / "out")
+    truth = np.genfromtxt(tmp_path / "models/turned/truth.csv", delimiter=",", names=True)
+    told = np.column_stack((truth["world_x_m"], truth["world_y_m"]))
+    np.testing.assert_allclose(places[:, :2], told, atol=2e-4)
+    ground = terrain_model("ground", [models])
+    np.testing.assert_allclose(
+        places[:, 2], ground.height_at(places[:, 0], places[:, 1]), atol=1e-4
+    )
+    plot = (
+        ElementTree.parse(tmp_path / "out/models/custom_field/plots.xacro").getroot().find("plot")
+    )
+    middle = [float(plot.findtext(axis)) for axis in "xy"]
+    np.testing.assert_allclose(middle, places[:, :2].mean(axis=0), atol=0.4)
+    start = yaml.safe_load((tmp_path / "out/worlds/custom.start.yaml").read_text())
+    x, y, turn = pose or (0.0, 0.0, -1.57)
+    assert (start["x_m"], start["y_m"]) == (x, y)
+    ahead = np.array([np.cos(start["yaw_rad"]), np.sin(start["yaw_rad"])])
+    np.testing.assert_allclose(ahead, [np.sin(turn), -np.cos(turn)], atol=1e-6)
+    from_start = (places[:, :2] - [x, y]) @ ahead
+    assert 0.8 < from_start.min() < 1.2  # the headland
+    assert abs(from_start.mean() - float(plot.findtext("row_length")) / 2 - 1.0) < 0.4
+    assert start["z_m"] - 0.175 >= ground.height_at(np.array([x]), np.array([y]))[0] - 1e-4
+
+
+def test_a_field_that_says_no_start_gets_the_usual_one(put_together, tmp_path):
+    assert put_together("pkg/empty.urdf.xacro", "ground")[0] == 0
+    start = yaml.safe_load((tmp_path / "out/worlds/custom.start.yaml").read_text())
+    assert (start["x_m"], start["y_m"], start["yaw_rad"]) == (0.0, 0.0, -3.14)
+
+
+def test_a_field_that_was_tilted_by_hand_is_refused(put_together, tmp_path):
+    field = tmp_path / "models/field/field.urdf.xacro"
+    field.write_text(field.read_text().replace("<pose>0.0 0.0 0 0 0 0.0", "<pose>0 0 0 0.1 0 0", 1))
+    code, error = put_together()
+    assert code == 2 and "found <pose>0 0 0 0.1 0 0</pose>, expected X Y 0 0 0 YAW" in error
 
 
 def test_heights_can_be_kept_and_those_of_others_always_are(put_together, tmp_path):

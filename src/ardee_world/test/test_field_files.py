@@ -145,10 +145,33 @@ def test_bad_input_writes_nothing_and_keeps_the_earlier_field(
 
 
 @pytest.mark.parametrize(
-    "text", ["", "x_m,y_m\n", "x_m,y_m\n1,two\n", "x,y\n1,2\n", "x_m,y_m\n1,inf\n", "x_m,y_m\n1\n"]
+    "text",
+    [
+        "",
+        "x_m,y_m\n",
+        "x_m,y_m\n1,two\n",
+        "x,y\n1,2\n",
+        "x_m,y_m\n1,inf\n",
+        "x_m,y_m\n1\n",
+        "x_m,y_m\n0,0\n5e10,0\n",
+        "x_m,y_m,plot\n0,0,99999999999999999999\n",
+        "x_m,y_m,row\n0,0,9007199254740993\n",
+        "x_m,y_m,row\n0,0,-1\n",
+    ],
 )
 def test_bad_plans_name_the_file(generate_field, tmp_path, text):
     plan = tmp_path / "plan.csv"
     plan.write_text(text)
     code, error = generate_field(*BASE, "--centers", plan, "--output", tmp_path)
     assert code == 2 and str(plan) in error and not (tmp_path / "field").exists()
+
+
+def test_a_plan_of_the_largest_numbers_is_drawn_and_one_of_a_spreadsheet_read(
+    generate_field, tmp_path
+):
+    plan = tmp_path / "plan.csv"
+    plan.write_text("\ufeffx_m,y_m,plot,row\n0,0,0,0\n100000,-100000,100000,100000\n")
+    certain = ("--noise-covariance", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
+    assert generate_field(*BASE, *certain, "--centers", plan, "--output", tmp_path)[0] == 0
+    truth = json.loads((tmp_path / "field" / "truth.json").read_text())
+    assert truth["plants"]["row"] == [0, 100_000] and truth["plants"]["y_m"] == [0.0, -1e5]

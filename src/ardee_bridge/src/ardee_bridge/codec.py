@@ -278,10 +278,17 @@ def _encode_request(msg_type: MessageType, component_id: int, data: CStruct) -> 
     return header.pack(), data.pack()
 
 
+def _require_finite(name: str, value: float) -> None:
+    if not math.isfinite(value):
+        raise ValueError(f"{name}: found {value}, expected a finite number")
+
+
 def encode_motion(
     speed: float, yaw_rate: float, multiplier: int = DEFAULT_MULTIPLIER, component_id: int = 0
 ) -> Datagrams:
-    """A motion command: speed and yaw rate as fractions -1...1 of the limits."""
+    """A motion command: speed and yaw rate as fractions -1...1 of the limits; ValueError unless both are finite."""
+    _require_finite("speed", speed)
+    _require_finite("yaw_rate", yaw_rate)
     commands = MotionCommands(
         normalized_speed=round(speed * multiplier),
         normalized_yaw_rate=round(yaw_rate * multiplier),
@@ -291,7 +298,12 @@ def encode_motion(
 
 
 def encode_motion_si(speed_m_s: float, yaw_rate_rad_s: float) -> Datagrams:
-    """A motion command in m/s and rad/s, for the limits of the TerraSentia; beyond them it is clamped."""
+    """A motion command in m/s and rad/s, for the limits of the TerraSentia; beyond them it is clamped.
+
+    ValueError unless both are finite.
+    """
+    _require_finite("speed_m_s", speed_m_s)  # of which min and max would make full speed
+    _require_finite("yaw_rate_rad_s", yaw_rate_rad_s)
 
     def fraction(value: float, limit: float) -> float:
         return max(-1.0, min(1.0, value / limit))

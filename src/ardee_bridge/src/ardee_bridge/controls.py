@@ -9,6 +9,7 @@ from typing import Callable, Deque, Dict, NamedTuple, Optional
 
 from ardee_bridge import codec
 from ardee_bridge.counters import Counters
+from ardee_bridge.layout import NO_VALUE
 from ardee_bridge.pairing import Message, Pairer
 from ardee_bridge.settings import ControlSettings
 from ardee_bridge.udp import Inbox, Sender
@@ -122,6 +123,9 @@ class ControlsClient:
         commands = codec.MotionCommands.unpack(message.data)
         if commands.multiplier < 1:
             self._counters.drop("malformed motion command", f"multiplier {commands.multiplier}")
+            return
+        if NO_VALUE in (commands.normalized_speed, commands.normalized_yaw_rate):
+            self._counters.drop("malformed motion command", "a speed or yaw rate without a value")
             return
         if self._is_stopped:
             self._counters.drop("motion command between STOP and START")

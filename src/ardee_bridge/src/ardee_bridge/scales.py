@@ -55,17 +55,8 @@ SCALES: Tuple[Scale, ...] = (
     _row(_LIDAR, "angle_min", 10**6, "rad", "LIDAR_ANGLE", "of the first beam"),
     _row(_LIDAR, "angle_max", 10**6, "rad", "LIDAR_ANGLE", "of the last beam"),
     _row(_LIDAR, "dAngle", 10**9, "rad", "LIDAR_ANGLE_STEP", "from beam to beam"),
-    _row(
-        _LIDAR,
-        "scan_time",
-        10**6,
-        "s",
-        "LIDAR_SCAN_TIME",
-        "from scan to scan; 0 of simulated lidars",
-    ),
-    _row(
-        _LIDAR, "dTime", 10**9, "s", "LIDAR_TIME_STEP", "from beam to beam; 0 of simulated lidars"
-    ),
+    _row(_LIDAR, "scan_time", 10**6, "s", "LIDAR_SCAN_TIME", "from scan to scan"),
+    _row(_LIDAR, "dTime", 10**9, "s", "LIDAR_TIME_STEP", "from beam to beam"),
     _row(_LIDAR, "range_min", 10**3, "m", "LIDAR_RANGE", "least range"),
     _row(_LIDAR, "range_max", 10**3, "m", "LIDAR_RANGE", "greatest range"),
     _row(

@@ -2,7 +2,7 @@
 """Strict YAML to frozen dataclasses: an unknown, missing or out-of-range key is an error that names it."""
 
 import dataclasses
-import math
+import sys
 import typing
 from pathlib import Path
 from typing import Any, Optional
@@ -50,7 +50,8 @@ _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 def _number(value: Any, kind: type, where: str, limits: Optional[tuple]) -> Any:
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not is_number or not math.isfinite(value) or (kind is int and int(value) != value):
+    is_finite = is_number and abs(value) <= sys.float_info.max  # compares integers beyond it too
+    if not is_finite or (kind is int and int(value) != value):
         raise GeneratorError(f"{where}: found {value!r}, expected a finite {kind.__name__}")
     if limits and not limits[0] <= value <= limits[1]:
         raise GeneratorError(

@@ -111,8 +111,19 @@ def resource(uri: str, folders: Sequence[Path]) -> Path:
     return folders[0] / path
 
 
+def _shares(pixels: np.ndarray, mode: str) -> np.ndarray:
+    """Heights from 0 to 1. The brightest pixel of 8 bits is 1, but one of value 1 is 1 / 255; floats are elevations."""
+    if mode == "F":
+        span = float(np.ptp(pixels))
+        return (pixels - pixels.min()) / span if span > 0.0 else np.zeros(pixels.shape)
+    if mode != "L":
+        return pixels / 65535
+    brightest = float(pixels.max())
+    return pixels / (brightest if brightest > 1.0 else 255.0)
+
+
 def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
-    """The ground of a heightmap model: height = pos.z + pixel / largest value of the pixel type * size.z."""
+    """The ground of a heightmap model as the simulator reads it: height = pos.z + share of the highest * size.z."""
     model = find_model(name, folders)
     heightmap = sdf_root(model).find(".//collision/geometry/heightmap")
     if heightmap is None:
@@ -127,11 +138,11 @@ def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     try:
         with Image.open(image_path) as image:
             pixels = np.array(image)
-            largest = 255 if image.mode == "L" else 65535
+            shares = _shares(pixels.astype(float), image.mode)
     except (OSError, ValueError) as error:
         raise GeneratorError(f"{image_path}: not a readable image: {error}") from error
     if pixels.ndim != 2 or pixels.shape[0] != pixels.shape[1] or pixels.shape[0] < 2:
         raise GeneratorError(
             f"{image_path}: found shape {pixels.shape}, expected a square grey image"
         )
-    return Terrain(pos[2] + pixels.astype(float) / largest * size[2], size[0])
+    return Terrain(pos[2] + shares * size[2], size[0])

@@ -3,6 +3,7 @@
 
 import dataclasses
 import math
+import sys
 import typing
 from typing import Any, Dict, Iterator, Optional, Tuple
 
@@ -66,7 +67,8 @@ def _number_problem(value: Any, kind: type, limits: Optional[Tuple], unit: str) 
     expected = "a whole number" if kind is int else "a finite number"
     if limits:
         expected = ("a whole number, " if kind is int else "") + range_text(limits, unit)
-    good = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    good = isinstance(value, (int, float)) and not isinstance(value, bool)
+    good = good and abs(value) <= sys.float_info.max  # compares integers beyond it too
     good = good and (kind is not int or int(value) == value)
     good = good and (limits is None or limits[0] <= value <= limits[1])
     return None if good else expected

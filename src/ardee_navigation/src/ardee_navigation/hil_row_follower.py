@@ -65,6 +65,7 @@ class Target:
         self._pairer, self._clock, self._asked_s = Pairer(), Clock(), -float("inf")
         self._last_s = -float("inf")  # simulated time of the latest scan
         self._out_of_reach: Set[Address] = set()
+        self._is_astray = False  # whether the latest answer was not finite
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 20)
         self._socket.settimeout(0.2)
@@ -116,8 +117,20 @@ class Target:
             self._follower.reset()  # the simulation was started again
         self._last_s = now_s
         output = self._follower.update(ranges, scan.angle_min, scan.dAngle, now_s)
-        self._send(codec.encode_motion_si(output.speed_m_s, output.turn_rad_s), self._controls)
+        self._send(self._command(output), self._controls)
         return _line(now_s, output)
+
+    def _command(self, output: Output) -> codec.Datagrams:
+        """The motion command of an answer; a standstill, said once, where the answer is not finite."""
+        try:
+            command = codec.encode_motion_si(output.speed_m_s, output.turn_rad_s)
+            self._is_astray = False
+        except ValueError as error:
+            if not self._is_astray:
+                print(f"hil_row_follower: {error}; stopped", file=sys.stderr, flush=True)
+            self._is_astray = True
+            command = codec.encode_motion_si(0.0, 0.0)
+        return command
 
     def stop(self) -> None:
         """Tell the robot to stand still, the server to send nothing more, and close."""

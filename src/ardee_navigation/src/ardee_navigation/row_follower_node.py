@@ -123,6 +123,12 @@ class Node:
     def _send(self, speed_m_s: float, turn_rad_s: float) -> None:
         if not self._drive or self._has_ended:
             return
+        if not np.isfinite([speed_m_s, turn_rad_s]).all():
+            found = f"{speed_m_s:g} m/s, {turn_rad_s:g} rad/s"
+            rospy.logwarn_throttle(
+                5.0, f"found a command of {found}, expected finite ones: stopped"
+            )
+            speed_m_s = turn_rad_s = 0.0
         command = Twist()
         command.linear.x, command.angular.z = speed_m_s, turn_rad_s
         self._commands.publish(command)

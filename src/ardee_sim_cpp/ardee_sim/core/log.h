@@ -4,6 +4,10 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ardee_sim/core/error.h"
 
 namespace ardee {
 
@@ -21,14 +25,47 @@ class Log {
   explicit Log(LogSink sink) : sink_(std::move(sink)) {}
 
   void info(const std::string& text) { sink_(LogLevel::kInfo, text); }
-  void warn(const std::string& text) { sink_(LogLevel::kWarning, text); }
+  void warn(const std::string& text) { add_warning(text, text); }
+  /// Says what is wrong at a place in an input. Within a LogGroup one such warning stands for all
+  /// that say the same of an element of the same name, whatever the detail that ends it (a name).
+  void warn(const Source& source, const std::string& what, const std::string& detail = "") {
+    add_warning(source.element + ": " + what, source.to_string() + ": " + what + detail);
+  }
   void error(const std::string& text) { sink_(LogLevel::kError, text); }
   /// The same text is given once in the life of this log.
   void warn_once(const std::string& text);
 
  private:
+  friend class LogGroup;
+
+  struct Warning {
+    std::string text;  // of the first of its kind
+    std::size_t repeats = 0;
+  };
+
+  void add_warning(const std::string& kind, const std::string& text);
+  void flush();
+
   LogSink sink_;
   std::set<std::string> given_;
+  int groups_ = 0;
+  std::vector<Warning> waiting_;
+  std::unordered_map<std::string, std::size_t> waiting_by_kind_;
+};
+
+/// Collects a log's warnings while it lives, say for one file, and gives each kind once at its end:
+/// the first, and how many more there were. Groups nest; the outermost counts.
+class LogGroup {
+ public:
+  explicit LogGroup(Log& log) : log_(log) { ++log_.groups_; }
+  ~LogGroup() {
+    if (--log_.groups_ == 0) log_.flush();
+  }
+  LogGroup(const LogGroup&) = delete;
+  LogGroup& operator=(const LogGroup&) = delete;
+
+ private:
+  Log& log_;
 };
 
 }  // namespace ardee

@@ -43,7 +43,10 @@ bool RateTimer::due(TimeNs now_ns) {
 }
 
 void RateTimer::start_at(TimeNs now_ns) {
-  if (rate_hz_ <= 0.0) return;
+  if (rate_hz_ <= 0.0) {
+    next_ = now_ns > 0 ? static_cast<std::uint64_t>(now_ns - 1) : 0;
+    return;
+  }
   const long double passed =
       static_cast<long double>(now_ns - offset_ns_) * static_cast<long double>(rate_hz_) / 1e9L;
   next_ = passed <= 0.0L ? 0 : static_cast<std::uint64_t>(std::floor(passed));

@@ -32,7 +32,8 @@ class RateTimer {
   std::uint64_t count() const { return next_; }
   void reset() { next_ = 0; }
   /// Continues at `now_ns` as if it had run from time zero (a robot spawned later keeps the same
-  /// grid of times).
+  /// grid of times). One that is due at each step counts on from the nanoseconds gone by, which no
+  /// earlier firing has reached.
   void start_at(TimeNs now_ns);
 
  private:

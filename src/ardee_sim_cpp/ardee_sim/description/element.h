@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/description/key_log.h"
 
 namespace ardee {
 
@@ -17,6 +19,8 @@ struct Element {
   std::map<std::string, std::string> attributes;
   std::vector<Element> children;
   Source source;
+  std::shared_ptr<KeyLog> key_log =
+      nullptr;  // takes down what is asked for, if anybody wants to know
 
   /// The first child of that name, or nullptr.
   const Element* child(const std::string& child_name) const;

@@ -23,4 +23,15 @@ const Joint* Model::find_joint(const std::string& joint_name) const {
   return find_named(joints, joint_name);
 }
 
+std::optional<NamedFrame> Model::find_frame(const std::string& frame_name) const {
+  if (const Link* link = find_link(frame_name))
+    return NamedFrame{frame_name, link->X_ML, link->name};
+  if (const Joint* joint = find_joint(frame_name)) {
+    const Link* child = find_link(joint->child);
+    if (child) return NamedFrame{frame_name, child->X_ML * joint->X_CJ, child->name};
+  }
+  const NamedFrame* frame = find_named(frames, frame_name);
+  return frame ? std::optional<NamedFrame>(*frame) : std::nullopt;
+}
+
 }  // namespace ardee

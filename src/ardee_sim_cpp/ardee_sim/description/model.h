@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -135,7 +136,21 @@ struct Joint {
   Source source;
 };
 
+/// A frame of a model that others may refer to, and the link that it moves with.
+struct NamedFrame {
+  std::string name;
+  Pose X_MF;
+  std::string link;  // empty: the canonical one
+};
+
 struct Model;
+
+/// Where a link stands in the world and how its origin moves, in the world's axes.
+struct LinkState {
+  Pose X_WL;
+  Twist twist_W;
+};
+using LinkStates = std::map<std::string, LinkState>;  // by link
 
 /// A model placed somewhere: many instances share one description.
 struct Instance {
@@ -145,6 +160,8 @@ struct Instance {
   double scale = 1.0;
   std::uint32_t label = 0;  // class for segmentation; 0: none
   bool is_static = false;
+  /// How a moving model's links start where not as described and at rest (a saved world).
+  std::shared_ptr<const LinkStates> link_states = nullptr;
 };
 
 /// A model as described: const after load, shared by its instances.
@@ -153,16 +170,20 @@ struct Model {
   Source source;
   bool is_static = false;
   bool self_collide = false;
-  Pose own_pose;  // <pose> of its own file, which includes replace and spawns add to
+  Pose own_pose;             // <pose> of its own file, which includes replace and spawns add to
+  std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<PluginDescription> plugins;
   std::vector<Instance> instances;  // static models included by this one; non-static ones are
                                     // merged into links and joints
-  std::string canonical_link;       // the link whose pose stands for the model's; the first
+  std::vector<NamedFrame> frames;
+  std::string canonical_link;  // the link whose pose stands for the model's; the first
 
   const Link* find_link(const std::string& link_name) const;
   const Joint* find_joint(const std::string& joint_name) const;
+  /// The frame of a link or joint, or a named one, with the link that it moves with.
+  std::optional<NamedFrame> find_frame(const std::string& frame_name) const;
 };
 
 }  // namespace ardee

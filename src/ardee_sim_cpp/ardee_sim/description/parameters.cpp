@@ -15,18 +15,31 @@ std::string quoted(const std::string& text) {
   return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
 }
 
+std::string in_words(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
 }  // namespace
+
+std::optional<double> to_double(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  double value = 0.0;
+  auto [stop, status] = std::from_chars(word.data(), end, value);
+  if (status != std::errc()) return std::nullopt;
+  if (stop != end && (*stop == 'f' || *stop == 'F')) ++stop;
+  return stop == end ? std::optional<double>(value) : std::nullopt;
+}
 
 double parse_number(const std::string& text, const Source& source) {
   constexpr const char* kSpace = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kSpace);
-  const std::size_t last = text.find_last_not_of(kSpace);
-  double value = 0.0;
   if (first != std::string::npos) {
-    const char* begin = text.data() + first + (text[first] == '+' ? 1 : 0);
-    const char* end = text.data() + last + 1;
-    const auto [stop, status] = std::from_chars(begin, end, value);
-    if (status == std::errc() && stop == end && std::isfinite(value)) return value;
+    const std::size_t count = text.find_last_not_of(kSpace) - first + 1;
+    const auto value = to_double(std::string_view(text).substr(first, count));
+    if (value && std::isfinite(*value)) return *value;
   }
   throw Error(source, "found " + quoted(text) + ", expected a finite number");
 }
@@ -49,19 +62,36 @@ Eigen::Vector3d parse_vector3(const std::string& text, const Source& source) {
   return {parse_number(x, source), parse_number(y, source), parse_number(z, source)};
 }
 
+void Parameters::note(const AskedKey& key) const {
+  if (element_.key_log) element_.key_log->add(key);
+}
+
+void Parameters::ignore(const std::set<std::string>& keys) {
+  known_.insert(keys.begin(), keys.end());
+  for (const std::string& key : keys) note({key, "", "", false, true});
+}
+
 const Element* Parameters::find(const std::string& key) {
   known_.insert(key);
+  note({key, "", ""});
   return element_.child(key);
+}
+
+const Element* Parameters::find_filled(const std::string& key) {
+  const Element* child = find(key);
+  return child && !child->text.empty() ? child : nullptr;
 }
 
 bool Parameters::has(const std::string& key) { return find(key) != nullptr; }
 
 std::string Parameters::text(const std::string& key, const std::string& fallback) {
+  note({key, "text", fallback});
   const Element* child = find(key);
   return child ? child->text : fallback;
 }
 
 std::string Parameters::required_text(const std::string& key) {
+  note({key, "text", "", true});
   const Element* child = find(key);
   if (!child || child->text.empty()) {
     throw Error(element_.source, "found no <" + key + ">, expected one");
@@ -70,7 +100,8 @@ std::string Parameters::required_text(const std::string& key) {
 }
 
 double Parameters::number(const std::string& key, double fallback, double low, double high) {
-  const Element* child = find(key);
+  note({key, "number", in_words(fallback)});
+  const Element* child = find_filled(key);
   if (!child) return fallback;
   const double value = parse_number(child->text, child->source);
   if (value < low || value > high) {
@@ -87,18 +118,22 @@ double Parameters::number(const std::string& key, double fallback, double low, d
 }
 
 int Parameters::integer(const std::string& key, int fallback, int low, int high) {
+  note({key, "whole number", std::to_string(fallback)});
   const double value = number(key, fallback, low, high);
   if (value != std::floor(value)) throw error(key, "expected a whole number");
   return static_cast<int>(value);
 }
 
 bool Parameters::boolean(const std::string& key, bool fallback) {
-  const Element* child = find(key);
+  note({key, "true or false", fallback ? "true" : "false"});
+  const Element* child = find_filled(key);
   return child ? parse_boolean(child->text, child->source) : fallback;
 }
 
 Eigen::Vector3d Parameters::vector3(const std::string& key, const Eigen::Vector3d& fallback) {
-  const Element* child = find(key);
+  note({key, "three numbers",
+        in_words(fallback.x()) + " " + in_words(fallback.y()) + " " + in_words(fallback.z())});
+  const Element* child = find_filled(key);
   return child ? parse_vector3(child->text, child->source) : fallback;
 }
 
@@ -107,7 +142,7 @@ const Element* Parameters::block(const std::string& key) { return find(key); }
 void Parameters::finish(Log& log) const {
   for (const Element& child : element_.children) {
     if (known_.count(child.name) == 0) {
-      log.warn(child.source.to_string() + ": unknown key, ignored");
+      log.warn(child.source, "unknown key, ignored");
     }
   }
 }

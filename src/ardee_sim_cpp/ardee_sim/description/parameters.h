@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/description/element.h"
@@ -13,8 +15,8 @@ namespace ardee {
 
 /// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers
 /// which keys were asked for, so that finish() can name the ones that nobody reads. A value that
-/// does not parse or lies outside its bounds is an Error with file, line and element; an unknown
-/// key is a warning.
+/// does not parse or lies outside its bounds is an Error with file, line and element; an empty one
+/// is its default; an unknown key is a warning.
 class Parameters {
  public:
   explicit Parameters(const Element& element) : element_(element) {}
@@ -22,7 +24,7 @@ class Parameters {
   bool has(const std::string& key);
   std::string text(const std::string& key, const std::string& fallback);
   std::string required_text(const std::string& key);
-  /// Finite number within [low, high].
+  /// Finite number within [low, high]; an empty element gives `fallback`, as an absent one does.
   double number(const std::string& key, double fallback,
                 double low = -std::numeric_limits<double>::max(),
                 double high = std::numeric_limits<double>::max());
@@ -33,7 +35,7 @@ class Parameters {
   /// The child element itself, for a nested block; nullptr if absent.
   const Element* block(const std::string& key);
   /// Marks keys as known without reading them (keys that Gazebo's plugins accept and ignore).
-  void ignore(const std::set<std::string>& keys) { known_.insert(keys.begin(), keys.end()); }
+  void ignore(const std::set<std::string>& keys);
   /// Warns once for each key that was never asked for.
   void finish(Log& log) const;
   const Source& source() const { return element_.source; }
@@ -41,12 +43,18 @@ class Parameters {
 
  private:
   const Element* find(const std::string& key);
+  void note(const AskedKey& key) const;
+  /// None if it is empty.
+  const Element* find_filled(const std::string& key);
 
   const Element& element_;
   std::set<std::string> known_;
 };
 
-/// The one parser of numbers: accepts a finite decimal number with nothing after it, or says so.
+/// The one reader of numbers: the value of a decimal number, with or without the suffix f of a
+/// float, of "inf" or of "nan" in any case; none if the word is anything else.
+std::optional<double> to_double(std::string_view word);
+/// A finite number with nothing but space around it, or an Error.
 double parse_number(const std::string& text, const Source& source);
 bool parse_boolean(const std::string& text, const Source& source);
 Eigen::Vector3d parse_vector3(const std::string& text, const Source& source);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/core/time.h"
 #include "ardee_sim/description/model.h"
 
 namespace ardee {
@@ -51,7 +52,6 @@ struct Scene {
   Color background{0.7f, 0.7f, 0.7f, 1};
   bool sky = false;
   bool shadows = true;
-  bool grid = true;
 };
 
 /// Where on the Earth the world's origin lies; angles in degrees as in SDF.
@@ -71,6 +71,7 @@ struct World {
   std::vector<Light> lights;
   std::optional<Pose> gui_camera;
   std::optional<SphericalCoordinates> spherical_coordinates;
+  TimeNs start_ns = 0;  // on the clock
   std::vector<Instance> models;
   std::vector<PluginDescription> plugins;
 };

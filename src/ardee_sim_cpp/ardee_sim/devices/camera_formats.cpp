@@ -1,37 +1,50 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/camera_formats.h"
 
+#include <set>
+
 namespace ardee {
 namespace {
 
 struct Format {
   PixelFormat format;
   const char* encoding;
-  std::initializer_list<const char*> names;  // in SDF; Gazebo takes the longer ones too
+  std::initializer_list<const char*> names;  // SDF's, Gazebo's, and what people write besides
 };
 
 const Format kFormats[] = {
-    {PixelFormat::kRgb8, "rgb8", {"R8G8B8", "RGB_INT8"}},
-    {PixelFormat::kBgr8, "bgr8", {"B8G8R8", "BGR_INT8"}},
-    {PixelFormat::kMono8, "mono8", {"L8", "L_INT8"}},
-    {PixelFormat::kMono16, "mono16", {"L16", "L_INT16", "L_UINT16"}},
+    {PixelFormat::kRgb8, "rgb8", {"R8G8B8", "RGB_INT8", "RGB8"}},
+    {PixelFormat::kBgr8, "bgr8", {"B8G8R8", "BGR_INT8", "BGR8"}},
+    {PixelFormat::kMono8, "mono8", {"L8", "L_INT8", "MONO8"}},
+    {PixelFormat::kMono16, "mono16", {"L16", "L_INT16", "L_UINT16", "MONO16"}},
     {PixelFormat::kBayerRggb8, "bayer_rggb8", {"BAYER_RGGB8"}},
     {PixelFormat::kBayerBggr8, "bayer_bggr8", {"BAYER_BGGR8"}},
     {PixelFormat::kBayerGbrg8, "bayer_gbrg8", {"BAYER_GBRG8"}},
     {PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
 };
 
+/// Gazebo's and SDF's names of what no picture here has.
+const std::set<std::string> kOthers{
+    "R8G8B8A8",  "A8R8G8B8",   "RGBA_INT8", "BGRA_INT8",  "R16G16B16",   "B16G16R16",
+    "RGB_INT16", "RGB_UINT16", "BGR_INT16", "BGR_UINT16", "RGB_INT32",   "RGB_UINT32",
+    "BGR_INT32", "BGR_UINT32", "R_FLOAT16", "R_FLOAT32",  "RGB_FLOAT16", "RGB_FLOAT32"};
+
 constexpr char kPlain16[] = "16UC1";  // the same bytes as mono16, not said to be brightness
 
 }  // namespace
 
-PixelFormat read_pixel_format(const std::string& name, const Source& source) {
+PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log) {
   std::string known;
   for (const Format& each : kFormats) {
     for (const char* text : each.names) {
-      if (name == text) return each.format;
+      if (name == text || name == each.encoding) return each.format;
     }
     known += std::string(known.empty() ? "" : ", ") + *each.names.begin();
+  }
+  if (kOthers.count(name) != 0) {
+    log.warn(source.to_string() + ": found format '" + name + "', expected one of: " + known +
+             "; the first is used");
+    return PixelFormat::kRgb8;
   }
   throw Error(source, "found format '" + name + "', expected one of: " + known);
 }

@@ -3,13 +3,16 @@
 
 #include <string>
 
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/element.h"
 #include "ardee_sim/render/develop.h"
 
 namespace ardee {
 
-/// The format that SDF's <format> names. Throws Error for one that is not known.
-PixelFormat read_pixel_format(const std::string& name, const Source& source);
+/// The format that SDF's <format> names, as SDF, Gazebo or ROS spells it. One of more channels or
+/// bits than a picture has here is a warning, and red, green and blue of eight bits. Throws Error
+/// for one that is not known.
+PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log);
 
 /// The format of an encoding of sensor_msgs/image_encodings. Throws Error for one that is not
 /// known.

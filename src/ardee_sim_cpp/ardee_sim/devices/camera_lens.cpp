@@ -13,7 +13,7 @@ constexpr double kShortest_px = 1e-3;  // focal length
 /// Relative: of a focal length against what the field of view says.
 constexpr double kSameFocalLength = 1e-2;
 
-std::array<double, 5> read_distortion(const Element& distortion, Log& log) {
+std::array<double, 5> read_distortion(const Element& distortion) {
   Parameters parameters(distortion);
   std::array<double, 5> D{};
   std::size_t k = 0;
@@ -26,37 +26,29 @@ std::array<double, 5> read_distortion(const Element& distortion, Log& log) {
   if (!(stream >> x >> y) || x != 0.5 || y != 0.5) {
     throw parameters.error("center", "expected 0.5 0.5: camera_info has no other");
   }
-  parameters.finish(log);
   return D;
 }
 
-void read_intrinsics(const Element& intrinsics, Lens& lens, Log& log) {
+void read_intrinsics(const Element& intrinsics, Lens& lens) {
   Parameters parameters(intrinsics);
   lens.fx_px = parameters.number("fx", lens.fx_px, kShortest_px, kMost_px);
   lens.fy_px = parameters.number("fy", lens.fy_px, kShortest_px, kMost_px);
   lens.cx_px = parameters.number("cx", lens.cx_px, -kMost_px, kMost_px);
   lens.cy_px = parameters.number("cy", lens.cy_px, -kMost_px, kMost_px);
   lens.skew_px = parameters.number("s", 0.0, -kMost_px, kMost_px);
-  parameters.finish(log);
 }
 
 /// Returns whether there are <intrinsics>.
 bool read_lens_block(const Element& block, Lens& lens, Log& log) {
   Parameters parameters(block);
   const std::string type = parameters.text("type", "gnomonical");
-  std::string passed_over = type == "gnomonical" ? "" : " <type> " + type;
-  for (const char* key : {"custom_function", "projection"}) {
-    if (parameters.has(key)) passed_over += std::string(" <") + key + ">";
-  }
-  if (!passed_over.empty()) {
-    log.warn(block.source.to_string() + ": found" + passed_over +
-             ", expected a gnomonical lens and <intrinsics>: the picture and camera_info are those "
-             "of a pinhole");
+  if (type != "gnomonical") {
+    log.warn(block.source, "found <type> " + type +
+                               ", expected gnomonical: the picture and "
+                               "camera_info are those of a pinhole");
   }
   const Element* intrinsics = parameters.block("intrinsics");
-  if (intrinsics) read_intrinsics(*intrinsics, lens, log);
-  parameters.ignore({"scale_to_hfov", "cutoff_angle", "env_texture_size"});  // of wide angles only
-  parameters.finish(log);
+  if (intrinsics) read_intrinsics(*intrinsics, lens);
   return intrinsics != nullptr;
 }
 
@@ -125,7 +117,7 @@ void CameraLens::set_horizontal_fov(int width_px, double fov_rad) {
 SdfLens read_sdf_lens(Parameters& camera, Lens& lens, Log& log) {
   SdfLens found;
   if (const Element* block = camera.block("distortion")) {
-    found.distortion = read_distortion(*block, log);
+    found.distortion = read_distortion(*block);
   }
   if (const Element* block = camera.block("lens")) {
     found.has_intrinsics = read_lens_block(*block, lens, log);

@@ -27,29 +27,24 @@ void read_image(const Element& image, CameraParams& camera, Log& log) {
                                   std::to_string(camera.height) + " pixels, expected at most " +
                                   std::to_string(static_cast<int>(kMostPixels)) + " in all");
   }
-  const std::string format = parameters.text("format", "R8G8B8");
   const Element* place = parameters.block("format");
-  camera.development.format = read_pixel_format(format, place ? place->source : image.source);
-  parameters.ignore({"anti_aliasing"});
-  parameters.finish(log);
+  const std::string format = place && !place->text.empty() ? place->text : "R8G8B8";
+  camera.development.format = read_pixel_format(format, place ? place->source : image.source, log);
 }
 
-void read_clip(const Element& clip, CameraParams& camera, Log& log) {
+void read_clip(const Element& clip, CameraParams& camera) {
   Parameters parameters(clip);
   camera.near_m = parameters.number("near", 0.1, 0.0, kFarthest_m);
   camera.far_m = parameters.number("far", 100.0, 0.0, kFarthest_m);
   if (!(camera.far_m > camera.near_m)) throw parameters.error("far", "expected more than <near>");
-  parameters.finish(log);
 }
 
-void read_noise(const Element& noise, CameraParams& camera, Log& log) {
+void read_noise(const Element& noise, CameraParams& camera) {
   Parameters parameters(noise);
   const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
                                                           : parameters.text("type", "gaussian");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
-  parameters.ignore({"type", "bias_mean", "bias_stddev", "precision"});
-  parameters.finish(log);
   if (type == "none") return;
   if (type != "gaussian") {
     throw Error(noise.source, "found noise type '" + type + "', expected gaussian or none");
@@ -83,12 +78,10 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
     throw parameters.error("horizontal_fov", "expected more than 0 and less than pi");
   }
   if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
-  if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera, log);
-  if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera, log);
+  if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera);
+  if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera);
   camera.lens.taken = Lens::pinhole(camera.width, camera.height, fov_rad);
   of_sdf = read_sdf_lens(parameters, camera.lens.taken, log);
-  parameters.ignore({"save", "depth_camera", "visibility_mask"});
-  parameters.finish(log);
   return camera;
 }
 

@@ -68,8 +68,9 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.height = params.height;
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
-  eye.unzoomed = params.lens.taken;
   set_lens(eye);
+  eye.unzoomed = params.lens.taken;
+  eye.unzoomed_table = eye.camera.lens;
   eye.view = context.scenes.register_eye(SceneKind::kVisual,
                                          [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
   const auto output = [this](const std::string& topic, std::size_t kind) {
@@ -104,7 +105,7 @@ void CameraSensor::reset(TimeNs now_ns) {
   asked_ = false;
   for (Eye& eye : eyes_) {
     eye.params.lens.taken = eye.unzoomed;
-    set_lens(eye);
+    eye.camera.lens = eye.unzoomed_table;
   }
 }
 

@@ -48,6 +48,7 @@ class CameraSensor : public Sensor {
   struct Eye {
     CameraParams params;
     Lens unzoomed;
+    std::shared_ptr<const LensTable> unzoomed_table;
     Camera camera;               // but for its pose
     std::shared_ptr<void> view;  // tells the scenes where rays start
     Output* image = nullptr;     // null: there is no such topic

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/device.h"
 
+#include <sstream>
+
+#include "ardee_sim/core/error.h"
+
 namespace ardee {
 
 Output& Device::add_output(const std::string& topic, std::size_t kind) {
@@ -9,10 +13,27 @@ Output& Device::add_output(const std::string& topic, std::size_t kind) {
 }
 
 void Device::add_input(const std::string& topic, std::function<void(const Twist&)> on_command) {
-  inputs_.push_back({topic, std::move(on_command)});
+  inputs_.push_back({topic, [topic, act = std::move(on_command)](const Twist& command) {
+                       if (!command.linear.allFinite() || !command.angular.allFinite()) {
+                         throw Error(topic + ": found a command that is not finite");
+                       }
+                       act(command);
+                     }});
 }
 
-void Device::add_number_input(NumberInput input) { number_inputs_.push_back(std::move(input)); }
+void Device::add_number_input(NumberInput input) {
+  input.on_number = [topic = input.topic, low = input.low, high = input.high,
+                     act = std::move(input.on_number)](double number) {
+    if (!(number >= low && number <= high)) {
+      std::ostringstream text;
+      text << topic << ": found " << number << ", expected a number in [" << low << ", " << high
+           << "]";
+      throw Error(text.str());
+    }
+    act(number);
+  };
+  number_inputs_.push_back(std::move(input));
+}
 
 void Device::add_trigger(const std::string& topic, std::function<void()> on_trigger) {
   triggers_.push_back({topic, std::move(on_trigger)});

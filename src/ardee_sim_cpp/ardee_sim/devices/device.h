@@ -28,13 +28,15 @@ struct Output {
   bool latched = false;  // whoever comes later still gets the last reading
 };
 
-/// Something a device takes: velocity commands on a topic.
+/// Something a device takes: velocity commands on a topic. One that is not finite is an Error and
+/// changes nothing.
 struct Input {
   std::string topic;
   std::function<void(const Twist&)> on_command;
 };
 
-/// A number that a device takes on a topic: one within [low, high], others are refused.
+/// A number that a device takes on a topic: one within [low, high]; others are an Error and change
+/// nothing.
 struct NumberInput {
   std::string topic;
   double low = 0.0;
@@ -113,6 +115,8 @@ struct Surroundings {
   std::optional<SphericalCoordinates> spherical_coordinates;
   /// Files that the static models come from, each once.
   std::function<std::vector<std::string>()> scenery_files;
+  /// How often static models have come or gone so far.
+  std::function<std::uint64_t()> scenery_changes;
 };
 
 /// What a device is given when it is made. All references outlive the device.
@@ -150,9 +154,15 @@ class Device {
 
   /// Before physics: controllers act.
   virtual void before_step(TimeNs /*now_ns*/) {}
+  /// Before physics, after all controllers: what measures over the step notes where it begins.
+  virtual void observe(TimeNs /*now_ns*/) {}
+  /// Between two steps the model was put elsewhere or given another velocity, by no force.
+  virtual void on_set_state() {}
   /// After physics, at the new time: sensors measure.
   virtual void after_step(TimeNs /*now_ns*/, ReadingSink& /*sink*/) {}
-  /// State goes back to what it was when the device was made; commands are forgotten.
+  /// State goes back to what it was when the device was made, with the numbers of the description;
+  /// commands are forgotten. A random stream begins anew at time zero, and at no other time repeats
+  /// what it has given.
   virtual void reset(TimeNs now_ns) = 0;
 
  protected:

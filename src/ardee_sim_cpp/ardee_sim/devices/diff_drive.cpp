@@ -11,7 +11,7 @@ namespace ardee {
 namespace {
 
 constexpr double kFastest = 1e6;  // m/s: what a command can ask of a wheel
-// As the stock plugin says them: x, y, z, roll, pitch, yaw.
+// Of the pose, as the stock plugin says them: x, y, z, roll, pitch, yaw. It says none of the twist.
 constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
 
 void read_wheels(Parameters& parameters, const std::string& space, const DeviceContext& context,
@@ -177,7 +177,7 @@ void DiffDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
   const OdometryReading reading = odometry(now_ns);
   if (params_.publish_odometry_tf) {
     sink.on_reading(*tf_output_,
-                    TransformReading{reading.header, reading.child_frame_id, reading.pose});
+                    TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
   }
   if (odometry_output_ && odometry_output_->demanded) sink.on_reading(*odometry_output_, reading);
 }

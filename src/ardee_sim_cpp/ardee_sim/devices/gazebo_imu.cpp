@@ -61,7 +61,7 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
   params.frame = resolve_frame(parameters.required_text("frameName"), space, context);
   if (const Element* imu = sensor.element.child("imu")) {
     const std::uint64_t key = stream_key(context.seed, sensor.name + "/bias");
-    params.noise = read_sdf_imu_noise(*imu, key, context.log);
+    params.noise = read_sdf_imu_noise(*imu, key);
   }
   parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
   parameters.finish(context.log);

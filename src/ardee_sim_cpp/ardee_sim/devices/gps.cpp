@@ -22,9 +22,12 @@ std::unique_ptr<Device> Gps::make(const PluginDescription& plugin, DeviceContext
 
 Gps::Gps(const std::string& name, const GpsParams& params)
     : Sensor(name, params.mount),
+      initial_frame_on_earth_(params.frame_on_earth),
       frame_on_earth_(params.frame_on_earth),
       position_(params.position, 3, stream_key(params.mount.seed, name + "/position")),
       velocity_(params.velocity, 3, stream_key(params.mount.seed, name + "/velocity")),
+      initial_status_(params.status),
+      initial_service_(params.service),
       status_(params.status),
       service_(params.service),
       frame_(params.frame),
@@ -56,6 +59,9 @@ void Gps::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   position_.reset(now_ns);
   velocity_.reset(now_ns);
+  frame_on_earth_ = initial_frame_on_earth_;
+  status_ = initial_status_;
+  service_ = initial_service_;
 }
 
 Gps::Sky Gps::sky(const Vector3d& /*position_W*/, TimeNs /*now_ns*/) { return {}; }

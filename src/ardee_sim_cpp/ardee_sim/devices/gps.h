@@ -42,9 +42,12 @@ class Gps : public Sensor {
   FixReading fix(TimeNs now_ns, const Eigen::Vector3d& measured_W, const Sky& sky,
                  const Eigen::Vector3d& variance_m2) const;
 
+  const LocalFrame initial_frame_on_earth_;
   LocalFrame frame_on_earth_;
   SensorModel position_;
   SensorModel velocity_;
+  const int initial_status_;
+  const int initial_service_;
   int status_;
   int service_;
   std::string frame_;

@@ -43,7 +43,7 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
                                              DeviceContext& context) {
   constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
   Parameters parameters(plugin.element);
-  Params params{read_gps_params(parameters, context)};
+  Params params{read_gps_params(parameters, context), plugin.element};
   params.correlation_time_s =
       parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
   const std::string space = plugin_namespace(parameters, context);
@@ -55,14 +55,19 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
   params.regions_topic = topic("regionsTopicName", "regions");
   parameters.ignore({"field_gps_noise_characteristics", "plot", "periodic_noise_box",
                      "geofenceFile", "plotsFile"});
-  params.regions = GpsRegions(plugin.element, context.surroundings.scenery_files(), context.log);
   parameters.finish(context.log);
-  return std::make_unique<GpsWithDropout>(plugin.name, params);
+  return std::make_unique<GpsWithDropout>(plugin.name, params, context);
 }
 
-GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params)
+GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
+                               const DeviceContext& context)
     : Gps(name, params.gps),
-      regions_(params.regions),
+      plugin_(params.plugin),
+      surroundings_(context.surroundings),
+      log_(context.log),
+      scenery_files_(surroundings_.scenery_files()),
+      scenery_changes_(surroundings_.scenery_changes()),
+      regions_(plugin_, scenery_files_, log_),
       correlation_time_s_(params.correlation_time_s),
       key_(stream_key(params.gps.mount.seed, name + "/dropout")),
       random_(key_),
@@ -78,6 +83,21 @@ void GpsWithDropout::reset(TimeNs now_ns) {
   for (int axis = 0; axis < 3; ++axis) unit_error_[axis] = random_.normal();
   has_fix_ = true;
   loss_duration_s_ = 0.0;
+  regions_shown_ = false;
+}
+
+void GpsWithDropout::follow_scenery() {
+  if (surroundings_.scenery_changes() == scenery_changes_) return;
+  scenery_changes_ = surroundings_.scenery_changes();
+  std::vector<std::string> files = surroundings_.scenery_files();
+  if (files == scenery_files_) return;
+  scenery_files_ = std::move(files);
+  try {
+    regions_ = GpsRegions(plugin_, scenery_files_, log_);
+  } catch (const Error& error) {
+    log_.error("GPS '" + name() + "' keeps its regions: " + error.what());
+    return;
+  }
   regions_shown_ = false;
 }
 
@@ -112,6 +132,7 @@ GpsNoise GpsWithDropout::noise_in(const GpsRegion& region, TimeNs now_ns) const 
 }
 
 Gps::Sky GpsWithDropout::sky(const Vector3d& position_W, TimeNs now_ns) {
+  follow_scenery();
   const GpsRegion* region = regions_.find(position_W);
   GpsNoise noise;
   if (region) noise = noise_in(*region, now_ns);

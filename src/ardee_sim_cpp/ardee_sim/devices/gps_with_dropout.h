@@ -18,7 +18,7 @@ class GpsWithDropout : public Gps {
  public:
   struct Params {
     GpsParams gps;
-    GpsRegions regions{};
+    Element plugin{};  // what it says of regions
     // Measured under 2 m of corn with a receiver without RTK at 1 Hz.
     double correlation_time_s = 12.0;
     std::string quality_topic{};
@@ -26,7 +26,7 @@ class GpsWithDropout : public Gps {
   };
 
   static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
-  GpsWithDropout(const std::string& name, const Params& params);
+  GpsWithDropout(const std::string& name, const Params& params, const DeviceContext& context);
 
   void reset(TimeNs now_ns) override;
 
@@ -36,11 +36,18 @@ class GpsWithDropout : public Gps {
               const Eigen::Vector3d& std_m, ReadingSink& sink) override;
 
  private:
+  /// Regions follow fields that come and go.
+  void follow_scenery();
   GpsNoise noise_in(const GpsRegion& region, TimeNs now_ns) const;
   void move_error();
   void move_fix(const GpsNoise& noise);
   RegionsReading regions_reading(TimeNs now_ns) const;
 
+  Element plugin_;
+  Surroundings surroundings_;
+  Log& log_;
+  std::vector<std::string> scenery_files_;  // that the regions are of
+  std::uint64_t scenery_changes_;
   GpsRegions regions_;
   double correlation_time_s_;
   std::uint64_t key_;

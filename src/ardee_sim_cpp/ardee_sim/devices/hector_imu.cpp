@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/hector_imu.h"
 
+#include <utility>
+
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -78,18 +80,26 @@ void HectorImu::reset(TimeNs now_ns) {
   InertialSensor::reset(now_ns);
   for (SensorModel* model : {&accel_, &rate_, &yaw_}) model->reset(now_ns);
   if (vibration_) vibration_->reset(now_ns);
+  take_vibration();
   followed_ns_ = now_ns;
 }
 
 void HectorImu::follow(TimeNs now_ns) {
   InertialSensor::follow(now_ns);
-  if (vibration_) vibration_->step(seconds(now_ns - followed_ns_));
+  if (vibration_) shake(seconds(now_ns - followed_ns_));
   followed_ns_ = now_ns;
 }
 
-Vector3d HectorImu::vibration() const {
-  if (!vibration_) return Vector3d::Zero();
-  return vibration_->at_speed(mount().robot.twist().linear.head<2>().norm());
+void HectorImu::shake(double dt_s) {
+  vibration_->step(dt_s);
+  const double speed_m_per_s = mount().robot.twist().linear.head<2>().norm();
+  shaken_s_ += dt_s;
+  mean_vibration_ += dt_s / shaken_s_ * (vibration_->at_speed(speed_m_per_s) - mean_vibration_);
+}
+
+Vector3d HectorImu::take_vibration() {
+  shaken_s_ = 0.0;
+  return std::exchange(mean_vibration_, Vector3d::Zero());
 }
 
 Eigen::Quaterniond HectorImu::orientation_error(const Eigen::Quaterniond& q_WS) const {
@@ -117,7 +127,8 @@ void HectorImu::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& 
   const Eigen::Quaterniond q_WS = pose().q;
   ImuReading reading;
   reading.header = {now_ns, frame_};
-  reading.linear_acceleration = accel_.corrupt(motion.specific_force() + vibration(), elapsed_s());
+  reading.linear_acceleration =
+      accel_.corrupt(motion.specific_force() + take_vibration(), elapsed_s());
   reading.angular_velocity = rate_.corrupt(motion.angular_velocity, elapsed_s());
   yaw_.next_error(elapsed_s());
   const Eigen::Quaterniond error = orientation_error(q_WS);

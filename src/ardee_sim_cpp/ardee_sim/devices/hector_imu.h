@@ -42,13 +42,17 @@ class HectorImu : public InertialSensor {
 
  private:
   Eigen::Quaterniond orientation_error(const Eigen::Quaterniond& q_WS) const;
-  Eigen::Vector3d vibration() const;
+  void shake(double dt_s);
+  /// Mean since the last call.
+  Eigen::Vector3d take_vibration();
   void set_covariances(ImuReading& reading) const;
 
   SensorModel accel_;
   SensorModel rate_;
   SensorModel yaw_;
   std::optional<Vibration> vibration_;
+  Eigen::Vector3d mean_vibration_{0, 0, 0};  // of the last shaken_s_
+  double shaken_s_ = 0.0;
   TimeNs followed_ns_ = 0;
   std::string frame_;
   Output& output_;

@@ -19,13 +19,13 @@ Vector3d rotation_vector(Eigen::Quaterniond q) {
 
 }  // namespace
 
-Vector3d InertialMotion::velocity(const Twist& link_twist_W) const {
-  return link_twist_W.linear + link_twist_W.angular.cross(robot_.link_pose(link_).q * X_LS_.p);
+void InertialMotion::on_set_state() {
+  const Twist twist_W = robot_.link_twist(link_);
+  velocity_W_ = twist_W.linear + twist_W.angular.cross(robot_.link_pose(link_).q * X_LS_.p);
 }
 
 void InertialMotion::reset(TimeNs now_ns) {
-  link_twist_W_ = robot_.link_twist(link_);
-  velocity_W_ = velocity(link_twist_W_);
+  on_set_state();
   sum_ = Mean{};
   summed_s_ = 0.0;
   begin_step(now_ns);
@@ -34,10 +34,6 @@ void InertialMotion::reset(TimeNs now_ns) {
 void InertialMotion::begin_step(TimeNs now_ns) {
   begun_ns_ = now_ns;
   X_WS_ = pose();
-  const Twist twist_W = robot_.link_twist(link_);
-  const bool was_pushed =
-      twist_W.linear != link_twist_W_.linear || twist_W.angular != link_twist_W_.angular;
-  if (was_pushed) velocity_W_ = velocity(twist_W);
 }
 
 void InertialMotion::end_step(TimeNs now_ns, const Vector3d& gravity_W) {
@@ -53,7 +49,6 @@ void InertialMotion::end_step(TimeNs now_ns, const Vector3d& gravity_W) {
   sum_.angular_velocity += rotation_vector(q_SW * X_WS.q);
   summed_s_ += dt_s;
   velocity_W_ = velocity_W;
-  link_twist_W_ = robot_.link_twist(link_);
 }
 
 InertialMotion::Mean InertialMotion::take() {

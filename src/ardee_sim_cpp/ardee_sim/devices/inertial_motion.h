@@ -7,7 +7,8 @@
 namespace ardee {
 
 /// How a point of a robot moves, from its poses before and after each step: what the physics did,
-/// whatever the mounting. A model that is moved or pushed between steps makes no spike.
+/// whatever the mounting, and what drives did. A model whose state is set between steps makes no
+/// spike.
 class InertialMotion {
  public:
   /// X_LS: the point and its axes in the link.
@@ -25,6 +26,7 @@ class InertialMotion {
   };
 
   void reset(TimeNs now_ns);
+  void on_set_state();
   void begin_step(TimeNs now_ns);
   void end_step(TimeNs now_ns, const Eigen::Vector3d& gravity_W);
   /// Of the steps since the last call.
@@ -32,14 +34,12 @@ class InertialMotion {
 
  private:
   Pose pose() const { return robot_.link_pose(link_) * X_LS_; }
-  Eigen::Vector3d velocity(const Twist& link_twist_W) const;
 
   const Robot& robot_;
   std::size_t link_;
   Pose X_LS_;
   TimeNs begun_ns_ = 0;
   Pose X_WS_;                            // when the step began
-  Twist link_twist_W_;                   // when the last step ended
   Eigen::Vector3d velocity_W_{0, 0, 0};  // mean over the last step
   Mean sum_;                             // times seconds
   double summed_s_ = 0.0;

@@ -16,7 +16,8 @@ class InertialSensor : public Sensor {
         gravity_m_per_s2_(std::move(gravity_m_per_s2)),
         motion_(mount.robot, mount.link, mount.X_LS) {}
 
-  void before_step(TimeNs now_ns) override { motion_.begin_step(now_ns); }
+  void observe(TimeNs now_ns) override { motion_.begin_step(now_ns); }
+  void on_set_state() override { motion_.on_set_state(); }
   void reset(TimeNs now_ns) override {
     Sensor::reset(now_ns);
     motion_.reset(now_ns);

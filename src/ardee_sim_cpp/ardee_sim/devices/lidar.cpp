@@ -7,10 +7,15 @@
 namespace ardee {
 namespace {
 
+constexpr double kMostTimeIncrement_s = 1e3;
+
 std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescription& plugin,
                              std::size_t link, SceneKind scene, DeviceContext& context) {
   Parameters keys(plugin.element);
   LidarParams params = read_lidar_params(sensor, keys, scene, "/world", context);
+  if (keys.has("timeIncrement")) {
+    params.time_increment_s = keys.number("timeIncrement", 0.0, 0.0, kMostTimeIncrement_s);
+  }
   keys.ignore({"updateRate", "gaussianNoise", "hokuyoMinIntensity"});
   keys.finish(context.log);
   if (params.rays.rows > 1) {
@@ -66,6 +71,9 @@ void Lidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
   reading.angle_min_rad = rays.angle_min_rad;
   reading.angle_max_rad = rays.angle_max_rad;
   reading.angle_increment_rad = rays.angle_increment_rad();
+  reading.scan_time_s = mount().rate_hz > 0.0 ? 1.0 / mount().rate_hz : elapsed_s();
+  reading.time_increment_s = params_.time_increment_s.value_or(
+      std::abs(reading.angle_increment_rad) / (2.0 * M_PI) * reading.scan_time_s);
   reading.range_min_m = rays.range_min_m;
   reading.range_max_m = rays.range_max_m;
   reading.ranges_m.reserve(echoes_.size());

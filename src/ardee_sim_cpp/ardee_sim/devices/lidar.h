@@ -15,7 +15,8 @@ namespace ardee {
 void corrupt_echoes(const RayBlock& rays, const CounterRng& noise, std::vector<BeamEcho>& echoes);
 
 /// A planar lidar, on collision or visual bodies. Beam i leaves the sensor's origin at angle_min +
-/// i * increment about z.
+/// i * increment about z. All beams are taken at the stamp; the times of a scan are told as the
+/// drivers of turning lidars tell them.
 class Lidar : public Sensor {
  public:
   /// libgazebo_ros_laser.so

@@ -8,7 +8,7 @@
 namespace ardee {
 namespace {
 
-constexpr std::size_t kMostSubRays = std::size_t(1) << 22;
+constexpr std::size_t kMostSubRays = std::size_t(1) << 23;
 /// Beams whose axes are up to so many widths apart tell of each other's footprints.
 constexpr double kNeighbourWidths = 2.0;
 /// A neighbour is on the same surface if it is so near to its tangent plane: less than a lidar's

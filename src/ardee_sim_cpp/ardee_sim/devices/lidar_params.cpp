@@ -10,7 +10,7 @@ namespace ardee {
 LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin, SceneKind scene,
                               const char* default_topic, DeviceContext& context) {
   LidarParams params;
-  params.rays = read_ray_block(sensor, context.log);
+  params.rays = read_ray_block(sensor);
   params.rays.noise.growth = plugin.number("noiseGrowth", 0.0, 0.0, 1.0);
   params.optics = read_lidar_optics(plugin);
   params.scene = scene;
@@ -28,7 +28,10 @@ SceneKind scene_of(const SensorDescription& sensor) {
 
 double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz) {
   constexpr double kMost_hz = 1e6;
-  const double own_hz = plugin.number("updateRate", fallback_hz, 0.0, kMost_hz);
+  const Element* given = plugin.block("updateRate");
+  // An empty one is 0 to Gazebo: no limit.
+  const bool is_empty = given != nullptr && given->text.empty();
+  const double own_hz = plugin.number("updateRate", is_empty ? 0.0 : fallback_hz, 0.0, kMost_hz);
   if (own_hz <= 0.0 || sensor.update_rate_hz <= 0.0) {
     return std::max(own_hz, sensor.update_rate_hz);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "ardee_sim/devices/device.h"
@@ -16,6 +17,8 @@ struct LidarParams {
   SceneKind scene = SceneKind::kVisual;
   bool look_through_near =
       false;  // Gazebo's way: what is nearer than the minimum is not seen at all
+  /// Of a planar lidar, from beam to beam; none: that of a mirror that turns once a scan.
+  std::optional<double> time_increment_s;
   std::string topic;
   std::string frame;
 };

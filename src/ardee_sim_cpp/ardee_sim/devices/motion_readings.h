@@ -30,6 +30,7 @@ struct TransformReading {
   Header header;
   std::string child_frame_id;
   Pose pose;
+  bool places_frame = false;  // true: of odometry, whose frame in header has no place without it
 };
 
 /// Positions in rad (m), velocities in rad/s (m/s), joint by joint.

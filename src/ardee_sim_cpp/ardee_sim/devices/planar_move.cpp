@@ -10,7 +10,7 @@ namespace ardee {
 namespace {
 
 constexpr double kFastest = 1e3;  // m/s, rad/s: what a command can ask
-// As the stock plugin says them: x, y, z, roll, pitch, yaw.
+// Of the pose, as the stock plugin says them: x, y, z, roll, pitch, yaw. It says none of the twist.
 constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
 
 double bounded(double speed) { return std::clamp(speed, -kFastest, kFastest); }
@@ -73,7 +73,7 @@ void PlanarMove::after_step(TimeNs now_ns, ReadingSink& sink) {
   reading.pose = robot_.pose();
   reading.twist = robot_.own_twist();
   sink.on_reading(*tf_output_,
-                  TransformReading{reading.header, reading.child_frame_id, reading.pose});
+                  TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
   if (odometry_output_->demanded) sink.on_reading(*odometry_output_, reading);
 }
 

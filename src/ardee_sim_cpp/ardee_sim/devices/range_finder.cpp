@@ -29,7 +29,7 @@ RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& key
                                 const char* topic, const char* frame_key, const char* frame,
                                 DeviceContext& context) {
   RangeFinder::Params params;
-  params.rays = read_ray_block(sensor, context.log);
+  params.rays = read_ray_block(sensor);
   params.scene = scene_of(sensor);
   const std::string space = plugin_namespace(keys, context);
   params.topic = resolve_topic(keys.text("topicName", topic), space);

@@ -17,6 +17,8 @@ struct LidarReading {
   double angle_min_rad = 0.0;
   double angle_max_rad = 0.0;
   double angle_increment_rad = 0.0;
+  double time_increment_s = 0.0;  // from beam to beam
+  double scan_time_s = 0.0;       // from scan to scan
   double range_min_m = 0.0;
   double range_max_m = 0.0;
   std::vector<float> ranges_m;

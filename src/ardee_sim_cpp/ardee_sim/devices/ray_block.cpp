@@ -7,7 +7,7 @@
 namespace ardee {
 namespace {
 
-constexpr int kMostRays = 1 << 20;
+constexpr int kMostRays = 1 << 22;
 constexpr double kTwoTurns = 4.0 * M_PI;
 
 const Element& required_block(const Element& parent, const char* name) {
@@ -16,25 +16,35 @@ const Element& required_block(const Element& parent, const char* name) {
   return *block;
 }
 
-int read_samples(Parameters& direction, int fallback) {
-  const int samples = direction.integer("samples", fallback, 1, kMostRays);
-  const double resolution = direction.number("resolution", 1.0, 1e-6, 1e6);
-  return static_cast<int>(std::clamp(std::round(samples * resolution), 1.0, double(kMostRays)));
+/// Gazebo reads a whole number and passes over what follows it.
+int read_samples(Parameters& direction, int fallback, Log& log) {
+  const double written = direction.number("samples", fallback, 1, kMostRays);
+  const double samples = std::floor(written);
+  if (samples != written) {
+    log.warn(direction
+                 .error("samples", "expected a whole number: it is cut to " +
+                                       std::to_string(static_cast<int>(samples)))
+                 .what());
+  }
+  const double rays = std::round(samples * direction.number("resolution", 1.0, 1e-6, 1e6));
+  if (rays > kMostRays) {
+    throw direction.error("resolution", "expected up to " + std::to_string(kMostRays) +
+                                            " rays with that many samples");
+  }
+  return std::max(static_cast<int>(rays), 1);
 }
 
-void read_scan(const Element& scan, RayBlock& block, Log& log) {
+void read_scan(const Element& scan, RayBlock& block) {
   Parameters horizontal(required_block(scan, "horizontal"));
-  block.columns = read_samples(horizontal, 640);
+  block.columns = read_samples(horizontal, 640, log);
   block.angle_min_rad = horizontal.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.angle_max_rad = horizontal.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
-  horizontal.finish(log);
   const Element* given = scan.child("vertical");
   if (!given) return;
   Parameters vertical(*given);
-  block.rows = read_samples(vertical, 1);
+  block.rows = read_samples(vertical, 1, log);
   block.elevation_min_rad = vertical.number("min_angle", 0.0, -kTwoTurns, kTwoTurns);
   block.elevation_max_rad = vertical.number("max_angle", 0.0, -kTwoTurns, kTwoTurns);
-  vertical.finish(log);
   if (block.rows > 1 && block.elevation_max_rad <= block.elevation_min_rad) {
     throw vertical.error("max_angle", "expected more than <min_angle>");
   }
@@ -45,7 +55,7 @@ void read_scan(const Element& scan, RayBlock& block, Log& log) {
   }
 }
 
-void read_range(const Element& range, RayBlock& block, Log& log) {
+void read_range(const Element& range, RayBlock& block) {
   Parameters parameters(range);
   block.range_min_m = parameters.number("min", 0.0, 0.0, 1e6);
   block.range_max_m = parameters.number("max", 0.0, 0.0, 1e6);
@@ -54,18 +64,15 @@ void read_range(const Element& range, RayBlock& block, Log& log) {
   }
   // Checked alone: Gazebo does not quantise ranges either.
   parameters.number("resolution", 0.0, 0.0, 1e6);
-  parameters.finish(log);
 }
 
-void read_noise(const Element& noise, RangeNoise& made, Log& log) {
+void read_noise(const Element& noise, RangeNoise& made) {
   Parameters parameters(noise);
   const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
                                                           : parameters.text("type", "gaussian");
   const double mean = parameters.number("mean", 0.0);
   const double std = parameters.number("stddev", 0.0, 0.0);
   const double precision = parameters.number("precision", 0.0, 0.0);
-  parameters.ignore({"type", "bias_mean", "bias_stddev"});
-  parameters.finish(log);
   if (type == "none") return;
   if (type != "gaussian" && type != "gaussian_quantized") {
     throw Error(noise.source,
@@ -83,7 +90,7 @@ double RangeNoise::corrupt(double range_m, double normal) const {
   return precision_m > 0.0 ? precision_m * std::round(noisy_m / precision_m) : noisy_m;
 }
 
-RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
+RayBlock read_ray_block(const SensorDescription& sensor) {
   RayBlock block;
   const Element* ray = sensor.element.child("ray");
   if (!ray) ray = sensor.element.child("lidar");
@@ -91,9 +98,9 @@ RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +
                                            "': found no <ray>, expected one");
   }
-  read_scan(required_block(*ray, "scan"), block, log);
-  read_range(required_block(*ray, "range"), block, log);
-  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise, log);
+  read_scan(required_block(*ray, "scan"), block);
+  read_range(required_block(*ray, "range"), block);
+  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise);
   return block;
 }
 

@@ -53,6 +53,6 @@ struct RayBlock {
 };
 
 /// Reads and checks it, and that the sensor has no <update_rate> below 0.
-RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
+RayBlock read_ray_block(const SensorDescription& sensor);
 
 }  // namespace ardee

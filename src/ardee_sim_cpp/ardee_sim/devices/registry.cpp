@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/registry.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/battery.h"
@@ -50,6 +52,15 @@ std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescripti
   }
 }
 
+/// All that an element says, wherever it is written.
+std::string text_of(const Element& element) {
+  std::string text = "<" + element.name;
+  for (const auto& [name, value] : element.attributes) text += " " + name + "='" + value + "'";
+  text += ">" + element.text;
+  for (const Element& child : element.children) text += text_of(child);
+  return text + "</" + element.name + ">";
+}
+
 /// As in Gazebo 0 is as fast as can be: each step.
 void check_update_rate(const SensorDescription& sensor) {
   Parameters(sensor.element).number("update_rate", 0.0, 0.0);
@@ -63,6 +74,35 @@ void add(Map& plugins, const std::string& filename, Make make) {
 }
 
 }  // namespace
+
+/// A plugin of a model or of one of its sensors.
+struct Registry::Candidate {
+  std::string name;
+  const PluginDescription* plugin = nullptr;
+  const SensorDescription* sensor = nullptr;  // null: of the model
+  std::size_t link = 0;                       // of the sensor
+};
+
+std::vector<Registry::Candidate> Registry::candidates_of(const Model& model) {
+  std::vector<Candidate> found;
+  for (const PluginDescription& plugin : model.plugins) found.push_back({plugin.name, &plugin});
+  for (std::size_t link = 0; link < model.links.size(); ++link) {
+    for (const SensorDescription& sensor : model.links[link].sensors) {
+      for (const PluginDescription& plugin : sensor.plugins) {
+        found.push_back({sensor.name, &plugin, &sensor, link});
+      }
+    }
+  }
+  const auto key = [&model](const Candidate& each) {
+    return std::make_tuple(
+        each.name, each.plugin->filename, each.sensor ? model.links[each.link].name : "",
+        text_of(each.plugin->element) + (each.sensor ? text_of(each.sensor->element) : ""));
+  };
+  std::stable_sort(
+      found.begin(), found.end(),
+      [&key](const Candidate& one, const Candidate& other) { return key(one) < key(other); });
+  return found;
+}
 
 void Registry::add_model_plugin(const std::string& filename, ModelPlugin make) {
   add(model_plugins_, filename, ModelMaker{std::move(make), false});
@@ -78,66 +118,51 @@ void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make)
 
 std::string Registry::known_names() const {
   std::string names;
-  for (const auto& [name, make] : model_plugins_) names += " lib" + name + ".so";
-  for (const auto& [name, make] : sensor_plugins_) names += " lib" + name + ".so";
+  for (const std::string& file : model_plugin_files()) names += " " + file;
+  for (const std::string& file : sensor_plugin_files()) names += " " + file;
   return names;
+}
+
+std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext& context) const {
+  const PluginDescription& plugin = *candidate.plugin;
+  const std::string name = stem(plugin.filename);
+  const auto of_model = model_plugins_.find(name);
+  const auto of_sensor = sensor_plugins_.find(name);
+  const bool found =
+      candidate.sensor ? of_sensor != sensor_plugins_.end() : of_model != model_plugins_.end();
+  if (!found) {
+    const std::string expected = of_sensor != sensor_plugins_.end() ? "it within a <sensor>"
+                                 : of_model != model_plugins_.end() ? "it outside of <sensor>"
+                                                                    : "one of:" + known_names();
+    context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
+                     "', expected " + expected + "; it is left out");
+    return nullptr;
+  }
+  const auto make = [&] {
+    if (!candidate.sensor) return of_model->second.make(plugin, context);
+    check_update_rate(*candidate.sensor);
+    return of_sensor->second(*candidate.sensor, plugin, candidate.link, context);
+  };
+  // A static model keeps those of its devices that do without motion.
+  const bool may_fail =
+      candidate.sensor || of_model->second.is_sensor || !context.robot.is_dynamic();
+  const char* what = candidate.sensor ? "sensor" : "plugin";
+  auto device =
+      may_fail ? made_or_left_out(make, plugin, what, candidate.name, context.log) : make();
+  if (device) device->set_dispensable(may_fail);
+  return device;
 }
 
 std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext& robot) const {
   std::vector<std::unique_ptr<Device>> devices;
-  DeviceContext context = robot;
   std::map<std::string, int> namesakes;
-  // A device's errors follow from seed and name: of two with one name each gets a seed of its own.
-  const auto seed_for = [&](const std::string& name) {
-    const int before = namesakes[name]++;
-    context.seed =
-        before == 0 ? robot.seed : stream_key(robot.seed, "namesake " + std::to_string(before));
-  };
-  const auto unknown = [&](const PluginDescription& plugin) {
-    const bool of_sensor = sensor_plugins_.count(stem(plugin.filename)) > 0;
-    const bool of_model = model_plugins_.count(stem(plugin.filename)) > 0;
-    const std::string expected = of_sensor  ? "it within a <sensor>"
-                                 : of_model ? "it outside of <sensor>"
-                                            : "one of:" + known_names();
-    context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
-                     "', expected " + expected + "; it is left out");
-  };
-  const Model& model = context.robot.model();
-  const auto keep = [&](std::unique_ptr<Device> device, bool dispensable) {
-    if (!device) return;
-    device->set_dispensable(dispensable);
-    devices.push_back(std::move(device));
-  };
-  for (const PluginDescription& plugin : model.plugins) {
-    const auto found = model_plugins_.find(stem(plugin.filename));
-    if (found == model_plugins_.end()) {
-      unknown(plugin);
-      continue;
-    }
-    const ModelMaker& maker = found->second;
-    const auto make = [&] { return maker.make(plugin, context); };
-    seed_for(plugin.name);
-    // A static model keeps those of its devices that do without motion.
-    const bool may_fail = maker.is_sensor || !context.robot.is_dynamic();
-    keep(may_fail ? made_or_left_out(make, plugin, "plugin", plugin.name, context.log) : make(),
-         may_fail);
-  }
-  for (std::size_t link = 0; link < model.links.size(); ++link) {
-    for (const SensorDescription& sensor : model.links[link].sensors) {
-      for (const PluginDescription& plugin : sensor.plugins) {
-        const auto found = sensor_plugins_.find(stem(plugin.filename));
-        if (found == sensor_plugins_.end()) {
-          unknown(plugin);
-        } else {
-          const auto make = [&] {
-            check_update_rate(sensor);
-            return found->second(sensor, plugin, link, context);
-          };
-          seed_for(sensor.name);
-          keep(made_or_left_out(make, plugin, "sensor", sensor.name, context.log), true);
-        }
-      }
-    }
+  for (const Candidate& candidate : candidates_of(robot.robot.model())) {
+    DeviceContext context = robot;
+    // A device's errors follow from seed and name: of two with one name each gets a seed of its
+    // own.
+    const int before = namesakes[candidate.name]++;
+    if (before > 0) context.seed = stream_key(robot.seed, "namesake " + std::to_string(before));
+    if (auto device = make(candidate, context)) devices.push_back(std::move(device));
   }
   return devices;
 }

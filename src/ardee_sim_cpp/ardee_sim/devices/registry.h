@@ -25,13 +25,28 @@ class Registry {
   void add_model_sensor(const std::string& filename, ModelPlugin make);
   void add_sensor_plugin(const std::string& filename, SensorPlugin make);
 
-  /// A device for each plugin of the robot and of its links' sensors, in the order of the
-  /// description. A plugin of unknown file name is a warning that lists the known ones. A bad value
-  /// inside a controller is an Error; a sensor with one is left out, and the log says why.
+  /// A device for each plugin of the robot and of its links' sensors, in the order of their names,
+  /// whatever the order of the description: that in which they act. A plugin of unknown file name
+  /// is a warning that lists the known ones. A bad value inside a controller is an Error; a sensor
+  /// with one is left out, and the log says why.
   std::vector<std::unique_ptr<Device>> make_devices(const DeviceContext& robot) const;
+  /// File names, sorted.
+  std::vector<std::string> model_plugin_files() const { return files_of(model_plugins_); }
+  std::vector<std::string> sensor_plugin_files() const { return files_of(sensor_plugins_); }
 
  private:
+  struct Candidate;
+
+  static std::vector<Candidate> candidates_of(const Model& model);
+  /// Nothing for a plugin that is unknown or left out.
+  std::unique_ptr<Device> make(const Candidate& candidate, DeviceContext& context) const;
   std::string known_names() const;
+  template <typename Plugins>
+  static std::vector<std::string> files_of(const Plugins& plugins) {
+    std::vector<std::string> files;
+    for (const auto& [name, make] : plugins) files.push_back("lib" + name + ".so");
+    return files;
+  }
 
   struct ModelMaker {
     ModelPlugin make;

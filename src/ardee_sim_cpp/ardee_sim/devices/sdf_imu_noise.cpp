@@ -7,7 +7,7 @@ namespace ardee {
 namespace {
 
 /// One axis' errors from the element that holds <mean>, <stddev> and so on.
-void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& axes) {
   SensorErrors& errors = axes.errors;
   Parameters parameters(noise);
   const auto type = noise.attributes.find("type");
@@ -20,8 +20,6 @@ void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& a
   const double bias_density = parameters.number("dynamic_bias_stddev", 0.0, 0.0);
   const double bias_time_s = parameters.number("dynamic_bias_correlation_time", 0.0, 0.0);
   const double precision = parameters.number("precision", 0.0, 0.0);
-  parameters.ignore({"type"});
-  parameters.finish(log);
   const double drawn = bias_mean + bias_std * random.normal();
   const double bias = random.uniform() < 0.5 ? -drawn : drawn;
   if (kind == "none") return;
@@ -38,21 +36,21 @@ void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& a
   errors.drift_frequency_hz[axis] = 1.0 / bias_time_s;
 }
 
-void read_axes(const Element* vector, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+void read_axes(const Element* vector, Rng& random, SdfImuNoise::Axes& axes) {
   static constexpr const char* kAxes[] = {"x", "y", "z"};
   axes.errors.mode = NoiseMode::kExact;
   if (!vector) return;
   for (int axis = 0; axis < 3; ++axis) {
     const Element* component = vector->child(kAxes[axis]);
     const Element* noise = component ? component->child("noise") : nullptr;
-    if (noise) read_axis(*noise, axis, random, axes, log);
+    if (noise) read_axis(*noise, axis, random, axes);
   }
 }
 
 /// SDF 1.4: one block for all three axes.
-void read_common(const Element* noise, Rng& random, SdfImuNoise::Axes& axes, Log& log) {
+void read_common(const Element* noise, Rng& random, SdfImuNoise::Axes& axes) {
   if (!noise) return;
-  for (int axis = 0; axis < 3; ++axis) read_axis(*noise, axis, random, axes, log);
+  for (int axis = 0; axis < 3; ++axis) read_axis(*noise, axis, random, axes);
 }
 
 }  // namespace
@@ -66,14 +64,14 @@ Eigen::Vector3d SdfImuNoise::Axes::quantised(const Eigen::Vector3d& value) const
   return rounded;
 }
 
-SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key, Log& log) {
+SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key) {
   SdfImuNoise noise;
   Rng random(key);
-  read_axes(imu.child("angular_velocity"), random, noise.rate, log);
-  read_axes(imu.child("linear_acceleration"), random, noise.accel, log);
+  read_axes(imu.child("angular_velocity"), random, noise.rate);
+  read_axes(imu.child("linear_acceleration"), random, noise.accel);
   if (const Element* old = imu.child("noise")) {
-    read_common(old->child("rate"), random, noise.rate, log);
-    read_common(old->child("accel"), random, noise.accel, log);
+    read_common(old->child("rate"), random, noise.rate);
+    read_common(old->child("accel"), random, noise.accel);
   }
   return noise;
 }

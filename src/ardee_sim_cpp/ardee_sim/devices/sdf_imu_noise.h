@@ -22,6 +22,6 @@ struct SdfImuNoise {
 /// with <rate> and <accel>. Means add to the value; a bias is drawn once, N(bias_mean, bias_stddev)
 /// of either sign, as Gazebo does it; <dynamic_bias_stddev> (of the driving noise, per root Hz) and
 /// <dynamic_bias_correlation_time> make a drift.
-SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key, Log& log);
+SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key);
 
 }  // namespace ardee

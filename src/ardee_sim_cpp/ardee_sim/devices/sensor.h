@@ -23,6 +23,7 @@ class Sensor : public Device {
 
   Sensor(const std::string& name, const Mount& mount);
 
+  std::size_t link() const { return mount_.link; }
   void after_step(TimeNs now_ns, ReadingSink& sink) final;
   void reset(TimeNs now_ns) override;
 

@@ -66,12 +66,13 @@ const Vector3d& checked_bias(const Vector3d& bias) {
 }
 
 SensorModel::SensorModel(const SensorErrors& errors, int axes, std::uint64_t key)
-    : errors_(errors), axes_(axes), key_(key), random_(key) {
+    : initial_errors_(errors), errors_(errors), axes_(axes), key_(key), random_(key) {
   if (axes != 1 && axes != 3) throw std::logic_error("a sensor model has one axis or three");
   reset(0);
 }
 
 void SensorModel::reset(TimeNs now_ns) {
+  errors_ = initial_errors_;
   random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
   drift_.setZero();
   for (int axis = 0; axis < axes_; ++axis) drift_[axis] = errors_.drift[axis] * random_.normal();

@@ -46,7 +46,8 @@ class SensorModel {
   /// `key`: of its random stream, see stream_key(). `axes`: 1 or 3.
   SensorModel(const SensorErrors& errors, int axes, std::uint64_t key);
 
-  /// Draws the drift anew; each time of reset has errors of its own.
+  /// Draws the drift anew, of the errors as they were before any tuning; each time of reset has
+  /// errors of its own.
   void reset(TimeNs now_ns);
   /// The drift becomes `drift` and moves on from there.
   void set_drift(const Eigen::Vector3d& drift) { drift_ = drift; }
@@ -73,6 +74,7 @@ class SensorModel {
  private:
   double next_drift(int axis, double dt_s);
 
+  const SensorErrors initial_errors_;
   SensorErrors errors_;
   int axes_;
   std::uint64_t key_;

@@ -161,6 +161,7 @@ OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
   }
   reading.pose_covariance = {params_.covariance_x, params_.covariance_y, kUnknownVariance,
                              kUnknownVariance,     kUnknownVariance,     params_.covariance_yaw};
+  reading.twist_covariance = reading.pose_covariance;
   return reading;
 }
 
@@ -173,7 +174,7 @@ void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
   OdometryReading reading = odometry(now_ns);
   if (tf_output_) {
     sink.on_reading(*tf_output_,
-                    TransformReading{reading.header, reading.child_frame_id, reading.pose});
+                    TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
   }
   if (odometry_output_.demanded) {
     reading.pose.p.z() = 0.0;  // the stock plugin leaves it out of the message, not out of tf

@@ -12,10 +12,11 @@ namespace {
 
 using Type = PointCloudReading::Type;
 
-/// As velodyne_pointcloud and velodyne_simulator lay a point out; the label is ours.
+/// The fields of velodyne_pointcloud, at velodyne_simulator's places; the label is ours.
 const std::vector<PointCloudReading::Field> kFields{
     {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
-    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32}};
+    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32},
+    {"time", 28, Type::kFloat32}};
 constexpr std::uint32_t kPointStep = 32;
 
 template <typename T>
@@ -70,7 +71,7 @@ VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const 
       track_(mount.rate_hz > 0.0 ? nanoseconds(1.0 / mount.rate_hz) : 0),
       output_(add_output(params.lidar.topic, reading_kind<PointCloudReading>())) {}
 
-void VelodyneLidar::before_step(TimeNs now_ns) {
+void VelodyneLidar::observe(TimeNs now_ns) {
   if (is_distorted()) track_.add(now_ns, pose());
 }
 
@@ -86,18 +87,22 @@ void VelodyneLidar::measure(TimeNs now_ns) {
     return;
   }
   track_.add(now_ns, pose());
+  std::vector<Pose> X_WS;
+  X_WS.reserve(static_cast<std::size_t>(params_.lidar.rays.columns));
+  for (int column = 0; column < params_.lidar.rays.columns; ++column) {
+    X_WS.push_back(track_.at(static_cast<double>(now_ns) + column_time_ns(column)));
+  }
+  beams_.measure_moving(X_WS, scene, echoes_);
+}
+
+double VelodyneLidar::column_time_ns(int column) const {
+  if (!params_.motion_distortion) return 0.0;
   const RayBlock& rays = params_.lidar.rays;
   const double turn = std::abs(rays.angle_max_rad - rays.angle_min_rad) / (2.0 * M_PI);
   const double turn_s = mount().rate_hz > 0.0 ? 1.0 / mount().rate_hz : elapsed_s();
   const double sweep_ns = std::min(turn, 1.0) * turn_s * kNsPerSecond;
-  std::vector<Pose> X_WS;
-  X_WS.reserve(static_cast<std::size_t>(rays.columns));
-  for (int column = 1; column <= rays.columns; ++column) {
-    const double to_go =
-        rays.columns > 1 ? double(rays.columns - column) / (rays.columns - 1) : 0.0;
-    X_WS.push_back(track_.at(static_cast<double>(now_ns) - to_go * sweep_ns));
-  }
-  beams_.measure_moving(X_WS, scene, echoes_);
+  const int last = rays.columns - 1;
+  return last > 0 ? double(column - last) / last * sweep_ns : 0.0;
 }
 
 bool VelodyneLidar::keeps(const BeamEcho& echo) const {
@@ -115,6 +120,7 @@ PointCloudReading VelodyneLidar::to_cloud() const {
   cloud.data.resize(beams_.count() * kPointStep);
   std::uint8_t* point = cloud.data.data();
   for (std::size_t column = 0; column < columns; ++column) {
+    const double time_s = column_time_ns(static_cast<int>(column)) / kNsPerSecond;
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const std::size_t beam = ring * columns + column;
       const BeamEcho& echo = echoes_[beam];
@@ -126,6 +132,7 @@ PointCloudReading VelodyneLidar::to_cloud() const {
       write(point, 16, kept ? echo.intensity : 0.0f);
       write(point, 20, static_cast<std::uint16_t>(ring));
       write(point, 24, kept ? echo.label : 0u);
+      write(point, 28, static_cast<float>(time_s));
       point += kPointStep;
     }
   }

@@ -14,7 +14,7 @@
 namespace ardee {
 
 /// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver,
-/// with each point's label in bytes that are free there.
+/// with each point's label in bytes that are free there, and its time counted from the stamp.
 ///
 /// Points come column by column and in a column from the lowest ring up. By default a scan is taken
 /// at one moment; a scan with motion distortion ends at its time stamp, its columns are taken
@@ -43,7 +43,7 @@ class VelodyneLidar : public Sensor {
   VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
                 RayScenes& scenes);
 
-  void before_step(TimeNs now_ns) override;
+  void observe(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
 
  protected:
@@ -53,6 +53,8 @@ class VelodyneLidar : public Sensor {
  private:
   bool is_distorted() const { return params_.motion_distortion && mount().robot.is_dynamic(); }
   void measure(TimeNs now_ns);
+  /// Of a column's beams, counted from the stamp: 0 or less.
+  double column_time_ns(int column) const;
   bool keeps(const BeamEcho& echo) const;
   PointCloudReading to_cloud() const;
 

@@ -15,6 +15,7 @@ constexpr char kWorldName[] = "world";
 // From a grain of dust to a mountain: within these the engine's arithmetic cannot overflow.
 constexpr double kMinMass = 1e-9, kMaxMass = 1e12;       // kg
 constexpr double kMinMoment = 1e-15, kMaxMoment = 1e18;  // kg m^2
+constexpr double kLeastShare = 1e-9;  // of the largest moment that the least one has to be
 
 /// The steps of union-find: each link points at a link of lower index in its group, the root at
 /// itself. The last element stands for the world.
@@ -27,12 +28,19 @@ std::size_t find_root(std::vector<std::size_t>& parents, std::size_t element) {
 }
 
 std::vector<std::size_t> unite_fixed(const Model& model) {
+  const LinkIndex index = index_links(model);
+  const auto index_of = [&](const std::string& link, const Joint& joint) {
+    const auto found = index.find(link);
+    if (found != index.end()) return found->second;
+    throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
+                                  "': found link '" + link + "', expected a link of the model");
+  };
   std::vector<std::size_t> parents(model.links.size() + 1);
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   for (const Joint& joint : model.joints) {
-    const std::size_t child = link_index(model, joint.child, joint);
+    const std::size_t child = index_of(joint.child, joint);
     const std::size_t parent =
-        joint.parent == kWorldName ? model.links.size() : link_index(model, joint.parent, joint);
+        joint.parent == kWorldName ? model.links.size() : index_of(joint.parent, joint);
     if (joint.type != JointType::kFixed) continue;
     const std::size_t a = find_root(parents, child);
     const std::size_t b = find_root(parents, parent);
@@ -53,31 +61,34 @@ Eigen::Matrix3d point_inertia(double mass_kg, const Eigen::Vector3d& r) {
   return mass_kg * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
 }
 
-void check_link_inertial(const Link& link) {
-  const Inertial& inertial = *link.inertial;
+void check_inertial(const Link& link, const Inertial& inertial, bool moves) {
   if (!std::isfinite(inertial.mass_kg) || inertial.mass_kg < 0.0) {
     std::ostringstream what;
     what << "link '" << link.name << "': found mass " << inertial.mass_kg
          << " kg, expected a finite mass that is not negative";
     throw Error(link.source, what.str());
   }
-  if (!inertial.inertia_kg_m2.allFinite() || !inertial.X_LI.is_finite()) {
+  if (moves && !inertial.inertia_kg_m2.allFinite()) {
     throw Error(link.source, "link '" + link.name + "': found an inertia that is not finite");
+  }
+  if (!inertial.X_LI.is_finite()) {
+    throw Error(link.source, "link '" + link.name + "': found a centre of mass that is not finite");
   }
 }
 
-void sum_mass(const Model& model, BodyGroup& group) {
+void sum_mass(const Model& model, const std::vector<LinkProperties>& links, BodyGroup& group) {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d gravity_moment = Eigen::Vector3d::Zero();
+  group.mass_kg = group.gravity_mass_kg = 0.0;
   for (const std::size_t index : group.links) {
-    const Link& link = model.links[index];
-    if (!link.inertial) continue;
-    check_link_inertial(link);
-    const double mass_kg = link.inertial->mass_kg;
-    const Eigen::Vector3d com_M = (link.X_ML * link.inertial->X_LI).p;
+    const std::optional<Inertial>& inertial = links[index].inertial;
+    if (!inertial) continue;
+    check_inertial(model.links[index], *inertial, !group.kinematic);
+    const double mass_kg = inertial->mass_kg;
+    const Eigen::Vector3d com_M = (model.links[index].X_ML * inertial->X_LI).p;
     group.mass_kg += mass_kg;
     moment += mass_kg * com_M;
-    if (!link.gravity) continue;
+    if (!links[index].gravity) continue;
     group.gravity_mass_kg += mass_kg;
     gravity_moment += mass_kg * com_M;
   }
@@ -85,50 +96,88 @@ void sum_mass(const Model& model, BodyGroup& group) {
   if (group.gravity_mass_kg > 0.0) group.gravity_com_M = gravity_moment / group.gravity_mass_kg;
 }
 
-void sum_inertia(const Model& model, BodyGroup& group) {
+void sum_inertia(const Model& model, const std::vector<LinkProperties>& links, BodyGroup& group) {
+  group.inertia_M.setZero();
   for (const std::size_t index : group.links) {
-    const Link& link = model.links[index];
-    if (!link.inertial) continue;
-    const Pose X_MI = link.X_ML * link.inertial->X_LI;
+    const std::optional<Inertial>& inertial = links[index].inertial;
+    if (!inertial) continue;
+    const Pose X_MI = model.links[index].X_ML * inertial->X_LI;
     const Eigen::Matrix3d R_MI = X_MI.q.toRotationMatrix();
-    group.inertia_M += R_MI * link.inertial->inertia_kg_m2 * R_MI.transpose() +
-                       point_inertia(link.inertial->mass_kg, X_MI.p - group.com_M);
+    group.inertia_M += R_MI * inertial->inertia_kg_m2 * R_MI.transpose() +
+                       point_inertia(inertial->mass_kg, X_MI.p - group.com_M);
   }
   const Eigen::Matrix3d symmetric = 0.5 * (group.inertia_M + group.inertia_M.transpose());
   group.inertia_M = symmetric;
 }
 
-void check_movable(const Model& model, const BodyGroup& group) {
+void check_mass(const Model& model, const BodyGroup& group) {
+  if (group.mass_kg >= kMinMass && group.mass_kg <= kMaxMass) return;
   const Link& link = model.links[group.links.front()];
   std::ostringstream what;
-  what << "link '" << link.name << "' of model '" << model.name << "': found ";
-  if (!(group.mass_kg >= kMinMass && group.mass_kg <= kMaxMass)) {
-    what << "a mass of " << group.mass_kg << " kg on a link that can move, expected one in ["
-         << kMinMass << ", " << kMaxMass << "]";
-    throw Error(link.source, what.str());
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(group.inertia_M,
+  what << "link '" << link.name << "' of model '" << model.name << "': found a mass of "
+       << group.mass_kg << " kg on a link that can move, expected one in [" << kMinMass << ", "
+       << kMaxMass << "]";
+  throw Error(link.source, what.str());
+}
+
+/// Whether the engine can use it: positive moments of one order.
+bool is_usable(const Eigen::Matrix3d& inertia_kg_m2) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kg_m2,
                                                               Eigen::EigenvaluesOnly);
   const Eigen::Vector3d moments = solver.eigenvalues();
-  const double least = std::max(kMinMoment, 1e-9 * moments.maxCoeff());
-  if (moments.minCoeff() >= least && moments.maxCoeff() <= kMaxMoment) return;
-  what << "an inertia with principal moments " << moments.transpose()
-       << " kg m^2, expected all of them positive, of one order and in [" << kMinMoment << ", "
-       << kMaxMoment << "]";
-  throw Error(link.source, what.str());
+  const double least = std::max(kMinMoment, kLeastShare * moments.maxCoeff());
+  return moments.minCoeff() >= least && moments.maxCoeff() <= kMaxMoment;
+}
+
+/// The nearest inertia that a body of this mass can have. A principal moment is the sum of the
+/// second moments of mass along the two other axes; none of these can be less than that of a ball
+/// of water.
+Eigen::Matrix3d nearest_inertia(double mass_kg, const Eigen::Matrix3d& inertia_kg_m2) {
+  constexpr double kWater_kg_per_m3 = 1000.0;
+  const double radius_m = std::cbrt(mass_kg / (4.0 / 3.0 * M_PI * kWater_kg_per_m3));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kg_m2);
+  const Eigen::Vector3d moments = solver.eigenvalues();
+  Eigen::Vector3d second = 0.5 * moments.sum() - moments.array();
+  const double ball = 0.2 * mass_kg * radius_m * radius_m;
+  second = second.cwiseMax(std::max({ball, kMinMoment, kLeastShare * second.maxCoeff()}));
+  const Eigen::Vector3d possible = second.sum() - second.array();
+  return solver.eigenvectors() * possible.asDiagonal() * solver.eigenvectors().transpose();
 }
 
 }  // namespace
 
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint) {
-  for (std::size_t i = 0; i < model.links.size(); ++i) {
-    if (model.links[i].name == link_name) return i;
-  }
-  throw Error(joint.source, "joint '" + joint.name + "' of model '" + model.name +
-                                "': found link '" + link_name + "', expected a link of the model");
+LinkIndex index_links(const Model& model) {
+  LinkIndex index;
+  for (std::size_t i = 0; i < model.links.size(); ++i) index.emplace(model.links[i].name, i);
+  return index;
 }
 
-BodyGroups group_links(const Model& model) {
+std::vector<LinkProperties> described_links(const Model& model) {
+  std::vector<LinkProperties> links;
+  for (const Link& link : model.links) links.push_back({link.inertial, link.gravity});
+  return links;
+}
+
+void sum_masses(const Model& model, const std::vector<LinkProperties>& links, BodyGroup& group,
+                OnImpossible what_then) {
+  sum_mass(model, links, group);
+  if (group.kinematic) return;
+  check_mass(model, group);
+  sum_inertia(model, links, group);
+  if (is_usable(group.inertia_M)) return;
+  const Eigen::Matrix3d summed = group.inertia_M;
+  group.inertia_M = nearest_inertia(group.mass_kg, summed);
+  if (what_then == OnImpossible::kMend && is_usable(group.inertia_M)) return;
+  const Link& link = model.links[group.links.front()];
+  std::ostringstream what;
+  what << "link '" << link.name << "' of model '" << model.name
+       << "': found an inertia with principal moments "
+       << summed.selfadjointView<Eigen::Lower>().eigenvalues().transpose()
+       << " kg m^2, expected three positive ones of one order, none above " << kMaxMoment;
+  throw Error(link.source, what.str());
+}
+
+BodyGroups group_links(const Model& model, const std::vector<LinkProperties>& links) {
   const std::vector<std::size_t> roots = unite_fixed(model);
   const std::size_t world_element = model.links.size();
   BodyGroups result;
@@ -149,12 +198,7 @@ BodyGroups group_links(const Model& model) {
     result.groups[group].links.push_back(i);
     if (model.links[i].kinematic || model.is_static) result.groups[group].kinematic = true;
   }
-  for (BodyGroup& group : result.groups) {
-    sum_mass(model, group);
-    if (group.kinematic) continue;
-    sum_inertia(model, group);
-    check_movable(model, group);
-  }
+  for (BodyGroup& group : result.groups) sum_masses(model, links, group, OnImpossible::kMend);
   return result;
 }
 

@@ -3,9 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "ardee_sim/description/model.h"
+#include "ardee_sim/physics/properties.h"
 
 namespace ardee::physics {
 
@@ -31,11 +34,23 @@ struct BodyGroups {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 
-/// Index of a link by name; throws Error naming the joint if there is none.
-std::size_t link_index(const Model& model, const std::string& link_name, const Joint& joint);
+/// The links of a model by name.
+using LinkIndex = std::unordered_map<std::string, std::size_t>;
+LinkIndex index_links(const Model& model);
 
-/// Throws Error naming the link if a body that must move has no mass or no positive-definite
-/// inertia.
-BodyGroups group_links(const Model& model);
+/// Properties of the links as described.
+std::vector<LinkProperties> described_links(const Model& model);
+
+/// Throws Error naming the link if a body that must move has no mass or an inertia that is not
+/// finite. The inertia of a body is the nearest possible one if the sum of its links' is none.
+BodyGroups group_links(const Model& model, const std::vector<LinkProperties>& links);
+
+/// What becomes of an inertia that no body has.
+enum class OnImpossible { kMend, kRefuse };
+
+/// Sums the links' masses and inertias anew; throws as group_links, and for an inertia that no body
+/// has if it is to be as given.
+void sum_masses(const Model& model, const std::vector<LinkProperties>& links, BodyGroup& group,
+                OnImpossible what_then);
 
 }  // namespace ardee::physics

@@ -104,16 +104,22 @@ std::size_t ContactFinder::island_of(std::size_t index) {
   return index;
 }
 
-std::size_t ContactFinder::largest_island_rows() {
-  std::size_t largest = 0;
+std::vector<Island> ContactFinder::islands() {
+  std::vector<Island> found;
+  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> number(moving_.size(), kNone);  // of the island, at its root
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    Moving& root = moving_[island_of(i)];
-    if (&root != &moving_[i]) root.rows += moving_[i].rows;
+    std::size_t& at_root = number[island_of(i)];
+    if (at_root == kNone) {
+      at_root = found.size();
+      found.emplace_back();
+    }
+    Island& island = found[at_root];
+    island.rows += moving_[i].rows;
+    ++island.models;
+    for (const BodyHandle& body : moving_[i].model->bodies()) island.bodies.push_back(body.get());
   }
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (moving_[i].island == i) largest = std::max(largest, moving_[i].rows);
-  }
-  return largest;
+  return found;
 }
 
 }  // namespace ardee::physics

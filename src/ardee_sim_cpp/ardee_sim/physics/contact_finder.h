@@ -7,11 +7,12 @@
 #include "ardee_sim/physics/contact_joints.h"
 #include "ardee_sim/physics/dynamic_model.h"
 #include "ardee_sim/physics/scenery_index.h"
+#include "ardee_sim/physics/solver.h"
 
 namespace ardee::physics {
 
 /// Finds what touches what in a step: each model against the scenery near it, itself and the other
-/// models, always in the order in which they were added.
+/// models, always in the order in which they are given.
 class ContactFinder {
  public:
   ContactFinder(SceneryIndex& scenery, ContactJoints& contacts)
@@ -19,9 +20,8 @@ class ContactFinder {
 
   void find(const std::vector<std::unique_ptr<DynamicModel>>& models, const PhysicsParams& params);
 
-  /// Upper bound of the constraint rows of the largest island: models that touch one another are
-  /// solved together.
-  std::size_t largest_island_rows();
+  /// Models that touch one another, which are solved together, in the order of the models.
+  std::vector<Island> islands();
 
  private:
   /// A model's shapes as they stand before the step.

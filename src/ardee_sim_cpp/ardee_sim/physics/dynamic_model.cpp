@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/physics/dynamic_model.h"
 
+#include <algorithm>
+#include <set>
+
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 
 namespace ardee::physics {
 namespace {
 
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
-constexpr double kWorldReach =
-    1e6;  // m: nothing of a field is so far away; a body there has been thrown
 
-void set_mass(dBodyID body, const BodyGroup& group) {
-  const Eigen::Matrix3d& i = group.inertia_M;
-  dMass mass;
-  dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
-                     i(1, 2));
-  dBodySetMass(body, &mass);
+/// The rotation by a rate that is held for a step.
+Quaterniond turn_of(const Vector3d& rate, double step_s) {
+  const double speed = rate.norm();
+  if (speed == 0.0) return Quaterniond::Identity();
+  return Quaterniond(Eigen::AngleAxisd(speed * step_s, rate / speed));
 }
 
 bool pulls_all_or_nothing(const BodyGroup& group) {
@@ -33,13 +35,15 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
     throw Error(model_->source,
                 "model '" + model_->name + "': found no link, expected one or more");
   }
-  if (!X_WM.is_finite() || X_WM.p.norm() > kWorldReach) {
+  if (!limits::is_valid(X_WM)) {
     throw Error(model_->source, "model '" + model_->name +
                                     "': found a pose that is not finite or "
                                     "beyond the world's range");
   }
   for (const Joint& joint : model_->joints) check_joint(*model_, joint);
-  groups_ = group_links(*model_);
+  links_ = described_links(*model_);
+  groups_ = group_links(*model_, links_);
+  link_index_ = index_links(*model_);
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     if (model_->links[i].name == model_->canonical_link) canonical_ = i;
   }
@@ -47,6 +51,7 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
   make_shapes(factory);
   make_joints(world, X_WM);
   find_self_pairs();
+  order_carriers();
 }
 
 void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
@@ -54,16 +59,12 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     bodies_.emplace_back(dBodyCreate(world));
     dBodyID body = bodies_.back().get();
     mass_kg_ += group.mass_kg;
-    if (group.kinematic) {
-      dBodySetKinematic(body);
-    } else {
-      set_mass(body, group);
-    }
+    if (group.kinematic) dBodySetKinematic(body);
+    set_mass(bodies_.size() - 1);
     // Exact rotation over a step: a wheel turns by rate times step, not by twice the arc tangent of
     // half that.
     dBodySetFiniteRotationMode(body, 1);
     dBodySetAutoDisableFlag(body, 0);
-    dBodySetGravityMode(body, group.gravity_mass_kg == group.mass_kg ? 1 : 0);
     set_body_pose(body, X_WM * Pose{group.com_M, Eigen::Quaterniond::Identity()});
   }
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
@@ -71,6 +72,17 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     X_BL.p -= groups_.groups[groups_.of_link[i]].com_M;
     X_BL_.push_back(X_BL);
   }
+}
+
+void DynamicModel::set_mass(std::size_t index) {
+  const BodyGroup& group = groups_.groups[index];
+  dBodySetGravityMode(body(index), group.gravity_mass_kg == group.mass_kg ? 1 : 0);
+  if (group.kinematic) return;
+  const Eigen::Matrix3d& i = group.inertia_M;
+  dMass mass;
+  dMassSetParameters(&mass, group.mass_kg, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2),
+                     i(1, 2));
+  dBodySetMass(body(index), &mass);
 }
 
 void DynamicModel::make_shapes(ShapeFactory& factory) {
@@ -97,12 +109,12 @@ void DynamicModel::make_shapes(ShapeFactory& factory) {
 }
 
 std::size_t DynamicModel::child_group(const Joint& joint) const {
-  return groups_.of_link[link_index(*model_, joint.child, joint)];
+  return groups_.of_link[link_index_.at(joint.child)];
 }
 
 std::size_t DynamicModel::parent_group(const Joint& joint) const {
   if (joint.parent == "world") return groups_.world;
-  return groups_.of_link[link_index(*model_, joint.parent, joint)];
+  return groups_.of_link[link_index_.at(joint.parent)];
 }
 
 void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
@@ -114,7 +126,7 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
       throw Error(joint.source, "joint '" + joint.name + "' of model '" + model_->name +
                                     "': found its two links fixed to each other");
     }
-    const Link& link = model_->links[link_index(*model_, joint.child, joint)];
+    const Link& link = model_->links[link_index_.at(joint.child)];
     joints_.back() = std::make_unique<ModelJoint>(world, joint, body(child), body(parent),
                                                   X_WM * link.X_ML * joint.X_CJ);
     rows_ += kRowsPerJoint;
@@ -122,24 +134,25 @@ void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
 }
 
 void DynamicModel::find_self_pairs() {
-  std::vector<ShapePair> joined;
+  constexpr std::size_t kMostPairs = 1'000'000;
+  std::set<ShapePair> joined;
   for (const Joint& joint : model_->joints) {
-    joined.emplace_back(child_group(joint), parent_group(joint));
+    joined.insert(std::minmax({child_group(joint), parent_group(joint)}));
   }
-  const auto is_joined = [&](std::size_t a, std::size_t b) {
-    for (const ShapePair& pair : joined) {
-      if (pair == ShapePair(a, b) || pair == ShapePair(b, a)) return true;
-    }
-    return false;
-  };
   const auto collides = [&](const Shape& shape) {
     return model_->self_collide || model_->links[shape.link].self_collide;
   };
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    if (!collides(shapes_[i])) continue;
     for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
       const std::size_t a = shapes_[i].group, b = shapes_[j].group;
-      if (a == b || is_joined(a, b) || (is_kinematic(a) && is_kinematic(b))) continue;
-      if (collides(shapes_[i]) && collides(shapes_[j])) self_pairs_.emplace_back(i, j);
+      if (a == b || !collides(shapes_[j]) || (is_kinematic(a) && is_kinematic(b))) continue;
+      if (joined.count(std::minmax({a, b})) == 0) self_pairs_.emplace_back(i, j);
+    }
+    if (self_pairs_.size() > kMostPairs) {
+      throw Error(model_->source, "model '" + model_->name + "': found more than " +
+                                      std::to_string(kMostPairs) +
+                                      " pairs of shapes that may touch each other, expected fewer");
     }
   }
 }
@@ -161,27 +174,66 @@ void DynamicModel::prepare_step(const StepSettings& step, const Vector3d& gravit
   }
 }
 
-void DynamicModel::finish_step() {
+void DynamicModel::order_carriers() {
+  std::vector<std::size_t> open;
+  std::vector<bool> is_carried(bodies_.size(), false);
+  std::vector<std::vector<std::size_t>> carries(bodies_.size());
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!joints_[i]) continue;
+    const std::size_t child = child_group(model_->joints[i]);
+    if (is_carried[child]) continue;  // held by two: the first counts
+    is_carried[child] = true;
+    carries[parent_group(model_->joints[i])].push_back(child);
+  }
+  for (std::size_t group = 0; group < bodies_.size(); ++group) {
+    if (!is_carried[group]) open.push_back(group);
+  }
+  for (std::size_t next = 0; next < open.size(); ++next) {
+    for (const std::size_t child : carries[open[next]]) {
+      carried_.push_back({child, open[next]});
+      open.push_back(child);
+    }
+  }
+}
+
+void DynamicModel::turn_with_carriers(double step_s) {
+  turns_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    turns_[i] = turn_of(to_vector(dBodyGetAngularVel(body(i))), step_s);
+  }
+  for (const Carried& each : carried_) {
+    const Vector3d rate = to_vector(dBodyGetAngularVel(body(each.group)));
+    const Vector3d relative = rate - to_vector(dBodyGetAngularVel(body(each.carrier)));
+    const Quaterniond before = turns_[each.group].conjugate();
+    turns_[each.group] = turns_[each.carrier] * turn_of(relative, step_s);
+    const Quaterniond now = to_quaternion(dBodyGetQuaternion(body(each.group)));
+    const Quaterniond turned = turns_[each.group] * before * now;
+    const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
+    dBodySetQuaternion(body(each.group), q);
+  }
+}
+
+void DynamicModel::finish_step(double step_s) {
+  turn_with_carriers(step_s);
   for (const auto& joint : joints_) {
     if (joint) joint->measure();
   }
 }
 
-void DynamicModel::check_state() const {
+std::string DynamicModel::state_fault() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Pose X_WB = body_pose(body(i));
-    const Vector3d v = to_vector(dBodyGetLinearVel(body(i)));
-    const Vector3d w = to_vector(dBodyGetAngularVel(body(i)));
-    const bool finite = X_WB.is_finite() && v.allFinite() && w.allFinite();
-    const bool in_range = X_WB.p.cwiseAbs().maxCoeff() <= kWorldReach &&
-                          v.cwiseAbs().maxCoeff() <= kMaxInput &&
-                          w.cwiseAbs().maxCoeff() <= kMaxInput;
-    if (finite && in_range) continue;
+    const Twist twist_W{to_vector(dBodyGetLinearVel(body(i))),
+                        to_vector(dBodyGetAngularVel(body(i)))};
+    if (limits::is_valid(X_WB) && limits::is_valid(twist_W)) continue;
+    const bool finite =
+        X_WB.is_finite() && twist_W.linear.allFinite() && twist_W.angular.allFinite();
     const std::string link =
         groups_.groups[i].links.empty() ? "world" : model_->links[groups_.groups[i].links[0]].name;
-    throw Error("model '" + model_->name + "', link '" + link + "': found a position or velocity " +
-                (finite ? "beyond the world's range" : "that is not finite"));
+    return "model '" + model_->name + "', link '" + link + "': found a position or velocity " +
+           (finite ? "beyond the world's range" : "that is not finite");
   }
+  return "";
 }
 
 }  // namespace ardee::physics

@@ -13,10 +13,6 @@
 
 namespace ardee::physics {
 
-/// No velocity, force or effort may exceed this, in SI units: far beyond any robot's, and far from
-/// where sums overflow.
-constexpr double kMaxInput = 1e9;
-
 /// A model as bodies and joints of ODE. Each group of links that fixed joints hold together is one
 /// body, whose frame lies at its centre of mass, parallel to the model's frame when all joints are
 /// at zero.
@@ -37,6 +33,8 @@ class DynamicModel : public PhysicsModel {
   Pose pose() const override;
   void set_pose(const Pose& X_WM) override;
   void set_twist(const Twist& twist_W) override;
+  void set_link_states(const LinkStates& states) override;
+  void set_state(const Pose& X_WM, const Twist& twist_W) override;
   Pose link_pose(std::size_t link) const override;
   Twist link_twist(std::size_t link) const override;
   double joint_position(std::size_t joint) const override;
@@ -45,6 +43,14 @@ class DynamicModel : public PhysicsModel {
   void set_joint_motor(std::size_t joint, double velocity, double max_effort) override;
   void set_joint_spring(std::size_t joint, const JointSpring& spring) override;
   void set_joint_limits(std::size_t joint, double lower, double upper) override;
+  const LinkProperties& link_properties(std::size_t link) const override { return links_.at(link); }
+  void set_link_properties(std::size_t link, const LinkProperties& properties) override;
+  std::size_t joint_axes(std::size_t joint) const override;
+  const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const override;
+  void set_joint_properties(std::size_t joint, std::size_t axis,
+                            const JointProperties& properties) override;
+  const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const override;
+  void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) override;
   void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
                     const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) override;
   void apply_joint_effort(std::size_t joint, double effort) override;
@@ -60,24 +66,41 @@ class DynamicModel : public PhysicsModel {
   std::size_t rows() const { return rows_; }
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
-  void finish_step();
-  /// Throws Error naming model and link if a body is not at a finite place within the world's
-  /// range.
-  void check_state() const;
+  void finish_step(double step_s);
+  /// Model, link and how it has left the contract of a valid state; empty if it has not.
+  std::string state_fault() const;
 
  private:
   void make_bodies(dWorldID world, const Pose& X_WM);
   void make_shapes(ShapeFactory& factory);
   void make_joints(dWorldID world, const Pose& X_WM);
   void find_self_pairs();
+  /// Orders groups and what carries each, for turn_with_carriers.
+  void order_carriers();
+  /// Turns each body first with the body that carries it, then by its rate against that. Turned by
+  /// the sum of both at once, as the engine does, a wheel of a robot that turns leans out by half the
+  /// product of both rates and the step, and then rolls on one edge.
+  void turn_with_carriers(double step_s);
   std::size_t parent_group(const Joint& joint) const;
   std::size_t child_group(const Joint& joint) const;
   /// Groups that hang on the child side of a joint; throws Error if the parent is among them.
   std::vector<std::size_t> hanging_on(std::size_t joint) const;
   ModelJoint* moving_joint(std::size_t joint) const { return joints_.at(joint).get(); }
+  /// Throws Error if a motion would take the body out of the world.
+  void check_motion(std::size_t group, const Pose& motion) const;
   void move_body(std::size_t group, const Pose& motion);
+  /// Velocity of a body where the whole model, turned by `turn`, moves as one.
+  Twist rigid_twist(std::size_t group, const Twist& twist_W, const Eigen::Quaterniond& turn) const;
+  void set_velocities(const Twist& twist_W);
+  void check_twist(const Twist& twist_W, const Eigen::Quaterniond& turn) const;
+  /// Throws Error naming the joint if it has no such axis.
+  JointDrive& drive(std::size_t joint, std::size_t axis) const;
+  void set_mass(std::size_t group);
+  /// Moves the frame of a body, not what it carries, by so much in its own axes.
+  void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
 
   std::shared_ptr<const Model> model_;
+  std::vector<LinkProperties> links_;
   BodyGroups groups_;
   std::size_t canonical_ = 0;
   double mass_kg_ = 0.0;
@@ -87,6 +110,13 @@ class DynamicModel : public PhysicsModel {
   std::vector<Shape> shapes_;                        // after the bodies that carry them
   std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
   std::vector<ShapePair> self_pairs_;
+  LinkIndex link_index_;
+  struct Carried {
+    std::size_t group;
+    std::size_t carrier;
+  };
+  std::vector<Carried> carried_;  // a carrier that is carried itself comes before what it carries
+  std::vector<Eigen::Quaterniond> turns_;  // of each body in the last step
 };
 
 }  // namespace ardee::physics

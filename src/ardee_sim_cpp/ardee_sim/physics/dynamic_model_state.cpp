@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/physics/dynamic_model.h"
 
 namespace ardee::physics {
 namespace {
 
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 void require(bool valid, const Model& model, const std::string& what) {
@@ -15,15 +17,14 @@ void require(bool valid, const Model& model, const std::string& what) {
   throw Error("model '" + model.name + "': found " + what + " that is not finite or out of range");
 }
 
-bool is_valid(double value) { return std::abs(value) <= kMaxInput; }
+bool is_valid(double value) { return std::abs(value) <= limits::kStrongest; }
 
-bool is_valid(const Vector3d& value) {
-  return is_valid(value.x()) && is_valid(value.y()) && is_valid(value.z());
-}
+bool is_valid(const Vector3d& value) { return limits::is_within(value, limits::kStrongest); }
 
-void set_velocity(dBodyID body, const Vector3d& linear, const Vector3d& angular) {
-  dBodySetLinearVel(body, linear.x(), linear.y(), linear.z());
-  dBodySetAngularVel(body, angular.x(), angular.y(), angular.z());
+void set_velocity(dBodyID body, const Twist& twist_W) {
+  const Vector3d &v = twist_W.linear, &w = twist_W.angular;
+  dBodySetLinearVel(body, v.x(), v.y(), v.z());
+  dBodySetAngularVel(body, w.x(), w.y(), w.z());
 }
 
 }  // namespace
@@ -33,19 +34,65 @@ Pose DynamicModel::pose() const {
 }
 
 void DynamicModel::set_pose(const Pose& X_WM) {
-  require(X_WM.is_finite() && is_valid(X_WM.p), *model_, "a pose");
   const Pose motion = X_WM * pose().inverse();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) check_motion(i, motion);
   for (std::size_t i = 0; i < bodies_.size(); ++i) move_body(i, motion);
 }
 
+void DynamicModel::check_motion(std::size_t group, const Pose& motion) const {
+  require(limits::is_valid(motion * body_pose(body(group))), *model_, "a pose");
+}
+
 void DynamicModel::set_twist(const Twist& twist_W) {
-  require(is_valid(twist_W.linear) && is_valid(twist_W.angular), *model_, "a velocity");
-  const Vector3d origin = pose().p;
+  check_twist(twist_W, Quaterniond::Identity());
+  set_velocities(twist_W);
+}
+
+void DynamicModel::set_velocities(const Twist& twist_W) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (i == groups_.world) continue;
-    const Vector3d arm = body_pose(body(i)).p - origin;
-    set_velocity(body(i), twist_W.linear + twist_W.angular.cross(arm), twist_W.angular);
+    set_velocity(body(i), rigid_twist(i, twist_W, Quaterniond::Identity()));
   }
+}
+
+void DynamicModel::set_link_states(const LinkStates& states) {
+  // Of links that are one body the first counts.
+  for (std::size_t i = model_->links.size(); i-- > 0;) {
+    const auto found = states.find(model_->links[i].name);
+    if (found == states.end()) continue;
+    const auto& [X_WL, twist_W] = found->second;
+    require(limits::is_valid(X_WL), *model_, "a link's pose");
+    require(limits::is_valid(twist_W), *model_, "a link's velocity");
+    const std::size_t group = groups_.of_link[i];
+    const Pose X_WB = X_WL * X_BL_[i].inverse();
+    set_body_pose(body(group), X_WB);
+    if (group == groups_.world) continue;
+    const Vector3d arm = X_WB.p - X_WL.p;
+    set_velocity(body(group), {twist_W.linear + twist_W.angular.cross(arm), twist_W.angular});
+  }
+  for (const auto& joint : joints_) {
+    if (joint) joint->take_position();
+  }
+}
+
+Twist DynamicModel::rigid_twist(std::size_t group, const Twist& twist_W,
+                                const Quaterniond& turn) const {
+  const Vector3d arm = turn * Vector3d(body_pose(body(group)).p - pose().p);
+  return {twist_W.linear + twist_W.angular.cross(arm), twist_W.angular};
+}
+
+void DynamicModel::check_twist(const Twist& twist_W, const Quaterniond& turn) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    require(limits::is_valid(rigid_twist(i, twist_W, turn)), *model_, "a velocity");
+  }
+}
+
+void DynamicModel::set_state(const Pose& X_WM, const Twist& twist_W) {
+  const Pose motion = X_WM * pose().inverse();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) check_motion(i, motion);
+  check_twist(twist_W, motion.q);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) move_body(i, motion);
+  set_velocities(twist_W);
 }
 
 Pose DynamicModel::link_pose(std::size_t link) const {
@@ -95,33 +142,10 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
   require(is_valid(position), *model_, "a joint position");
   if (!moved || model_->joints[joint].type == JointType::kBall) return;
   const Pose motion = moved->motion_to(position);
-  for (const std::size_t group : hanging_on(joint)) move_body(group, motion);
+  const std::vector<std::size_t> hanging = hanging_on(joint);
+  for (const std::size_t group : hanging) check_motion(group, motion);
+  for (const std::size_t group : hanging) move_body(group, motion);
   moved->set_position(moved->clamp(position));
-}
-
-void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double max_effort) {
-  require(is_valid(velocity), *model_, "a motor's velocity");
-  if (!(max_effort >= 0.0)) {
-    throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
-                "': found a motor's effort below zero");
-  }
-  if (ModelJoint* driven = moving_joint(joint)) driven->set_motor(velocity, max_effort);
-}
-
-void DynamicModel::set_joint_spring(std::size_t joint, const JointSpring& spring) {
-  const bool valid = is_valid(spring.stiffness) && spring.stiffness >= 0.0 &&
-                     is_valid(spring.damping) && spring.damping >= 0.0 &&
-                     is_valid(spring.reference);
-  require(valid, *model_, "a spring's number");
-  if (ModelJoint* sprung = moving_joint(joint)) sprung->set_spring(spring);
-}
-
-void DynamicModel::set_joint_limits(std::size_t joint, double lower, double upper) {
-  if (!(lower <= upper)) {
-    throw Error("joint '" + model_->joints.at(joint).name + "' of model '" + model_->name +
-                "': found a lower limit above the upper");
-  }
-  if (ModelJoint* limited = moving_joint(joint)) limited->set_limits(lower, upper);
 }
 
 void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const Vector3d& point_W,

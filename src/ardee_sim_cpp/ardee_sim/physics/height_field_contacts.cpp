@@ -11,8 +11,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSamePoint = 1e-6;  // m: two contacts nearer than this are one
-constexpr double kRidgeHeight =
-    1e-4;  // m: how far the ground must rise between two points to touch there too
 constexpr double kOnEnd =
     0.7;  // |cos| of a cylinder's axis to the vertical from which it stands on end
 constexpr int kRimPoints = 8;
@@ -230,10 +228,9 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
   const CircleContacts left = touch_circle(field, {X_FC.p - half, axis, cylinder.radius_m});
   const CircleContacts middle = touch_circle(field, {X_FC.p, axis, cylinder.radius_m});
   const CircleContacts right = touch_circle(field, {X_FC.p + half, axis, cylinder.radius_m});
-  for (const GroundContact& contact : left.contacts) add_contact(contact, contacts);
-  for (const GroundContact& contact : right.contacts) add_contact(contact, contacts);
-  if (middle.deepest_m < 0.5 * (left.deepest_m + right.deepest_m) + kRidgeHeight) return;
-  for (const GroundContact& contact : middle.contacts) add_contact(contact, contacts);
+  for (const auto* circle : {&left, &right, &middle}) {
+    for (const GroundContact& contact : circle->contacts) add_contact(contact, contacts);
+  }
 }
 
 void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,

@@ -33,8 +33,8 @@ void add_point(const HeightField& field, const Eigen::Vector3d& point, GroundCon
 void collide_sphere(const HeightField& field, const Eigen::Vector3d& center, double radius_m,
                     GroundContacts& contacts);
 
-/// A cylinder on its side touches with its two rims and, over a ridge between them, its middle:
-/// each is a circle whose deepest points over faces and over convex edges of the ground are found
+/// A cylinder on its side touches with its two rims and its middle, on which a wheel as wide as it
+/// is rolls: each is a circle whose deepest points over faces and over convex edges of the ground are found
 /// in closed form, so that a rolling wheel meets no steps. A cylinder on end touches with eight
 /// points of the lower rim.
 void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder& cylinder,

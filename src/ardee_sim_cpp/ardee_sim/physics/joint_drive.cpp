@@ -2,6 +2,7 @@
 #include "ardee_sim/physics/joint_drive.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ardee::physics {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr int kMotorRow = 0;
 constexpr int kFrictionRow = 1;
 constexpr int kSpringRow = 2;
+constexpr int kRows = 3;
 // A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load
 // carries a joint past it.
 constexpr double kStopReach = 0.2;
@@ -30,51 +32,29 @@ JointHandle angular_motor(dWorldID world, dBodyID child, dBodyID parent, int rel
 }  // namespace
 
 JointDrive JointDrive::rotational(dWorldID world, dBodyID child, dBodyID parent, int rel,
-                                  const Eigen::Vector3d& axis_W, const JointAxis& axis) {
+                                  const Eigen::Vector3d& axis_W,
+                                  const JointProperties& properties) {
   JointDrive drive;
+  drive.rel_ = rel;
   drive.stops_ = angular_motor(world, child, parent, rel, axis_W, 1);
-  drive.rows_ = angular_motor(world, child, parent, rel, axis_W, 3);
-  drive.read(axis);
+  drive.rows_ = angular_motor(world, child, parent, rel, axis_W, kRows);
+  drive.properties_ = properties;
   return drive;
 }
 
 JointDrive JointDrive::linear(dWorldID world, dBodyID child, dBodyID parent, dJointID slider,
-                              const Eigen::Vector3d& axis_W, const JointAxis& axis) {
+                              const Eigen::Vector3d& axis_W, const JointProperties& properties) {
   JointDrive drive;
   drive.rotational_ = false;
   drive.slider_ = slider;
   drive.rows_.reset(dJointCreateLMotor(world, nullptr));
   dJointAttach(drive.rows_.get(), child, parent);
-  dJointSetLMotorNumAxes(drive.rows_.get(), 3);
-  for (int i = 0; i < 3; ++i) {
+  dJointSetLMotorNumAxes(drive.rows_.get(), kRows);
+  for (int i = 0; i < kRows; ++i) {
     dJointSetLMotorAxis(drive.rows_.get(), i, 2, axis_W.x(), axis_W.y(), axis_W.z());
   }
-  drive.read(axis);
+  drive.properties_ = properties;
   return drive;
-}
-
-void JointDrive::read(const JointAxis& axis) {
-  lower_ = axis.lower;
-  upper_ = axis.upper;
-  max_effort_ = axis.effort;
-  friction_ = axis.friction;
-  spring_ = {axis.spring_stiffness, axis.damping, axis.spring_reference};
-}
-
-void JointDrive::set_motor(double velocity, double max_effort) {
-  // As in Gazebo, the description's limits of effort and velocity do not bound a drive's motor.
-  motor_velocity_ = velocity;
-  motor_effort_ = max_effort;
-}
-
-void JointDrive::set_limits(double lower, double upper) {
-  lower_ = lower;
-  upper_ = upper;
-}
-
-void JointDrive::set_stop_softness(double erp, double cfm) {
-  stop_erp_ = erp;
-  stop_cfm_ = cfm;
 }
 
 void JointDrive::set_stop(int parameter, double value) {
@@ -86,11 +66,22 @@ void JointDrive::set_stop(int parameter, double value) {
 }
 
 double JointDrive::clamp(double position) const {
-  return std::min(std::max(position, lower_), upper_);
+  return std::min(std::max(position, properties_.lower), properties_.upper);
 }
 
-double JointDrive::clamp_effort(double effort) const {
-  return std::clamp(effort, -max_effort_, max_effort_);
+double JointDrive::clamp_effort(double effort, double velocity) const {
+  const bool too_fast = std::abs(velocity) > properties_.max_velocity;
+  if (too_fast && effort * velocity > 0.0) return 0.0;
+  return std::clamp(effort, -properties_.max_effort, properties_.max_effort);
+}
+
+void JointDrive::aim(const Eigen::Vector3d& direction_W, double gain) {
+  gain_ = gain;
+  const Eigen::Vector3d& d = direction_W;
+  dJointSetAMotorAxis(stops_.get(), 0, rel_, d.x(), d.y(), d.z());
+  for (int i = 0; i < kRows; ++i) {
+    dJointSetAMotorAxis(rows_.get(), i, rel_, d.x(), d.y(), d.z());
+  }
 }
 
 void JointDrive::set_row(int row, double velocity, double max_effort, double cfm) {
@@ -102,30 +93,32 @@ void JointDrive::set_row(int row, double velocity, double max_effort, double cfm
       dJointSetLMotorParam(rows_.get(), parameter + group, value);
     }
   };
-  set(dParamVel, velocity);
-  set(dParamFMax, max_effort);
-  set(dParamCFM, cfm);
+  // Along a direction of length g a velocity is g times the axis's, an effort the g-th part of it.
+  set(dParamVel, gain_ * velocity);
+  set(dParamFMax, max_effort / gain_);
+  set(dParamCFM, gain_ * gain_ * cfm);
 }
 
 void JointDrive::set_stop_row(double low, double high, double position, double erp) {
   if (rotational_) {
-    dJointSetAMotorAngle(stops_.get(), 0, position);
+    dJointSetAMotorAngle(stops_.get(), 0, gain_ * position);
   }
-  set_stop(dParamLoStop, low);
-  set_stop(dParamHiStop, high);
+  set_stop(dParamLoStop, gain_ * low);
+  set_stop(dParamHiStop, gain_ * high);
   set_stop(dParamStopERP, erp);
 }
 
 void JointDrive::prepare_stops(double position, double velocity, const StepSettings& step) {
   // A slider's row compares with its own measure of the position, which may differ in the last bit.
   if (!rotational_) position = dJointGetSliderPosition(slider_);
-  const double erp = stop_erp_ >= 0.0 ? stop_erp_ : step.erp;
-  set_stop(dParamStopCFM, stop_cfm_ >= 0.0 ? stop_cfm_ : step.cfm);
-  if (lower_ == upper_) {
-    set_stop_row(lower_, upper_, position, erp);
+  const double erp = properties_.stop_erp >= 0.0 ? properties_.stop_erp : step.erp;
+  const double cfm = properties_.stop_cfm >= 0.0 ? properties_.stop_cfm : step.cfm;
+  set_stop(dParamStopCFM, gain_ * gain_ * cfm);
+  if (properties_.lower == properties_.upper) {
+    set_stop_row(properties_.lower, properties_.upper, position, erp);
     return;
   }
-  const double above = position - lower_, below = upper_ - position;
+  const double above = position - properties_.lower, below = properties_.upper - position;
   const bool is_upper = below < above;
   const double gap = is_upper ? below : above;
   if (gap > kStopReach + kStopSteps * step.step_s * std::abs(velocity)) {
@@ -144,19 +137,21 @@ void JointDrive::prepare_stops(double position, double velocity, const StepSetti
 void JointDrive::prepare_spring(double position, double step_s) {
   // Implicit Euler: with ERP = h k / (h k + c) and CFM = 1 / (h k + c) a row's effort is
   // -k (x + h v - x0) - c v at the velocity v after the step (ODE manual, 3.8.2).
-  const double total = step_s * spring_.stiffness + spring_.damping;
+  const JointSpring& spring = properties_.spring;
+  const double total = step_s * spring.stiffness + spring.damping;
   if (total < kLeastSpring) {
     set_row(kSpringRow, 0.0, 0.0, 0.0);
     return;
   }
-  const double error = position - spring_.reference;
-  set_row(kSpringRow, -spring_.stiffness * error / total, dInfinity, 1.0 / total);
+  const double error = position - spring.reference;
+  set_row(kSpringRow, -spring.stiffness * error / total, dInfinity, 1.0 / total);
 }
 
 void JointDrive::prepare(double position, double velocity, const StepSettings& step) {
   prepare_stops(position, velocity, step);
-  set_row(kMotorRow, motor_velocity_, motor_effort_, step.cfm);
-  set_row(kFrictionRow, 0.0, friction_, step.cfm);
+  const double motor_cfm = properties_.motor_cfm >= 0.0 ? properties_.motor_cfm : step.cfm;
+  set_row(kMotorRow, motor_.velocity, motor_.max_effort, motor_cfm);
+  set_row(kFrictionRow, 0.0, properties_.friction, step.cfm);
   prepare_spring(position, step.step_s);
 }
 

@@ -3,7 +3,7 @@
 
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/ode_types.h"
-#include "ardee_sim/physics/physics_world.h"
+#include "ardee_sim/physics/properties.h"
 
 namespace ardee::physics {
 
@@ -21,25 +21,30 @@ class JointDrive {
  public:
   /// About an axis fixed in body 1 (the child; `rel` 1) or 2 (the parent; `rel` 2).
   static JointDrive rotational(dWorldID world, dBodyID child, dBodyID parent, int rel,
-                               const Eigen::Vector3d& axis_W, const JointAxis& axis);
+                               const Eigen::Vector3d& axis_W, const JointProperties& properties);
   /// Along a slider's axis; the slider's own row is the stop.
   static JointDrive linear(dWorldID world, dBodyID child, dBodyID parent, dJointID slider,
-                           const Eigen::Vector3d& axis_W, const JointAxis& axis);
+                           const Eigen::Vector3d& axis_W, const JointProperties& properties);
 
-  void set_motor(double velocity, double max_effort);
-  void set_spring(const JointSpring& spring) { spring_ = spring; }
-  void set_limits(double lower, double upper);
-  /// Negative: the world's.
-  void set_stop_softness(double erp, double cfm);
+  const JointProperties& properties() const { return properties_; }
+  void set_properties(const JointProperties& properties) { properties_ = properties; }
+  const JointMotor& motor() const { return motor_; }
+  /// As in Gazebo, the limits of effort and velocity do not bound a drive's motor.
+  void set_motor(const JointMotor& motor) { motor_ = motor; }
+
   double clamp(double position) const;
-  double clamp_effort(double effort) const;
+  /// What is left of an effort within the limits of effort and, at this velocity, of velocity.
+  double clamp_effort(double effort, double velocity) const;
+
+  /// Turns the rows to a direction of length `gain`: what the axis does is `gain` times as fast
+  /// along it.
+  void aim(const Eigen::Vector3d& direction_W, double gain);
 
   /// Sets the rows for a step from the state before it: ERP and CFM depend on the step.
   void prepare(double position, double velocity, const StepSettings& step);
 
  private:
   JointDrive() = default;
-  void read(const JointAxis& axis);
   void prepare_stops(double position, double velocity, const StepSettings& step);
   void set_stop(int parameter, double value);
   void set_stop_row(double low, double high, double position, double erp);
@@ -47,18 +52,13 @@ class JointDrive {
   void set_row(int row, double velocity, double max_effort, double cfm);
 
   bool rotational_ = true;
+  int rel_ = 2;
+  double gain_ = 1.0;
   JointHandle stops_;          // rotational: an angular motor that is told the angle
   dJointID slider_ = nullptr;  // linear
   JointHandle rows_;           // motor, friction, spring
-  JointSpring spring_;
-  double lower_ = 0.0;
-  double upper_ = 0.0;
-  double max_effort_ = 0.0;
-  double friction_ = 0.0;
-  double stop_erp_ = -1.0;
-  double stop_cfm_ = -1.0;
-  double motor_velocity_ = 0.0;
-  double motor_effort_ = 0.0;
+  JointProperties properties_;
+  JointMotor motor_;
 };
 
 }  // namespace ardee::physics

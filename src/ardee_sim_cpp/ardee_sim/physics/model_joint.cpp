@@ -12,6 +12,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
+constexpr double kRightAngle = 1e-3;  // |cos| up to which two axes count as at right angles
 constexpr double kMaxNumber = 1e9;  // SI: beyond any robot's, and far from where sums overflow
 
 bool has_two_axes(JointType type) {
@@ -54,6 +55,19 @@ void check_axis(const Model& model, const Joint& joint, const JointAxis& axis) {
   }
 }
 
+JointProperties properties_of(const JointAxis& axis, const Joint& joint) {
+  JointProperties made;
+  made.lower = axis.lower;
+  made.upper = axis.upper;
+  made.max_effort = axis.effort;
+  made.max_velocity = axis.velocity;
+  made.friction = axis.friction;
+  made.spring = {axis.spring_stiffness, axis.damping, axis.spring_reference};
+  made.stop_erp = joint.stop_erp;
+  made.stop_cfm = joint.stop_cfm;
+  return made;
+}
+
 }  // namespace
 
 void check_joint(const Model& model, const Joint& joint) {
@@ -68,7 +82,7 @@ void check_joint(const Model& model, const Joint& joint) {
   if (!has_two_axes(joint.type)) return;
   check_axis(model, joint, joint.axis2);
   const double cosine = joint.axis.axis.normalized().dot(joint.axis2.axis.normalized());
-  if (joint.type == JointType::kUniversal && std::abs(cosine) > 1e-3) {
+  if (joint.type == JointType::kUniversal && std::abs(cosine) > kRightAngle) {
     throw Error(joint.source, name + "found two axes that are not at right angles");
   }
   if (std::abs(cosine) > 1.0 - 1e-6) {
@@ -83,6 +97,7 @@ ModelJoint::ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyI
   const Vector3d axis_W = X_WJ.q * joint.axis.axis.normalized();
   const Vector3d axis2_W =
       has_two_axes(type_) ? Vector3d(X_WJ.q * joint.axis2.axis.normalized()) : axis_W;
+  inclined_ = has_two_axes(type_) && std::abs(axis_W.dot(axis2_W)) > kRightAngle;
   axis_P_ = X_WP.q.conjugate() * axis_W;
   axis2_C_ = X_WC.q.conjugate() * axis2_W;
   axis2_P_ = X_WP.q.conjugate() * axis2_W;
@@ -131,7 +146,8 @@ void ModelJoint::make_joint(dWorldID world, const Vector3d& anchor, const Vector
 void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d& axis_W,
                              const Vector3d& axis2_W) {
   if (type_ == JointType::kPrismatic) {
-    drive_ = JointDrive::linear(world, child_, parent_, joint_.get(), axis_W, joint.axis);
+    drive_ = JointDrive::linear(world, child_, parent_, joint_.get(), axis_W,
+                                properties_of(joint.axis, joint));
   } else if (type_ == JointType::kBall) {
     ball_damping_ = joint.axis.damping;
     if (ball_damping_ < 1e-12) return;
@@ -146,24 +162,40 @@ void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d&
       dJointSetAMotorParam(ball_damper_.get(), dParamCFM + dParamGroup * i, 1.0 / ball_damping_);
     }
   } else {
-    JointAxis first = joint.axis;
+    JointProperties first = properties_of(joint.axis, joint);
     if (type_ == JointType::kContinuous) {
       first.lower = -dInfinity;
       first.upper = dInfinity;
     }
     drive_ = JointDrive::rotational(world, child_, parent_, 2, axis_W, first);
     if (has_two_axes(type_)) {
-      drive2_ = JointDrive::rotational(world, child_, parent_, 1, axis2_W, joint.axis2);
+      drive2_ = JointDrive::rotational(world, child_, parent_, 1, axis2_W,
+                                       properties_of(joint.axis2, joint));
     }
-  }
-  for (std::optional<JointDrive>* drive : {&drive_, &drive2_}) {
-    if (*drive) (*drive)->set_stop_softness(joint.stop_erp, joint.stop_cfm);
   }
 }
 
 Vector3d ModelJoint::axis_W() const { return body_pose(parent_).q * axis_P_; }
 
 Vector3d ModelJoint::axis2_W() const { return body_pose(child_).q * axis2_C_; }
+
+/// The direction along which a turn of one axis is measured and pushed, so that the other axis has
+/// no part in it: of two axes that are not at right angles, the one that is at right angles to the
+/// other, with 1 along its own.
+Vector3d ModelJoint::direction(std::size_t axis) const {
+  if (!inclined_) return axis == 0 ? axis_W() : axis2_W();
+  const Vector3d own = axis == 0 ? axis_W() : axis2_W();
+  const Vector3d other = axis == 0 ? axis2_W() : axis_W();
+  const double cosine = own.dot(other);
+  return (own - cosine * other) / (1.0 - cosine * cosine);
+}
+
+void ModelJoint::aim_drives() {
+  for (std::size_t axis = 0; axis < axes(); ++axis) {
+    const Vector3d along = direction(axis);
+    drive(axis).aim(along, 1.0 / along.norm());
+  }
+}
 
 Vector3d ModelJoint::relative_rate() const {
   return to_vector(dBodyGetAngularVel(child_)) - to_vector(dBodyGetAngularVel(parent_));
@@ -201,7 +233,7 @@ double ModelJoint::velocity() const {
     dBodyGetPointVel(parent_, anchor.x(), anchor.y(), anchor.z(), v_parent);
     return (to_vector(v_child) - to_vector(v_parent)).dot(axis_W());
   }
-  return relative_rate().dot(axis_W());
+  return relative_rate().dot(direction(0));
 }
 
 double ModelJoint::clamp(double position) const { return drive_ ? drive_->clamp(position) : 0.0; }
@@ -215,23 +247,33 @@ Pose ModelJoint::motion_to(double position) const {
   return {anchor - turn * anchor, turn};
 }
 
-void ModelJoint::set_motor(double velocity, double max_effort) {
-  if (drive_) drive_->set_motor(velocity, max_effort);
-}
-
-void ModelJoint::set_spring(const JointSpring& spring) {
-  if (drive_) drive_->set_spring(spring);
-}
-
-void ModelJoint::set_limits(double lower, double upper) {
-  if (drive_) drive_->set_limits(lower, upper);
+void ModelJoint::shift_frames(const Vector3d& child_C, const Vector3d& parent_P) {
+  anchor_C_ -= child_C;
+  anchor_P_ -= parent_P;
+  const Vector3d anchor = body_pose(child_) * anchor_C_;
+  if (type_ == JointType::kPrismatic) {
+    // The engine takes the place of the child when the axis is set for the slider's zero.
+    const Pose X_WC = body_pose(child_);
+    const Vector3d axis = axis_W();
+    set_body_pose(child_, {X_WC.p - measured() * axis, X_WC.q});
+    dJointSetSliderAxis(joint_.get(), axis.x(), axis.y(), axis.z());
+    set_body_pose(child_, X_WC);
+  } else if (type_ == JointType::kBall) {
+    dJointSetBallAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else if (type_ == JointType::kRevolute2) {
+    dJointSetHinge2Anchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else if (type_ == JointType::kUniversal) {
+    dJointSetUniversalAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else {
+    dJointSetHingeAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  }
 }
 
 void ModelJoint::add_effort(double effort) { effort_ += effort; }
 
 void ModelJoint::apply_effort() {
   if (effort_ == 0.0 || !drive_) return;
-  const Vector3d effort = drive_->clamp_effort(effort_) * axis_W();
+  const Vector3d effort = drive_->clamp_effort(effort_, velocity()) * direction(0);
   effort_ = 0.0;
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
@@ -246,9 +288,19 @@ void ModelJoint::apply_effort() {
 }
 
 void ModelJoint::prepare(const StepSettings& step) {
+  if (inclined_) aim_drives();
   if (drive_) drive_->prepare(position_, velocity(), step);
-  if (drive2_) drive2_->prepare(position2_, relative_rate().dot(axis2_W()), step);
+  if (drive2_) drive2_->prepare(position2_, relative_rate().dot(direction(1)), step);
   apply_effort();
+}
+
+void ModelJoint::take_position() {
+  position_ = measured();
+  if (type_ == JointType::kPrismatic) return;
+  for (const double turned : {position_ + 2.0 * M_PI, position_ - 2.0 * M_PI}) {
+    if (clamp(position_) != position_ && clamp(turned) == turned) position_ = turned;
+  }
+  if (drive2_) position2_ = angle2();
 }
 
 void ModelJoint::measure() {

@@ -24,11 +24,15 @@ class ModelJoint {
   Pose motion_to(double position) const;
   /// The position is taken as it is from now on, whatever turns it has made.
   void set_position(double position) { position_ = position; }
+  /// The position is measured anew: of the turns that give it the one within the limits.
+  void take_position();
   double clamp(double position) const;
 
-  void set_motor(double velocity, double max_effort);
-  void set_spring(const JointSpring& spring);
-  void set_limits(double lower, double upper);
+  /// Axes that can be driven; none of a ball joint, or between bodies that nothing moves.
+  std::size_t axes() const { return drive2_ ? 2 : drive_ ? 1 : 0; }
+  JointDrive& drive(std::size_t axis) { return axis == 0 ? drive_.value() : drive2_.value(); }
+  /// The frames of the bodies have moved within them by so much, in their own axes.
+  void shift_frames(const Eigen::Vector3d& child_C, const Eigen::Vector3d& parent_P);
   /// Kept for the next step.
   void add_effort(double effort);
 
@@ -45,11 +49,14 @@ class ModelJoint {
   Eigen::Vector3d axis_W() const;
   Eigen::Vector3d axis2_W() const;
   Eigen::Vector3d relative_rate() const;
+  Eigen::Vector3d direction(std::size_t axis) const;
+  void aim_drives();
   double measured() const;
   double angle2() const;
   void apply_effort();
 
   JointType type_;
+  bool inclined_ = false;  // two axes that are not at right angles
   dBodyID child_;
   dBodyID parent_;
   JointHandle joint_;

@@ -10,11 +10,22 @@ namespace ardee::physics {
 namespace {
 
 constexpr int kMaxPoints = 64;
+constexpr double kLying = 0.1;        // |cos| of a cylinder's axis to a contact's normal
+constexpr double kSameNormal = 0.99;  // cos between two contacts of one flat ground
+constexpr double kLeastWidth = 1e-4;  // m: two contacts nearer than this are one
 
 Pose geom_pose(dGeomID geom) {
   dQuaternion q;
   dGeomGetQuaternion(geom, q);
   return {to_vector(dGeomGetPosition(geom)), to_quaternion(q)};
+}
+
+void keep_nearest(const Eigen::Vector3d& center, GroundContacts& contacts) {
+  const auto nearest = std::min_element(
+      contacts.begin(), contacts.end(), [&center](const GroundContact& a, const GroundContact& b) {
+        return (a.position - center).squaredNorm() < (b.position - center).squaredNorm();
+      });
+  if (nearest != contacts.end()) contacts = {*nearest};
 }
 
 /// Works in the field's own frame and unscaled metres: the shape is shrunk by the field's scale
@@ -31,8 +42,9 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
   if (const auto* sphere = std::get_if<Sphere>(&shape.collision->geometry)) {
     collide_sphere(field, X_FS.p, scale * sphere->radius_m, contacts);
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.collision->geometry)) {
-    collide_cylinder(field, X_FS, {scale * cylinder->radius_m, scale * cylinder->length_m},
-                     contacts);
+    const Cylinder scaled{scale * cylinder->radius_m, scale * cylinder->length_m};
+    collide_cylinder(field, X_FS, scaled, contacts);
+    if (max_contacts == 1) keep_nearest(X_FS.p, contacts);  // the middle, not an end
   } else if (const auto* box = std::get_if<Box>(&shape.collision->geometry)) {
     collide_box(field, X_FS, {scale * box->size_m}, contacts);
   } else if (shape.mesh) {
@@ -56,6 +68,42 @@ void collide_geoms(dGeomID a, dGeomID b, int max_contacts, std::vector<ContactPo
   }
 }
 
+bool is_cylinder(const CollisionShape& shape) {
+  return std::holds_alternative<Cylinder>(shape.collision->geometry);
+}
+
+/// Two ends of a lying cylinder that touch do not say where it rolls: the solver may give either of
+/// them all of the load. A third contact between them, put first, is where a wheel as wide as it is
+/// rolls.
+void add_middle(const CollisionShape& cylinder, std::vector<ContactPoint>& points) {
+  const Pose X_WS = geom_pose(cylinder.geom.get());
+  const Eigen::Vector3d axis = X_WS.q * Eigen::Vector3d::UnitZ();
+  const ContactPoint *low = nullptr, *high = nullptr;
+  double low_m = 0.0, high_m = 0.0;
+  for (const ContactPoint& point : points) {
+    if (std::abs(point.normal.dot(axis)) > kLying) return;
+    const double along_m = axis.dot(point.position - X_WS.p);
+    if (!low || along_m < low_m) low = &point, low_m = along_m;
+    if (!high || along_m > high_m) high = &point, high_m = along_m;
+  }
+  if (!low || high_m - low_m < kLeastWidth) return;
+  if (low->normal.dot(high->normal) < kSameNormal) return;
+  const ContactPoint middle{0.5 * (low->position + high->position),
+                            (low->normal + high->normal).normalized(),
+                            0.5 * (low->depth_m + high->depth_m)};
+  points.insert(points.begin(), middle);
+}
+
+void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b, int max_contacts,
+                            std::vector<ContactPoint>& points) {
+  constexpr int kLeast = 4;  // ends and what else there is, whatever number is wanted
+  collide_geoms(a, b, std::max(max_contacts, kLeast), points);
+  add_middle(cylinder, points);
+  if (points.size() > static_cast<std::size_t>(max_contacts)) {
+    points.resize(static_cast<std::size_t>(max_contacts));
+  }
+}
+
 }  // namespace
 
 void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_contacts,
@@ -64,7 +112,12 @@ void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_co
   if (b.field) {
     collide_field(a, b, max_contacts, points);
   } else if (a.geom && b.geom) {
-    collide_geoms(a.geom.get(), b.geom.get(), max_contacts, points);
+    const CollisionShape* cylinder = is_cylinder(a) ? &a : is_cylinder(b) ? &b : nullptr;
+    if (cylinder) {
+      collide_cylinder_geoms(*cylinder, a.geom.get(), b.geom.get(), max_contacts, points);
+    } else {
+      collide_geoms(a.geom.get(), b.geom.get(), max_contacts, points);
+    }
   }
 }
 

@@ -42,8 +42,8 @@ struct PhysicsWorld::Impl {
   }
 
   void set_params(const PhysicsParams& wanted);
-  void solve();
   void step();
+  std::vector<LostModel> lost() const;
 
   physics::OdeLibrary library;
   PhysicsParams params;
@@ -54,8 +54,8 @@ struct PhysicsWorld::Impl {
   physics::ShapeFactory factory;
   physics::SceneryIndex scenery;
   physics::ContactFinder finder;
-  std::vector<std::unique_ptr<DynamicModel>> models;  // in the order in which they came
-  std::vector<dBodyID> bodies;
+  std::vector<std::unique_ptr<DynamicModel>> models;  // in the order of their names
+  std::vector<std::string> names;
   std::size_t contact_count = 0;
 };
 
@@ -72,18 +72,17 @@ void PhysicsWorld::Impl::set_params(const PhysicsParams& wanted) {
   dWorldSetAutoDisableFlag(world.get(), 0);
 }
 
-void PhysicsWorld::Impl::solve() {
-  bodies.clear();
+std::vector<LostModel> PhysicsWorld::Impl::lost() const {
+  std::vector<LostModel> found;
   for (const auto& model : models) {
-    for (const auto& body : model->bodies()) bodies.push_back(body.get());
+    std::string fault = model->state_fault();
+    if (!fault.empty()) found.push_back({model.get(), std::move(fault)});
   }
-  solver.step(params, finder.largest_island_rows(), bodies);
-  contacts.clear();
+  return found;
 }
 
 void PhysicsWorld::Impl::step() {
   physics::OdeLibrary::prepare_thread();
-  for (const auto& model : models) model->check_state();
   for (const auto& model : models) {
     model->prepare_step({params.step_s, params.erp, std::max(params.cfm, physics::kLeastCfm)},
                         params.gravity_m_per_s2);
@@ -91,9 +90,9 @@ void PhysicsWorld::Impl::step() {
   contacts.clear();  // what a step that threw may have left
   finder.find(models, params);
   contact_count = contacts.count();
-  solve();
-  for (const auto& model : models) model->finish_step();
-  for (const auto& model : models) model->check_state();
+  solver.step(params, finder.islands());
+  contacts.clear();
+  for (const auto& model : models) model->finish_step(params.step_s);
 }
 
 PhysicsWorld::PhysicsWorld(const PhysicsParams& params, Log log)
@@ -105,27 +104,37 @@ const PhysicsParams& PhysicsWorld::params() const { return impl_->params; }
 
 void PhysicsWorld::set_params(const PhysicsParams& params) { impl_->set_params(params); }
 
-PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM) {
+PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM,
+                                      const std::string& name) {
   auto added =
       std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM, impl_->factory);
-  impl_->models.push_back(std::move(added));
-  return *impl_->models.back();
+  std::vector<std::string>& names = impl_->names;
+  const auto place = std::upper_bound(names.begin(), names.end(), name);
+  const auto model_place = impl_->models.begin() + (place - names.begin());
+  names.insert(place, name);
+  return **impl_->models.insert(model_place, std::move(added));
 }
 
 void PhysicsWorld::remove_model(PhysicsModel& model) {
   const auto found = std::find_if(impl_->models.begin(), impl_->models.end(),
                                   [&](const auto& item) { return item.get() == &model; });
   if (found == impl_->models.end()) throw Error("physics: found no such model to remove");
+  impl_->names.erase(impl_->names.begin() + (found - impl_->models.begin()));
   impl_->models.erase(found);
 }
 
-PhysicsWorld::SceneryId PhysicsWorld::add_scenery(const std::vector<Placement>& placements) {
-  return impl_->scenery.add(placements);
+PhysicsWorld::SceneryId PhysicsWorld::add_scenery(const std::vector<Placement>& placements,
+                                                  const std::string& name) {
+  return impl_->scenery.add(placements, name);
 }
 
 void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
 
-void PhysicsWorld::step() { impl_->step(); }
+std::vector<LostModel> PhysicsWorld::step() {
+  if (std::vector<LostModel> before = impl_->lost(); !before.empty()) return before;
+  impl_->step();
+  return impl_->lost();
+}
 
 void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
 

@@ -3,22 +3,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/physics/properties.h"
 
 namespace ardee {
-
-/// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness *
-/// (angle - reference) (thesis eq. 4.1), integrated implicitly, so that it is stable at any step.
-struct JointSpring {
-  double stiffness = 0.0;  // N m/rad (N/m)
-  double damping = 0.0;    // N m s/rad (N s/m)
-  double reference = 0.0;  // rad (m)
-};
 
 /// The moving state of one dynamic model. Links and joints are addressed by their index in the
 /// description. Links joined by fixed joints move as one body but keep their frames.
@@ -34,6 +28,10 @@ class PhysicsModel {
   /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
   /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
+  /// Puts links, with what is fixed to them, where a saved world says; joints follow.
+  virtual void set_link_states(const LinkStates& states) = 0;
+  /// Both at once: throws Error and changes neither if one of them is not valid.
+  virtual void set_state(const Pose& X_WM, const Twist& twist_W) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
   /// Velocity of the link frame's origin, and angular velocity, in world axes.
   virtual Twist link_twist(std::size_t link) const = 0;
@@ -49,11 +47,31 @@ class PhysicsModel {
   /// Replaces the spring, damper of the description. Holds until changed.
   virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
   virtual void set_joint_limits(std::size_t joint, double lower, double upper) = 0;
+
+  // Properties hold until changed; those of a model that is added are its description's. The setters
+  // throw Error and change nothing if a number has no meaning or the body could not be simulated.
+  virtual const LinkProperties& link_properties(std::size_t link) const = 0;
+  /// Poses and velocities of the links' frames stay as they are.
+  virtual void set_link_properties(std::size_t link, const LinkProperties& properties) = 0;
+  /// Axes that can be driven: 0 of a fixed or ball joint, 2 of a universal or revolute2, else 1.
+  virtual std::size_t joint_axes(std::size_t joint) const = 0;
+  virtual const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const = 0;
+  virtual void set_joint_properties(std::size_t joint, std::size_t axis,
+                                    const JointProperties& properties) = 0;
+  virtual const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const = 0;
+  virtual void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) = 0;
+
   /// Adds a force (N, world axes) at a world point and a torque (N m) for the next step only.
   virtual void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
                             const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) = 0;
   /// Adds an effort along the joint's axis for the next step only.
   virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
+};
+
+/// A model that has left the contract of a valid state (core/limits.h), and how.
+struct LostModel {
+  PhysicsModel* model = nullptr;
+  std::string why;
 };
 
 /// ODE behind plain data: dynamic models, and scenery in a uniform grid so that the cost of a step
@@ -67,16 +85,20 @@ class PhysicsWorld {
   /// Takes effect with the next step.
   void set_params(const PhysicsParams& params);
 
-  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind.
-  PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM);
+  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind. What
+  /// a step does follows from the names of models and scenery, not from the order in which they
+  /// were added; those of one name go in that order.
+  PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM,
+                          const std::string& name = "");
   void remove_model(PhysicsModel& model);
 
   using SceneryId = std::uint32_t;
-  SceneryId add_scenery(const std::vector<Placement>& placements);
+  SceneryId add_scenery(const std::vector<Placement>& placements, const std::string& name = "");
   void remove_scenery(SceneryId id);
 
-  /// One step of params().step_s. Throws Error naming model and link if a state is not finite.
-  void step();
+  /// One step of params().step_s. Returns the models that have left the contract of a valid state:
+  /// while one of them is there, no further step is taken. Throws Error if memory runs out.
+  std::vector<LostModel> step();
   /// What the last step dealt with.
   struct Stats {
     std::size_t contacts = 0;        // points of contact

@@ -95,8 +95,9 @@ void SceneryIndex::add_instance(const Placement& placement, std::uint32_t protot
   }
 }
 
-std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements) {
+std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements, const std::string& name) {
   Set set;
+  set.name = name;
   std::map<const Model*, std::uint32_t> known;
   set.instances.reserve(placements.size());
   set.entries.reserve(placements.size());
@@ -151,9 +152,18 @@ void SceneryIndex::begin_step() {
   }
 }
 
+const SceneryIndex::Set& SceneryIndex::set_of(Reference reference) const {
+  return sets_.find(static_cast<std::uint32_t>(reference >> 32))->second;
+}
+
 const SceneryIndex::Entry& SceneryIndex::entry(Reference reference) const {
-  return sets_.find(static_cast<std::uint32_t>(reference >> 32))
-      ->second.entries[static_cast<std::uint32_t>(reference)];
+  return set_of(reference).entries[static_cast<std::uint32_t>(reference)];
+}
+
+bool SceneryIndex::comes_before(Reference one, Reference other) const {
+  if (one >> 32 == other >> 32) return one < other;
+  const int order = set_of(one).name.compare(set_of(other).name);
+  return order != 0 ? order < 0 : one < other;
 }
 
 void SceneryIndex::gather(const std::vector<Reference>& references,
@@ -170,7 +180,7 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
     found->second.last_used = step_;
     return found->second.shape;
   }
-  const Set& set = sets_.find(static_cast<std::uint32_t>(reference >> 32))->second;
+  const Set& set = set_of(reference);
   const Entry& item = set.entries[static_cast<std::uint32_t>(reference)];
   const Instance& instance = set.instances[item.instance];
   const PrototypeShape& shape = set.prototypes[instance.prototype].shapes[item.shape];
@@ -188,7 +198,8 @@ void SceneryIndex::query(const Eigen::AlignedBox3d& box,
     const auto cell = cells_.find(key);
     if (cell != cells_.end()) gather(cell->second, bounds);
   });
-  std::sort(hits_.begin(), hits_.end());
+  std::sort(hits_.begin(), hits_.end(),
+            [this](Reference one, Reference other) { return comes_before(one, other); });
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
   for (const Reference reference : hits_) shapes.push_back(&activate(reference));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -21,13 +22,13 @@ class SceneryIndex {
   explicit SceneryIndex(ShapeFactory& factory) : factory_(factory) {}
 
   /// Throws Error and adds nothing if a shape cannot be built.
-  std::uint32_t add(const std::vector<Placement>& placements);
+  std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "");
   void remove(std::uint32_t id);
 
   /// Begins a step: shapes that were long not asked for may be dropped.
   void begin_step();
-  /// Shapes whose bounds meet `box`, in the order in which they were added. They stay until the
-  /// next begin_step.
+  /// Shapes whose bounds meet `box`, in the order of the names given, of one name in that in which
+  /// they were added. They stay until the next begin_step.
   void query(const Eigen::AlignedBox3d& box, std::vector<const CollisionShape*>& shapes);
 
   /// Bounds compared by the queries of this step, and shapes alive: what a step costs.
@@ -55,6 +56,7 @@ class SceneryIndex {
     std::uint32_t shape;
   };
   struct Set {
+    std::string name;
     std::vector<Prototype> prototypes;
     std::vector<Instance> instances;
     std::vector<Entry> entries;
@@ -69,7 +71,9 @@ class SceneryIndex {
   static std::uint32_t prototype_of(const std::shared_ptr<const Model>& model, Set& set,
                                     std::map<const Model*, std::uint32_t>& known);
   static void add_instance(const Placement& placement, std::uint32_t prototype, Set& set);
+  const Set& set_of(Reference reference) const;
   const Entry& entry(Reference reference) const;
+  bool comes_before(Reference one, Reference other) const;
   void gather(const std::vector<Reference>& references, const Eigen::AlignedBox3f& box);
   const CollisionShape& activate(Reference reference);
 

@@ -13,6 +13,48 @@ constexpr std::size_t kDirectRows = 160;
 
 void copy(const dReal* from, int count, dReal* to) { std::copy(from, from + count, to); }
 
+void disable(const Island& island) {
+  for (dBodyID body : island.bodies) dBodyDisable(body);
+}
+
+/// Enables all that joints join to a body.
+void enable_joined(dBodyID from) {
+  std::vector<dBodyID> open{from};
+  dBodyEnable(from);
+  while (!open.empty()) {
+    dBodyID body = open.back();
+    open.pop_back();
+    for (int i = 0; i < dBodyGetNumJoints(body); ++i) {
+      dJointID joint = dBodyGetJoint(body, i);
+      if (!dJointIsEnabled(joint)) continue;
+      for (const int side : {0, 1}) {
+        dBodyID other = dJointGetBody(joint, side);
+        if (!other || dBodyIsEnabled(other)) continue;
+        dBodyEnable(other);
+        open.push_back(other);
+      }
+    }
+  }
+}
+
+/// Has the engine step an island. It gathers what is joined from an enabled body on, and begins
+/// with the one that was created last: where several models touch, one body alone is enabled of all
+/// that are joined, so that the order of rows does not depend on that of creation.
+void enable(const Island& island) {
+  if (island.models == 1) {
+    for (dBodyID body : island.bodies) dBodyEnable(body);
+    return;
+  }
+  std::vector<dBodyID> first;
+  for (auto body = island.bodies.rbegin(); body != island.bodies.rend(); ++body) {
+    if (dBodyIsEnabled(*body)) continue;
+    first.push_back(*body);
+    enable_joined(*body);
+  }
+  disable(island);
+  for (dBodyID body : first) dBodyEnable(body);
+}
+
 }  // namespace
 
 void Solver::save(const std::vector<dBodyID>& bodies) {
@@ -48,19 +90,39 @@ bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBody
   return false;
 }
 
-void Solver::iterate(const PhysicsParams& params) {
+void Solver::iterate(const PhysicsParams& params, const Island& island) {
+  enable(island);
   dRandSetSeed(seed_);
   const int done = dWorldQuickStep(world_, params.step_s);
   seed_ = dRandGetSeed();
   if (!done) throw Error("physics engine: out of memory");
+  disable(island);
 }
 
-void Solver::step(const PhysicsParams& params, std::size_t rows,
-                  const std::vector<dBodyID>& bodies) {
+void Solver::step(const PhysicsParams& params, const std::vector<Island>& islands) {
   dWorldSetCFM(world_, std::max(params.cfm, kLeastCfm));
-  const bool wants_direct = rows <= kDirectRows || params.solver == PhysicsParams::Solver::kWorld;
-  was_direct_ = wants_direct && solve_directly(params, bodies);
-  if (!was_direct_) iterate(params);
+  const bool all_direct = params.solver == PhysicsParams::Solver::kWorld;
+  const auto is_direct = [all_direct](const Island& island) {
+    return all_direct || island.rows <= kDirectRows;
+  };
+  std::vector<dBodyID> bodies;
+  for (const Island& island : islands) {
+    disable(island);
+    if (is_direct(island)) bodies.insert(bodies.end(), island.bodies.begin(), island.bodies.end());
+  }
+  for (const Island& island : islands) {
+    if (is_direct(island)) enable(island);
+  }
+  const bool solved = solve_directly(params, bodies);
+  for (const Island& island : islands) {
+    if (is_direct(island)) disable(island);
+  }
+  was_direct_ = solved;
+  for (const Island& island : islands) {
+    if (solved && is_direct(island)) continue;
+    was_direct_ = false;
+    iterate(params, island);
+  }
 }
 
 }  // namespace ardee::physics

@@ -13,11 +13,18 @@ namespace ardee::physics {
 /// making the direct system singular. Under 30 N it lets slip 0.03 um/s.
 constexpr double kLeastCfm = 1e-9;
 
-/// Solves one step. The direct solver costs no more than 50 iterations of the other for the few
-/// dozen rows of a robot and its contacts, and leaves no error behind: what rests stays where it
-/// is, whatever the lever arms. So it takes small systems even where the world asks for `quick`;
-/// its time grows with the cube of the rows, so it leaves the large ones. A system that is singular
-/// to it is solved again by iterations.
+/// Models that touch one another.
+struct Island {
+  std::size_t rows = 0;  // an upper bound of its constraint rows
+  std::size_t models = 0;
+  std::vector<dBodyID> bodies;  // in an order that does not depend on that of their creation
+};
+
+/// Solves one step, island by island. The direct solver costs no more than 50 iterations of the
+/// other for the few dozen rows of a robot and its contacts, and leaves no error behind: what rests
+/// stays where it is, whatever the lever arms. So it takes small islands even where the world asks
+/// for `quick`; its time grows with the cube of the rows, so it leaves the large ones. What is
+/// singular to it is solved again by iterations.
 class Solver {
  public:
   explicit Solver(dWorldID world) : world_(world) {}
@@ -26,10 +33,9 @@ class Solver {
   /// world has its own, lent to ODE for each step.
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
 
-  /// `rows`: an upper bound of the constraint rows of any one island. Throws Error if the engine
-  /// runs out of memory.
-  void step(const PhysicsParams& params, std::size_t rows, const std::vector<dBodyID>& bodies);
-  /// Whether the last step was solved directly.
+  /// Throws Error if the engine runs out of memory.
+  void step(const PhysicsParams& params, const std::vector<Island>& islands);
+  /// Whether all of the last step was solved directly.
   bool was_direct() const { return was_direct_; }
 
  private:
@@ -40,7 +46,7 @@ class Solver {
   };
 
   bool solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies);
-  void iterate(const PhysicsParams& params);
+  void iterate(const PhysicsParams& params, const Island& island);
   void save(const std::vector<dBodyID>& bodies);
   void restore(const std::vector<dBodyID>& bodies) const;
 

@@ -248,13 +248,14 @@ void DraftScene::glance(const Eigen::Vector3f& eye, GlanceBlock& block) const {
   alignas(64) int valid[kRays];
   RTCRayHit16 packet;
   for (int i = 0; i < kRays; ++i) {
+    const Eigen::Vector3f direction = embree_direction(block.direction_W(i));
     valid[i] = -1;
     packet.ray.org_x[i] = eye.x();
     packet.ray.org_y[i] = eye.y();
     packet.ray.org_z[i] = eye.z();
-    packet.ray.dir_x[i] = block.x_W[i];
-    packet.ray.dir_y[i] = block.y_W[i];
-    packet.ray.dir_z[i] = block.z_W[i];
+    packet.ray.dir_x[i] = direction.x();
+    packet.ray.dir_y[i] = direction.y();
+    packet.ray.dir_z[i] = direction.z();
     packet.ray.tnear[i] = block.near_m[i];
     packet.ray.tfar[i] = block.far_m[i];
     packet.ray.time[i] = 0.0f;

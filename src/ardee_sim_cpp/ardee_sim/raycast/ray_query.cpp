@@ -192,7 +192,7 @@ void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage) {
   context.queries = &query;
   context.t_shift[0] = passage.t_low;
   const Eigen::Vector3f origin = passage.ray.at(passage.t_low).cast<float>();
-  const Eigen::Vector3f direction = passage.ray.direction.cast<float>();
+  const Eigen::Vector3f direction = embree_direction(passage.ray.direction.cast<float>());
   RTCRayHit rayhit{};
   rayhit.ray.org_x = origin.x();
   rayhit.ray.org_y = origin.y();
@@ -217,7 +217,7 @@ RayPacket::RayPacket() {
 
 void RayPacket::add(int i, const Ray& ray, double reach) {
   const Eigen::Vector3f origin = ray.origin.cast<float>();
-  const Eigen::Vector3f direction = ray.direction.cast<float>();
+  const Eigen::Vector3f direction = embree_direction(ray.direction.cast<float>());
   valid[i] = -1;
   rays.ray.org_x[i] = origin.x();
   rays.ray.org_y[i] = origin.y();

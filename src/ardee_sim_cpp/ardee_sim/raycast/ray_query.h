@@ -3,10 +3,23 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+
 #include "ardee_sim/raycast/body.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
 namespace ardee {
+
+/// Nothing is met beyond it, so that a ray of infinite reach has no infinite place on it.
+constexpr double kLongestReach_m = 1e9;
+
+/// A direction as Embree takes it. Embree sorts the rays of a packet by the signs of their
+/// components, but gives a component nearer to zero than 1e-18 a positive reciprocal whatever its
+/// sign; a negative one would spoil the frustum of all rays of its octant. None is left here.
+inline Eigen::Vector3f embree_direction(const Eigen::Vector3f& direction) {
+  constexpr float kTiny = 1e-17f;
+  return (direction.array().abs() < kTiny).select(Eigen::Vector3f::Zero(), direction);
+}
 
 /// One ray on its way through the world, and the nearest thing that it has met.
 ///
@@ -24,7 +37,7 @@ class RayQuery {
              Purpose purpose = Purpose::kNearest) {
     purpose_ = purpose;
     ray_W_ = ray_W;
-    best_t_ = reach_m;
+    best_t_ = std::min(reach_m, kLongestReach_m);
     own_entity_ = own_entity;
     own_link_ = own_link;
   }

@@ -31,11 +31,20 @@ std::vector<std::string> script_files(const std::string& place) {
 
 }  // namespace
 
+void Assets::leave_out(const FileError& problem) {
+  if (!left_out_.insert(problem.file()).second) return;
+  log_.error(std::string(problem.what()) + "; what needs it is left out");
+}
+
 std::shared_ptr<const MeshFile> Assets::mesh(const std::string& uri, const Source& source) {
   const std::string path = locator_.resolve(uri, source);
   const auto found = meshes_.find(path);
   if (found != meshes_.end()) return found->second;
-  return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source));
+  try {
+    return meshes_[path] = std::make_shared<const MeshFile>(read_mesh_file(path, source, log_));
+  } catch (const Error& problem) {
+    throw FileError(problem, uri);
+  }
 }
 
 std::shared_ptr<const HeightGrid> Assets::heights(const std::string& uri,
@@ -47,8 +56,12 @@ std::shared_ptr<const HeightGrid> Assets::heights(const std::string& uri,
   key << size_m.transpose() << ' ' << path;
   const auto found = heights_.find(key.str());
   if (found != heights_.end()) return found->second;
-  return heights_[key.str()] =
-             std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source));
+  try {
+    return heights_[key.str()] =
+               std::make_shared<const HeightGrid>(read_height_grid(path, size_m, source, log_));
+  } catch (const Error& problem) {
+    throw FileError(problem, uri);
+  }
 }
 
 std::optional<std::string> Assets::try_resolve(const std::string& uri, const Source& source) const {

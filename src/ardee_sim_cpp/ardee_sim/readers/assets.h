@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,26 @@ namespace ardee {
 /// The files that descriptions refer to, each read once: meshes, heightmaps, material scripts.
 class Assets {
  public:
-  Assets(ResourceLocator locator, Log& log) : locator_(std::move(locator)), log_(log) {}
+  Assets(ResourceLocator locator, Log& log, MissingFiles missing)
+      : locator_(std::move(locator)), log_(log), missing_(missing) {}
+
+  /// Begins a world or a model of its own: errors of files left out in an earlier one are said
+  /// again.
+  void begin() { left_out_.clear(); }
+
+  /// Runs `read`, and returns whether its files are there. Where one is not, and such parts are to
+  /// be left out, says so once a file; else passes the FileError on.
+  template <typename Read>
+  bool has_files(Read read) {
+    try {
+      read();
+      return true;
+    } catch (const FileError& problem) {
+      if (missing_ == MissingFiles::kRefuse) throw;
+      leave_out(problem);
+      return false;
+    }
+  }
 
   const ResourceLocator& locator() const { return locator_; }
   Log& log() { return log_; }
@@ -34,11 +54,14 @@ class Assets {
 
  private:
   std::optional<std::string> try_resolve(const std::string& uri, const Source& source) const;
+  void leave_out(const FileError& problem);
   const MaterialScript& script(const std::string& path);
   std::string find_texture(const std::string& file, const std::vector<std::string>& folders) const;
 
   ResourceLocator locator_;
   Log& log_;
+  MissingFiles missing_;
+  std::set<std::string> left_out_;  // files that were said to be
   std::map<std::string, std::shared_ptr<const MeshFile>> meshes_;
   std::map<std::string, std::shared_ptr<const HeightGrid>> heights_;
   std::map<std::string, MaterialScript> scripts_;

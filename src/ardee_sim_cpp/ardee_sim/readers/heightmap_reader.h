@@ -2,13 +2,17 @@
 #pragma once
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/geometry.h"
 
 namespace ardee {
 
-/// Heights from a grey image that spans size_m.x by size_m.y, its upper edge at +y. Black lies at 0
-/// and white at size_m.z, or the other way round if size_m.z is negative. Throws Error at `source`.
+/// Heights from an image or an elevation file that spans size_m.x by size_m.y, its upper edge at
+/// +y. As in Gazebo, black lies at 0 and the brightest pixel of an 8-bit image at size_m.z,
+/// whatever its grey; but an image whose brightest value is 1 counts as one with white in it. White
+/// of a 16-bit image lies at size_m.z. The least elevation of a file lies at 0 and the greatest at
+/// size_m.z. A negative size_m.z turns heights upside down. Throws Error at `source`.
 HeightGrid read_height_grid(const std::string& path, const Eigen::Vector3d& size_m,
-                            const Source& source);
+                            const Source& source, Log& log);
 
 }  // namespace ardee

@@ -2,11 +2,14 @@
 #include "ardee_sim/readers/image.h"
 
 #include <Magick++.h>
+#include <png.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <mutex>
+#include <optional>
 
 namespace ardee {
 namespace {
@@ -45,22 +48,14 @@ std::string format_of(const std::string& path, const Source& source) {
   throw Error(source, "found '" + path + "', expected a PNG, JPEG, TIFF, TGA or BMP image");
 }
 
-void check_size(std::size_t width, std::size_t height, const std::string& path,
-                const Source& source) {
-  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide ||
-      width * height > kMaxPixels) {
-    throw Error(source, "found an image of " + std::to_string(width) + " x " +
-                            std::to_string(height) + " pixels in '" + path + "', expected 1 to " +
-                            std::to_string(kMaxSide) + " a side and at most " +
-                            std::to_string(kMaxPixels) + " in all");
-  }
-}
-
 /// The library's message without the program's name before it.
 std::string reason(const Magick::Exception& problem) {
   const std::string text = problem.what();
   const std::size_t colon = text.find(": ");
-  return colon == std::string::npos ? text : text.substr(colon + 2);
+  const std::string bare = colon == std::string::npos ? text : text.substr(colon + 2);
+  // It tells of none where an image takes more memory than its policy lets it have.
+  if (bare != "No image was loaded.") return bare;
+  return "no more than ImageMagick's policy lets it hold: `identify -list resource` tells";
 }
 
 /// Errors, and warnings of a corrupt image (truncation is one of them), are let through; remarks of
@@ -86,10 +81,10 @@ Magick::Image decode(const std::string& path, const Source& source) {
   try {
     Magick::Image header;
     tolerate_remarks([&] { header.ping(format + ":" + path); });
-    check_size(header.columns(), header.rows(), path, source);
+    check_image_size(header.columns(), header.rows(), path, source);
     Magick::Image image;
     tolerate_remarks([&] { image.read(format + ":" + path + "[0]"); });
-    check_size(image.columns(), image.rows(), path, source);
+    check_image_size(image.columns(), image.rows(), path, source);
     if (format == "tga" || format == "tiff")
       image.autoOrient();  // they may start at the lower edge
     return image;
@@ -122,6 +117,17 @@ Image empty_image(const Magick::Image& decoded, int channels) {
 
 }  // namespace
 
+void check_image_size(std::size_t width, std::size_t height, const std::string& path,
+                      const Source& source) {
+  if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide ||
+      width * height > kMaxPixels) {
+    throw Error(source, "found an image of " + std::to_string(width) + " x " +
+                            std::to_string(height) + " pixels in '" + path + "', expected 1 to " +
+                            std::to_string(kMaxSide) + " a side and at most " +
+                            std::to_string(kMaxPixels) + " in all");
+  }
+}
+
 Image read_color_image(const std::string& path, const Source& source) {
   Magick::Image decoded = decode(path, source);
   Image image = empty_image(decoded, 4);
@@ -129,7 +135,31 @@ Image read_color_image(const std::string& path, const Source& source) {
   return image;
 }
 
+/// A PNG of one channel of 8 bits, which the library would hold in ten bytes a pixel; none for any
+/// other file.
+std::optional<Image> read_gray_png(const std::string& path, const Source& source) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&png, path.c_str()) == 0) return std::nullopt;
+  const std::unique_ptr<png_image, void (*)(png_image*)> closer(&png, &png_image_free);
+  if (png.format != PNG_FORMAT_GRAY) return std::nullopt;
+  check_image_size(png.width, png.height, path, source);
+  Image image;
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.channels = 1;
+  std::vector<std::uint8_t> samples(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, samples.data(), 0, nullptr) == 0) return std::nullopt;
+  constexpr int kWhiteOfBoth = 65535 / 255;
+  image.samples16.reserve(samples.size());
+  for (const std::uint8_t sample : samples) {
+    image.samples16.push_back(static_cast<std::uint16_t>(kWhiteOfBoth * sample));
+  }
+  return image;
+}
+
 Image read_gray_image(const std::string& path, const Source& source) {
+  if (std::optional<Image> image = read_gray_png(path, source)) return *std::move(image);
   Magick::Image decoded = decode(path, source);
   Image image = empty_image(decoded, 1);
   image.samples16 = pixels<std::uint16_t>(decoded, "R", Magick::ShortPixel, 1, path, source);

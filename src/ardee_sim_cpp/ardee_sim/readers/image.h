@@ -26,6 +26,10 @@ struct Image {
   }
 };
 
+/// Throws Error at `source` if the file of an image so large is not to be read.
+void check_image_size(std::size_t width, std::size_t height, const std::string& path,
+                      const Source& source);
+
 /// Reads PNG, JPEG, TIFF, TGA or BMP as RGBA of 8 bits. Throws Error at `source` on a missing,
 /// broken or huge file.
 Image read_color_image(const std::string& path, const Source& source);

@@ -31,8 +31,8 @@ bool is_sdf(const Node& root) { return root.name() == "sdf" || root.name() == "g
 }  // namespace
 
 struct Loader::Impl {
-  Impl(ResourceLocator locator, Log given_log)
-      : log(std::move(given_log)), assets(std::move(locator), log), sdf(assets) {}
+  Impl(ResourceLocator locator, Log given_log, MissingFiles missing)
+      : log(std::move(given_log)), assets(std::move(locator), log, missing), sdf(assets) {}
 
   World read_world(const XmlFile& document);
 
@@ -41,24 +41,27 @@ struct Loader::Impl {
   SdfReader sdf;
 };
 
-Loader::Loader(ResourceLocator locator, Log log)
-    : impl_(std::make_unique<Impl>(std::move(locator), std::move(log))) {}
+Loader::Loader(ResourceLocator locator, Log log, MissingFiles missing)
+    : impl_(std::make_unique<Impl>(std::move(locator), std::move(log), missing)) {}
 Loader::~Loader() = default;
 Loader::Loader(Loader&&) noexcept = default;
 
 World Loader::Impl::read_world(const XmlFile& document) {
+  assets.begin();
   const Node root = document.root();
   if (!is_sdf(root)) throw root.error("found this root element, expected <sdf> with a <world>");
   return sdf.read_world(root);
 }
 
 World Loader::load_world(const std::string& path) {
+  const LogGroup group(impl_->log);
   World world = impl_->read_world(XmlFile::read(path, Source{path, 0, ""}));
   release_free_memory();
   return world;
 }
 
 World Loader::load_world_text(const std::string& xml, const std::string& name) {
+  const LogGroup group(impl_->log);
   return impl_->read_world(XmlFile(xml, name));
 }
 
@@ -68,10 +71,12 @@ std::shared_ptr<const Model> Loader::load_model(const std::string& path) {
 
 std::shared_ptr<const Model> Loader::load_model_text(const std::string& xml,
                                                      const std::string& name) {
+  const LogGroup group(impl_->log);
+  impl_->assets.begin();
   const XmlFile document(xml, name);
   const Node root = document.root();
   if (is_sdf(root)) return impl_->sdf.read_model(root);
-  if (root.name() == "robot") return read_urdf(xml, root, impl_->assets);
+  if (root.name() == "robot") return read_urdf(root, impl_->assets);
   throw root.error("found this root element, expected <sdf> or <robot>");
 }
 

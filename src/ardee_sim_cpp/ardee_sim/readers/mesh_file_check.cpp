@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <string_view>
 
 #include "ardee_sim/readers/collada_check.h"
@@ -24,6 +25,25 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+/// The mesh library would pass over a fourth corner.
+void check_facets(const std::string& text, const std::string& path, const Source& source) {
+  constexpr std::size_t kCorners = 3;
+  for (std::size_t at = text.find("outer loop"); at != std::string::npos;) {
+    const std::size_t next = text.find("outer loop", at + 1);
+    std::size_t corners = 0;
+    for (std::size_t corner = text.find("vertex", at); corner < std::min(next, text.size());
+         corner = text.find("vertex", corner + 1)) {
+      ++corners;
+    }
+    if (corners != kCorners) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+      throw Error(source, "found a facet of " + std::to_string(corners) + " corners in STL '" +
+                              path + "', line " + std::to_string(line) + ", expected 3");
+    }
+    at = next;
+  }
+}
+
 /// A binary STL says its number of triangles; an ASCII one ends in "endsolid".
 void check_stl(const std::string& bytes, const std::string& path, const Source& source) {
   constexpr std::size_t kHeader = 84;
@@ -32,14 +52,26 @@ void check_stl(const std::string& bytes, const std::string& path, const Source& 
   if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, sizeof(count));
   if (bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * count) return;
   if (bytes.compare(0, 5, "solid") == 0 && bytes.find("facet") != std::string::npos) {
-    if (bytes.find("endsolid") != std::string::npos) return;
-    throw Error(source, "found no 'endsolid' in STL '" + path + "', expected a whole file");
+    if (bytes.find("endsolid") == std::string::npos) {
+      throw Error(source, "found no 'endsolid' in STL '" + path + "', expected a whole file");
+    }
+    return check_facets(bytes, path, source);
   }
   if (bytes.size() < kHeader || bytes.size() < kHeader + kTriangle * count) {
     throw Error(source, "found " + std::to_string(bytes.size()) + " bytes in STL '" + path +
                             "', expected " + std::to_string(kHeader + kTriangle * count) +
                             " for its " + std::to_string(count) + " triangles");
   }
+}
+
+/// A binary glTF says its length.
+void check_glb(const std::string& bytes, const std::string& path, const Source& source) {
+  constexpr std::size_t kHeader = 12;
+  std::uint32_t length = 0;
+  if (bytes.size() >= kHeader) std::memcpy(&length, bytes.data() + 8, sizeof(length));
+  if (bytes.compare(0, 4, "glTF") == 0 && length == bytes.size()) return;
+  throw Error(source, "found " + std::to_string(bytes.size()) + " bytes in '" + path +
+                          "', expected a whole binary glTF file");
 }
 
 /// Refuses a number after `key` that is larger than the file: the mesh library would reserve memory
@@ -85,16 +117,20 @@ void check_ply(const std::string& bytes, const std::string& path, const Source& 
 
 }  // namespace
 
-void check_mesh_file(const std::string& path, const Source& source) {
+std::string check_mesh_file(const std::string& path, const Source& source) {
+  static const std::set<std::string> kExtensions{".dae", ".stl", ".obj", ".ply", ".gltf", ".glb"};
   const std::string extension = lower_extension(path);
-  if (extension != ".dae" && extension != ".stl" && extension != ".obj" && extension != ".ply") {
-    throw Error(source, "found mesh '" + path + "', expected a .dae, .stl, .obj or .ply file");
+  if (kExtensions.count(extension) == 0) {
+    throw Error(source,
+                "found mesh '" + path + "', expected a .dae, .stl, .obj, .ply, .gltf or .glb file");
   }
   const std::string bytes = read_text_file(path, source, kMaxFileBytes);
   if (bytes.empty()) throw Error(source, "found an empty mesh file '" + path + "', expected data");
   if (extension == ".stl") check_stl(bytes, path, source);
+  if (extension == ".glb") check_glb(bytes, path, source);
   if (extension == ".dae") check_collada(XmlFile(bytes, path).root());
   if (extension == ".ply") check_ply(bytes, path, source);
+  return bytes;
 }
 
 }  // namespace ardee

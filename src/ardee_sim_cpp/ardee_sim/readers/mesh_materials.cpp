@@ -45,7 +45,9 @@ Material read_mesh_material(const aiMaterial& source, const std::string& mesh_pa
   }
   int two_sided = 0;
   if (source.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS) material.two_sided = two_sided != 0;
-  if (source.GetTexture(aiTextureType_DIFFUSE, 0, &text) == AI_SUCCESS) {
+  constexpr char kInsideTheFile = '*';
+  if (source.GetTexture(aiTextureType_DIFFUSE, 0, &text) == AI_SUCCESS &&
+      text.C_Str()[0] != kInsideTheFile) {
     material.texture_path = texture_beside(text.C_Str(), mesh_path);
     // The picture gives the colour: assimp's stand-in for an absent one would darken it.
     material.diffuse.head<3>().setOnes();

@@ -8,25 +8,81 @@
 #include <assimp/Importer.hpp>
 #include <set>
 
+#include "ardee_sim/readers/collada_fans.h"
 #include "ardee_sim/readers/mesh_file_check.h"
 #include "ardee_sim/readers/mesh_materials.h"
+#include "ardee_sim/readers/polygon.h"
 
 namespace ardee {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 20'000'000;
+/// Of a polygon: cutting it takes time that grows with their cube.
+constexpr std::size_t kMaxCorners = 1000;
 constexpr float kAbsurdCoordinate = 1e9f;
 
-const aiScene& import(Assimp::Importer& importer, const std::string& path, const Source& source) {
+/// What of a file is not in the mesh.
+struct LeftOut {
+  std::size_t points = 0;
+  std::size_t lines = 0;
+  std::size_t flat_faces = 0;
+  std::size_t pictures = 0;
+
+  std::string in_words() const {
+    std::string words;
+    const auto add = [&words](std::size_t count, const char* what) {
+      if (count > 0) words += (words.empty() ? "" : ", ") + std::to_string(count) + what;
+    };
+    add(points, " point(s)");
+    add(lines, " line(s)");
+    add(flat_faces, " face(s) without area");
+    add(pictures, " picture(s) inside the file");
+    return words;
+  }
+};
+
+LeftOut count_left_out(const aiScene& scene) {
+  LeftOut left_out;
+  left_out.pictures = scene.mNumTextures;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+      if (mesh.mFaces[k].mNumIndices == 1) ++left_out.points;
+      if (mesh.mFaces[k].mNumIndices == 2) ++left_out.lines;
+    }
+  }
+  return left_out;
+}
+
+void set_properties(Assimp::Importer& importer) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                              aiProcess_SortByPType | aiProcess_ValidateDataStructure;
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_ANIMATIONS | aiComponent_LIGHTS | aiComponent_CAMERAS);
+}
+
+const aiScene& import(Assimp::Importer& importer, const std::string& path, const Source& source,
+                      const std::string& bytes, LeftOut& left_out) {
+  // Polygons stay as they are: the library's triangles go beyond some that are not convex.
+  constexpr unsigned kSteps =
+      aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure;
+  set_properties(importer);
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFile(path, kSteps);
+    if (bytes.find("<trifans") == std::string::npos) {
+      scene = importer.ReadFile(path, 0);
+    } else {
+      const std::string triangles = fans_to_triangles(bytes);
+      scene = importer.ReadFileFromMemory(triangles.data(), triangles.size(), 0, "dae");
+    }
+    if (scene) {
+      left_out = count_left_out(*scene);
+      // Two cameras of one name would not pass as valid, and no camera is looked at.
+      scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent);
+    }
+    if (scene) scene = importer.ApplyPostProcessing(kSteps);
   } catch (const std::exception& problem) {
     throw Error(source, "cannot read mesh '" + path + "' (" + problem.what() + ")");
   }
@@ -44,11 +100,13 @@ class PartReader {
   PartReader(const aiScene& scene, MeshFile& file, const Source& source)
       : scene_(scene), file_(file), source_(source) {}
 
+  std::size_t flat_faces() const { return flat_faces_; }
+
   void read(const aiNode& node, const aiMatrix4x4& X_parent) {
     const aiMatrix4x4 X_node = X_parent * node.mTransformation;
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
-      if (mesh.mPrimitiveTypes == aiPrimitiveType_TRIANGLE) add_part(node, mesh, X_node);
+      add_part(node, mesh, X_node);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) read(*node.mChildren[i], X_node);
   }
@@ -93,49 +151,79 @@ class PartReader {
   }
 
   void add_triangles(const aiMesh& mesh, bool mirrored, SubMesh& part) {
-    count_ += mesh.mNumFaces;
-    if (count_ > kMaxTriangles) {
-      throw Error(source_, "found more than " + std::to_string(kMaxTriangles) + " triangles in '" +
-                               file_.path + "', expected fewer");
-    }
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-      const aiFace& face = mesh.mFaces[i];
-      if (face.mNumIndices != 3) continue;
-      std::array<std::uint32_t, 3> t{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-      for (const std::uint32_t index : t) {
-        if (index >= mesh.mNumVertices) {
-          throw Error(source_, "found triangle " + std::to_string(i) + " of part '" + part.name +
-                                   "' in '" + file_.path + "' with vertex " +
-                                   std::to_string(index) + ", expected less than " +
-                                   std::to_string(mesh.mNumVertices));
-        }
+      const std::size_t before = part.triangles.size();
+      add_face(mesh.mFaces[i], i, part);
+      for (std::size_t k = before; mirrored && k < part.triangles.size(); ++k) {
+        std::swap(part.triangles[k][1], part.triangles[k][2]);
       }
-      if (mirrored) std::swap(t[1], t[2]);
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) part.triangles.push_back(t);
+      if (part.triangles.size() == before) ++flat_faces_;
+      count_ += part.triangles.size() - before;
+      if (count_ > kMaxTriangles) {
+        throw Error(source_, "found more than " + std::to_string(kMaxTriangles) +
+                                 " triangles in '" + file_.path + "', expected fewer");
+      }
     }
+  }
+
+  void add_face(const aiFace& face, unsigned number, SubMesh& part) const {
+    std::vector<Eigen::Vector3f> corners;
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      if (face.mIndices[k] >= part.vertices.size()) {
+        throw wrong_face(number, part, "vertex " + std::to_string(face.mIndices[k]),
+                         "less than " + std::to_string(part.vertices.size()));
+      }
+      corners.push_back(part.vertices[face.mIndices[k]]);
+    }
+    if (corners.size() > kMaxCorners) {
+      throw wrong_face(number, part, std::to_string(corners.size()) + " corners",
+                       "at most " + std::to_string(kMaxCorners));
+    }
+    const unsigned* index = face.mIndices;
+    if (corners.size() == 3) {
+      if (index[0] != index[1] && index[1] != index[2] && index[2] != index[0]) {
+        part.triangles.push_back({index[0], index[1], index[2]});
+      }
+      return;
+    }
+    for (const auto& cut : cut_polygon(corners)) {
+      part.triangles.push_back({index[cut[0]], index[cut[1]], index[cut[2]]});
+    }
+  }
+
+  Error wrong_face(unsigned number, const SubMesh& part, const std::string& found,
+                   const std::string& expected) const {
+    return Error(source_, "found face " + std::to_string(number) + " of part '" + part.name +
+                              "' in '" + file_.path + "' with " + found + ", expected " + expected);
   }
 
   const aiScene& scene_;
   MeshFile& file_;
   const Source& source_;
   std::size_t count_ = 0;
+  std::size_t flat_faces_ = 0;
 };
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::string& path, const Source& source) {
-  check_mesh_file(path, source);
+MeshFile read_mesh_file(const std::string& path, const Source& source, Log& log) {
+  const std::string bytes = check_mesh_file(path, source);
   MeshFile file;
   file.path = path;
   Assimp::Importer importer;
-  const aiScene& scene = import(importer, path, source);
+  LeftOut left_out;
+  const aiScene& scene = import(importer, path, source, bytes, left_out);
   for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
     file.materials.push_back(read_mesh_material(*scene.mMaterials[i], path));
   }
-  PartReader(scene, file, source).read(*scene.mRootNode, aiMatrix4x4());
+  PartReader reader(scene, file, source);
+  reader.read(*scene.mRootNode, aiMatrix4x4());
+  left_out.flat_faces = reader.flat_faces();
   if (file.parts.empty()) {
     throw Error(source, "found no triangles in '" + path + "', expected some");
   }
+  const std::string words = left_out.in_words();
+  if (!words.empty()) log.warn(source.to_string() + ": left out of '" + path + "': " + words);
   return file;
 }
 

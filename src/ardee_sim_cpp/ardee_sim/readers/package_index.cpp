@@ -24,18 +24,27 @@ std::string package_name(const tinyxml2::XMLElement* root, const std::string& fo
   return fs::path(folder).filename().string();
 }
 
-/// Appends the folders that a manifest exports to Gazebo, with its own folder for "${prefix}".
+/// The text with the package's folder for each "${prefix}".
+std::string expand_prefix(std::string text, const std::string& folder) {
+  const std::string prefix = "${prefix}";
+  for (std::size_t at = 0; (at = text.find(prefix, at)) != std::string::npos; at += folder.size()) {
+    text.replace(at, prefix.size(), folder);
+  }
+  return text;
+}
+
+/// Appends the folders that an attribute of a manifest's <gazebo_ros> exports, of which it may have
+/// several, names.
 void add_exports(const tinyxml2::XMLElement* root, const std::string& folder, const char* attribute,
                  std::vector<std::string>& all) {
   const auto* exports = root ? root->FirstChildElement("export") : nullptr;
   const auto* gazebo = exports ? exports->FirstChildElement("gazebo_ros") : nullptr;
-  const char* list = gazebo ? gazebo->Attribute(attribute) : nullptr;
-  if (!list) return;
-  const std::string prefix = "${prefix}";
-  for (std::string& path : split_path_list(list)) {
-    const std::size_t at = path.find(prefix);
-    if (at != std::string::npos) path.replace(at, prefix.size(), folder);
-    all.push_back(std::move(path));
+  for (; gazebo; gazebo = gazebo->NextSiblingElement("gazebo_ros")) {
+    const char* list = gazebo->Attribute(attribute);
+    if (!list) continue;
+    for (std::string& path : split_path_list(expand_prefix(list, folder))) {
+      all.push_back(std::move(path));
+    }
   }
 }
 

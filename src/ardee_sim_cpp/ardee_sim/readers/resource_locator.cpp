@@ -7,8 +7,8 @@
 #include <memory>
 #include <set>
 
-#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/package_index.h"
+#include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
@@ -36,7 +36,12 @@ void add_exports(const ResourceLocator::PathExports& exports, const std::string&
   for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
 }
 
-/// The first of `places` that exists, or an Error that lists them.
+/// One name of a file, whoever refers to it.
+std::string name_of(const std::string& uri, const Source& source) {
+  return uri.find("://") == std::string::npos ? folder_of(source.file) + "/" + uri : uri;
+}
+
+/// The first of `places` that exists, or a FileError that lists them.
 std::string first_existing(const std::vector<fs::path>& places, const std::string& uri,
                            const Source& source) {
   std::string searched;
@@ -47,26 +52,23 @@ std::string first_existing(const std::vector<fs::path>& places, const std::strin
     const std::string whole = normal(fs::absolute(place, error));
     if (named.insert(whole).second) searched += (searched.empty() ? "" : ", ") + whole;
   }
-  throw Error(source, "found '" + uri + "', expected an existing file; searched: " +
-                          (searched.empty() ? "nowhere (no path is set)" : searched));
+  throw FileError(source, name_of(uri, source),
+                  "found '" + uri + "', expected an existing file; searched: " +
+                      (searched.empty() ? "nowhere (no path is set)" : searched));
 }
 
-/// The version of a model.config's <sdf version="1.5">; 0 if it has none.
-double sdf_version(const Node& sdf) {
-  const std::string version = sdf.attribute("version");
-  char* end = nullptr;
-  const double value = std::strtod(version.c_str(), &end);
-  return end == version.c_str() ? 0.0 : value;
-}
-
-/// The file name that a model.config gives for the newest version that we read, else its last.
+/// The file that a model.config gives for the newest version of Gazebo Classic, for whose plugins
+/// it is made; else its last.
 std::string choose_sdf(const Node& config) {
   std::optional<Node> best;
   std::optional<Node> last;
+  int best_version = 0;
   config.each("sdf", [&](const Node& candidate) {
     last = candidate;
-    const double version = sdf_version(candidate);
-    if (version <= kNewestSdf && (!best || version > sdf_version(*best))) best = candidate;
+    const int version = parse_sdf_version(candidate.attribute("version")).value_or(0);
+    if (version > kNewestClassicSdf || (best && version <= best_version)) return;
+    best = candidate;
+    best_version = version;
   });
   if (!last) throw config.error("found no <sdf>, expected one with the name of the model's file");
   return (best ? *best : *last).required_text();
@@ -128,8 +130,9 @@ std::string ResourceLocator::resolve_package(const std::string& uri, const std::
   const std::string package = rest.substr(0, slash);
   const auto folder = find_package_ ? find_package_(package) : std::nullopt;
   if (!folder) {
-    throw Error(source, "found '" + uri + "', expected a known package; searched for package '" +
-                            package + "' on ROS_PACKAGE_PATH and in /usr/share");
+    throw FileError(source, uri,
+                    "found '" + uri + "', expected a known package; searched for package '" +
+                        package + "' on ROS_PACKAGE_PATH and in /usr/share");
   }
   const std::string inside = slash < rest.size() ? rest.substr(slash + 1) : "";
   return first_existing({fs::path(*folder) / inside}, uri, source);

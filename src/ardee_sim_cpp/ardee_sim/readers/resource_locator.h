@@ -10,6 +10,24 @@
 
 namespace ardee {
 
+/// What becomes of a part of a description whose file is not there or cannot be read: the whole is
+/// refused, or the part is left out with one error, as Gazebo does.
+enum class MissingFiles { kRefuse, kLeaveOut };
+
+/// That a file is not there, or cannot be read as what it should be.
+class FileError : public Error {
+ public:
+  FileError(const Source& source, const std::string& file, const std::string& what)
+      : Error(source, what), file_(file) {}
+  FileError(const Error& problem, const std::string& file) : Error(problem), file_(file) {}
+
+  /// Its path or URI.
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
+};
+
 /// Finds the file behind a URI: model://, package://, file://, an absolute path, or a path beside
 /// the referring file.
 class ResourceLocator {
@@ -30,8 +48,8 @@ class ResourceLocator {
   /// Further folders for file://; likewise.
   void set_media_path_exports(PathExports exports) { media_exports_ = std::move(exports); }
 
-  /// The existing file or folder that `uri` names. Throws Error at `source` with the places
-  /// searched.
+  /// The existing file or folder that `uri` names. Throws FileError at `source` with the
+  /// places searched.
   std::string resolve(const std::string& uri, const Source& source) const;
   /// The .sdf file of the model folder that `uri` names (model.config's <sdf>, highest version up
   /// to 1.6 first).

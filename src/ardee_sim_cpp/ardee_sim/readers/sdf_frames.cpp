@@ -63,6 +63,10 @@ void SdfFrames::add(const std::string& name, const Pose& X_R) {
   frames_.emplace(name, Frame{X_R, root_, ""});
 }
 
+void SdfFrames::replace(const std::string& name, const Pose& X_R) {
+  frames_[name] = Frame{X_R, root_, ""};
+}
+
 void SdfFrames::add_links(const std::string& name, std::shared_ptr<const Model> model) {
   models_.emplace(name, std::move(model));
 }
@@ -88,7 +92,7 @@ Pose SdfFrames::find(const std::string& name, const Node& asker) const {
 Pose SdfFrames::find(const std::string& name, const Node& asker, std::size_t depth) const {
   if (name == root_) return {};
   const auto found = frames_.find(name);
-  if (found == frames_.end()) return link_of(name, asker, depth);
+  if (found == frames_.end()) return nested_frame(name, asker, depth);
   if (depth > kDeepest) {
     throw asker.error("found that frame '" + name + "' lies in itself, or in more than " +
                       std::to_string(kDeepest) + " others, expected fewer");
@@ -97,11 +101,11 @@ Pose SdfFrames::find(const std::string& name, const Node& asker, std::size_t dep
   return frame.base == root_ ? frame.pose : find(frame.base, asker, depth + 1) * frame.pose;
 }
 
-Pose SdfFrames::link_of(const std::string& name, const Node& asker, std::size_t depth) const {
+Pose SdfFrames::nested_frame(const std::string& name, const Node& asker, std::size_t depth) const {
   const auto [scope, rest] = split_scope(name);
   const auto model = models_.find(scope);
-  const Link* link = model != models_.end() ? model->second->find_link(rest) : nullptr;
-  if (link != nullptr) return find(scope, asker, depth + 1) * link->X_ML;
+  const auto frame = model != models_.end() ? model->second->find_frame(rest) : std::nullopt;
+  if (frame) return find(scope, asker, depth + 1) * frame->X_MF;
   std::string names = root_;
   std::set<std::string> sorted;
   for (const auto& each : frames_) sorted.insert(each.first);
@@ -122,7 +126,29 @@ std::string SdfFrames::body_of(const std::string& name) const {
     if (found == frames_.end() || found->second.body.empty()) break;
     body = found->second.body;
   }
+  const auto [scope, rest] = split_scope(body);
+  const auto model = models_.find(scope);
+  const auto frame = model != models_.end() ? model->second->find_frame(rest) : std::nullopt;
+  if (frame) {
+    body = scope + "::" + (frame->link.empty() ? model->second->canonical_link : frame->link);
+  }
   return body == root_ ? "" : body;
+}
+
+std::vector<NamedFrame> SdfFrames::named_frames(const Node& parent) const {
+  std::vector<NamedFrame> made;
+  std::unordered_map<std::string, std::size_t> before;  // what lies in one of them is soon found
+  parent.each("frame", [&](const Node& node) {
+    const std::string name = node.required_attribute("name");
+    const Frame& frame = frames_.at(name);
+    const auto base = before.find(frame.base);
+    const auto carrier = before.find(frame.body);
+    const bool is_known = base != before.end() && carrier != before.end();
+    made.push_back({name, is_known ? made[base->second].X_MF * frame.pose : find(name, node),
+                    is_known ? made[carrier->second].link : body_of(name)});
+    before.emplace(name, made.size() - 1);
+  });
+  return made;
 }
 
 }  // namespace ardee

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/readers/xml.h"
@@ -26,7 +27,9 @@ class SdfFrames {
   /// All children that are placed: links, joints, frames, models, includes that say where.
   void add_children(const Node& parent);
   void add(const std::string& name, const Pose& X_R);
-  /// Known from now on with its links, as name::link.
+  /// Stands elsewhere than its <pose> says: that places another frame of the model.
+  void replace(const std::string& name, const Pose& X_R);
+  /// Known from now on with its links and other frames, as name::link.
   void add_links(const std::string& name, std::shared_ptr<const Model> model);
 
   /// X_R of an element: of its <pose>, given in `base` unless that names another frame.
@@ -38,6 +41,8 @@ class SdfFrames {
   Pose find(const std::string& name, const Node& asker) const;
   /// The link that a frame moves with; "" is the root's own; a name that is unknown is its own.
   std::string body_of(const std::string& name) const;
+  /// The <frame>s among the children of `parent`.
+  std::vector<NamedFrame> named_frames(const Node& parent) const;
 
  private:
   struct Frame {
@@ -47,7 +52,7 @@ class SdfFrames {
   };
 
   Pose find(const std::string& name, const Node& asker, std::size_t depth) const;
-  Pose link_of(const std::string& name, const Node& asker, std::size_t depth) const;
+  Pose nested_frame(const std::string& name, const Node& asker, std::size_t depth) const;
 
   std::string root_;
   std::unordered_map<std::string, Frame> frames_;

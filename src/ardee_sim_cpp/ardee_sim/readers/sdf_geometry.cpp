@@ -97,33 +97,26 @@ Mesh make_mesh(const std::string& uri, const std::string& submesh, bool center,
 }
 
 std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
-  const Node geometry = owner.required("geometry");
+  std::optional<Node> shape;
+  if (const auto geometry = owner.child("geometry")) {
+    geometry->each([&](const Node& each) {
+      if (!shape) shape = each;
+    });
+  }
+  if (!shape) {
+    assets.log().warn(owner.source(), "found no shape in it, expected a <geometry>; left out");
+    return std::nullopt;
+  }
+  const std::string_view name = shape->name();
+  if (name == "box") return read_box(*shape);
+  if (name == "sphere") return Sphere{positive(*shape, "radius")};
+  if (name == "cylinder") {
+    return Cylinder{positive(*shape, "radius"), positive(*shape, "length")};
+  }
+  if (name == "plane") return read_plane(*shape);
   std::optional<Geometry> made;
-  bool known = false;
-  std::string found;
-  geometry.each([&](const Node& shape) {
-    if (known) return;
-    known = true;
-    const std::string_view name = shape.name();
-    if (name == "box")
-      made = read_box(shape);
-    else if (name == "sphere")
-      made = Sphere{positive(shape, "radius")};
-    else if (name == "cylinder")
-      made = Cylinder{positive(shape, "radius"), positive(shape, "length")};
-    else if (name == "plane")
-      made = read_plane(shape);
-    else if (name == "mesh")
-      made = read_mesh(shape, assets);
-    else if (name == "heightmap")
-      made = read_heightmap(shape, assets);
-    else if (name != "empty") {
-      assets.log().warn(shape.source().to_string() +
-                        ": shape not supported, left out; supported are box, sphere, cylinder, "
-                        "plane, mesh, heightmap");
-    }
-  });
-  if (!known) throw geometry.error("found no shape, expected box, sphere, cylinder, ...");
+  if (name == "mesh") assets.has_files([&] { made = read_mesh(*shape, assets); });
+  if (name == "heightmap") assets.has_files([&] { made = read_heightmap(*shape, assets); });
   return made;
 }
 

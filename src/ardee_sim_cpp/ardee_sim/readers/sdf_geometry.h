@@ -9,8 +9,9 @@
 
 namespace ardee {
 
-/// The shape in the <geometry> of a collision or visual. None for <empty>, and with a warning for
-/// what is not supported (image, polyline). Throws Error on sizes that no shape has.
+/// The shape in the <geometry> of a collision or visual. None for <empty>, with a warning where
+/// there is none or one that is not supported (image, polyline), and with an error for a file that
+/// may be left out. Throws Error on sizes that no shape has.
 std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets);
 
 /// A mesh by its URI, with what SDF and URDF have in common checked: scale without zeros, a submesh

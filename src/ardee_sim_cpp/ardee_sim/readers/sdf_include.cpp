@@ -51,7 +51,11 @@ const SdfReader::ModelFile& SdfReader::included_file(const std::string& uri, con
   key += uri;
   const auto known = by_uri_.find(key);
   if (known != by_uri_.end()) return *known->second;
-  const std::string path = assets_.locator().resolve_model(uri, source);
+  std::string path;
+  if (!assets_.has_files([&] { path = assets_.locator().resolve_model(uri, source); })) {
+    static const ModelFile kLeftOut;
+    return kLeftOut;
+  }
   const ModelFile& file = read_file(path, source, make_static);
   by_uri_[key] = &file;
   return file;
@@ -80,7 +84,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   }
   ModelFile file;
   const Scope scope{read_version(root), make_static};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   if (const auto model = root.child("model")) file.model = read_own_model(*model, scope);
   root.each("light", [&file](const Node& light) { file.lights.push_back(read_sdf_light(light)); });
   if (!file.model && file.lights.empty()) {
@@ -90,12 +94,20 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
 }
 
 Instance SdfReader::read_include(const Node& include, const ModelFile& file, UniqueNames& names,
-                                 const SdfFrames& frames) const {
+                                 const SdfFrames& frames) {
   Instance made;
   made.model = file.model;
   const auto name = include.child("name");
   made.name = names.claim(name ? name->required_text() : file.model->name);
-  made.pose = include.child("pose") ? frames.pose(include) : file.model->own_pose;
+  std::optional<Pose> X_MP = file.model->X_MP;
+  if (const auto placed = include.child("placement_frame"); placed && !placed->text().empty()) {
+    const auto frame = file.model->find_frame(placed->text());
+    if (!frame)
+      throw placed->error("found frame '" + placed->text() + "', expected one of the model");
+    X_MP = frame->X_MF;
+  }
+  const bool is_placed = include.child("pose") || include.child("placement_frame");
+  made.pose = is_placed ? place_model(frames.pose(include), X_MP) : file.model->own_pose;
   made.is_static = file.model->is_static;
   if (const auto scale = include.child("ardee:scale")) {
     made.scale = scale->to_number(0.0, kMaxScale);
@@ -112,6 +124,7 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
     include.each("plugin", [&with_plugins](const Node& plugin) {
       with_plugins->plugins.push_back(read_plugin(plugin));
     });
+    placements_[with_plugins.get()] = placements_.at(file.model.get());
     made.model = with_plugins;
   }
   return made;

@@ -14,10 +14,13 @@ void SdfReader::read_instances(const Node& node, UniqueNames& names, Model& made
     if (known == models.end()) {
       const Source source{path, row.line, ""};
       const std::string uri(row.model);
-      const auto& model = included_file(uri, source, true).model;
-      if (!model) throw Error(source, "found lights alone in '" + uri + "', expected a model");
-      known = models.emplace(uri, model).first;
+      const ModelFile& file = included_file(uri, source, true);
+      if (!file.model && !file.lights.empty()) {
+        throw Error(source, "found lights alone in '" + uri + "', expected a model");
+      }
+      known = models.emplace(uri, file.model).first;
     }
+    if (!known->second) return;
     if (made.instances.size() == kMaxPlacements) {
       throw Error(Source{path, row.line, ""}, "found more than " + std::to_string(kMaxPlacements) +
                                                   " instances, expected fewer");

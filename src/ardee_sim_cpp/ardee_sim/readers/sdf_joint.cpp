@@ -30,9 +30,10 @@ JointType joint_type(const Node& joint) {
 
 /// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say
 /// <use_parent_model_frame>; empty: the joint's.
-std::string frame_of_axis(const Node& axis, double sdf_version) {
-  constexpr double kFirstInJointFrame = 1.5;
-  const std::string named = axis.required("xyz").attribute("expressed_in");
+std::string frame_of_axis(const Node& axis, int sdf_version) {
+  constexpr int kFirstInJointFrame = 105;
+  const auto xyz = axis.child("xyz");
+  const std::string named = xyz ? xyz->attribute("expressed_in") : "";
   if (!named.empty()) return named;
   return axis.boolean("use_parent_model_frame", sdf_version < kFirstInJointFrame) ? "__model__"
                                                                                   : "";
@@ -40,22 +41,20 @@ std::string frame_of_axis(const Node& axis, double sdf_version) {
 
 /// SDF says "no limit" by a negative value.
 double unlimited_if_negative(const Node& axis, const char* path) {
-  const auto node = axis.find(path);
-  const double value = node ? node->to_limit() : kInfinity;
-  if (value < 0.0) return kInfinity;
-  return value;
+  const double value = axis.limit(path, kInfinity);
+  return value < 0.0 ? kInfinity : value;
 }
 
 JointAxis read_axis(const Node& axis) {
   JointAxis made;
-  const Node xyz = axis.required("xyz");
-  made.axis = xyz.to_vector3();
+  made.axis = axis.vector3("xyz", Eigen::Vector3d::UnitZ());
   if (!(made.axis.norm() > 1e-9)) {
-    throw xyz.error("found '" + xyz.text() + "', expected an axis longer than zero");
+    throw axis.required("xyz").error("found '" + axis.text("xyz", "") +
+                                     "', expected an axis longer than zero");
   }
   made.axis.normalize();
-  if (const auto lower = axis.find("limit/lower")) made.lower = lower->to_limit();
-  if (const auto upper = axis.find("limit/upper")) made.upper = upper->to_limit();
+  made.lower = axis.limit("limit/lower", made.lower);
+  made.upper = axis.limit("limit/upper", made.upper);
   if (made.lower > made.upper) {
     throw axis.required("limit").error("found a lower limit above the upper, expected it below");
   }
@@ -69,19 +68,20 @@ JointAxis read_axis(const Node& axis) {
 }
 
 /// The link that a frame moves with.
-std::string link_of(const std::string& frame, const SdfFrames& frames, const Model& model) {
-  const std::string body = frames.body_of(frame);
-  return body.empty() ? model.canonical_link : body;
+std::string link_of(const std::string& frame, const JointScope& scope) {
+  const std::string body = scope.frames.body_of(frame);
+  return body.empty() ? scope.model.canonical_link : body;
 }
 
 /// Puts the joint where its <pose> says, in the frame of its child by default, and returns how it
 /// is turned in the model.
-Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFrames& frames,
-                         const Model& model, Joint& joint) {
+Eigen::Quaterniond place(const Node& node, const std::string& child, const JointScope& scope,
+                         Joint& joint) {
   const std::string& held = joint.child == "world" ? joint.parent : joint.child;
-  const Link* link = model.find_link(held);
-  if (!link) throw Error(joint.source, unknown_link(held, model));
-  const Pose& X_ML = link->X_ML;
+  const SdfFrames& frames = scope.frames;
+  const auto link = scope.X_ML.find(held);
+  if (link == scope.X_ML.end()) throw Error(joint.source, unknown_link(held, scope.model));
+  const Pose& X_ML = link->second;
   if (joint.child == "world") {
     // The pose of such a joint is given in the model's frame.
     const Pose X_MJ = frames.pose(node);
@@ -98,18 +98,24 @@ Eigen::Quaterniond place(const Node& node, const std::string& child, const SdfFr
 
 }  // namespace
 
-Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& frames,
-                     const Model& model) {
+JointScope::JointScope(int version, const SdfFrames& known_frames, const Model& of)
+    : sdf_version(version), frames(known_frames), model(of) {
+  for (const Link& link : of.links) X_ML.emplace(link.name, link.X_ML);
+}
+
+Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   Joint joint;
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);
   joint.source = node.source();
   const std::string child = node.required("child").required_text();
-  joint.parent = link_of(node.required("parent").required_text(), frames, model);
-  joint.child = link_of(child, frames, model);
+  joint.parent = link_of(node.required("parent").required_text(), scope);
+  joint.child = link_of(child, scope);
   const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
   const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
-  if (!free) joint.axis = read_axis(node.required("axis"));
+  const auto axis = node.child("axis");
+  if (!free && axis) joint.axis = read_axis(*axis);
+  if (!free && !axis) log.warn(node.source(), "found no <axis>, expected one; it is 0 0 1");
   if (two) joint.axis2 = read_axis(node.required("axis2"));
   const bool unlimited = std::isinf(joint.axis.lower) && std::isinf(joint.axis.upper);
   if (joint.type == JointType::kRevolute && unlimited) joint.type = JointType::kContinuous;
@@ -121,13 +127,14 @@ Joint read_sdf_joint(const Node& node, double sdf_version, const SdfFrames& fram
   }
   joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
   joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
-  const Eigen::Quaterniond q_MJ = place(node, child, frames, model, joint);
-  const auto turn = [&](const char* name, Eigen::Vector3d& axis) {
-    const std::string frame = frame_of_axis(node.required(name), sdf_version);
-    if (!frame.empty()) axis = q_MJ.conjugate() * (frames.find(frame, node).q * axis);
+  const Eigen::Quaterniond q_MJ = place(node, child, scope, joint);
+  const auto turn = [&](const Node& written, Eigen::Vector3d& direction) {
+    const std::string frame = frame_of_axis(written, scope.sdf_version);
+    if (!frame.empty())
+      direction = q_MJ.conjugate() * (scope.frames.find(frame, node).q * direction);
   };
-  if (!free) turn("axis", joint.axis.axis);
-  if (two) turn("axis2", joint.axis2.axis);
+  if (!free && axis) turn(*axis, joint.axis.axis);
+  if (two) turn(node.required("axis2"), joint.axis2.axis);
   return joint;
 }
 

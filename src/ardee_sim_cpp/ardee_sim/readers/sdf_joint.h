@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <unordered_map>
+
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/readers/sdf_frames.h"
 #include "ardee_sim/readers/xml.h"
 
 namespace ardee {
 
+/// What the joints of a model refer to; all its links are there.
+struct JointScope {
+  JointScope(int version, const SdfFrames& known_frames, const Model& of);
+
+  int sdf_version;  // 107: SDF 1.7
+  const SdfFrames& frames;
+  const Model& model;
+  std::unordered_map<std::string, Pose> X_ML;  // of its links
+};
+
 /// An SDF <joint> between links, or frames that move with them; one whose child is the world
-/// becomes one whose parent is. The links are in `model` already, or an Error.
-Joint read_sdf_joint(const Node& joint, double sdf_version, const SdfFrames& frames,
-                     const Model& model);
+/// becomes one whose parent is. An axis that is not written is z, with a warning if there is no
+/// <axis> at all. Throws Error if one of the links does not exist.
+Joint read_sdf_joint(const Node& joint, const JointScope& scope, Log& log);
 
 }  // namespace ardee

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/sdf_link.h"
 
+#include <cmath>
+#include <limits>
+
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/readers/sdf_geometry.h"
 #include "ardee_sim/readers/sdf_material.h"
 
@@ -8,7 +12,13 @@ namespace ardee {
 namespace {
 
 constexpr int kMaxContacts = 100000;
-constexpr double kMaxStiffness = 1e20;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+/// "nan" is a number here, which what never moves may have.
+double read_inertia(const Node& element, const char* name, double fallback) {
+  const auto value = to_double(element.text(name, ""));
+  return value && std::isnan(*value) ? *value : element.number(name, fallback);
+}
 
 /// SDF's defaults: one kilogram, unit inertia.
 Inertial read_inertial(const Node& link, const SdfFrames& frames, const std::string& name) {
@@ -17,21 +27,23 @@ Inertial read_inertial(const Node& link, const SdfFrames& frames, const std::str
   made.inertia_kg_m2 = Eigen::Matrix3d::Identity();
   const auto inertial = link.child("inertial");
   if (!inertial) return made;
-  made.mass_kg = inertial->number("mass", 1.0);
+  made.mass_kg = read_inertia(*inertial, "mass", 1.0);
   made.X_LI = frames.pose_in(name, *inertial);
   if (const auto inertia = inertial->child("inertia")) {
-    const double xy = inertia->number("ixy", 0.0);
-    const double xz = inertia->number("ixz", 0.0);
-    const double yz = inertia->number("iyz", 0.0);
-    made.inertia_kg_m2 << inertia->number("ixx", 1.0), xy, xz, xy, inertia->number("iyy", 1.0), yz,
-        xz, yz, inertia->number("izz", 1.0);
+    const double xx = read_inertia(*inertia, "ixx", 1.0);
+    const double xy = read_inertia(*inertia, "ixy", 0.0);
+    const double xz = read_inertia(*inertia, "ixz", 0.0);
+    const double yy = read_inertia(*inertia, "iyy", 1.0);
+    const double yz = read_inertia(*inertia, "iyz", 0.0);
+    const double zz = read_inertia(*inertia, "izz", 1.0);
+    made.inertia_kg_m2 << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   }
   return made;
 }
 
 void read_contact(const Node& contact, Surface& surface) {
-  surface.kp_n_per_m = contact.number("ode/kp", surface.kp_n_per_m, 0.0, kMaxStiffness);
-  surface.kd_n_s_per_m = contact.number("ode/kd", surface.kd_n_s_per_m, 0.0, kMaxStiffness);
+  surface.kp_n_per_m = contact.number("ode/kp", surface.kp_n_per_m, 0.0, kUnlimited);
+  surface.kd_n_s_per_m = contact.number("ode/kd", surface.kd_n_s_per_m, 0.0, kUnlimited);
   surface.soft_cfm = contact.number("ode/soft_cfm", surface.soft_cfm, 0.0);
   surface.soft_erp = contact.number("ode/soft_erp", surface.soft_erp, 0.0);
   surface.max_correcting_velocity_m_per_s =
@@ -69,15 +81,15 @@ Surface read_sdf_surface(const Node& collision, Surface made) {
   made.max_contacts = collision.integer("max_contacts", made.max_contacts, 0, kMaxContacts);
   const auto surface = collision.child("surface");
   if (!surface) return made;
-  made.mu = surface->number("friction/ode/mu", made.mu, 0.0, kMaxStiffness);
-  made.mu2 = surface->number("friction/ode/mu2", made.mu2, 0.0, kMaxStiffness);
+  made.mu = surface->number("friction/ode/mu", made.mu, 0.0, kUnlimited);
+  made.mu2 = surface->number("friction/ode/mu2", made.mu2, 0.0, kUnlimited);
   made.fdir1 = surface->vector3("friction/ode/fdir1", made.fdir1);
   made.slip1 = surface->number("friction/ode/slip1", made.slip1, 0.0);
   made.slip2 = surface->number("friction/ode/slip2", made.slip2, 0.0);
   if (const auto contact = surface->child("contact")) read_contact(*contact, made);
   made.restitution = surface->number("bounce/restitution_coefficient", made.restitution, 0.0, 1.0);
   made.bounce_threshold_m_per_s =
-      surface->number("bounce/threshold", made.bounce_threshold_m_per_s, 0.0, kMaxStiffness);
+      surface->number("bounce/threshold", made.bounce_threshold_m_per_s, 0.0, kUnlimited);
   return made;
 }
 
@@ -123,11 +135,6 @@ Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets) {
   });
   link.each("sensor",
             [&](const Node& node) { made.sensors.push_back(read_sensor(node, X_L(node))); });
-  for (const char* name : {"projector", "audio_source", "audio_sink", "light", "battery"}) {
-    if (const auto node = link.child(name)) {
-      assets.log().warn(node->source().to_string() + ": not supported in a link, left out");
-    }
-  }
   made.gravity = link.boolean("gravity", true);
   made.kinematic = link.boolean("kinematic", false);
   made.self_collide = link.boolean("self_collide", false);

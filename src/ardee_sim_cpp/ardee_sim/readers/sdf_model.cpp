@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/validate.h"
 
 namespace ardee {
 namespace {
-
-constexpr std::size_t kMaxLinks = 100'000;
 
 /// The one named by the attribute, else the first.
 void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& model) {
@@ -23,27 +26,24 @@ void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& mod
 
 }  // namespace
 
-double SdfReader::read_version(const Node& root) {
+int SdfReader::read_version(const Node& root) {
   const std::string text = root.attribute("version");
+  const std::string newest = sdf_version_text(kNewestSdf);
   if (text.empty()) {
-    assets_.log().warn_once(root.source().to_string() + ": found no version, read as SDF 1.7");
+    assets_.log().warn(root.source(), "found no version, read as SDF " + newest);
     return kNewestSdf;
   }
-  char* end = nullptr;
-  const double version = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(version >= 1.0 && version < 100.0)) {
-    throw root.error("found version '" + text + "', expected 1.2 to 1.7");
+  const auto version = parse_sdf_version(text);
+  if (!version) throw root.error("found version '" + text + "', expected 1.2 to " + newest);
+  if (*version > kNewestSdf) {
+    assets_.log().warn(root.source(), "found version " + text + ", read as SDF " + newest);
   }
-  if (version > kNewestSdf + 1e-9) {
-    assets_.log().warn_once(root.source().to_string() + ": found version " + text +
-                            ", read as SDF 1.7");
-  }
-  return version;
+  return *version;
 }
 
 std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   reading_.assign(1, root.file());
   // gazebo_ros's spawn scripts wrap what they take from the model database in a world.
   const auto world = root.child("world");
@@ -51,7 +51,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   std::shared_ptr<const Model> model;
   if (!root.child("model") && include) {
     model = included_file(*include, std::nullopt).model;
-    if (!model) throw include->error("found a light, expected a model");
+    if (!model) throw include->error("found no model in what it names, expected one");
   } else {
     model =
         read_own_model((world && !root.child("model") ? *world : root).required("model"), scope);
@@ -62,7 +62,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
 
 std::shared_ptr<const Model> SdfReader::read_own_model(const Node& node, const Scope& scope) {
   const auto made = read_model(node, scope);
-  made->own_pose = node.pose();
+  made->own_pose = place_model(node.pose(), made->X_MP);
   return made;
 }
 
@@ -83,9 +83,15 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   read_nested(node, {scope.version, made->is_static ? std::optional<bool>(true) : std::nullopt},
               names, frames, *made);
   choose_canonical_link(node, frames, *made);
+  for (NamedFrame& frame : frames.named_frames(node)) made->frames.push_back(std::move(frame));
+  if (node.has_attribute("placement_frame")) {
+    made->X_MP = frames.find(node.required_attribute("placement_frame"), node);
+  }
+  const JointScope joint_scope(scope.version, frames, *made);
   node.each("joint", [&](const Node& joint) {
-    made->joints.push_back(read_sdf_joint(joint, scope.version, frames, *made));
+    made->joints.push_back(read_sdf_joint(joint, joint_scope, assets_.log()));
   });
+  adopt_gz_systems(*made, assets_.log());
   validate_model(*made, assets_.log());
   count_placements(*made, made->source);
   return made;
@@ -93,48 +99,65 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
 
 void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& names,
                             SdfFrames& frames, Model& made) {
+  std::size_t bytes = bytes_of(made);
   model.each([&](const Node& child) {
     if (child.name() == "include") {
       const ModelFile& file = included_file(child, scope.make_static);
+      if (!file.model && file.lights.empty()) return;
       if (!file.model) {
-        assets_.log().warn_once(child.source().to_string() +
-                                ": a light within a model is not supported, left out");
+        assets_.log().warn(child.source(), "a light within a model is not supported, left out");
         return;
       }
       Instance nested = read_include(child, file, names, frames);
-      frames.add(nested.name, nested.pose);
+      if (parse_boolean(child.attribute("merge", "false"), child.source())) {
+        const std::size_t before = made.links.size();
+        merge(child, nested, "", bytes, made);
+        for (std::size_t i = before; i < made.links.size(); ++i) {
+          frames.add(made.links[i].name, made.links[i].X_ML);
+        }
+        return;
+      }
+      frames.replace(nested.name, nested.pose);
       frames.add_links(nested.name, nested.model);
-      add_nested(std::move(nested), made);
+      add_nested(child, std::move(nested), bytes, made);
     } else if (child.name() == "model") {
       Instance nested;
       nested.model = read_model(child, scope);
       nested.name = names.claim(nested.model->name);
-      nested.pose = frames.pose(child);
+      nested.pose = place_model(frames.pose(child), nested.model->X_MP);
       nested.is_static = nested.model->is_static;
+      frames.replace(nested.name, nested.pose);
       frames.add_links(nested.name, nested.model);
-      add_nested(std::move(nested), made);
+      add_nested(child, std::move(nested), bytes, made);
     } else if (child.name() == "ardee:instances") {
       read_instances(child, names, made);
-    } else if (child.name() == "gripper") {
-      assets_.log().warn(child.source().to_string() + ": not supported, left out");
     }
   });
 }
 
-void SdfReader::add_nested(Instance nested, Model& made) {
+void SdfReader::add_nested(const Node& asker, Instance nested, std::size_t& bytes, Model& made) {
   if (nested.is_static) {
     made.instances.push_back(std::move(nested));
-    return;
+  } else {
+    merge(asker, nested, nested.name, bytes, made);
   }
+}
+
+void SdfReader::merge(const Node& asker, const Instance& nested, const std::string& name,
+                      std::size_t& bytes, Model& made) {
   if (nested.scale != 1.0 || nested.label != 0) {
-    throw Error(made.source, "found a scale or label on the nested model '" + nested.name +
-                                 "', expected them on static models only");
+    throw asker.error("found a scale or label on the nested model '" + nested.name +
+                      "', expected them on static models only");
   }
   if (made.links.size() + nested.model->links.size() > kMaxLinks) {
-    throw Error(made.source,
-                "found more than " + std::to_string(kMaxLinks) + " links, expected fewer");
+    throw asker.error("found more than " + std::to_string(kMaxLinks) + " links, expected fewer");
   }
-  merge_model(*nested.model, nested.pose, nested.name, made);
+  bytes += bytes_of(*nested.model);
+  if (bytes > kMaxModelBytes) {
+    throw asker.error("found a model that takes more than " + std::to_string(kMaxModelBytes >> 20) +
+                      " MB with what is merged into it, expected a smaller one");
+  }
+  merge_model(*nested.model, nested.pose, name, made);
 }
 
 std::size_t SdfReader::count_placements(const Model& model, const Source& source) {

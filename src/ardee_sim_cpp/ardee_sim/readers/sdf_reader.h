@@ -16,7 +16,7 @@
 
 namespace ardee {
 
-/// Reads SDF 1.2-1.7. Included model files are read once and kept for later worlds and models.
+/// Reads SDF 1.2-1.12. Included model files are read once and kept for later worlds and models.
 class SdfReader {
  public:
   explicit SdfReader(Assets& assets) : assets_(assets) {}
@@ -26,7 +26,7 @@ class SdfReader {
   std::shared_ptr<const Model> read_model(const Node& root);
 
  private:
-  /// An included file: a model, or lights alone.
+  /// An included file: a model, or lights alone; neither where it is left out.
   struct ModelFile {
     std::shared_ptr<const Model> model;
     std::vector<Light> lights;
@@ -34,7 +34,7 @@ class SdfReader {
   /// How a model is to be read: the version of its file, and whether what holds it makes it static
   /// or not.
   struct Scope {
-    double version = 0.0;
+    int version = 0;  // 107: SDF 1.7
     std::optional<bool> make_static;
   };
   class Reading;
@@ -45,7 +45,10 @@ class SdfReader {
   std::shared_ptr<Model> read_model(const Node& model, const Scope& scope);
   void read_nested(const Node& model, const Scope& scope, UniqueNames& names, SdfFrames& frames,
                    Model& made);
-  void add_nested(Instance nested, Model& made);
+  /// The models below one, of about `bytes` so far, that are merged into it.
+  void add_nested(const Node& asker, Instance nested, std::size_t& bytes, Model& made);
+  void merge(const Node& asker, const Instance& nested, const std::string& name, std::size_t& bytes,
+             Model& made);
   void read_instances(const Node& node, UniqueNames& names, Model& made);
   const ModelFile& included_file(const Node& include, std::optional<bool> make_static);
   const ModelFile& included_file(const std::string& uri, const Source& source,
@@ -53,11 +56,13 @@ class SdfReader {
   const ModelFile& read_file(const std::string& path, const Source& source,
                              std::optional<bool> make_static);
   Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names,
-                        const SdfFrames& frames) const;
+                        const SdfFrames& frames);
   void read_world_models(const Node& world, const Scope& scope, World& made);
   void add_population(const Node& population, const Scope& scope, UniqueNames& names,
                       const SdfFrames& frames, World& made);
-  double read_version(const Node& root);
+  void read_insertions(const Node& insertions, const Scope& scope, World& made);
+  void check_size(const World& world) const;
+  int read_version(const Node& root);
   std::size_t count_placements(const Model& model, const Source& source);
 
   Assets& assets_;
@@ -68,7 +73,16 @@ class SdfReader {
   std::vector<std::string> reading_;  // files being read, outermost first
 };
 
-/// Takes a nested model into the one that holds it: links and joints get names `child::link`.
+/// X_HM of a model in what holds it, of the place of its placement frame.
+inline Pose place_model(const Pose& X_HP, const std::optional<Pose>& X_MP) {
+  return X_MP ? X_HP * X_MP->inverse() : X_HP;
+}
+
+/// About how much memory a model takes, but for what it shares with others.
+std::size_t bytes_of(const Model& model);
+
+/// Takes a nested model into the one that holds it: links and joints get names `child::link`; with
+/// an empty name they keep their own.
 void merge_model(const Model& nested, const Pose& X_MN, const std::string& name, Model& made);
 
 }  // namespace ardee

@@ -111,7 +111,6 @@ Scene read_sdf_scene(const Node& scene) {
   made.background = scene.color("background", made.background);
   made.sky = scene.child("sky").has_value();
   made.shadows = scene.boolean("shadows", made.shadows);
-  made.grid = scene.boolean("grid", made.grid);
   return made;
 }
 

@@ -1,36 +1,33 @@
 // SPDX-License-Identifier: MIT
-#include <unordered_map>
+#include <algorithm>
 
+#include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_population.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/sdf_scene.h"
+#include "ardee_sim/readers/sdf_state.h"
 
 namespace ardee {
 namespace {
 
-/// Where the models stood when Gazebo saved the world: its <state> counts, not their own <pose>.
-void apply_saved_poses(const Node& state, World& world, Log& log) {
-  std::unordered_map<std::string, Instance*> models;
-  for (Instance& model : world.models) models[model.name] = &model;
-  state.each("model", [&](const Node& saved) {
-    const auto found = models.find(saved.required_attribute("name"));
-    if (found == models.end()) {
-      log.warn(saved.source().to_string() + ": found the state of model '" +
-               saved.attribute("name") + "', which the world does not have, ignored");
-    } else if (saved.child("pose")) {
-      found->second->pose = saved.pose();
-    }
+/// As in Gazebo the first <state> counts.
+std::optional<Node> saved_state(const Node& world, Log& log) {
+  std::optional<Node> first;
+  world.each("state", [&](const Node& state) {
+    if (first) log.warn(state.source(), "found a second <state>, the first counts");
+    if (!first) first = state;
   });
+  return first;
 }
 
 }  // namespace
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
-  sdf_schema().warn_of_unknown(root, "SDF", assets_.log());
+  sdf_schema().check(root, assets_.log());
   const Node node = root.required("world");
   World made;
   made.name = node.attribute("name", made.name);
@@ -43,9 +40,59 @@ World SdfReader::read_world(const Node& root) {
   }
   reading_.assign(1, root.file());
   read_world_models(node, scope, made);
+  const auto state = saved_state(node, assets_.log());
+  const auto insertions = state ? state->child("insertions") : std::nullopt;
+  if (insertions) read_insertions(*insertions, scope, made);
   reading_.clear();
-  if (const auto state = node.child("state")) apply_saved_poses(*state, made, assets_.log());
+  check_size(made);
+  if (state) apply_sdf_state(*state, made, assets_.log());
   return made;
+}
+
+/// Adds what was put into the world after it had been loaded.
+void SdfReader::read_insertions(const Node& insertions, const Scope& scope, World& made) {
+  const auto is_there = [this](const auto& items, const Node& inserted) {
+    const std::string name = inserted.required_attribute("name");
+    const bool found = std::any_of(items.begin(), items.end(),
+                                   [&name](const auto& item) { return item.name == name; });
+    if (found) {
+      assets_.log().warn(inserted.source(), "found in the world already, left out",
+                         ": '" + name + "'");
+    }
+    return found;
+  };
+  insertions.each("model", [&](const Node& inserted) {
+    if (is_there(made.models, inserted)) return;
+    Instance instance;
+    instance.model = read_model(inserted, scope);
+    instance.name = instance.model->name;
+    instance.pose = place_model(inserted.pose(), instance.model->X_MP);
+    instance.is_static = instance.model->is_static;
+    made.models.push_back(std::move(instance));
+  });
+  insertions.each("light", [&](const Node& inserted) {
+    if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
+  });
+}
+
+/// A line of text asks for as many models as it likes; they have to fit into memory.
+void SdfReader::check_size(const World& world) const {
+  std::size_t placements = 0;
+  std::size_t moving_links = 0;
+  for (const Instance& instance : world.models) {
+    if (instance.is_static) {
+      placements += placements_.at(instance.model.get());
+    } else {
+      moving_links += instance.model->links.size();
+    }
+    if (placements > kMaxPlacements || moving_links > kMaxLinks) {
+      throw Error(world.source, placements > kMaxPlacements
+                                    ? "found more than " + std::to_string(kMaxPlacements) +
+                                          " static models, expected fewer"
+                                    : "found more than " + std::to_string(kMaxLinks) +
+                                          " links of models that move, expected fewer");
+    }
+  }
 }
 
 void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
@@ -63,29 +110,32 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
       const ModelFile& file = included_file(child, std::nullopt);
       for (const Light& light : file.lights) add_light(light);
       if (!file.model) return;
+      if (child.has_attribute("merge")) {
+        assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
+      }
       made.models.push_back(read_include(child, file, names, frames));
-      frames.add(made.models.back().name, made.models.back().pose);
+      frames.replace(made.models.back().name, made.models.back().pose);
       frames.add_links(made.models.back().name, file.model);
     } else if (kind == "model") {
       Instance instance;
       instance.model = read_model(child, scope);
       instance.name = names.claim(instance.model->name);
       if (instance.name != instance.model->name) {
-        assets_.log().warn(child.source().to_string() + ": a second model '" +
-                           instance.model->name + "' is named '" + instance.name + "'");
+        assets_.log().warn(child.source(), "a second model of one name gets another",
+                           ": '" + instance.name + "'");
       }
-      instance.pose = frames.pose(child);
+      instance.pose = place_model(frames.pose(child), instance.model->X_MP);
+      frames.replace(instance.name, instance.pose);
       frames.add_links(instance.name, instance.model);
       instance.is_static = instance.model->is_static;
       made.models.push_back(std::move(instance));
     } else if (kind == "light") {
       add_light(read_sdf_light(child));
     } else if (kind == "plugin") {
-      made.plugins.push_back(read_plugin(child));
+      PluginDescription plugin = read_plugin(child);
+      if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));
     } else if (kind == "population") {
       add_population(child, scope, names, frames, made);
-    } else if (kind == "actor" || kind == "road" || kind == "joint") {
-      assets_.log().warn(child.source().to_string() + ": not supported in a world, left out");
     }
   });
 }

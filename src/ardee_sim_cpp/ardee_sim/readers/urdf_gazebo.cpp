@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/urdf_gazebo.h"
 
-#include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
-#include <set>
+#include <unordered_map>
 
+#include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_material.h"
@@ -13,7 +14,7 @@
 namespace ardee {
 namespace {
 
-constexpr double kMaxStiffness = 1e20;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 void each_surface(Link& link, const std::function<void(Surface&)>& change) {
   for (Collision& collision : link.collisions) change(collision.surface);
@@ -24,16 +25,14 @@ using SurfaceRule = std::function<void(const Node&, Surface&)>;
 const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   static const std::map<std::string, SurfaceRule, std::less<>> rules = [] {
     std::map<std::string, SurfaceRule, std::less<>> made;
-    made["mu1"] = [](const Node& n, Surface& s) { s.mu = n.to_number(0.0, kMaxStiffness); };
-    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = n.to_number(0.0, kMaxStiffness); };
+    made["mu1"] = [](const Node& n, Surface& s) { s.mu = n.to_number(0.0, kUnlimited); };
+    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = n.to_number(0.0, kUnlimited); };
     made["fdir1"] = [](const Node& n, Surface& s) { s.fdir1 = n.to_vector3(); };
     made["frictionCone"] = [](const Node& n, Surface& s) { s.friction_cone = n.to_boolean(); };
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = n.to_number(0.0); };
     made["slip2"] = [](const Node& n, Surface& s) { s.slip2 = n.to_number(0.0); };
-    made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kMaxStiffness); };
-    made["kd"] = [](const Node& n, Surface& s) {
-      s.kd_n_s_per_m = n.to_number(0.0, kMaxStiffness);
-    };
+    made["kp"] = [](const Node& n, Surface& s) { s.kp_n_per_m = n.to_number(0.0, kUnlimited); };
+    made["kd"] = [](const Node& n, Surface& s) { s.kd_n_s_per_m = n.to_number(0.0, kUnlimited); };
     made["minDepth"] = [](const Node& n, Surface& s) { s.min_depth_m = n.to_number(); };
     made["maxVel"] = [](const Node& n, Surface& s) {
       s.max_correcting_velocity_m_per_s = n.to_number(-1.0);
@@ -76,10 +75,11 @@ void apply_collision(const Node& node, Link& link) {
   }
 }
 
-bool apply_to_link(const Node& node, Link& link, Assets& assets) {
+void apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
   if (rule != surface_rules().end()) {
+    if (node.text().empty()) return;  // the default
     each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
   } else if (name == "sensor") {
     link.sensors.push_back(read_sensor(node, node.pose()));
@@ -105,19 +105,10 @@ bool apply_to_link(const Node& node, Link& link, Assets& assets) {
   } else if (name == "laserRetro" || name == "laser_retro") {
     for (Collision& collision : link.collisions) collision.laser_retro = node.to_number();
     for (Visual& visual : link.visuals) visual.laser_retro = node.to_number();
-  } else {
-    return false;
   }
-  return true;
 }
 
-bool apply_to_joint(const Node& node, Joint& joint) {
-  // Our springs and dampers are implicit, no fixed joint is lumped, and feedback costs nothing:
-  // nothing to set.
-  static const std::set<std::string, std::less<>> kNoEffect{
-      "provideFeedback",          "implicitSpringDamper", "cfmDamping",       "fudgeFactor",
-      "disableFixedJointLumping", "preserveFixedJoint",   "provide_feedback", "cfm_damping",
-      "implicit_spring_damper",   "fudge_factor"};
+void apply_to_joint(const Node& node, Joint& joint) {
   const std::string_view name = node.name();
   if (name == "stopCfm" || name == "stop_cfm") {
     joint.stop_cfm = node.to_number(0.0);
@@ -127,65 +118,81 @@ bool apply_to_joint(const Node& node, Joint& joint) {
     joint.axis.spring_stiffness = node.to_number(0.0);
   } else if (name == "springReference" || name == "spring_reference") {
     joint.axis.spring_reference = node.to_number();
-  } else {
-    return kNoEffect.count(name) != 0;
+  } else if (name == "physics") {
+    joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, 0.0);
+    joint.stop_erp = node.number("ode/limit/erp", joint.stop_erp, 0.0);
   }
-  return true;
 }
 
-bool apply_to_model(const Node& node, Model& model) {
-  const std::string_view name = node.name();
-  if (name == "plugin") {
-    model.plugins.push_back(read_plugin(node));
-  } else if (name == "joint") {
-    // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
-    constexpr double kSdfVersion = 1.6;
-    SdfFrames frames("__model__");
-    for (const Link& link : model.links) frames.add(link.name, link.X_ML);
-    model.joints.push_back(read_sdf_joint(node, kSdfVersion, frames, model));
-  } else if (name == "static") {
-    model.is_static = node.to_boolean();
-  } else if (name == "selfCollide" || name == "self_collide") {
-    model.self_collide = node.to_boolean();
-    for (Link& link : model.links) link.self_collide = link.self_collide || model.self_collide;
-  } else {
-    return name == "allow_auto_disable" || name == "enable_wind";
-  }
-  return true;
-}
-
-template <typename Item>
-Item* find_named(std::vector<Item>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&name](const Item& item) { return item.name == name; });
-  return found == items.end() ? nullptr : &*found;
-}
-
-void apply_block(const Node& block, Model& model, Assets& assets) {
-  const std::string reference = block.attribute("reference");
-  Link* link = find_named(model.links, reference);
-  Joint* joint = link ? nullptr : find_named(model.joints, reference);
-  if (!reference.empty() && !link && !joint) {
-    assets.log().warn(block.source().to_string() + ": found reference '" + reference +
-                      "', expected a link or joint of the robot; the block is left out");
-    return;
-  }
-  block.each([&](const Node& node) {
-    const bool known = link    ? apply_to_link(node, *link, assets)
-                       : joint ? apply_to_joint(node, *joint)
-                               : apply_to_model(node, model);
-    if (!known) {
-      const char* of = link ? "a link" : joint ? "a joint" : "the model";
-      assets.log().warn(node.source().to_string() + ": not known in a <gazebo> block of " + of +
-                        ", ignored");
+/// Applies blocks to a model, whose links and joints it finds by name.
+class GazeboBlocks {
+ public:
+  GazeboBlocks(Model& model, Assets& assets)
+      : model_(model), assets_(assets), frames_("__model__") {
+    for (std::size_t i = 0; i < model.links.size(); ++i) {
+      links_.emplace(model.links[i].name, i);
+      frames_.add(model.links[i].name, model.links[i].X_ML);
     }
-  });
-}
+    for (std::size_t i = 0; i < model.joints.size(); ++i) joints_.emplace(model.joints[i].name, i);
+  }
+
+  void apply(const Node& block) {
+    const std::string reference = block.attribute("reference");
+    const auto link = links_.find(reference);
+    const auto joint = joints_.find(reference);
+    if (link != links_.end()) {
+      apply_each(block, "link", [&](const Node& node) {
+        apply_to_link(node, model_.links[link->second], assets_);
+      });
+    } else if (joint != joints_.end()) {
+      apply_each(block, "joint",
+                 [&](const Node& node) { apply_to_joint(node, model_.joints[joint->second]); });
+    } else if (reference.empty()) {
+      apply_each(block, "robot", [this](const Node& node) { apply_to_model(node); });
+    } else {
+      assets_.log().warn(block.source(),
+                         "found no link or joint that it refers to, expected one; it is left out",
+                         ": '" + reference + "'");
+    }
+  }
+
+ private:
+  template <typename Apply>
+  void apply_each(const Node& block, const char* place, Apply apply) {
+    gazebo_schema().check(block, place, assets_.log());
+    block.each(apply);
+  }
+
+  void apply_to_model(const Node& node) {
+    const std::string_view name = node.name();
+    if (name == "plugin") {
+      model_.plugins.push_back(read_plugin(node));
+    } else if (name == "joint") {
+      // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
+      if (!joint_scope_) joint_scope_.emplace(106, frames_, model_);
+      model_.joints.push_back(read_sdf_joint(node, *joint_scope_, assets_.log()));
+      joints_.emplace(model_.joints.back().name, model_.joints.size() - 1);
+    } else if (name == "static") {
+      model_.is_static = node.to_boolean();
+    } else if (name == "selfCollide" || name == "self_collide") {
+      model_.self_collide = node.to_boolean();
+      for (Link& link : model_.links) link.self_collide = link.self_collide || model_.self_collide;
+    }
+  }
+
+  Model& model_;
+  Assets& assets_;
+  SdfFrames frames_;
+  std::optional<JointScope> joint_scope_;
+  std::unordered_map<std::string, std::size_t> links_;
+  std::unordered_map<std::string, std::size_t> joints_;
+};
 
 }  // namespace
 
 void apply_gazebo_blocks(const Node& root, Model& model, Assets& assets) {
-  root.each("gazebo", [&](const Node& block) { apply_block(block, model, assets); });
+  GazeboBlocks blocks(model, assets);
+  root.each("gazebo", [&blocks](const Node& block) { blocks.apply(block); });
 }
 
 }  // namespace ardee

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/readers/assets.h"
@@ -10,9 +9,8 @@
 
 namespace ardee {
 
-/// Reads a URDF with its <gazebo> blocks; `root` is the <robot> of the parsed `text`. All links are
-/// kept, massless ones and those on fixed joints too. A root link named "world" stands for the
-/// world.
-std::shared_ptr<const Model> read_urdf(const std::string& text, const Node& root, Assets& assets);
+/// Reads a <robot> with its <gazebo> blocks (http://wiki.ros.org/urdf/XML). All links are kept,
+/// massless ones and those on fixed joints too. A root link named "world" stands for the world.
+std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets);
 
 }  // namespace ardee

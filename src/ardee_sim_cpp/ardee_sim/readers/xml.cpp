@@ -2,7 +2,6 @@
 #include "ardee_sim/readers/xml.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -23,6 +22,20 @@ std::string trimmed(const std::string& text) {
 std::string quoted(const std::string& text) {
   constexpr std::size_t kLongest = 80;
   return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
+}
+
+/// Numbers between space; none if one of the words is no number.
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  std::size_t at = text.find_first_not_of(kSpace);
+  while (at != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(kSpace, at), text.size());
+    const auto value = to_double(text.substr(at, end - at));
+    if (!value) return std::nullopt;
+    numbers.push_back(*value);
+    at = text.find_first_not_of(kSpace, end);
+  }
+  return numbers;
 }
 
 std::string bounds(double low, double high) {
@@ -84,26 +97,49 @@ std::string Node::required_text() const {
   return value;
 }
 
-double Node::to_number(double low, double high) const {
-  double values[1];
-  parse_numbers(values, 1, "a finite number");
-  if (values[0] < low || values[0] > high) {
-    throw error("found " + quoted(text()) + ", " + bounds(low, high));
+std::vector<double> Node::attribute_numbers(const char* attribute_name, std::size_t least,
+                                            std::size_t most, double low, double high) const {
+  const std::string all = attribute(attribute_name);
+  const auto numbers = parse_numbers(all);
+  const auto is_within = [&](double value) { return value >= low && value <= high; };
+  const bool counts = numbers && numbers->size() >= least && numbers->size() <= most;
+  if (all.empty() || (counts && std::all_of(numbers->begin(), numbers->end(), is_within))) {
+    return *numbers;
   }
-  return values[0];
+  std::ostringstream what;
+  what << "found " << attribute_name << "=" << quoted(all) << ", expected " << least
+       << (most > least ? " or " + std::to_string(most) : "")
+       << (most == 1 ? " number" : " numbers") << " in [" << low << ", " << high << "]";
+  throw error(what.str());
+}
+
+double Node::attribute_number(const char* attribute_name, double fallback, double low,
+                              double high) const {
+  const std::vector<double> value = attribute_numbers(attribute_name, 1, 1, low, high);
+  return value.empty() ? fallback : value[0];
+}
+
+Eigen::Vector3d Node::attribute_vector3(const char* attribute_name,
+                                        const Eigen::Vector3d& fallback) const {
+  const std::vector<double> v = attribute_numbers(attribute_name, 3, 3);
+  return v.empty() ? fallback : Eigen::Vector3d(v[0], v[1], v[2]);
+}
+
+double Node::to_number(double low, double high) const {
+  const std::string all = text();
+  const auto value = to_double(all);
+  if (!value || std::isnan(*value)) {
+    throw error("found " + quoted(all) + ", expected a finite number");
+  }
+  if (*value < low || *value > high) throw error("found " + quoted(all) + ", " + bounds(low, high));
+  return *value;
 }
 
 double Node::to_limit() const {
   constexpr double kInfinite = 1e15;
-  std::string value = text();
-  std::transform(value.begin(), value.end(), value.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (value == "inf" || value == "+inf") return std::numeric_limits<double>::infinity();
-  if (value == "-inf") return -std::numeric_limits<double>::infinity();
-  const double number =
-      to_number(-std::numeric_limits<double>::max(), std::numeric_limits<double>::max());
-  if (std::abs(number) < kInfinite) return number;
-  return std::copysign(std::numeric_limits<double>::infinity(), number);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double number = to_number(-kInfinity, kInfinity);
+  return std::abs(number) < kInfinite ? number : std::copysign(kInfinity, number);
 }
 
 int Node::to_integer(int low, int high) const {
@@ -116,68 +152,61 @@ int Node::to_integer(int low, int high) const {
 
 bool Node::to_boolean() const { return parse_boolean(text(), source()); }
 
-template <std::size_t kCount>
-std::size_t Node::parse_numbers(double (&values)[kCount], std::size_t least,
-                                const char* what) const {
+std::vector<double> Node::to_numbers(std::size_t least, std::size_t most, const char* what) const {
   const std::string all = text();
-  const char* at = all.data();
-  const char* const end = at + all.size();
-  std::size_t count = 0;
-  bool good = true;
-  while (good && at != end) {
-    if (kSpace.find(*at) != std::string_view::npos) {
-      ++at;
-      continue;
-    }
-    double value = 0.0;
-    const auto [stop, status] = std::from_chars(*at == '+' ? at + 1 : at, end, value);
-    good = status == std::errc() && std::isfinite(value) && count < kCount &&
-           (stop == end || kSpace.find(*stop) != std::string_view::npos);
-    if (good) values[count++] = value;
-    at = stop;
-  }
-  if (!good || count < least) {
+  const auto numbers = parse_numbers(all);
+  if (!numbers || numbers->size() < least || numbers->size() > most) {
     throw error("found " + quoted(all) + ", expected " + what);
   }
-  return count;
+  for (const double value : *numbers) {
+    if (!std::isfinite(value)) throw error("found " + quoted(all) + ", expected " + what);
+    if (std::abs(value) > kAbsurd) {
+      throw error("found " + quoted(all) + ", " + bounds(-kAbsurd, kAbsurd));
+    }
+  }
+  return *numbers;
 }
 
 Eigen::Vector2d Node::to_vector2() const {
-  double v[2];
-  parse_numbers(v, 2, "two numbers");
+  const std::vector<double> v = to_numbers(2, 2, "two numbers");
   return {v[0], v[1]};
 }
 
 Eigen::Vector3d Node::to_vector3() const {
-  double v[3];
-  parse_numbers(v, 3, "three finite numbers");
-  for (const double value : v) {
-    if (std::abs(value) > kAbsurd) {
-      throw error("found " + quoted(text()) + ", " + bounds(-kAbsurd, kAbsurd));
-    }
-  }
+  const std::vector<double> v = to_numbers(3, 3, "three finite numbers");
   return {v[0], v[1], v[2]};
 }
 
 Pose Node::to_pose() const {
-  double v[6];
-  parse_numbers(v, 6, "six finite numbers (x y z roll pitch yaw)");
-  for (const double value : v) {
-    if (std::abs(value) > kAbsurd) {
-      throw error("found " + quoted(text()) + ", " + bounds(-kAbsurd, kAbsurd));
-    }
+  const std::string format = attribute("rotation_format", "euler_rpy");
+  const bool in_degrees = parse_boolean(attribute("degrees", "false"), source());
+  if (format == "quat_xyzw" && !in_degrees) {
+    const std::vector<double> v = to_numbers(7, 7, "seven finite numbers (x y z qx qy qz qw)");
+    const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+    if (!(q.norm() > 1e-6)) throw error("found a quaternion of length zero, expected one of 1");
+    return {{v[0], v[1], v[2]}, q.normalized()};
   }
-  const double rad = parse_boolean(attribute("degrees", "false"), source()) ? M_PI / 180.0 : 1.0;
+  if (format != "euler_rpy") {
+    throw error("found rotation_format='" + format + "'" + (in_degrees ? " in degrees" : "") +
+                ", expected euler_rpy, or quat_xyzw without degrees");
+  }
+  const std::vector<double> v = to_numbers(6, 6, "six finite numbers (x y z roll pitch yaw)");
+  const double rad = in_degrees ? M_PI / 180.0 : 1.0;
   return Pose::from_xyz_rpy({v[0], v[1], v[2]}, {v[3] * rad, v[4] * rad, v[5] * rad});
 }
 
 Color Node::to_color() const {
-  double v[4];
-  const std::size_t count = parse_numbers(v, 3, "three or four numbers in [0, 1]");
-  if (count == 3) v[3] = 1.0;
-  Color color;
-  for (int i = 0; i < 4; ++i) color[i] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+  const std::vector<double> v = to_numbers(3, 4, "three or four numbers in [0, 1]");
+  Color color{0, 0, 0, 1};
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    color[static_cast<int>(i)] = static_cast<float>(std::clamp(v[i], 0.0, 1.0));
+  }
   return color;
+}
+
+std::optional<Node> Node::find_filled(std::string_view path) const {
+  const auto node = find(path);
+  return node && !node->text().empty() ? node : std::nullopt;
 }
 
 std::string Node::text(std::string_view path, const std::string& fallback) const {
@@ -186,22 +215,27 @@ std::string Node::text(std::string_view path, const std::string& fallback) const
 }
 
 double Node::number(std::string_view path, double fallback, double low, double high) const {
-  const auto node = find(path);
+  const auto node = find_filled(path);
   return node ? node->to_number(low, high) : fallback;
 }
 
+double Node::limit(std::string_view path, double fallback) const {
+  const auto node = find_filled(path);
+  return node ? node->to_limit() : fallback;
+}
+
 int Node::integer(std::string_view path, int fallback, int low, int high) const {
-  const auto node = find(path);
+  const auto node = find_filled(path);
   return node ? node->to_integer(low, high) : fallback;
 }
 
 bool Node::boolean(std::string_view path, bool fallback) const {
-  const auto node = find(path);
+  const auto node = find_filled(path);
   return node ? node->to_boolean() : fallback;
 }
 
 Eigen::Vector3d Node::vector3(std::string_view path, const Eigen::Vector3d& fallback) const {
-  const auto node = find(path);
+  const auto node = find_filled(path);
   return node ? node->to_vector3() : fallback;
 }
 
@@ -215,7 +249,7 @@ Pose Node::pose() const {
 }
 
 Color Node::color(std::string_view path, const Color& fallback) const {
-  const auto node = find(path);
+  const auto node = find_filled(path);
   return node ? node->to_color() : fallback;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/element.h"
@@ -46,16 +47,30 @@ class Node {
     each(nullptr, visit);
   }
 
+  /// Calls visit(name, value) for each attribute, both as strings.
+  template <typename Visit>
+  void each_attribute(Visit visit) const {
+    for (const auto* a = element_->FirstAttribute(); a; a = a->Next()) {
+      visit(std::string(a->Name()), std::string(a->Value()));
+    }
+  }
   bool has_attribute(const char* name) const { return element_->Attribute(name) != nullptr; }
   std::string attribute(const char* name, const std::string& fallback = "") const;
   /// Not empty, or an Error.
   std::string required_attribute(const char* name) const;
+  /// From `least` to `most` numbers of an attribute; none if it is absent or empty.
+  std::vector<double> attribute_numbers(const char* name, std::size_t least, std::size_t most,
+                                        double low = -kAbsurd, double high = kAbsurd) const;
+  double attribute_number(const char* name, double fallback, double low = -kAbsurd,
+                          double high = kAbsurd) const;
+  Eigen::Vector3d attribute_vector3(const char* name, const Eigen::Vector3d& fallback) const;
 
   /// All text directly inside, trimmed; of an empty element its attribute "value".
   std::string text() const;
   std::string required_text() const;
+  /// An infinite number only where the bounds are.
   double to_number(double low = -kAbsurd, double high = kAbsurd) const;
-  /// As to_number, and "inf"; magnitudes from 1e15 on count as infinite.
+  /// May be infinite; magnitudes from 1e15 on count as that.
   double to_limit() const;
   int to_integer(int low, int high) const;
   bool to_boolean() const;
@@ -65,10 +80,12 @@ class Node {
   Pose to_pose() const;
   Color to_color() const;
 
-  // The same of a child (or of what a path "a/b" leads to), with a value for its absence.
+  // The same of a child (or of what a path "a/b" leads to), with a value for one that is absent or
+  // empty.
   std::string text(std::string_view path, const std::string& fallback) const;
   double number(std::string_view path, double fallback, double low = -kAbsurd,
                 double high = kAbsurd) const;
+  double limit(std::string_view path, double fallback) const;
   int integer(std::string_view path, int fallback, int low, int high) const;
   bool boolean(std::string_view path, bool fallback) const;
   Eigen::Vector3d vector3(std::string_view path, const Eigen::Vector3d& fallback) const;
@@ -80,8 +97,10 @@ class Node {
   Element to_element() const;
 
  private:
-  template <std::size_t kCount>
-  std::size_t parse_numbers(double (&values)[kCount], std::size_t least, const char* what) const;
+  /// From `least` to `most` numbers of magnitude up to kAbsurd; `what` says that in words.
+  std::vector<double> to_numbers(std::size_t least, std::size_t most, const char* what) const;
+  /// The element at the end of a path if it has a text.
+  std::optional<Node> find_filled(std::string_view path) const;
 
   const tinyxml2::XMLElement* element_;
   const std::string* file_;
@@ -90,8 +109,7 @@ class Node {
 /// A parsed XML document and the name that stands for it in messages.
 class XmlFile {
  public:
-  /// Throws Error if the text is no well-formed XML, declares entities, or nests deeper than is
-  /// sane.
+  /// Throws Error if the text is no well-formed XML with one root, or nothing that plain_xml takes.
   XmlFile(const std::string& text, const std::string& name);
   static XmlFile read(const std::string& path, const Source& source);
   XmlFile(const XmlFile&) = delete;
@@ -103,12 +121,5 @@ class XmlFile {
   tinyxml2::XMLDocument document_;
   std::string name_;
 };
-
-/// How deep the elements of an XML text nest, found without recursion.
-std::size_t xml_depth(std::string_view text);
-
-/// Checks what an XML library would stumble over: entity declarations, a depth that overflows the
-/// stack.
-void check_xml_text(std::string_view text, const std::string& name);
 
 }  // namespace ardee

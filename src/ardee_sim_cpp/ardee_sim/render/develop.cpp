@@ -2,6 +2,7 @@
 #include "ardee_sim/render/develop.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -188,14 +189,16 @@ std::vector<std::uint8_t> develop(const Frame& frame, const Development& how,
   const auto size = static_cast<std::size_t>(bytes_per_pixel(how.format));
   std::vector<std::uint8_t> bytes(frame.light.size() * size);
   const Writer writer(how, noise, how.exposure ? *how.exposure : automatic_exposure(frame));
-  tbb::parallel_for(0, frame.height, [&](int row) {
+  const auto write_row = [&](int row) {
     const auto width = static_cast<std::size_t>(frame.width);
     for (std::size_t column = 0; column < width; column += kPiece) {
       const std::size_t pixel = frame.index(0, row) + column;
       writer.write(&frame.light[pixel], row, pixel, std::min(kPiece, width - column),
                    &bytes[pixel * size]);
     }
-  });
+  };
+  tbb::task_arena arena(frame.threads > 0 ? frame.threads : tbb::task_arena::automatic);
+  arena.execute([&] { tbb::parallel_for(0, frame.height, write_row); });
   return bytes;
 }
 

@@ -29,6 +29,7 @@ struct FrameParts {
 struct Frame {
   int width = 0;
   int height = 0;
+  int threads = 0;                      // for what becomes of it; 0: all cores
   std::vector<Eigen::Vector3f> light;   // red, green, blue; 1: a white surface in full light
   std::vector<float> depth_m;           // along the camera's axis; +inf: nothing
   std::vector<std::uint32_t> entities;  // kNoEntity: nothing

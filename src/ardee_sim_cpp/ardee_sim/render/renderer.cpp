@@ -72,6 +72,7 @@ Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
   Frame frame;
   frame.width = camera.width;
   frame.height = camera.height;
+  frame.threads = options.threads;
   const std::size_t count = static_cast<std::size_t>(std::max(frame.width, 0)) *
                             static_cast<std::size_t>(std::max(frame.height, 0));
   if (parts.light) frame.light.resize(count);

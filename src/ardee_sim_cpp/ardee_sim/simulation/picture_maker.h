@@ -23,6 +23,8 @@ class PictureMaker : public Pictures {
   Frame take(const Camera& camera, const FrameParts& parts) override;
   /// Models came or went: the next picture looks at them anew.
   void forget() { current_ = false; }
+  /// The world's lights changed: the next picture is taken in the new light.
+  void relight() { renderer_.reset(); }
 
  private:
   void look_at_models();

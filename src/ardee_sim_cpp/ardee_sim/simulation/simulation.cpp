@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/rng.h"
 
 namespace ardee {
@@ -16,27 +17,18 @@ class NoSink : public ReadingSink {
   void on_reading(const Output&, const Reading&) override {}
 };
 
-constexpr double kFarthest_m = 1e6;  // beyond this a body has left the world
-
 void require_in_world(const std::string& name, const Pose& X_WM) {
-  if (X_WM.is_finite() && X_WM.p.norm() <= kFarthest_m) return;
+  if (limits::is_valid(X_WM)) return;
   throw Error("'" + name + "': found a pose that is not finite or farther than " +
-              std::to_string(static_cast<int>(kFarthest_m)) + " m from the world's origin");
+              std::to_string(static_cast<int>(limits::kFarthest_m)) + " m from the world's origin");
 }
 
-bool is_sane(const Robot& robot) {
-  for (std::size_t link = 0; link < robot.model().links.size(); ++link) {
-    const Pose pose = robot.link_pose(link);
-    const Twist twist = robot.link_twist(link);
-    if (!pose.is_finite() || pose.p.norm() > kFarthest_m || !twist.linear.allFinite() ||
-        !twist.angular.allFinite()) {
-      return false;
-    }
+Error taken(const std::string& name) { return Error("entity already exists: '" + name + "'"); }
+
+void apply_initial_state(Entity& entity) {
+  if (entity.instance.link_states) {
+    entity.robot->dynamics().set_link_states(*entity.instance.link_states);
   }
-  return true;
-}
-
-void apply_joint_positions(Entity& entity) {
   for (const auto& [name, position] : entity.joint_positions) {
     const Source& source = entity.instance.model->source;
     const std::size_t joint = entity.robot->joint_index(name, source);
@@ -54,64 +46,76 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),
+      now_ns_(world.start_ns),
       step_ns_(nanoseconds(world.physics.step_s)) {
+  const LogGroup group(log_);
   physics_.reset_random(options_.seed);
   world_.models.clear();  // from here on they live in entities_
   for (const PluginDescription& plugin : world.plugins) {
     log_.warn(plugin.element.source.to_string() + ": found world plugin '" + plugin.filename +
               "', expected none: it is left out");
   }
-  for (const Instance& instance : world.models) {
-    spawn({instance.name,
-           instance.model,
-           instance.pose,
-           "",
-           {},
-           instance.is_static,
-           instance.scale,
-           instance.label});
-  }
+  add_world_models(world.models);
 }
 
 Simulation::~Simulation() = default;
 
+void Simulation::add_world_models(const std::vector<Instance>& models) {
+  // Entities are numbered by their names, so that neither these numbers nor which of two surfaces
+  // in one plane a ray meets depends on the order of the file.
+  std::map<std::string, std::size_t> place;
+  for (const Instance& instance : models) {
+    if (!place.emplace(instance.name, place.size()).second) throw taken(instance.name);
+  }
+  for (const auto& [name, index] : place) {
+    auto entity = std::make_unique<Entity>();
+    entity->instance = models[index];
+    add(std::move(entity));
+  }
+  std::sort(entities_.begin(), entities_.end(), [&place](const auto& one, const auto& other) {
+    return place.at(one->name()) < place.at(other->name());
+  });
+}
+
 Entity& Simulation::spawn(const SpawnRequest& request) {
-  if (request.name.empty()) throw Error("found an empty model name, expected one");
-  if (find(request.name)) throw Error("entity already exists: '" + request.name + "'");
-  require_in_world(request.name, request.X_WM);
+  const LogGroup group(log_);
   auto entity = std::make_unique<Entity>();
-  // A model without links of its own (a field of included plants) has nothing that could move.
-  const bool is_static =
-      request.is_static || request.model->is_static || request.model->links.empty();
-  entity->instance = {request.model, request.name,  request.X_WM,
-                      request.scale, request.label, is_static};
+  entity->instance = {request.model, request.name,  request.X_WM * request.model->own_pose,
+                      request.scale, request.label, request.is_static};
   entity->robot_namespace = request.robot_namespace;
   entity->joint_positions = request.joint_positions;
-  entity->robot = std::make_unique<Robot>(request.name, request.model, next_entity_);
-  if (!is_static && !request.model->instances.empty()) {
-    throw Error(request.model->source,
-                "model '" + request.name + "' moves but holds static models");
+  return add(std::move(entity));
+}
+
+Entity& Simulation::add(std::unique_ptr<Entity> entity) {
+  const std::string& name = entity->name();
+  const std::shared_ptr<const Model> model = entity->instance.model;
+  if (name.empty()) throw Error("found an empty model name, expected one");
+  if (find(name)) throw taken(name);
+  require_in_world(name, entity->instance.pose);
+  // A model without links of its own (a field of included plants) has nothing that could move.
+  if (model->is_static || model->links.empty()) entity->instance.is_static = true;
+  entity->robot = std::make_unique<Robot>(name, model, next_entity_);
+  if (!entity->is_static() && !model->instances.empty()) {
+    throw Error(model->source, "model '" + name + "' moves but holds static models");
   }
-  if (is_static) entity->placements = flatten_scenery(entity->instance);
+  if (entity->is_static()) entity->placements = flatten_scenery(entity->instance);
   restore(*entity);
   try {
-    if (!is_static) apply_joint_positions(*entity);
-    for (const Placement& each : entity->placements) require_in_world(request.name, each.X_WM);
-    for (std::size_t link = 0; link < request.model->links.size(); ++link) {
-      require_in_world(request.name + "::" + request.model->links[link].name,
-                       entity->robot->link_pose(link));
+    for (const Placement& each : entity->placements) require_in_world(name, each.X_WM);
+    for (std::size_t link = 0; link < model->links.size(); ++link) {
+      require_in_world(name + "::" + model->links[link].name, entity->robot->link_pose(link));
     }
     build_devices(*entity);
     scenes_.add(*entity);
   } catch (...) {
     entity->devices.clear();
-    if (is_static)
-      physics_.remove_scenery(entity->scenery);
-    else
-      physics_.remove_model(entity->robot->dynamics());
+    take_from_physics(*entity);
     throw;
   }
   next_entity_ += std::max<std::uint32_t>(1, static_cast<std::uint32_t>(entity->placements.size()));
+  if (entity->is_static()) ++scenery_changes_;
+  by_name_.emplace(name, entity.get());
   entities_.push_back(std::move(entity));
   pictures_.forget();
   return *entities_.back();
@@ -120,9 +124,25 @@ Entity& Simulation::spawn(const SpawnRequest& request) {
 void Simulation::restore(Entity& entity) {
   if (entity.is_static()) {
     entity.robot->place(entity.instance.pose);
-    entity.scenery = physics_.add_scenery(entity.placements);
+    entity.scenery = physics_.add_scenery(entity.placements, entity.name());
+    return;
+  }
+  PhysicsModel& dynamics =
+      physics_.add_model(entity.instance.model, entity.instance.pose, entity.name());
+  try {
+    entity.robot->attach(&dynamics);
+    apply_initial_state(entity);
+  } catch (...) {
+    physics_.remove_model(dynamics);
+    throw;
+  }
+}
+
+void Simulation::take_from_physics(const Entity& entity) {
+  if (entity.is_static()) {
+    physics_.remove_scenery(entity.scenery);
   } else {
-    entity.robot->attach(&physics_.add_model(entity.instance.model, entity.instance.pose));
+    physics_.remove_model(entity.robot->dynamics());
   }
 }
 
@@ -151,6 +171,7 @@ Surroundings Simulation::surroundings() const {
     }
     return std::vector<std::string>(files.begin(), files.end());
   };
+  made.scenery_changes = [this] { return scenery_changes_; };
   return made;
 }
 
@@ -163,69 +184,75 @@ void Simulation::remove(const std::string& name) {
   wrenches_.clear(*entity.robot);
   scenes_.remove(entity);
   pictures_.forget();
-  if (entity.is_static()) {
-    physics_.remove_scenery(entity.scenery);
-  } else {
-    physics_.remove_model(entity.robot->dynamics());
-  }
+  take_from_physics(entity);
+  if (entity.is_static()) ++scenery_changes_;
+  by_name_.erase(name);
   entities_.erase(found);
 }
 
 Entity* Simulation::find(const std::string& name) {
-  for (const auto& entity : entities_) {
-    if (entity->name() == name) return entity.get();
-  }
-  return nullptr;
+  const auto found = by_name_.find(name);
+  return found == by_name_.end() ? nullptr : found->second;
 }
 
 void Simulation::step() {
   apply_commands();
   run_controllers();
+  run_observers();
   step_physics();
-  ++step_count_;
-  now_ns_ += step_ns_;
+  advance_clock();
   sample_devices();
 }
 
 void Simulation::apply_commands() { wrenches_.apply(now_ns_); }
 
 void Simulation::run_controllers() {
-  for (const auto& entity : entities_) {
-    for (const auto& device : entity->devices) device->before_step(now_ns_);
+  for (const auto& [name, entity] : by_name_) {
+    try {
+      for (const auto& device : entity->devices) device->before_step(now_ns_);
+    } catch (const Error& error) {  // it asks for what no model can do
+      if (entity->is_static()) throw;
+      put_back(*entity, error.what());
+    }
+  }
+}
+
+void Simulation::run_observers() {
+  for (const auto& [name, entity] : by_name_) {
+    for (const auto& device : entity->devices) device->observe(now_ns_);
   }
 }
 
 void Simulation::step_physics() {
-  try {
-    physics_.step();
-  } catch (const Error& error) {
-    recover(error);
+  for (const LostModel& lost : physics_.step()) {
+    const auto is_lost = [&lost](const auto& entity) {
+      return !entity->is_static() && &entity->robot->dynamics() == lost.model;
+    };
+    put_back(**std::find_if(entities_.begin(), entities_.end(), is_lost), lost.why);
   }
   scenes_.invalidate();
 }
 
-void Simulation::recover(const Error& error) {
-  bool found = false;
-  for (const auto& entity : entities_) {
-    if (entity->is_static() || is_sane(*entity->robot)) continue;
-    found = true;
-    std::ostringstream text;
-    text << "at " << seconds(now_ns_) << " s: " << error.what() << "; model '" << entity->name()
-         << "' is put back to where it was spawned";
-    log_.error(text.str());
-    physics_.remove_model(entity->robot->dynamics());
-    restore(*entity);
-    apply_joint_positions(*entity);
-    wrenches_.clear(*entity->robot);
-    for (const auto& device : entity->devices) device->reset(now_ns_);
-  }
-  if (!found) throw error;
+void Simulation::put_back(Entity& entity, const std::string& why) {
+  std::ostringstream text;
+  text << "at " << seconds(now_ns_) << " s: " << why << "; model '" << entity.name()
+       << "' is put back to where it was spawned";
+  log_.error(text.str());
+  wrenches_.clear(*entity.robot);
+  physics_.remove_model(entity.robot->dynamics());
+  restore(entity);
+  for (const auto& device : entity.devices) device->reset(now_ns_);
+}
+
+void Simulation::advance_clock() {
+  ++step_count_;
+  now_ns_ += step_ns_;
 }
 
 void Simulation::sample_devices() {
   NoSink nobody;
   ReadingSink& sink = sink_ ? *sink_ : nobody;
-  for (const auto& entity : entities_) {
+  for (const auto& [name, entity] : by_name_) {
     for (const auto& device : entity->devices) device->after_step(now_ns_, sink);
   }
 }
@@ -242,7 +269,6 @@ void Simulation::reset_entities() {
       place_static(*entity, entity->instance.pose);
     } else {
       restore(*entity);
-      apply_joint_positions(*entity);
     }
   }
   for (const auto& entity : entities_) {
@@ -252,15 +278,17 @@ void Simulation::reset_entities() {
 }
 
 void Simulation::place_static(Entity& entity, const Pose& X_WM) {
-  require_in_world(entity.name(), X_WM);
   const Pose now = entity.robot->pose();
   if (now.p == X_WM.p && now.q.coeffs() == X_WM.q.coeffs()) return;
+  require_in_world(entity.name(), X_WM);
   Instance moved = entity.instance;
   moved.pose = X_WM;
+  std::vector<Placement> placements = flatten_scenery(moved);
+  for (const Placement& each : placements) require_in_world(entity.name(), each.X_WM);
   scenes_.remove(entity);
   physics_.remove_scenery(entity.scenery);
-  entity.placements = flatten_scenery(moved);
-  entity.scenery = physics_.add_scenery(entity.placements);
+  entity.placements = std::move(placements);
+  entity.scenery = physics_.add_scenery(entity.placements, entity.name());
   entity.robot->place(X_WM);
   scenes_.add(entity);
 }
@@ -268,7 +296,7 @@ void Simulation::place_static(Entity& entity, const Pose& X_WM) {
 void Simulation::reset_world() { reset_entities(); }
 
 void Simulation::reset_simulation() {
-  now_ns_ = 0;
+  now_ns_ = world_.start_ns;
   step_count_ = 0;
   reset_entities();
 }

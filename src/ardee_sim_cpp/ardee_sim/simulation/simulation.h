@@ -26,7 +26,7 @@ struct SimulationOptions {
 struct SpawnRequest {
   std::string name;
   std::shared_ptr<const Model> model;
-  Pose X_WM;
+  Pose X_WM;  // where the model is put: the <pose> of its own file counts from there
   std::string robot_namespace;
   std::map<std::string, double> joint_positions;  // rad or m, by joint name
   bool is_static = false;                         // makes a model static whose description is not
@@ -66,27 +66,35 @@ class Simulation {
   /// The link "model::link" (either name may hold colons itself), else the first link of any model
   /// that has the whole name, as Gazebo finds it.
   std::optional<LinkOf> find_link(const std::string& name) const;
-  /// In the order in which they came.
+  /// In the order of the world's file, then in that in which they came.
   const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 
   void step();
   TimeNs now_ns() const { return now_ns_; }
   std::uint64_t step_count() const { return step_count_; }
 
-  /// All models back to where they were spawned, at rest; models stay that were spawned, the clock
-  /// goes on.
+  /// All models back to where they were spawned, at rest, and devices as they were made, with the
+  /// numbers of their description; models stay that were spawned. The clock and the random streams
+  /// go on.
   void reset_world();
-  /// As reset_world, and the clock, random streams and frame counters start again.
+  /// As reset_world, and the clock, random streams and frame counters start again: what follows is
+  /// the same bytes as what followed the construction.
   void reset_simulation();
 
   const World& world() const { return world_; }
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
+  /// Replaces the light of that name in world(); pictures follow, and resets leave it. Throws Error
+  /// if there is none, as does remove_light.
+  void set_light(const Light& light);
+  void remove_light(const std::string& name);
 
   /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
   /// name; "" and "world" name the world. Throws Error for an unknown name.
   RelativeState state(const std::string& name, const std::string& reference) const;
-  /// Moves a model; `state` is relative to `reference`.
+  /// Moves a model. The pose is relative to `reference`; the velocity is the one that the model
+  /// gets in the world, in the axes of `reference`, whose own is not added (as gazebo_ros does).
+  /// Throws Error if that is not valid, and has then changed nothing.
   void set_state(const std::string& model, const RelativeState& state,
                  const std::string& reference);
   Wrenches& wrenches() { return wrenches_; }
@@ -96,14 +104,19 @@ class Simulation {
  private:
   void apply_commands();
   void run_controllers();
+  void run_observers();
   void step_physics();
+  void advance_clock();
   void sample_devices();
+  void add_world_models(const std::vector<Instance>& models);
+  Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
   Surroundings surroundings() const;
   void restore(Entity& entity);
+  void take_from_physics(const Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);
-  /// Puts back what the physics lost (a state that is not finite); the rest of the world goes on.
-  void recover(const Error& error);
+  /// Puts a model back to where it was spawned; the rest of the world goes on.
+  void put_back(Entity& entity, const std::string& why);
   void reset_entities();
   RelativeState state_in_world(const std::string& name) const;
 
@@ -112,15 +125,17 @@ class Simulation {
   Log log_;
   Registry registry_;
   PhysicsWorld physics_;
-  std::vector<std::unique_ptr<Entity>> entities_;
   SceneSet scenes_;
   PictureMaker pictures_;
   Wrenches wrenches_;
+  std::vector<std::unique_ptr<Entity>> entities_;  // gone before what their devices refer to
+  std::map<std::string, Entity*> by_name_;         // the order in which they act and measure
   ReadingSink* sink_ = nullptr;
   TimeNs now_ns_ = 0;
   TimeNs step_ns_ = 0;
   std::uint64_t step_count_ = 0;
   std::uint32_t next_entity_ = 0;
+  std::uint64_t scenery_changes_ = 0;
 };
 
 }  // namespace ardee

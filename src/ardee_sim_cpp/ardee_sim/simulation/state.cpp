@@ -67,13 +67,9 @@ void Simulation::set_state(const std::string& model, const RelativeState& state,
     place_static(*entity, X_WM);
     return;
   }
-  PhysicsModel& dynamics = entity->robot->dynamics();
-  dynamics.set_pose(X_WM);
-  Twist twist_W;
-  twist_W.angular = frame.pose.q * state.twist.angular + frame.twist.angular;
-  twist_W.linear = frame.pose.q * state.twist.linear + frame.twist.linear +
-                   frame.twist.angular.cross(X_WM.p - frame.pose.p);
-  dynamics.set_twist(twist_W);
+  const Twist twist_W{frame.pose.q * state.twist.linear, frame.pose.q * state.twist.angular};
+  entity->robot->dynamics().set_state(X_WM, twist_W);
+  for (const auto& device : entity->devices) device->on_set_state();
   scenes_.invalidate();
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ardee_sim/core/limits.h"
+
 namespace ardee {
 namespace {
 
@@ -11,18 +13,12 @@ void erase_if(std::vector<Wrench>& wrenches, Predicate predicate) {
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(), predicate), wrenches.end());
 }
 
-constexpr double kMost = 1e9;      // N, N m: far beyond anything on a field
-constexpr double kFarthest = 1e6;  // m from the link; with the link's place still within 1e9
-
-bool is_sane(const Eigen::Vector3d& vector, double most) {
-  return vector.allFinite() && vector.cwiseAbs().maxCoeff() <= most;
-}
-
 }  // namespace
 
 void Wrenches::add(const Wrench& wrench) {
-  if (!is_sane(wrench.force_W, kMost) || !is_sane(wrench.torque_W, kMost) ||
-      !is_sane(wrench.point_L, kFarthest)) {
+  using limits::is_within, limits::kStrongest;
+  if (!is_within(wrench.force_W, kStrongest) || !is_within(wrench.torque_W, kStrongest) ||
+      !is_within(wrench.point_L, limits::kFarthest_m)) {
     throw Error(
         "found a wrench with a number that is not finite or beyond 1e9 N, 1e9 N m or 1e6 m from "
         "the body, expected less");

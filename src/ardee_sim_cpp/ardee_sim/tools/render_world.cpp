@@ -59,7 +59,7 @@ void fill(RayScene& rays, Looks& looks, const World& world,
     Instance instance;
     instance.model = robot;
     instance.name = robot->name;
-    instance.pose = robot_W;
+    instance.pose = robot_W * robot->own_pose;
     put(instance);
   }
   rays.add_scenery(0, placements);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -44,12 +45,30 @@ TEST(Parameters, ReadsTypedValuesAndDefaults) {
 }
 
 TEST(Parameters, ABadValueSaysFileLineElementFoundExpected) {
-  for (const char* bad : {"fast", "nan", "inf", "1e999", "", "1 2", "0x10", "1,5"}) {
+  for (const char* bad : {"fast", "nan", "inf", "1e999", "1 2", "0x10", "1,5", "+-1", "1ff"}) {
     const Element element = block({{"rate", bad}});
     const std::string message = message_of([&] { Parameters(element).number("rate", 1.0); });
     EXPECT_EQ(message,
               "robot.urdf:11: <rate>: found '" + std::string(bad) + "', expected a finite number");
   }
+}
+
+TEST(Parameters, AnEmptyValueIsTheDefault) {
+  const Element element = block({{"rate", ""}, {"tf", ""}, {"gain", ""}});
+  Parameters parameters(element);
+  EXPECT_EQ(parameters.number("rate", 20.0), 20.0);
+  EXPECT_EQ(parameters.integer("rate", 20, 0, 100), 20);
+  EXPECT_TRUE(parameters.boolean("tf", true));
+  EXPECT_EQ(parameters.vector3("gain", {1, 2, 3}), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(Parameters, AFloatMayHaveItsSuffix) {
+  EXPECT_EQ(parse_number("0.5f", {}), 0.5);
+  EXPECT_EQ(parse_number("2F", {}), 2.0);
+  EXPECT_EQ(*to_double("Inf"), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(*to_double("-inf"), -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(*to_double("NaN")));
+  EXPECT_FALSE(to_double("f"));
 }
 
 TEST(Parameters, AValueOutOfBoundsIsRefused) {
@@ -75,6 +94,23 @@ TEST(Parameters, AMisspeltKeyIsReportedOnce) {
   parameters.finish(log);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0], "robot.urdf:12: <updateRat>: unknown key, ignored");
+}
+
+TEST(Parameters, TakesDownWhichKeysAreAskedFor) {
+  Element element;
+  element.key_log = std::make_shared<KeyLog>();
+  Parameters parameters(element);
+  parameters.block("rate");
+  parameters.number("rate", 2.5);
+  parameters.boolean("on", true);
+  EXPECT_THROW(parameters.required_text("name"), Error);
+  parameters.ignore({"alwaysOn"});
+  const std::vector<AskedKey>& keys = element.key_log->keys();
+  ASSERT_EQ(keys.size(), 4u);
+  EXPECT_EQ(keys[0].name + " " + keys[0].kind + " " + keys[0].fallback, "rate number 2.5");
+  EXPECT_EQ(keys[1].fallback, "true");
+  EXPECT_TRUE(keys[2].is_required);
+  EXPECT_TRUE(keys[3].is_ignored && !keys[0].is_ignored);
 }
 
 }  // namespace

@@ -114,6 +114,31 @@ inline Geometry heightmap(const std::shared_ptr<const HeightGrid>& grid) {
   return result;
 }
 
+/// A square of `size_m` in the plane z = 0, in n x n cells of two triangles each.
+inline Geometry mesh_square(unsigned n, double size_m) {
+  auto file = std::make_shared<MeshFile>();
+  SubMesh part;
+  part.name = "square";
+  for (unsigned j = 0; j <= n; ++j) {
+    for (unsigned i = 0; i <= n; ++i) {
+      part.vertices.push_back(
+          (size_m * Eigen::Vector3d(i - 0.5 * n, j - 0.5 * n, 0) / n).cast<float>());
+    }
+  }
+  for (unsigned j = 0; j < n; ++j) {
+    for (unsigned i = 0; i < n; ++i) {
+      const unsigned a = j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+      part.triangles.push_back({a, b, d});
+      part.triangles.push_back({a, d, c});
+    }
+  }
+  file->parts.push_back(part);
+  Mesh mesh;
+  mesh.file = file;
+  mesh.submesh = "square";
+  return mesh;
+}
+
 inline int steps(const PhysicsWorld& world, double duration_s) {
   return static_cast<int>(std::lround(duration_s / world.params().step_s));
 }

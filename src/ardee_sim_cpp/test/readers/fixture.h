@@ -17,7 +17,8 @@ namespace ardee {
 /// A loader over a temporary model folder and the test data, with what it says recorded.
 class ReadersTest : public ::testing::Test {
  protected:
-  ReadersTest() : loader_(make_locator(), make_log()) {}
+  explicit ReadersTest(MissingFiles missing = MissingFiles::kRefuse)
+      : loader_(make_locator(), make_log(), missing) {}
 
   static std::string data(const std::string& name) {
     return std::string(ARDEE_TEST_DATA "/") + name;
@@ -55,6 +56,7 @@ class ReadersTest : public ::testing::Test {
   TempFolder folder_;
   std::shared_ptr<std::vector<std::string>> warnings_ =
       std::make_shared<std::vector<std::string>>();
+  std::shared_ptr<std::vector<std::string>> errors_ = std::make_shared<std::vector<std::string>>();
   Loader loader_;
 
  private:
@@ -73,8 +75,10 @@ class ReadersTest : public ::testing::Test {
   }
   Log make_log() {
     auto warnings = warnings_;
-    return Log([warnings](LogLevel level, const std::string& text) {
+    auto errors = errors_;
+    return Log([warnings, errors](LogLevel level, const std::string& text) {
       if (level == LogLevel::kWarning) warnings->push_back(text);
+      if (level == LogLevel::kError) errors->push_back(text);
     });
   }
 };

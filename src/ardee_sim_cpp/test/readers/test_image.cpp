@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
 #include "ardee_sim/readers/heightmap_reader.h"
 #include "ardee_sim/readers/image.h"
 #include "fixture.h"
@@ -46,8 +50,95 @@ TEST(Image, ReadsColourAndOpacity) {
   EXPECT_EQ(read_color_image(picture("grey8.png"), {}).samples8[4], 20);
 }
 
+TEST(Image, HoldsALargeGreyOne) {
+  const Image image = read_gray_image(picture("black8000.png"), {});
+  EXPECT_EQ(image.width, 8000);
+  EXPECT_EQ(image.samples16.size(), 64'000'000u);
+  EXPECT_EQ(*std::max_element(image.samples16.begin(), image.samples16.end()), 0);
+}
+
+/// Heights of a file, and what is said of it.
+struct Heights {
+  Heights(const std::string& path, const Eigen::Vector3d& size_m)
+      : log([this](LogLevel, const std::string& text) { said += text; }),
+        grid(read_height_grid(path, size_m, Source{"test", 1, "uri"}, log)) {}
+
+  std::string said;
+  Log log;
+  HeightGrid grid;
+};
+
+std::string little(std::uint32_t value, int bytes) {
+  std::string text;
+  for (int k = 0; k < bytes; ++k) text += static_cast<char>(value >> (8 * k) & 0xFFu);
+  return text;
+}
+
+/// A grey TGA of 8 bits and two columns, from the upper edge.
+std::string tga(const std::string& pixels) {
+  return std::string("\0\0\3\0\0\0\0\0\0\0\0\0", 12) + little(2, 2) +
+         little(static_cast<std::uint32_t>(pixels.size() / 2), 2) + little(8, 1) + little(0x20, 1) +
+         pixels;
+}
+
+enum class Samples : std::uint32_t { kUnsigned = 1, kSigned = 2, kFloat = 3 };
+
+/// A TIFF of two columns and one strip, with GDAL's tag for no data and a GeoTIFF's keys if asked.
+template <typename Number>
+std::string tiff(Samples format, const std::vector<Number>& samples,
+                 const std::string& no_data = "", bool is_geo = false) {
+  std::string bytes;
+  for (const Number sample : samples) {
+    bytes.append(reinterpret_cast<const char*>(&sample), sizeof(sample));
+  }
+  const auto rows = static_cast<std::uint32_t>(samples.size() / 2);
+  std::string entries;
+  std::uint32_t count = 0;
+  const auto entry = [&](std::uint32_t tag, std::uint32_t type, std::uint32_t n,
+                         std::uint32_t value) {
+    entries += little(tag, 2) + little(type, 2) + little(n, 4) + little(value, 4);
+    ++count;
+  };
+  const auto length = static_cast<std::uint32_t>(bytes.size());
+  entry(256, 3, 1, 2);
+  entry(257, 3, 1, rows);
+  entry(258, 3, 1, 8 * sizeof(Number));
+  entry(259, 3, 1, 1);
+  entry(262, 3, 1, 1);
+  entry(273, 4, 1, 8);
+  entry(277, 3, 1, 1);
+  entry(278, 3, 1, rows);
+  entry(279, 4, 1, length);
+  entry(339, 3, 1, static_cast<std::uint32_t>(format));
+  if (is_geo) entry(34735, 3, 4, 8 + length);
+  const std::uint32_t text_at = 8 + length + 8;
+  if (!no_data.empty()) {
+    entry(42113, 2, static_cast<std::uint32_t>(no_data.size() + 1), text_at);
+  }
+  const std::string head = std::string("II*\0", 4);
+  const std::string after = little(1, 2) + little(1, 2) + little(0, 4) + no_data + '\0' +
+                            std::string(no_data.size() % 2 == 0 ? 1 : 0, '\0');
+  return head + little(8 + length + static_cast<std::uint32_t>(after.size()), 4) + bytes + after +
+         little(count, 2) + entries + little(0, 4);
+}
+
+/// Row by row from the upper edge, as in the file.
+std::vector<float> as_written(const HeightGrid& grid) {
+  std::vector<float> heights;
+  for (int row = grid.rows - 1; row >= 0; --row) {
+    for (int column = 0; column < grid.columns; ++column) heights.push_back(grid.at(column, row));
+  }
+  return heights;
+}
+
+void expect_heights(const HeightGrid& grid, const std::vector<float>& expected) {
+  const std::vector<float> found = as_written(grid);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-5f) << k;
+}
+
 TEST(Heightmap, PutsTheUpperEdgeAtPlusY) {
-  const HeightGrid grid = read_height_grid(picture("grey16.png"), {30, 20, 6.5535}, {});
+  const HeightGrid grid = Heights(picture("grey16.png"), {30, 20, 6.5535}).grid;
   EXPECT_EQ(grid.columns, 4);
   EXPECT_EQ(grid.rows, 3);
   EXPECT_EQ(grid.size_m, Eigen::Vector2d(30, 20));
@@ -58,15 +149,81 @@ TEST(Heightmap, PutsTheUpperEdgeAtPlusY) {
   }
 }
 
-TEST(Heightmap, ScalesEightBitsTo255) {
-  const HeightGrid grid = read_height_grid(picture("grey8.png"), {1, 1, 255}, {});
-  EXPECT_NEAR(grid.at(3, 0), 220.0, 1e-4);
+TEST(Heightmap, TheBrightestOfEightBitsStandsAtSizeZ) {
+  for (const char* name : {"grey8.png", "grey8.bmp", "grey8.tga", "grey8.tif", "grey8.jpg"}) {
+    const HeightGrid grid = Heights(picture(name), {1, 1, 11}).grid;
+    for (int column = 0; column < 4; ++column) EXPECT_NEAR(grid.at(column, 0), 8 + column, 1e-4);
+  }
+  const TempFolder folder;
+  const auto heights = [&](const std::string& pixels) {
+    return Heights(folder.write("h.tga", tga(pixels)), {1, 1, 10}).grid;
+  };
+  expect_heights(heights(std::string("\0\x02\x01\x01", 4)), {0, 10, 5, 5});
+  expect_heights(heights(std::string("\0\xff\x33\x01", 4)), {0, 10, 2, 10 / 255.0f});
+  // A brightest value of 1 is Gazebo's full scale: what is 1 of 255 high stays so.
+  expect_heights(heights(std::string("\0\x01\x01\0", 4)), {0, 10 / 255.0f, 10 / 255.0f, 0});
+  expect_heights(heights(std::string(4, '\0')), {0, 0, 0, 0});
+  expect_heights(heights("@@@@"), {10, 10, 10, 10});
+}
+
+TEST(Heightmap, WhiteOfSixteenBitsStandsAtSizeZ) {
+  const TempFolder folder;
+  const std::string path =
+      folder.write("h.tif", tiff<std::uint16_t>(Samples::kUnsigned, {0, 257, 13107, 257 * 100}));
+  expect_heights(Heights(path, {1, 1, 10}).grid, {0, 10 / 255.0f, 2, 1000 / 255.0f});
 }
 
 TEST(Heightmap, NegativeHeightInverts) {
-  const HeightGrid grid = read_height_grid(picture("grey8.png"), {1, 1, -255}, {});
-  EXPECT_NEAR(grid.at(0, 2), 255.0, 1e-4);
-  EXPECT_NEAR(grid.at(3, 0), 35.0, 1e-4);
+  const HeightGrid grid = Heights(picture("grey8.png"), {1, 1, -11}).grid;
+  EXPECT_NEAR(grid.at(0, 2), 11.0, 1e-4);
+  EXPECT_NEAR(grid.at(3, 0), 0.0, 1e-4);
+}
+
+TEST(Heightmap, SpansSizeZFromTheLeastToTheGreatestElevation) {
+  const TempFolder folder;
+  const auto heights = [&](const std::string& bytes) {
+    const Heights read(folder.write("e.tif", bytes), {1, 1, 4.2});
+    EXPECT_EQ(read.said, "");
+    return read.grid;
+  };
+  expect_heights(heights(tiff<float>(Samples::kFloat, {0.2f, 4.4f, 2.3f, 0.2f})),
+                 {0, 4.2f, 2.1f, 0});
+  expect_heights(heights(tiff<double>(Samples::kFloat, {-1, 3.2, 1.1, 0})), {0, 4.2f, 2.1f, 1});
+  expect_heights(heights(tiff<std::int16_t>(Samples::kSigned, {-10, 11, 1, 0})),
+                 {0, 4.2f, 2.2f, 2});
+  expect_heights(heights(tiff<std::int32_t>(Samples::kSigned, {800, 821, 801, 800})),
+                 {0, 4.2f, 0.2f, 0});
+  expect_heights(heights(tiff<std::uint16_t>(Samples::kUnsigned, {800, 821, 801, 800}, "", true)),
+                 {0, 4.2f, 0.2f, 0});
+  expect_heights(heights(tiff<float>(Samples::kFloat, {7, 7, 7, 7})), {0, 0, 0, 0});
+}
+
+TEST(Heightmap, TakesTheLeastWhereThereIsNoElevation) {
+  const TempFolder folder;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const std::string& bytes :
+       {tiff<float>(Samples::kFloat, {1, 3, nan, 2}),
+        tiff<float>(Samples::kFloat, {1, 3, -3.4e38f, 2}),
+        tiff<float>(Samples::kFloat, {1, 3, -9999, 2}, "-9999"),
+        tiff<std::int16_t>(Samples::kSigned, {1, 3, -32768, 2}, "-32768")}) {
+    const std::string path = folder.write("e.tif", bytes);
+    const Heights read(path, {1, 1, 2});
+    expect_heights(read.grid, {0, 2, 0, 1});
+    EXPECT_EQ(read.said, "test:1: <uri>: 1 pixels of '" + path +
+                             "' have no elevation, the least of the others is used");
+  }
+  const std::string none =
+      folder.write("n.tif", tiff<float>(Samples::kFloat, {nan, nan, nan, nan}));
+  EXPECT_THROW(Heights(none, {1, 1, 1}), Error);
+}
+
+TEST(Heightmap, RefusesABrokenElevationFile) {
+  const TempFolder folder;
+  const std::string whole = tiff<float>(Samples::kFloat, {1, 2, 3, 4});
+  for (std::size_t length = 9; length + 4 < whole.size(); ++length) {
+    const std::string path = folder.write("t.tif", whole.substr(0, length));
+    EXPECT_THROW(Heights(path, {1, 1, 1}), Error) << length;
+  }
 }
 
 TEST_F(ReadersTest, ReadsTheHeightmapOfListingA23) {

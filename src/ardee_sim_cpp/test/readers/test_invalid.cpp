@@ -60,8 +60,8 @@ TEST_F(Invalid, DeepNestingIsRefused) {
   std::string closed = deep;
   for (int i = 0; i < 10000; ++i) closed += "</model>";
   for (const std::string& body : {deep, closed}) {
-    EXPECT_HAS(error_of([&] { model(body); }), "deep, expected at most");
-    EXPECT_HAS(error_of([&] { robot(body); }), "deep, expected at most");
+    EXPECT_HAS(error_of([&] { model(body); }), "deep, expected fewer");
+    EXPECT_HAS(error_of([&] { robot(body); }), "deep, expected fewer");
   }
   std::string dae = "<COLLADA>";
   for (int i = 0; i < 10000; ++i) dae += "<node>";
@@ -72,7 +72,7 @@ TEST_F(Invalid, DeepNestingIsRefused) {
                    "name='v'><geometry><mesh><uri>model://deep/deep.dae</uri></mesh>"
                    "</geometry></visual></link>");
              }),
-             "deep, expected at most");
+             "deep, expected fewer");
 }
 
 TEST_F(Invalid, DeepIncludesAreRefused) {

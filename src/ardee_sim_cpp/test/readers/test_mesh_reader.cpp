@@ -10,8 +10,21 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"
 namespace ardee {
 namespace {
 
+/// Reads a file and keeps what is said of it.
+struct Reading {
+  explicit Reading(const std::string& path)
+      : log([this](LogLevel, const std::string& text) { said += text + "\n"; }),
+        file(read_mesh_file(path, Source{"test", 1, "uri"}, log)) {}
+
+  std::string said;
+  Log log;
+  MeshFile file;
+};
+
 MeshFile read(const std::string& name) {
-  return read_mesh_file(std::string(ARDEE_TEST_DATA "/meshes/") + name, Source{"test", 1, "uri"});
+  const Reading reading(std::string(ARDEE_TEST_DATA "/meshes/") + name);
+  EXPECT_EQ(reading.said, "");
+  return reading.file;
 }
 
 void expect_box(const SubMesh& part, const Eigen::Vector3f& low, const Eigen::Vector3f& high) {
@@ -81,14 +94,165 @@ TEST(MeshReader, FindsTexturesBesideTheMeshAndInTheModelsFolder) {
       "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
   const std::string path = folder.write("meshes/m.obj", obj);
   folder.write("meshes/m.mtl", "newmtl a\nKd 0.5 0.5 0.5\nmap_Kd leaf.png\n");
-  EXPECT_EQ(read_mesh_file(path, {}).materials.back().texture_path, "");
+  EXPECT_EQ(Reading(path).file.materials.back().texture_path, "");
   const std::string in_model = folder.write("materials/textures/leaf.png", "x");
-  EXPECT_EQ(read_mesh_file(path, {}).materials.back().texture_path, in_model);
+  EXPECT_EQ(Reading(path).file.materials.back().texture_path, in_model);
   const std::string beside = folder.write("meshes/leaf.png", "x");
-  const MeshFile file = read_mesh_file(path, {});
+  const MeshFile file = Reading(path).file;
   EXPECT_EQ(file.materials.back().texture_path, beside);
   // v counts upwards from the picture's lower edge, as in the file.
   EXPECT_EQ(file.parts.at(0).texcoords.at(2), Eigen::Vector2f(0, 1));
+}
+
+/// Of all triangles of a file.
+double area(const MeshFile& file) {
+  double sum = 0.0;
+  for (const SubMesh& part : file.parts) {
+    for (const auto& t : part.triangles) {
+      const Eigen::Vector3f& a = part.vertices[t[0]];
+      sum += 0.5 * (part.vertices[t[1]] - a).cross(part.vertices[t[2]] - a).norm();
+    }
+  }
+  return sum;
+}
+
+std::size_t triangles(const MeshFile& file) {
+  std::size_t sum = 0;
+  for (const SubMesh& part : file.parts) sum += part.triangles.size();
+  return sum;
+}
+
+/// A block of 1 x 2 x 3 m in quadrilaterals, and the six corners of an L of 3 square metres.
+const std::string kBlock =
+    "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+const std::string kL = "0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0";
+
+std::string collada(const std::string& primitives, const std::string& cameras = "",
+                    const std::string& nodes = "") {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><up_axis>Z_UP</up_axis></asset>" +
+         cameras +
+         "<library_geometries><geometry id='g' name='g'><mesh><source id='s'>"
+         "<float_array id='a' count='18'>" +
+         kL +
+         "</float_array><technique_common><accessor source='#a' count='6' stride='3'>"
+         "<param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
+         "type='float'/></accessor></technique_common></source><vertices id='v'>"
+         "<input semantic='POSITION' source='#s'/></vertices>" +
+         primitives +
+         "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'>" +
+         nodes +
+         "<node id='n' name='n'><instance_geometry url='#g'/></node></visual_scene>"
+         "</library_visual_scenes><scene><instance_visual_scene url='#w'/></scene></COLLADA>";
+}
+
+std::string primitive(const std::string& name, int count, const std::string& indices) {
+  return "<" + name + " count='" + std::to_string(count) +
+         "'><input semantic='VERTEX' source='#v' offset='0'/>" + indices + "</" + name + ">";
+}
+
+TEST(MeshPolygons, AreCutIntoTriangles) {
+  const TempFolder folder;
+  const Reading quads(folder.write("block.obj", kBlock));
+  EXPECT_EQ(triangles(quads.file), 12u);
+  EXPECT_NEAR(volume(quads.file.parts.at(0)), 6.0, 1e-6);
+  const Reading mixed(folder.write("mixed.obj", kBlock + "f 1 2 3\n"));
+  EXPECT_EQ(triangles(mixed.file), 13u);
+  const Reading ply(folder.write(
+      "l.ply",
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty "
+      "float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n2 0 "
+      "0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n"));
+  EXPECT_NEAR(area(ply.file), 3.0, 1e-6);
+  EXPECT_EQ(quads.said + mixed.said + ply.said, "");
+}
+
+TEST(MeshPolygons, OfEachKindOfCollada) {
+  const TempFolder folder;
+  for (const std::string& each :
+       {primitive("polylist", 1, "<vcount>6</vcount><p>0 1 2 3 4 5</p>"),
+        primitive("polylist", 2, "<vcount>4 4</vcount><p>0 1 2 3 0 3 4 5</p>"),
+        primitive("polygons", 1, "<p>0 1 2 3 4 5</p>"),
+        primitive("polygons", 2, "<p>0 1 2 3</p><p>0 3 4 5</p>"),
+        primitive("tristrips", 2, "<p>0 1 3 2</p><p>0 3 5 4</p>"),
+        primitive("trifans", 1, "<p>3 4 5 0 1 2</p>"),
+        primitive("trifans", 2, "<p>0 1 2 3</p><p>0 3 4 5</p>"),
+        primitive("triangles", 2, "<p>0 1 2 0 2 3</p>") +
+            primitive("trifans", 1, "<p>0 3 4 5</p>")}) {
+    const Reading reading(folder.write("l.dae", collada(each)));
+    EXPECT_NEAR(area(reading.file), 3.0, 1e-6) << each;
+    EXPECT_EQ(reading.said, "") << each;
+    for (const SubMesh& part : reading.file.parts) {
+      for (const auto& t : part.triangles) {
+        const Eigen::Vector3f& a = part.vertices[t[0]];
+        EXPECT_GT((part.vertices[t[1]] - a).cross(part.vertices[t[2]] - a).z(), 0.0f) << each;
+      }
+    }
+  }
+}
+
+TEST(MeshPolygons, AFanNeedNotBeFlat) {
+  const TempFolder folder;
+  const Reading cone(
+      folder.write("cone.dae", collada(primitive("trifans", 1, "<p>0 1 3 5 1</p>"))));
+  EXPECT_EQ(triangles(cone.file), 3u);
+}
+
+TEST(MeshPolygons, WhatIsNoneIsToldOnce) {
+  const TempFolder folder;
+  const Reading reading(folder.write("rest.obj", kBlock + "l 1 2 3\np 1\nf 1 2 2\n"));
+  EXPECT_EQ(triangles(reading.file), 12u);
+  EXPECT_EQ(reading.said, "test:1: <uri>: left out of '" + folder.path() +
+                              "/rest.obj': 1 point(s), 2 line(s), 1 face(s) without area\n");
+}
+
+TEST(MeshReader, PassesOverCamerasOfOneName) {
+  const auto camera = [](const std::string& id) {
+    return "<camera id='" + id +
+           "' name='cam'><optics><technique_common><perspective><xfov>40</xfov><znear>1</znear>"
+           "<zfar>9</zfar></perspective></technique_common></optics></camera>";
+  };
+  const TempFolder folder;
+  const Reading reading(folder.write(
+      "c.dae", collada(primitive("triangles", 1, "<p>0 1 2</p>"),
+                       "<library_cameras>" + camera("c1") + camera("c2") + "</library_cameras>",
+                       "<node id='n1' name='cam'><instance_camera url='#c1'/></node>"
+                       "<node id='n2' name='cam'><instance_camera url='#c2'/></node>")));
+  EXPECT_EQ(triangles(reading.file), 1u);
+}
+
+/// The buffer holds the corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and the indices 0, 1, 2.
+TEST(MeshReader, ReadsGltfWithItsNodesAndAsItsAxesLie) {
+  const std::string gltf = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+    "nodes":[{"name":"root","translation":[0,5,0],"children":[1]},
+             {"name":"tri","mesh":0,"scale":[2,2,2]}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":4}]}],
+    "buffers":[{"byteLength":44,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA="}],
+    "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+                 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})";
+  const TempFolder folder;
+  const Reading reading(folder.write("t.gltf", gltf));
+  ASSERT_EQ(reading.file.parts.size(), 1u);
+  EXPECT_EQ(reading.file.parts[0].name, "tri");
+  expect_box(reading.file.parts[0], {0, 5, 0}, {2, 7, 0});
+  EXPECT_EQ(reading.said, "");
+  EXPECT_THROW(Reading(folder.write("t.glb", "glTF\x02")), Error);
+}
+
+TEST(MeshReader, RefusesAnStlFacetOfFourCorners) {
+  const TempFolder folder;
+  const std::string path = folder.write(
+      "q.stl",
+      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex "
+      "0 1 0\nendloop\nendfacet\nendsolid a\n");
+  try {
+    const Reading reading(path);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_HAS(error.what(), "found a facet of 4 corners in STL '" + path + "', line 3");
+  }
 }
 
 }  // namespace

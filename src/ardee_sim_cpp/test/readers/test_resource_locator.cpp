@@ -70,10 +70,11 @@ TEST_F(Locator, NamesEachPlaceThatItSearchedOnceAndInFull) {
              "searched: " + (std::filesystem::current_path() / "beside.dae").string());
 }
 
-TEST_F(Locator, ChoosesTheNewestSdfUpTo16) {
+TEST_F(Locator, ChoosesTheNewestSdfOfGazeboClassic) {
   folder_.write("models/a/model.config",
                 "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.6'>model.sdf</sdf>"
-                "<sdf version='1.5'>mid.sdf</sdf><sdf version='1.9'>new.sdf</sdf></model>");
+                "<sdf version='1.5'>mid.sdf</sdf><sdf version='1.9'>new.sdf</sdf><sdf "
+                "version='1.10'>new.sdf</sdf></model>");
   for (const char* name : {"old", "mid", "model", "new"})
     folder_.write("models/a/" + std::string(name) + ".sdf", "");
   EXPECT_EQ(locator_.resolve_model("model://a", {}), folder_.path() + "/models/a/model.sdf");
@@ -113,6 +114,20 @@ TEST_F(Locator, FindsModelsThatPackagesExportToGazebo) {
   EXPECT_HAS(error_of("model://sty"), folder_.path() + "/src/farm/models/sty");
   const std::string own = folder_.write("models/barn/model.sdf", "");
   EXPECT_EQ(locator_.resolve_model("model://barn", {}), own) << "GAZEBO_MODEL_PATH comes first";
+}
+
+TEST_F(Locator, ReadsEveryExportOfAPackage) {
+  folder_.write("src/farm/package.xml",
+                "<package><name>farm</name><export><gazebo_ros gazebo_media_path='${prefix}'/>"
+                "<other gazebo_model_path='/nowhere'/>"
+                "<gazebo_ros plugin_path='${prefix}/lib' gazebo_model_path='${prefix}/a'/>"
+                "<gazebo_ros gazebo_model_path='${prefix}/b:${prefix}/c/${prefix}'"
+                " gazebo_media_path='/media'/></export></package>");
+  PackageIndex index({folder_.path() + "/src"});
+  const std::string farm = folder_.path() + "/src/farm";
+  EXPECT_EQ(index.exported_model_paths(),
+            (std::vector<std::string>{farm + "/a", farm + "/b", farm + "/c/" + farm}));
+  EXPECT_EQ(index.exported_media_paths(), (std::vector<std::string>{farm, "/media"}));
 }
 
 TEST_F(Locator, FindsWorldsBelowTheMediaPathsThatPackagesExport) {

@@ -146,6 +146,25 @@ TEST_F(SdfFramesTest, DegreesAreTurnedIntoRadians) {
              "<pose>: found 'yes'");
 }
 
+TEST_F(SdfFramesTest, APoseMayHoldAQuaternionOrDegrees) {
+  const auto turned = [&](const std::string& attributes, const std::string& numbers) {
+    return model("<link name='a'><pose " + attributes + ">" + numbers + "</pose></link>")
+        ->links.at(0)
+        .X_ML;
+  };
+  for (const Pose& X_ML : {turned("degrees='true'", "1 2 3 0 0 90"),
+                           turned("rotation_format='euler_rpy' degrees='1'", "1 2 3 0 0 90"),
+                           turned("rotation_format='quat_xyzw'", "1 2 3 0 0 2 2")}) {
+    expect_near(X_ML * Eigen::Vector3d(1, 0, 0), {1, 3, 3});
+  }
+  EXPECT_HAS(error_of([&] { turned("rotation_format='quat_xyzw'", "1 2 3 0 0 1"); }),
+             "expected seven finite numbers");
+  EXPECT_HAS(error_of([&] { turned("rotation_format='quat_xyzw'", "1 2 3 0 0 0 0"); }),
+             "found a quaternion of length zero");
+  EXPECT_HAS(error_of([&] { turned("rotation_format='matrix'", "1 2 3 0 0 0"); }),
+             "found rotation_format='matrix'");
+}
+
 TEST_F(SdfFramesTest, NamesWhatIsWrong) {
   EXPECT_HAS(error_of([&] { model(link("a", pose("b", "")) + link("b", pose("a", ""))); }),
              "lies in itself");
@@ -153,7 +172,7 @@ TEST_F(SdfFramesTest, NamesWhatIsWrong) {
              "<pose>: found frame 'x', expected one of __model__, a");
   EXPECT_HAS(
       error_of([&] { model("<frame name='f' attached_to='f'/>" + link("a") + fixed("a", "f")); }),
-      "found link 'f'");
+      "found that frame 'f' lies in itself");
   EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
              "found frame 'x', expected one of world, m");
   // Where no frames are known: the pose of a file's own model, and of a lamp.
@@ -179,8 +198,10 @@ TEST_F(SdfFramesTest, AnAbsurdlyDeepChainIsRefused) {
 TEST_F(SdfFramesTest, GazebosNewestVersionIsReadWithoutAWarning) {
   model(link("a"));
   EXPECT_TRUE(warnings_->empty());
-  ReadersTest::model(link("a"), "1.8");
-  EXPECT_TRUE(warned("found version 1.8, read as SDF 1.7"));
+  ReadersTest::model(link("a"), "1.12");
+  EXPECT_TRUE(warnings_->empty());
+  ReadersTest::model(link("a"), "1.13");
+  EXPECT_TRUE(warned("found version 1.13, read as SDF 1.12"));
 }
 
 }  // namespace

@@ -122,6 +122,68 @@ TEST_F(SdfInclude, MergesMovingModelsUnderScopedNames) {
   EXPECT_TRUE(m->instances.empty());
 }
 
+TEST_F(SdfInclude, AMergedIncludeKeepsItsNames) {
+  folder_.write_model("arm",
+                      "<frame name='tip'><pose>0 0 1 0 0 0</pose></frame><link name='upper'/>"
+                      "<link name='lower'/><joint name='elbow' type='fixed'><parent>upper</parent>"
+                      "<child>lower</child></joint><plugin name='p' filename='p.so'/>",
+                      "1.9");
+  const auto m = model(
+      "<link name='base'/><include merge='true'><uri>model://arm</uri><pose>1 0 0 0 0 0</pose>"
+      "</include><joint name='mount' "
+      "type='fixed'><parent>base</parent><child>upper</child></joint>",
+      "1.9");
+  ASSERT_EQ(m->links.size(), 3u);
+  expect_near(m->find_link("upper")->X_ML.p, {1, 0, 0});
+  EXPECT_EQ(m->find_joint("elbow")->child, "lower");
+  EXPECT_EQ(m->find_joint("mount")->child, "upper");
+  EXPECT_EQ(m->plugins.size(), 1u);
+  expect_near(m->find_frame("tip")->X_MF.p, {1, 0, 1});
+  EXPECT_HAS(error_of([&] {
+               model("<link name='upper'/><include merge='1'><uri>model://arm</uri></include>",
+                     "1.9");
+             }),
+             "found a second link 'upper'");
+}
+
+TEST_F(SdfInclude, APlacementFrameStandsWhereThePoseSays) {
+  const std::string arm =
+      "<link name='l'/><frame name='foot'><pose>0 0 -2 0 0 0</pose></frame>"
+      "<link name='tip'><pose>0 0 1 0 0 0</pose></link>";
+  folder_.write_model("arm", arm, "1.9");
+  folder_.write("standing/model.sdf",
+                "<sdf version='1.9'><model name='standing' "
+                "placement_frame='foot'>" +
+                    arm + "</model></sdf>");
+  const auto place = [&](const std::string& name, const std::string& more) {
+    return world(include(name, "<name>n</name><pose>1 0 0 0 0 0</pose>" + more), "1.9")
+        .models.at(0)
+        .pose;
+  };
+  expect_near(place("arm", "").p, {1, 0, 0});
+  expect_near(place("arm", "<placement_frame>foot</placement_frame>").p, {1, 0, 2});
+  expect_near(place("arm", "<placement_frame>tip</placement_frame>").p, {1, 0, -1});
+  expect_near(place("standing", "").p, {1, 0, 2});
+  expect_near(place("standing", "<placement_frame>tip</placement_frame>").p, {1, 0, -1});
+  EXPECT_HAS(error_of([&] { place("arm", "<placement_frame>head</placement_frame>"); }),
+             "<placement_frame>: found frame 'head', expected one of the model");
+  const auto nested = model("<link name='base'/><model name='n' placement_frame='foot'>" + arm +
+                                "</model><link name='on'><pose relative_to='n'/></link>",
+                            "1.9");
+  expect_near(nested->find_link("n::l")->X_ML.p, {0, 0, 2});
+}
+
+TEST_F(SdfInclude, FramesOfANestedModelAreFoundByTheirScopedNames) {
+  folder_.write_model("arm", "<link name='l'/><frame name='f'><pose>0 0 2 0 0 0</pose></frame>",
+                      "1.9");
+  const auto m =
+      model("<link name='base'/>" + include("arm", "<name>n</name><pose>1 0 0 0 0 0</pose>") +
+                "<joint name='j' type='fixed'><parent>base</parent><child>n::f</child></joint>",
+            "1.9");
+  EXPECT_EQ(m->find_joint("j")->child, "n::l");
+  expect_near(m->find_joint("j")->X_CJ.p, {0, 0, 2});
+}
+
 TEST_F(SdfInclude, MergesNestedModelElementsToAnyDepth) {
   const auto m = model(
       "<link name='a'/><model name='b'><pose>1 0 0 0 0 0</pose><link name='l'/>"

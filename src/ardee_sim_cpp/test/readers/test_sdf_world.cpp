@@ -31,8 +31,9 @@ TEST_F(SdfWorld, ReadsListingA15sSettings) {
   EXPECT_EQ(w.physics.step_s, 0.005);
   EXPECT_EQ(w.physics.real_time_update_rate_hz, 200.0);  // real time, at 5 ms a step
   EXPECT_EQ(w.physics.gravity_m_per_s2, Eigen::Vector3d(0, 0, -9.8));
-  EXPECT_TRUE(w.scene.sky && w.scene.grid && w.scene.shadows);
-  EXPECT_TRUE(warnings_->empty());
+  EXPECT_TRUE(w.scene.sky && w.scene.shadows);
+  EXPECT_EQ(warnings_->size(), 1u);
+  EXPECT_TRUE(warned("<clouds>: has no effect: the sky is clear"));
 }
 
 TEST_F(SdfWorld, PaceIsTheUpdateRateElseTheRealTimeFactorElseRealTime) {
@@ -106,7 +107,7 @@ TEST_F(SdfWorld, ReadsSceneAndPlaceOnEarth) {
       <plugin name='p' filename='libp.so'/>)");
   EXPECT_TRUE(w.scene.ambient.isApprox(Color(0.1f, 0.2f, 0.3f, 1)));
   EXPECT_TRUE(w.scene.background.isApprox(Color(0.4f, 0.5f, 0.6f, 1)));
-  EXPECT_FALSE(w.scene.sky || w.scene.shadows || w.scene.grid);
+  EXPECT_FALSE(w.scene.sky || w.scene.shadows);
   EXPECT_EQ(w.spherical_coordinates->latitude_deg, 40.1);
   EXPECT_EQ(w.spherical_coordinates->longitude_deg, -88.2);
   EXPECT_EQ(w.spherical_coordinates->elevation_m, 220.0);
@@ -131,21 +132,6 @@ TEST_F(SdfWorld, APointLightNeedsNoDirection) {
              "direction of length zero");
 }
 
-TEST_F(SdfWorld, ModelsStandWhereASavedWorldsStateSays) {
-  const std::string link = "<link name='l'/></model>";
-  const World w = world("<model name='a'><pose>1 2 3 0 0 0</pose>" + link +
-                        "<model name='b'><pose>4 5 6 0 0 0</pose>" + link +
-                        "<state world_name='w'><sim_time>3 5</sim_time><model name='a'>"
-                        "<pose frame=''>7 8 9 0 -0 1.5707963267948966</pose><scale>1 1 1</scale>"
-                        "<link name='l'><pose frame=''>7 8 9 0 0 0</pose></link></model>"
-                        "<model name='gone'><pose>0 0 0 0 0 0</pose></model></state>");
-  expect_near(w.models.at(0).pose.p, {7, 8, 9});
-  expect_near(w.models.at(0).pose * Eigen::Vector3d(1, 0, 0), {7, 9, 9});
-  expect_near(w.models.at(1).pose.p, {4, 5, 6});
-  EXPECT_EQ(warnings_->size(), 1u);
-  EXPECT_TRUE(warned("model 'gone'"));
-}
-
 TEST_F(SdfWorld, AnEmptyPoseIsNone) {
   const World w = world("<model name='a'><pose/><link name='l'><pose> </pose></link></model>");
   expect_near(w.models.at(0).pose.p, {0, 0, 0});
@@ -155,7 +141,7 @@ TEST_F(SdfWorld, AnEmptyPoseIsNone) {
 TEST_F(SdfWorld, SaysWhatItLeavesOut) {
   world("<actor name='a'/><road name='r'/><state world_name='w'/>");
   EXPECT_EQ(warnings_->size(), 2u);
-  EXPECT_TRUE(warned("<actor>: not supported in a world"));
+  EXPECT_TRUE(warned("<actor>: has no effect: not supported in a world, left out"));
 }
 
 }  // namespace

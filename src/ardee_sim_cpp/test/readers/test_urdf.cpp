@@ -71,7 +71,7 @@ TEST_F(Urdf, HoldsTheJointOfALinkWithoutInertial) {
       "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
   const auto held = robot(heavy + "<link name='b'/>" + joint("continuous", ""));
   EXPECT_EQ(held->joints.at(0).type, JointType::kFixed);
-  EXPECT_TRUE(warned("found no <inertial> on link 'b'"));
+  EXPECT_TRUE(warned("link 'b' by joint 'j'"));
   // What is fixed to a link moves with it and lends it its mass.
   const std::string carrier =
       "<link name='b'/><link name='c'><inertial><mass value='1'/>"
@@ -229,7 +229,7 @@ TEST_F(Urdf, AppliesJointBlocks) {
   const auto m = robot(kTwoLinks + joint("continuous", "") + R"(<gazebo reference='j'>
       <stopCfm>0.01</stopCfm><stopErp>0.3</stopErp><springStiffness>50</springStiffness>
       <springReference>0.1</springReference><implicitSpringDamper>1</implicitSpringDamper>
-      <provideFeedback>true</provideFeedback><fudgeFactor>0</fudgeFactor>
+      <provideFeedback>true</provideFeedback>
       <disableFixedJointLumping>true</disableFixedJointLumping></gazebo>)");
   const Joint& j = m->joints.at(0);
   EXPECT_EQ(j.stop_cfm, 0.01);
@@ -262,7 +262,8 @@ TEST_F(Urdf, WarnsOfWhatItDoesNotKnow) {
       "<gazebo><plugni/></gazebo>");
   EXPECT_EQ(warnings_->size(), 4u);
   EXPECT_TRUE(warned("test.urdf:2: <inertail>: not an element of <link> in URDF"));
-  EXPECT_TRUE(warned("found reference 'nobody', expected a link or joint"));
+  EXPECT_TRUE(
+      warned("found no link or joint that it refers to, expected one; it is left out: 'nobody'"));
   EXPECT_TRUE(warned("<mu3>: not known in a <gazebo> block of a link"));
   EXPECT_TRUE(warned("<plugni>: not known in a <gazebo> block of the model"));
 }

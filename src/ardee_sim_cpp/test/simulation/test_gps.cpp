@@ -107,13 +107,12 @@ TEST(Gps, exact_drift_is_correlated_over_its_time) {
 
 TEST(Gps, drift_of_the_velocity_moves_the_position) {
   TestWorld world(free_space(0.0), 0.1);
-  Entity& robot = world.spawn(
+  world.spawn(
       still(gps(kReference + std::string("<updateRate>10</updateRate>"
+                                         "<velocityDrift>0.5</velocityDrift>"
                                          "<velocityDriftFrequency>0</velocityDriftFrequency>"
                                          "<driftFrequency>0</driftFrequency>"))),
       "ball");
-  set(tuning(robot, "/fix/velocity"), "drift", 0.5);
-  world->reset_simulation();  // draws the drift
   world.run(5.0);
   const auto velocity = world.recorder().on<VectorReading>("/fix_velocity").back().vector;
   const auto readings = fixes(world);

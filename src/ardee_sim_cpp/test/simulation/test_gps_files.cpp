@@ -55,6 +55,57 @@ TEST(GpsFiles, plots_of_the_worlds_field_and_the_geofence_on_the_path) {
   EXPECT_NEAR(std_in_corn(), 1.0, 1e-9);
 }
 
+TEST(GpsFiles, regions_follow_fields_that_come_later_and_go) {
+  const TempFolder folder;
+  folder.write_model("field", "<static>true</static><link name='l'/>");
+  folder.write("field/plots.xacro", "<robot>" + kTwoPlots + "</robot>");
+  folder.write("default_gps_behavior.geofence", "<robot>" + kBands + "</robot>");
+  const ResourcePath path(folder.path());
+  const std::string field = "<include><uri>file://field</uri></include>";
+  std::string robot = still(gps("<gaussianNoise>0.1</gaussianNoise>"));
+  robot = robot.substr(robot.find("<model"), robot.find("</sdf>") - robot.find("<model"));
+  robot.insert(robot.find("<static>"), "<pose>30 0 0.5 0 0 0</pose>");
+  for (const std::string& text : {robot + field, field + robot}) {
+    TestWorld world(free_space(0.0) + text, 0.1);
+    world->step();
+    EXPECT_EQ(quality(world).back().region, "plot 8");
+    EXPECT_NEAR(quality(world).back().position_std_m, 0.5, 1e-9);
+    world->remove("field");
+    world->step();
+    EXPECT_EQ(quality(world).back().region, "");
+    EXPECT_NEAR(quality(world).back().position_std_m, 0.1, 1e-9);
+    Loader loader(ResourceLocator::from_environment(), Log([](LogLevel, const std::string&) {}));
+    SpawnRequest again;
+    again.name = "again";
+    again.model = loader.load_model(folder.path() + "/field/model.sdf");
+    world->spawn(again);
+    world->step();
+    EXPECT_EQ(quality(world).back().region, "plot 8");
+    const auto shown = world.recorder().on<RegionsReading>("/gps/regions");
+    ASSERT_EQ(shown.size(), 3u) << "once a change";
+    EXPECT_EQ(shown[1].regions.size(), 0u);
+    EXPECT_EQ(shown[2].regions.size(), 2u);
+    EXPECT_TRUE(world.messages().empty());
+  }
+}
+
+TEST(GpsFiles, a_field_that_comes_later_and_is_wrong_leaves_the_regions_as_they_are) {
+  const TempFolder folder;
+  folder.write_model("field", "<static>true</static><link name='l'/>");
+  folder.write("field/plots.xacro", "<robot>\n<plot/></robot>");
+  Loader loader(ResourceLocator::from_environment(), Log([](LogLevel, const std::string&) {}));
+  TestWorld world(free_space(0.0), 0.1);
+  world.spawn(still(gps("<gaussianNoise>0.1</gaussianNoise>")), "ball", at(30));
+  SpawnRequest field;
+  field.name = "field";
+  field.model = loader.load_model(folder.path() + "/field/model.sdf");
+  world->spawn(field);
+  world.run(0.5);
+  EXPECT_EQ(quality(world).back().region, "");
+  ASSERT_EQ(world.messages().size(), 1u);
+  EXPECT_NE(world.messages()[0].find("plots.xacro:2"), std::string::npos) << world.messages()[0];
+}
+
 TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
   const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + std::string(ARDEE_TEST_DATA) +
                            "/../../../ardee_geofence/default_gps_behavior.geofence</geofenceFile>";

@@ -150,6 +150,30 @@ TEST(Lidar, BeyondTheMaximumIsPlusInfinity) {
             std::numeric_limits<float>::infinity());
 }
 
+/// Times of the first scan of a post with 1081 beams over 270 degrees at 40 Hz.
+std::pair<double, double> times_of(std::string post, double step_s = 0.001) {
+  TestWorld world("", step_s);
+  world.spawn(post, "post");
+  world.run(0.05);
+  const LidarReading scan = world.recorder().on<LidarReading>("/scan").front();
+  return {scan.scan_time_s, scan.time_increment_s};
+}
+
+TEST(Lidar, TellsItsTimesAsATurningDeviceDoes) {
+  const auto [scan_s, increment_s] = times_of(lidar_post(kRay, "ray", 1081));
+  EXPECT_NEAR(scan_s, 0.025, 1e-12);
+  EXPECT_NEAR(increment_s, 0.025 / 1440.0, 1e-10);  // a quarter of a degree of a turn
+  EXPECT_EQ(times_of(lidar_post(kRay, "ray", 1)).second, 0.0);
+  const std::string key = "<timeIncrement>2e-5</timeIncrement>";
+  EXPECT_EQ(times_of(lidar_post(kGpu, "gpu_ray", 1081, 0.0, key)).second, 2e-5);
+}
+
+TEST(Lidar, WithoutARateScansOnceAStep) {
+  std::string post = lidar_post(kRay, "ray", 5);
+  const std::string rate = "<update_rate>40</update_rate>";
+  EXPECT_NEAR(times_of(post.erase(post.find(rate), rate.size()), 0.005).first, 0.005, 1e-12);
+}
+
 TEST(Lidar, ABackwardScanHasANegativeIncrement) {
   std::string post = lidar_post(kRay, "ray", 5);
   post.replace(post.find("-2.35619449"), 11, "1.57079633");
@@ -159,6 +183,7 @@ TEST(Lidar, ABackwardScanHasANegativeIncrement) {
   world.run(0.025);
   const LidarReading scan = world.recorder().on<LidarReading>("/scan").front();
   EXPECT_LT(scan.angle_increment_rad, 0.0);
+  EXPECT_GT(scan.time_increment_s, 0.0);
   EXPECT_NEAR(scan.ranges_m[0], 2.0, 1e-5);  // the first beam points left
 }
 

@@ -36,10 +36,10 @@ TEST_P(SkidSteerAtStep, TurnsLeftForPositiveYawRateButSlowerThanIdealWheelsWould
   world.command(robot, 0.0, 1.0);
   world.run(2.0);
   const double rate = world->state("rover", "").twist.angular.z();
-  // Four wheels cannot roll on one circle: they scrub, so the yaw rate lies below the commanded
-  // one.
-  EXPECT_GT(rate, 0.3);
-  EXPECT_LE(rate, 1.01);
+  // Wheels at (+-a, +-b) whose rims run as commanded slide by (w - w0) b along and w a across.
+  // Under Coulomb's friction of equal loads the moments cancel where (w - w0) b^2 + w a^2 = 0.
+  constexpr double kA = 0.15, kB = kRoverSeparation_m / 2.0;
+  EXPECT_NEAR(rate, kB * kB / (kA * kA + kB * kB), 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(Steps, SkidSteerAtStep, testing::Values(0.001, 0.005));
@@ -75,6 +75,8 @@ TEST(SkidSteer, OdometryIsTheTruthInTheWorldAndTheTwistIsTheBodys) {
   EXPECT_NEAR(last.twist.linear.y(), 0.0, 0.01);
   const std::array<double, 6> stock = {1e-4, 1e-4, 1e12, 1e12, 1e12, 0.01};
   EXPECT_EQ(last.pose_covariance, stock);
+  EXPECT_EQ(last.twist_covariance, stock);
+  EXPECT_TRUE(transforms.back().places_frame);
 }
 
 TEST(SkidSteer, EncoderOdometryStartsAtZeroAndFollowsTheWheels) {

@@ -51,7 +51,7 @@ TEST(Velodyne, LaysPointsOutByteForByte) {
   request.name = "wall";
   request.model = loader.load_model_text(
       "<sdf version='1.6'>" + board("wall", 0.0, 0.0, 6.0) + "</sdf>", "wall.sdf");
-  request.X_WM = Pose::from_xyz_rpy({2.005, 0, 0}, {0, 0, 0});
+  request.X_WM = Pose::from_xyz_rpy({2, 0, 0}, {0, 0, 0});
   request.is_static = true;
   request.label = 7;
   world->spawn(request);
@@ -68,13 +68,14 @@ TEST(Velodyne, LaysPointsOutByteForByte) {
   using Type = PointCloudReading::Type;
   const std::vector<std::tuple<std::string, std::uint32_t, Type>> expected{
       {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
-      {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32}};
+      {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32},
+      {"time", 28, Type::kFloat32}};
   ASSERT_EQ(cloud.fields.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     EXPECT_EQ(std::make_tuple(cloud.fields[k].name, cloud.fields[k].offset, cloud.fields[k].type),
               expected[k]);
   }
-  // The middle ring meets the wall squarely: x = 2.0f, intensity 1.0f, ring 1, label 7.
+  // The middle ring meets the wall squarely: x = 2.0f, intensity 1.0f, ring 1, label 7, time 0.0f.
   const std::array<std::uint8_t, 32> middle{0, 0, 0,    0x40, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
                                             0, 0, 0x80, 0x3F, 1, 0, 0, 0, 7, 0, 0, 0, 0, 0, 0, 0};
   for (std::size_t k = 0; k < middle.size(); ++k) {
@@ -171,6 +172,19 @@ TEST(Velodyne, MotionTowardsAWallBendsIt) {
     ++met;
   }
   EXPECT_GT(met, 60);
+}
+
+TEST(Velodyne, PointsTellWhenTheyWereTaken) {
+  TestWorld world(room());
+  const PointCloudReading cloud = cloud_in_motion(world, kDistorted, kOneMetreUp, {});
+  for (std::size_t column = 0; column < 181; ++column) {
+    EXPECT_NEAR(double(at<float>(cloud, column, 28)), -kSpin_s * double(180 - column) / 180.0, 1e-8)
+        << column;
+  }
+  TestWorld still_world(room());
+  const PointCloudReading frozen =
+      cloud_in_motion(still_world, "<organised>true</organised>", kOneMetreUp, {});
+  for (std::size_t column = 0; column < 181; ++column) EXPECT_EQ(at<float>(frozen, column, 28), 0);
 }
 
 TEST(Velodyne, WithoutARateATurnTakesAStep) {

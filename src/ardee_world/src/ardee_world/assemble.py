@@ -13,7 +13,8 @@ from ardee_models.output import model_directory, write_file
 from ardee_models.terrain import Ground
 from ardee_models.terrain_files import ground_model
 from ardee_models.writers.metadata import model_config
-from ardee_world.seating import is_generated, read_table, seat, seat_table, table_name
+from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
+from ardee_world.start import read_start, start_file
 from ardee_world.urdf_file import check_xml, split_field
 from ardee_world.writers.world import world_text
 
@@ -52,7 +53,7 @@ def _table(field: Path, model: str, ground: Optional[Ground]) -> Dict[str, str]:
         return {}
     path = field.parent / name
     text = read_table(path)
-    return {name: seat_table(text, path, ground) if ground else text}
+    return {name: seat_table(text, path, ground, own_pose(model)) if ground else text}
 
 
 def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> None:
@@ -85,6 +86,7 @@ def assemble(args: argparse.Namespace) -> Path:
     table = _table(field, model, ground if seated else None)
     if seated:
         model = seat(model, ground)
+    start = read_start(start_file(field)).on(ground)
     out = args.output
     _write_field(model, plots, table, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
@@ -92,7 +94,8 @@ def assemble(args: argparse.Namespace) -> Path:
         _refer_to_itself(folder, terrain.name, HEIGHTMAP)
     write_file(out / GEOFENCE, geofence.read_bytes())
     world = out / "worlds" / "custom.world"
-    write_file(world, world_text([HEIGHTMAP, FIELD]).encode())
+    write_file(world.with_suffix(".start.yaml"), start.text().encode())
+    write_file(world, world_text(HEIGHTMAP, FIELD).encode())
     return world
 
 

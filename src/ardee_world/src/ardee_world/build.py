@@ -14,6 +14,7 @@ from ardee_models.writers.terrain import write_terrain
 from ardee_world.cli import make_configured
 from ardee_world.clutter_models import MODELS, write_clutter_model
 from ardee_world.request import yaml_values
+from ardee_world.start import start_file
 from ardee_world.urdf_file import EMPTY
 
 
@@ -39,17 +40,18 @@ def missing_models(values: Dict[str, object], folders: Sequence[Path]) -> List[s
 
 def build_fields(plans: Path, models: Path, urdf: Path, folders: Sequence[Path]) -> None:
     """Fields of all plans in a folder. A field whose crop models are not there is left out, and said so."""
-    for path in sorted(plans.glob("*.yaml")):
-        values = yaml_values(path)
+    for plan in sorted(plans.glob("*.yaml")):
+        values = yaml_values(plan)
         missing = missing_models(values, folders)
         if missing:
-            print(f"{path.stem}: left out, there is no model {', '.join(missing)}")
+            print(f"{plan.stem}: left out, there is no model {', '.join(missing)}")
             continue
         # Includes: the .urdf.xacro is copied to where no table lies beside it
-        values.update(name=path.stem, output=str(models), format="sdf")
+        values.update(name=plan.stem, output=str(models), format="sdf")
         values.update(model_path=tuple(map(str, folders)))
-        field = make_configured(values) / f"{path.stem}.urdf.xacro"
-        write_file(urdf / field.name, field.read_bytes())
+        field = make_configured(values) / f"{plan.stem}.urdf.xacro"
+        for path in (field, start_file(field)):
+            write_file(urdf / path.name, path.read_bytes())
     write_file(urdf / "empty.urdf.xacro", EMPTY.encode())
 
 

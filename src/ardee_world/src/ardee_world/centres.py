@@ -8,10 +8,14 @@ from typing import Sequence
 import numpy as np
 
 from ardee_models.errors import GeneratorError
-from ardee_world.config import MAX_PLANTS
+from ardee_world.config import FAR_M, MAX_PLANTS
 from ardee_world.plots import Plan, Row
 
-_COLUMNS = "numbers in columns x_m, y_m (and, if you like, whole numbers in plot, row)"
+_MAX_PLOT = 100_000  # of plot and row numbers
+_COLUMNS = (
+    f"numbers from -{FAR_M:g} to {FAR_M:g} in columns x_m, y_m"
+    f" (and, if you like, whole numbers from 0 to {_MAX_PLOT} in plot, row)"
+)
 
 
 def plan_of(points_m: np.ndarray, plot: np.ndarray, row: np.ndarray) -> Plan:
@@ -32,8 +36,10 @@ def _line(path: Path, number: int, entry: dict) -> tuple:
         x, y = float(entry["x_m"]), float(entry["y_m"])
         plot, row = (int(entry.get(name) or 0) for name in ("plot", "row"))
     except (KeyError, TypeError, ValueError):
-        x = float("nan")
-    if None in entry or None in entry.values() or not np.isfinite(x) or not np.isfinite(y):
+        x = y = float("nan")
+        plot = row = 0
+    within = max(abs(x), abs(y)) <= FAR_M and 0 <= min(plot, row) and max(plot, row) <= _MAX_PLOT
+    if None in entry or None in entry.values() or not within:
         found = {k: v for k, v in entry.items() if k is not None}
         raise GeneratorError(f"{path}: line {number}: found {found}, expected {_COLUMNS}")
     return x, y, plot, row
@@ -43,7 +49,7 @@ def read_centres(path: Path) -> Plan:
     """Columns x_m and y_m, in the field's frame; without columns plot and row all in one row."""
     lines = []
     try:
-        with path.open(newline="", encoding="utf-8") as file:
+        with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
             header = reader.fieldnames or []
             if not {"x_m", "y_m"} <= set(header):
@@ -63,8 +69,8 @@ def read_centres(path: Path) -> Plan:
         raise GeneratorError(
             f"{path}: found {len(lines)} stalk centres, expected 1 to {MAX_PLANTS}"
         )
-    table = np.array(lines)
-    return plan_of(table[:, :2], table[:, 2].astype(int), table[:, 3].astype(int))
+    x, y, plot, row = zip(*lines)
+    return plan_of(np.column_stack((x, y)), np.array(plot), np.array(row))
 
 
 def listed_centres(points: Sequence, where: str) -> Plan:
@@ -72,12 +78,13 @@ def listed_centres(points: Sequence, where: str) -> Plan:
     good = isinstance(points, (list, tuple)) and all(
         isinstance(p, (list, tuple))
         and len(p) == 2
-        and all(isinstance(v, (int, float)) and np.isfinite(v) for v in p)
+        and all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in p)
+        and all(abs(v) <= FAR_M for v in p)
         for p in points
     )
     if not good or not 1 <= len(points) <= MAX_PLANTS:
         raise GeneratorError(
-            f"{where}: centers: expected a list of 1 to {MAX_PLANTS} pairs [x, y] in m"
+            f"{where}: centers: expected a list of 1 to {MAX_PLANTS} pairs [x, y] in m, from -{FAR_M:g} to {FAR_M:g}"
         )
     zeros = np.zeros(len(points), dtype=int)
     return plan_of(np.array(points, dtype=float), zeros, zeros)

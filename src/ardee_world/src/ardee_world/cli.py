@@ -83,7 +83,7 @@ def _add_special(group: Any) -> None:
         nargs=3,
         default=none,
         metavar=("X", "Y", "YAW"),
-        help=f"where the world will include the field [m m rad] (default {' '.join(map(str, usual.world_pose))},"
+        help=f"where the field stands in the world [m m rad] (default {' '.join(map(str, usual.world_pose))},"
         " as farm.world does)",
     )
     group.add_argument(
@@ -165,7 +165,7 @@ def make_configured(values: Values) -> Path:
         raise GeneratorError(
             f"emergence: found no plant that emerged of {len(layout.planned.centres_m)} planned, expected some"
         )
-    return write_field(layout, sources.name, Path(sources.output), sources.format)
+    return write_field(layout, sources.name, Path(sources.output), sources.format, terrain)
 
 
 def main() -> int:

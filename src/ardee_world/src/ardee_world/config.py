@@ -11,8 +11,8 @@ from ardee_models.errors import GeneratorError
 from ardee_models.options import check, option
 
 MAX_PLANTS = 5_000_000
-_FAR_M = 1e5
-_LENGTH = (0.0, _FAR_M)
+FAR_M = 1e5
+_LENGTH = (0.0, FAR_M)
 _PROBABILITY = (0.0, 1.0)
 _COUNT = (1, 100_000)
 
@@ -26,9 +26,9 @@ class Plots:
     plots_y: int = option(1, "number of plots one behind the other", _COUNT)
     row_length_m: float = option(8.134, "length of rows (50 plants)", _LENGTH)
     # 30 inches, usual for corn
-    row_spacing_m: float = option(0.762, "between rows", (0.01, _FAR_M))
+    row_spacing_m: float = option(0.762, "between rows", (0.01, FAR_M))
     # 32,000 plants an acre in 30 inch rows (OSU's optimum)
-    stalk_spacing_m: float = option(0.166, "between stalks in a row", (0.01, _FAR_M))
+    stalk_spacing_m: float = option(0.166, "between stalks in a row", (0.01, FAR_M))
     plot_spacing_x_m: float = option(1.524, "between the outer rows of plots side by side", _LENGTH)
     plot_spacing_y_m: float = option(1.5, "between the ends of plots one behind the other", _LENGTH)
     headland_m: float = option(1.0, "from the field's origin to the first stalks", _LENGTH)
@@ -59,9 +59,9 @@ class RowShape:
     row_direction_deg: float = option(
         -90.0, "direction in which rows run, from the field's x axis", (-360.0, 360.0)
     )
-    curve_radius_m: float = option(50.0, "of curved rows, positive to the left", (-_FAR_M, _FAR_M))
+    curve_radius_m: float = option(50.0, "of curved rows, positive to the left", (-FAR_M, FAR_M))
     sine_amplitude_m: float = option(0.3, "of sine rows", _LENGTH)
-    sine_wavelength_m: float = option(10.0, "of sine rows", (0.1, _FAR_M))
+    sine_wavelength_m: float = option(10.0, "of sine rows", (0.1, FAR_M))
     row_expression: Optional[str] = option(
         None, "y(x) [m] of rows of shape expression: x along, y to the left; e.g. '0.2*sin(x/2)'"
     )
@@ -72,7 +72,7 @@ class RowShape:
         5.0, "of the spot from the field's origin, along the rows", _LENGTH
     )
     island_offset_m: float = option(
-        0.0, "of the spot to the left of the middle lane", (-_FAR_M, _FAR_M)
+        0.0, "of the spot to the left of the middle lane", (-FAR_M, FAR_M)
     )
     cross_rows: int = option(0, "rows across each headland", (0, 1000))
     cross_rows_at: str = option("both", "which headlands", choices=("both", "start", "end"))
@@ -86,7 +86,7 @@ class Stand:
     """Gaps and doubles in the rows, and plants that lean."""
 
     gaps: int = option(0, "gaps in the rows of the field", (0, MAX_PLANTS))
-    gap_length_m: float = option(1.0, "length of each gap, in whole plants", (0.01, _FAR_M))
+    gap_length_m: float = option(1.0, "length of each gap, in whole plants", (0.01, FAR_M))
     doubles: float = option(0.0, "probability that two plants stand at a place", _PROBABILITY)
     double_spacing_m: float = option(0.03, "between the two, along the row", (0.0, 10.0))
     lodging: float = option(0.0, "probability that a plant leans", _PROBABILITY)
@@ -143,9 +143,9 @@ class FieldConfig:
     stalk_height_max_m: Optional[float] = option(None, "highest plant height", (0.01, 20.0))
     origin_latitude_deg: Optional[float] = option(None, "", (-89.9, 89.9))
     origin_longitude_deg: Optional[float] = option(None, "", (-180.0, 180.0))
-    # x m, y m, yaw rad: where a world includes the field
+    # x m, y m, yaw rad
     world_pose: Tuple[float, float, float] = option(
-        (0.0, 0.0, -1.57), "where the world will include the field, X Y YAW [m m rad]"
+        (0.0, 0.0, -1.57), "where the field stands in the world, X Y YAW [m m rad]", (-FAR_M, FAR_M)
     )
 
     def covariance(self) -> np.ndarray:

@@ -3,16 +3,19 @@
 
 import re
 from pathlib import Path
-from typing import Optional
+from typing import List, Optional, Tuple
 
 import numpy as np
 
 from ardee_models.errors import GeneratorError
 from ardee_models.terrain import Ground
+from ardee_world.layout import to_world
 from ardee_world.writers.instances import HEADER
 from ardee_world.writers.sdf import EXTENSION_NAMESPACE
 
+WorldPose = Tuple[float, float, float]
 _TABLE = re.compile(r"<ardee:instances>\s*([A-Za-z0-9_][A-Za-z0-9_.-]*)\s*</ardee:instances>")
+_OWN_POSE = re.compile(r"<pose>([^<]*)</pose>")
 _POSE = re.compile(r"(<include>.*?<pose>)([^<]*)(</pose>)", re.DOTALL)
 
 
@@ -21,8 +24,28 @@ def is_generated(model: str) -> bool:
     return EXTENSION_NAMESPACE in model[:400]
 
 
+def own_pose(model: str) -> WorldPose:
+    """Where the <pose> of a generated field's model.sdf stands it: x [m], y [m], yaw [rad]."""
+    found = _OWN_POSE.search(model.split("<include>", 1)[0])
+    if not found:
+        return 0.0, 0.0, 0.0
+    try:
+        x, y, *upright, yaw = (float(value) for value in found.group(1).split())
+    except ValueError:
+        upright = []
+    if upright != [0.0, 0.0, 0.0]:
+        raise GeneratorError(f"field: found <pose>{found.group(1)}</pose>, expected X Y 0 0 0 YAW")
+    return x, y, yaw
+
+
+def _heights(xy: np.ndarray, ground: Ground, pose: WorldPose) -> List[float]:
+    """Of the ground below places of a field that stands at `pose`."""
+    world = to_world(xy, pose)
+    return ground.height_at(world[:, 0], world[:, 1]).tolist()
+
+
 def seat(model: str, ground: Ground) -> str:
-    """The text of model.sdf with its includes, in a world that includes it without a turn, on the ground."""
+    """The text of model.sdf with its includes, in a world that stands it at its own pose, on the ground."""
     poses = [match.group(2).split() for match in _POSE.finditer(model)]
     if not poses:
         return model
@@ -30,7 +53,7 @@ def seat(model: str, ground: Ground) -> str:
         xy = np.array([pose[:2] for pose in poses], dtype=float)
     except ValueError as error:
         raise GeneratorError(f"field: found a pose that is no six numbers: {error}") from error
-    heights = iter(ground.height_at(xy[:, 0], xy[:, 1]).tolist())
+    heights = iter(_heights(xy, ground, own_pose(model)))
 
     def placed(match: "re.Match") -> str:
         x, y, _, *turn = match.group(2).split()
@@ -57,8 +80,8 @@ def read_table(path: Path) -> str:
     return text
 
 
-def seat_table(text: str, path: Path, ground: Ground) -> str:
-    """The text of a table of plants on the ground; `path` is for messages."""
+def seat_table(text: str, path: Path, ground: Ground, pose: WorldPose) -> str:
+    """The text of a table of plants of a field at `pose`, on the ground; `path` is for messages."""
     rows = [line.split(",") for line in text.splitlines()[1:]]
     xy = np.empty((len(rows), 2))
     for number, row in enumerate(rows):
@@ -70,6 +93,6 @@ def seat_table(text: str, path: Path, ground: Ground) -> str:
             raise GeneratorError(
                 f"{path}:{number + 2}: found {','.join(row)[:80]!r}, expected {HEADER.strip()}: {error}"
             ) from error
-    for row, height in zip(rows, ground.height_at(xy[:, 0], xy[:, 1]).tolist()):
+    for row, height in zip(rows, _heights(xy, ground, pose)):
         row[4] = f"{height + 0.0:.4f}"
     return HEADER + "".join(",".join(row) + "\n" for row in rows)

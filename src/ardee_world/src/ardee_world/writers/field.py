@@ -3,11 +3,14 @@
 
 import shutil
 from pathlib import Path
+from typing import Optional
 
 from ardee_models.output import model_directory
+from ardee_models.terrain import Ground
 from ardee_models.writers.metadata import model_config
 from ardee_world.layout import Layout
 from ardee_world.request import LARGEST_SDF
+from ardee_world.start import start_before
 from ardee_world.urdf_file import SEPARATOR
 from ardee_world.writers.instances import FILE_NAME, model_text, table_text
 from ardee_world.writers.map_png import draw_map
@@ -26,7 +29,7 @@ def _write_model(layout: Layout, name: str, folder: Path, form: str) -> None:
     """model.sdf, plots.xacro, and both in <name>.urdf.xacro: the plants first, then the separator, then the plots."""
     stream = is_stream(form, layout)
     with (folder / "model.sdf").open("w") as file:
-        file.writelines([model_text(name)] if stream else sdf_text(layout, name))
+        file.writelines([model_text(layout, name)] if stream else sdf_text(layout, name))
     if stream:
         with (folder / FILE_NAME).open("w") as file:
             file.writelines(table_text(layout))
@@ -37,13 +40,21 @@ def _write_model(layout: Layout, name: str, folder: Path, form: str) -> None:
         whole.write(f"{SEPARATOR}\n{plots}")
 
 
-def write_field(layout: Layout, name: str, parent: Path, form: str = "auto") -> Path:
+def write_field(
+    layout: Layout,
+    name: str,
+    parent: Path,
+    form: str = "auto",
+    terrain: Optional[Ground] = None,
+) -> Path:
     """Write parent/name, replacing an earlier model of that name; returns its path."""
     columns, clutter = plant_columns(layout), clutter_columns(layout)
     with model_directory(parent, name) as folder:
         text = f"Crop field of {layout.count()} plants, procedural, seed {layout.seed}"
         (folder / "model.config").write_text(model_config(name, text))
         _write_model(layout, name, folder, form)
+        start = start_before(layout).on(terrain)
+        (folder / f"{name}.start.yaml").write_text(start.text())
         with (folder / "truth.csv").open("w") as file:
             file.writelines(csv_text(columns))
         if clutter:

@@ -4,7 +4,7 @@
 from typing import Iterable, Iterator
 
 from ardee_world.layout import Layout
-from ardee_world.writers.sdf import EXTENSION_NAMESPACE, Placed, placed_items
+from ardee_world.writers.sdf import EXTENSION_NAMESPACE, Placed, placed_items, pose_line
 
 FILE_NAME = "plants.csv"
 HEADER = "model,name,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,scale,label\n"
@@ -12,16 +12,18 @@ _MODEL = """<?xml version="1.0"?>
 <sdf version="1.5" xmlns:ardee="{namespace}">
   <model name="{name}">
     <static>true</static>
-    <ardee:instances>{file}</ardee:instances>
+{pose}    <ardee:instances>{file}</ardee:instances>
   </model>
 </sdf>
 """
 _ROW = "model://%s,%s_%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%d\n"
 
 
-def model_text(name: str) -> str:
+def model_text(layout: Layout, name: str) -> str:
     """Text of model.sdf."""
-    return _MODEL.format(namespace=EXTENSION_NAMESPACE, name=name, file=FILE_NAME)
+    return _MODEL.format(
+        namespace=EXTENSION_NAMESPACE, name=name, pose=pose_line(layout), file=FILE_NAME
+    )
 
 
 def _rows(items: Iterable[Placed]) -> Iterator[str]:

@@ -12,7 +12,8 @@ _HEAD = """<?xml version="1.0"?>
 <sdf version="1.5" xmlns:ardee="{namespace}">
   <model name="{name}">
     <static>true</static>
-"""
+{pose}"""
+_POSE = "    <pose>{} {} 0 0 0 {}</pose>\n"
 _ITEM = """    <include>
       <uri>model://%s</uri>
       <name>%s_%d</name>
@@ -24,6 +25,11 @@ _ITEM = """    <include>
 _TAIL = """  </model>
 </sdf>
 """
+
+
+def pose_line(layout: Layout) -> str:
+    """The model's own <pose>: where a world stands it that includes it without another one."""
+    return _POSE.format(*(repr(float(value) + 0.0) for value in layout.config.world_pose))
 
 
 def _scale_line(scale: float) -> str:
@@ -55,7 +61,7 @@ def placed_items(layout: Layout) -> Iterator[Placed]:
 
 def sdf_text(layout: Layout, name: str) -> Iterator[str]:
     """Pieces of the file in order."""
-    yield _HEAD.format(namespace=EXTENSION_NAMESPACE, name=name)
+    yield _HEAD.format(namespace=EXTENSION_NAMESPACE, name=name, pose=pose_line(layout))
     for model, kind, number, (x, y, z), (roll, pitch, yaw), scale, label in placed_items(layout):
         tilt = "0 0" if roll == 0.0 and pitch == 0.0 else f"{roll:.4f} {pitch:.4f}"
         yield _ITEM % (model, kind, number, x, y, z, tilt, yaw, _scale_line(scale), label)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A world file that includes models at its origin, with the light and physics of thesis Listing A.22."""
-
-from typing import Sequence
+"""A world file that includes a terrain at its origin and a field, with the light and physics of thesis Listing A.22."""
 
 _HEAD = """<?xml version="1.0" ?>
 <sdf version='1.5'>
@@ -39,20 +37,21 @@ _HEAD = """<?xml version="1.0" ?>
 
     <!-- Configure all of the scene parameters -->
     <scene>
-      <!-- Use a blue sky with moving clouds -->
-      <sky>
-        <clouds>
-          <speed>12</speed>
-        </clouds>
-      </sky>
+      <!-- Use a blue sky -->
+      <sky/>
       <!-- Show the grid on the floor -->
       <grid>true</grid>
     </scene>
 
 """
-_INCLUDE = """    <include>
-      <uri>model://{name}</uri>
+_INCLUDES = """    <include>
+      <uri>model://{terrain}</uri>
       <pose>0 0 0 0 0 0</pose>
+    </include>
+
+    <!-- Without a pose here, it stands where its own says -->
+    <include>
+      <uri>model://{field}</uri>
     </include>
 """
 _TAIL = """  </world>
@@ -60,6 +59,6 @@ _TAIL = """  </world>
 """
 
 
-def world_text(models: Sequence[str]) -> str:
+def world_text(terrain: str, field: str) -> str:
     """Text of a world."""
-    return _HEAD + "".join(_INCLUDE.format(name=name) for name in models) + _TAIL
+    return _HEAD + _INCLUDES.format(terrain=terrain, field=field) + _TAIL

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace ardee {
+
+/// Versions of SDF as numbers that compare: 1.7 is 107, 1.10 is 110. Files of a newer version than
+/// kNewestSdf are read as that; kNewestClassicSdf is Gazebo Classic's.
+constexpr int kNewestSdf = 112;
+constexpr int kNewestClassicSdf = 107;
+
+/// None if the text is no version.
+std::optional<int> parse_sdf_version(const std::string& text);
+std::string sdf_version_text(int version);
+
+}  // namespace ardee

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/readers/urdf_joint.h"
+
+#include <limits>
+#include <map>
+
+#include "ardee_sim/readers/urdf_link.h"
+
+namespace ardee {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// None if nothing holds the child.
+std::optional<JointType> read_type(const Node& joint) {
+  static const std::map<std::string, std::optional<JointType>> types{
+      {"fixed", JointType::kFixed},
+      {"revolute", JointType::kRevolute},
+      {"continuous", JointType::kContinuous},
+      {"prismatic", JointType::kPrismatic},
+      {"floating", std::nullopt},
+      {"planar", std::nullopt}};
+  const std::string type = joint.required_attribute("type");
+  const auto found = types.find(type);
+  if (found != types.end()) return found->second;
+  throw joint.error("found joint type '" + type +
+                    "', expected fixed, revolute, continuous, prismatic, floating or planar");
+}
+
+/// Exporters write effort="0" velocity="0", which URDF requires, where nothing is known; Gazebo's
+/// drives turn such wheels all the same.
+double unlimited_unless_positive(const Node& limit, const char* name) {
+  limit.required_attribute(name);
+  const double value = limit.attribute_number(name, 0.0, -kInfinity, kInfinity);
+  return value > 0.0 ? value : kInfinity;
+}
+
+void read_limit(const Node& node, const std::string& type, Joint& joint) {
+  const auto limit = node.child("limit");
+  const bool ends = type == "revolute" || type == "prismatic";
+  if (!limit && ends) {
+    throw node.error("found no <limit> in a " + type + " joint, expected one");
+  }
+  if (!limit) return;
+  joint.axis.effort = unlimited_unless_positive(*limit, "effort");
+  joint.axis.velocity = unlimited_unless_positive(*limit, "velocity");
+  const double lower = limit->attribute_number("lower", 0.0, -kInfinity, kInfinity);
+  const double upper = limit->attribute_number("upper", 0.0, -kInfinity, kInfinity);
+  if (!ends) return;
+  if (lower > upper) {
+    throw limit->error("found a lower limit above the upper, expected it below");
+  }
+  joint.axis.lower = lower;
+  joint.axis.upper = upper;
+}
+
+Eigen::Vector3d read_axis(const Node& joint) {
+  const auto node = joint.child("axis");
+  if (!node) return Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d axis = node->attribute_vector3("xyz", Eigen::Vector3d::UnitX());
+  if (axis.norm() > 1e-9) return axis.normalized();
+  throw node->error("found '" + node->attribute("xyz") + "', expected an axis longer than zero");
+}
+
+/// Springs are not of URDF itself, but written by some for Gazebo's sake.
+void read_dynamics(const Node& node, JointAxis& axis) {
+  const auto dynamics = node.child("dynamics");
+  if (!dynamics) return;
+  axis.damping = dynamics->attribute_number("damping", 0.0);
+  axis.friction = dynamics->attribute_number("friction", 0.0);
+  axis.spring_stiffness = dynamics->attribute_number("spring_stiffness", 0.0);
+  axis.spring_reference = dynamics->attribute_number("spring_reference", 0.0);
+}
+
+}  // namespace
+
+UrdfJoint read_urdf_joint(const Node& node, Log& log) {
+  UrdfJoint made;
+  made.joint.name = node.required_attribute("name");
+  made.joint.source = node.source();
+  made.joint.parent = node.required("parent").required_attribute("link");
+  made.joint.child = node.required("child").required_attribute("link");
+  made.X_PC = read_urdf_origin(node);
+  const auto type = read_type(node);
+  const std::string type_name = node.attribute("type");
+  made.is_free = !type;
+  made.joint.type = type.value_or(JointType::kFixed);
+  if (type_name == "planar") {
+    log.warn(node.source(), "planar joints are not supported, the child moves freely");
+  }
+  if (made.joint.type == JointType::kFixed) return made;
+  made.joint.axis.axis = read_axis(node);
+  read_limit(node, type_name, made.joint);
+  read_dynamics(node, made.joint.axis);
+  return made;
+}
+
+}  // namespace ardee

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/description/model.h"
+#include "ardee_sim/readers/xml.h"
+
+namespace ardee {
+
+/// A URDF <joint>: how it moves, and where it hangs its child.
+struct UrdfJoint {
+  Joint joint;
+  Pose X_PC;             // at zero, in the parent link's frame
+  bool is_free = false;  // nothing holds the child of a floating or planar joint, as in Gazebo
+};
+
+UrdfJoint read_urdf_joint(const Node& joint, Log& log);
+
+}  // namespace ardee

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What becomes of each element and attribute of URDF, and of <gazebo> blocks in it.
+// docs/support.md is made from this.
+#include "ardee_sim/readers/schema.h"
+
+namespace ardee {
+namespace {
+
+constexpr Treatment acts = Treatment::kActs;
+constexpr Treatment settled = Treatment::kSettled;
+constexpr Treatment no_effect = Treatment::kNoEffect;
+constexpr Treatment elsewhere = Treatment::kElsewhere;
+
+const std::vector<SchemaRow>& urdf_rows() {
+  static const std::vector<SchemaRow> rows{
+      {"robot", acts, "@name link joint material gazebo"},
+      {"robot", settled, "@version", "there is one URDF"},
+      {"robot", no_effect, "transmission", "there is no ros_control to read it"},
+      {"robot", no_effect, "sensor", "a <sensor> in a <gazebo> block measures"},
+      {"gazebo", elsewhere, "@reference", "see the <gazebo> blocks"},
+      {"link", acts, "@name inertial visual collision"},
+      {"link", settled, "@type verbose", "of older tools, and for people"},
+      {"link", no_effect, "self_collision_checking", "a <gazebo> block's <selfCollide> says that"},
+      {"inertial", acts, "origin mass inertia"},
+      {"visual", acts, "@name origin geometry material"},
+      {"collision", acts, "@name origin geometry"},
+      {"collision", settled, "verbose", "of older tools, and for people"},
+      {"collision", no_effect, "contact_coefficients",
+       "a <gazebo> block's <mu1> and so on say that"},
+      {"origin", acts, "@xyz @rpy"},
+      {"mass", acts, "@value"},
+      {"inertia", acts, "@ixx @ixy @ixz @iyy @iyz @izz"},
+      {"geometry", acts, "box cylinder sphere mesh", "another shape is refused"},
+      {"box", acts, "@size"},
+      {"cylinder", acts, "@radius @length"},
+      {"sphere", acts, "@radius"},
+      {"mesh", acts, "@filename @scale"},
+      {"material", acts, "@name color texture"},
+      {"color", acts, "@rgba"},
+      {"texture", acts, "@filename"},
+      {"joint", acts, "@name @type origin parent child axis dynamics limit"},
+      {"joint", no_effect, "mimic", "not supported, the joint moves freely"},
+      {"joint", no_effect, "calibration", "encoders need none"},
+      {"joint", no_effect, "safety_controller", "<limit> counts"},
+      {"joint", no_effect, "hardwareInterface", "there is no ros_control to read it"},
+      {"parent", acts, "@link"},
+      {"child", acts, "@link"},
+      {"axis", acts, "@xyz"},
+      {"limit", acts, "@lower @upper @effort @velocity"},
+      {"dynamics", acts, "@damping @friction @spring_stiffness @spring_reference"},
+  };
+  return rows;
+}
+
+const std::vector<SchemaRow>& gazebo_rows() {
+  static const std::vector<SchemaRow> rows{
+      {"robot", acts, "@reference plugin joint static"},
+      {"robot", acts, "selfCollide self_collide", "two names of one thing"},
+      {"robot", settled, "allow_auto_disable", "bodies at rest are simulated as others are"},
+      {"robot", no_effect, "enable_wind", "no wind blows", "false"},
+      {"link", acts, "@reference sensor visual collision velocity_decay gravity kinematic"},
+      {"link", acts, "mu mu1 mu2 fdir1 frictionCone slip1 slip2 kp kd",
+       "of all collisions of the link; <mu> is <mu1>"},
+      {"link", acts, "minDepth min_depth maxVel max_vel maxContacts max_contacts",
+       "of all collisions of the link; two names each"},
+      {"link", acts, "material", "of all visuals of the link"},
+      {"link", acts, "selfCollide self_collide laserRetro laser_retro", "two names each"},
+      {"link", acts, "turnGravityOff", "the opposite of <gravity>"},
+      {"link", acts, "dampingFactor", "both numbers of <velocity_decay>"},
+      {"link", no_effect, "enable_wind", "no wind blows", "false"},
+      {"link", no_effect, "must_be_base_link", "joints say what is held", "false"},
+      {"link", no_effect, "projector audio_sink audio_source battery light particle_emitter",
+       "not supported in a link, left out"},
+      {"joint", acts,
+       "@reference stopCfm stop_cfm stopErp stop_erp springStiffness spring_stiffness "
+       "springReference spring_reference",
+       "two names each"},
+      {"joint", settled, "provideFeedback provide_feedback",
+       "nobody asks for it, and it costs nothing"},
+      {"joint", acts, "physics", "its <ode><limit>"},
+      {"joint", no_effect, "implicitSpringDamper implicit_spring_damper cfmDamping cfm_damping",
+       "springs and dampers are implicit", "true"},
+      {"joint", settled, "disableFixedJointLumping preserveFixedJoint",
+       "links that are fixed to each other keep their names"},
+      {"joint", no_effect, "fudgeFactor fudge_factor", "motors are exact at the stops", "0"},
+      {"joint", no_effect, "initialJointPosition initial_joint_position",
+       "a joint starts as the links stand; spawn_model -J sets it", "0"},
+  };
+  return rows;
+}
+
+}  // namespace
+
+const Schema& urdf_schema() {
+  static const Schema schema("URDF", urdf_rows());
+  return schema;
+}
+
+const Schema& gazebo_schema() {
+  static const Schema schema("URDF", gazebo_rows(), &sdf_schema());
+  return schema;
+}
+
+}  // namespace ardee

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/simulation/simulation.h"
+
+namespace ardee {
+
+/// A plugin of the registry, made on a small robot with no keys but those that it cannot do
+/// without.
+class MadePlugin {
+ public:
+  /// `more` stands in the plugin's element too. Throws std::logic_error if it cannot be made.
+  MadePlugin(const std::string& file, bool in_sensor, const std::string& more = "");
+
+  Device& device() const { return *device_; }
+  /// What it asked for.
+  const KeyLog& keys() const { return *keys_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  bool make(const std::string& more);
+  void add_needed();
+
+  std::string file_;
+  bool in_sensor_;
+  std::map<std::string, std::string> given_;
+  std::string problem_;
+  std::vector<std::string> warnings_;
+  std::shared_ptr<KeyLog> keys_;
+  std::unique_ptr<Simulation> simulation_;
+  Device* device_ = nullptr;
+};
+
+}  // namespace ardee

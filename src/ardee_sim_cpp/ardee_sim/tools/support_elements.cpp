@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <sstream>
+
+#include "ardee_sim/readers/schema.h"
+#include "ardee_sim/tools/support_markdown.h"
+
+namespace ardee {
+namespace {
+
+std::string in_code(const std::string& words) {
+  std::istringstream stream(words);
+  std::string all;
+  for (std::string word; stream >> word;) all += (all.empty() ? "`" : " `") + word + "`";
+  return all;
+}
+
+/// "a|b" as `a` or `b`.
+std::string alternatives(std::string text) {
+  for (std::size_t bar; (bar = text.find('|')) != std::string::npos;) {
+    text.replace(bar, 1, "` or `");
+  }
+  return "`" + text + "`";
+}
+
+std::string outcome(const SchemaRow& row) {
+  const std::string note = row.note;
+  switch (row.treatment) {
+    case Treatment::kActs:
+      return note.empty() ? "acts" : "acts: " + note;
+    case Treatment::kSettled:
+      return "nothing to do: " + note;
+    case Treatment::kNoEffect:
+      return "warning" + (*row.harmless ? " unless " + alternatives(row.harmless) : "") + ": " +
+             note;
+    case Treatment::kElsewhere:
+      break;
+  }
+  return note;
+}
+
+void write_table(const Schema& schema, std::ostringstream& page) {
+  page << "| in | elements and @attributes | what becomes of them |\n|---|---|---|\n";
+  for (const SchemaRow& row : schema.rows()) {
+    page << "| `" << row.place << "` | " << in_code(row.names) << " | " << outcome(row) << " |\n";
+  }
+  page << "\n";
+}
+
+}  // namespace
+
+std::string elements_in_markdown() {
+  std::ostringstream page;
+  page << "## SDF\n\nVersions 1.2 to 1.12. Where a name means two things, the column on the left "
+          "says which: `joint/physics` is the\n`<physics>` of a joint. What is within an element "
+          "that has no effect has none either.\n\n";
+  write_table(sdf_schema(), page);
+  page << "## URDF\n\n";
+  write_table(urdf_schema(), page);
+  page << "## `<gazebo>` blocks of a URDF\n\nOf a link, a joint, or (without `reference`) of the "
+          "robot. What SDF has as well is as there.\n\n";
+  write_table(gazebo_schema(), page);
+  return page.str();
+}
+
+}  // namespace ardee

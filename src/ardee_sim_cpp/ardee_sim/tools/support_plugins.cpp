@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Writes down what each plugin of the registry asks for when it is made.
+#include <iterator>
+#include <sstream>
+
+#include "ardee_sim/readers/gz_systems.h"
+#include "ardee_sim/tools/made_plugin.h"
+#include "ardee_sim/tools/support_markdown.h"
+
+namespace ardee {
+namespace {
+
+constexpr const char* kMessages[] = {
+    "sensor_msgs/LaserScan",        "nav_msgs/Odometry",         "tf2_msgs/TFMessage",
+    "sensor_msgs/JointState",       "sensor_msgs/Imu",           "sensor_msgs/NavSatFix",
+    "geometry_msgs/Vector3Stamped", "sensor_msgs/MagneticField", "ardee_msgs/Encoder",
+    "ardee_msgs/Battery",           "sensor_msgs/BatteryState",  "sensor_msgs/Range",
+    "sensor_msgs/PointCloud2",      "sensor_msgs/PointCloud",    "sensor_msgs/Image",
+    "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
+static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string all;
+  for (const std::string& part : parts) all += (all.empty() ? "" : ", ") + part;
+  return all;
+}
+
+void write_ports(Device& device, std::ostringstream& page) {
+  std::vector<std::string> out, in, calls;
+  for (const Output& output : device.outputs()) {
+    out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
+  }
+  for (const Input& input : device.inputs()) {
+    in.push_back("`" + input.topic + "` (geometry_msgs/Twist)");
+  }
+  for (const NumberInput& input : device.number_inputs()) {
+    in.push_back("`" + input.topic + "` (std_msgs/Float64)");
+  }
+  for (const Trigger& trigger : device.triggers()) {
+    in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
+  }
+  for (const Service& service : device.services()) calls.push_back("`" + service.name + "`");
+  for (const Tuning& tuning : device.tunings()) {
+    calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
+  }
+  if (!out.empty()) page << "Publishes " << joined(out) << ". ";
+  if (!in.empty()) page << "Listens to " << joined(in) << ". ";
+  if (!calls.empty()) page << "Serves " << joined(calls) << ".";
+}
+
+void write_keys(const KeyLog& keys, std::ostringstream& page) {
+  std::vector<std::string> ignored;
+  std::string rows;
+  for (const AskedKey& key : keys.keys()) {
+    if (key.is_ignored) {
+      ignored.push_back("`" + key.name + "`");
+      continue;
+    }
+    std::string fallback = key.is_required ? "required" : "";
+    if (!key.fallback.empty()) fallback = "`" + key.fallback + "`";
+    rows += "| `" + key.name + "` | " + key.kind + " | " + fallback + " |\n";
+  }
+  page << "| key | | default |\n|---|---|---|\n" << rows << "\n";
+  if (!ignored.empty()) page << "Nothing to do: " << joined(ignored) << ".\n\n";
+}
+
+void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& page) {
+  const MadePlugin made(file, in_sensor);
+  page << "### `" << file << "`\n\n" << (in_sensor ? "Of a sensor. " : "Of a model. ");
+  write_ports(made.device(), page);
+  page << "\n\n";
+  write_keys(made.keys(), page);
+}
+
+void write_systems(std::ostringstream& page) {
+  page
+      << "### Systems and sensors of newer Gazebo\n\n`gz-sim-NAME-system` and "
+         "`ignition-gazebo-NAME-system` are read as the plugins that do their work; others are one "
+         "warning\neach, and are left out. A sensor of type lidar, camera, rgbd_camera, "
+         "depth_camera, imu, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
+         "| system | plugin | warning |\n|---|---|---|\n";
+  for (const GzCounterpart& each : gz_counterparts()) {
+    page << "| `" << each.system << "` | `" << each.plugin << "` | " << each.warning << " |\n";
+  }
+  std::vector<std::string> settled;
+  for (const std::string& system : settled_gz_systems()) settled.push_back("`" + system + "`");
+  page << "\nNothing to do: " << joined(settled) << ".\n\n";
+}
+
+}  // namespace
+
+std::string plugins_in_markdown() {
+  std::ostringstream page;
+  page << "## Plugins\n\nBy the file that a `<plugin>` names, with a path and `lib` and `.so` or "
+          "without. Another name is one warning that lists these, and\nthe plugin is left out. A "
+          "key "
+          "that is not in a plugin's table is one warning. Keys of what a plugin does only on "
+          "demand "
+          "are in\n[devices](../src/ardee_sim_cpp/ardee_sim/devices/README.md). Topics are those "
+          "without any keys; names in them are those of a\nrobot without a namespace. A bad value "
+          "in a plugin that publishes leaves that plugin out, with one error; in a drive, a servo\n"
+          "or a spring it refuses the robot. Plugins of worlds are left out with a warning "
+          "each.\n\n";
+  const Registry registry = builtin_registry();
+  for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
+  for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
+  write_systems(page);
+  return page.str();
+}
+
+}  // namespace ardee

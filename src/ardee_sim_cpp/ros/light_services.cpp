@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <gazebo_msgs/DeleteLight.h>
+#include <gazebo_msgs/GetLightProperties.h>
+#include <gazebo_msgs/SetLightProperties.h>
+
+#include "ros/conversions.h"
+#include "ros/services.h"
+
+namespace ardee::node {
+namespace {
+
+constexpr double kMostAttenuation = 1e9;
+constexpr double kLongest = 1e9;     // of a direction, whose length means nothing
+constexpr double kFarthest_m = 1e6;  // beyond this is no world
+
+const Light& require_light(const Stage& stage, const std::string& name) {
+  for (const Light& light : stage.simulation.world().lights) {
+    if (light.name == name) return light;
+  }
+  throw Error("Requested light " + name + " not found!");
+}
+
+std_msgs::ColorRGBA to_ros(const Color& color) {
+  std_msgs::ColorRGBA message;
+  message.r = color[0];
+  message.g = color[1];
+  message.b = color[2];
+  message.a = color[3];
+  return message;
+}
+
+Color checked_color(const char* field, const std_msgs::ColorRGBA& message) {
+  const Color color(message.r, message.g, message.b, message.a);
+  for (const float channel : color) checked(field, static_cast<double>(channel), 0.0, 1.0);
+  return color;
+}
+
+std::string get_light(Stage& stage, const std::string& name,
+                      gazebo_msgs::GetLightPropertiesResponse& response) {
+  const Light& light = require_light(stage, name);
+  response.diffuse = to_ros(light.diffuse);
+  response.attenuation_constant = light.attenuation_constant;
+  response.attenuation_linear = light.attenuation_linear;
+  response.attenuation_quadratic = light.attenuation_quadratic;
+  return "GetLightProperties: got properties";
+}
+
+bool is_filled_in(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  return q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
+}
+
+/// A script written before there were fields for shadows, specular colour, direction and pose
+/// leaves them empty, direction and pose among them, which no light can have: then all four stay.
+std::string set_light(Stage& stage, const gazebo_msgs::SetLightPropertiesRequest& request) {
+  Light light = require_light(stage, request.light_name);
+  light.diffuse = checked_color("diffuse", request.diffuse);
+  light.attenuation_constant =
+      checked("attenuation_constant", request.attenuation_constant, 0.0, kMostAttenuation);
+  light.attenuation_linear =
+      checked("attenuation_linear", request.attenuation_linear, 0.0, kMostAttenuation);
+  light.attenuation_quadratic =
+      checked("attenuation_quadratic", request.attenuation_quadratic, 0.0, kMostAttenuation);
+  const Color specular = checked_color("specular", request.specular);
+  const Eigen::Vector3d direction = from_ros(request.direction);
+  for (const double part : direction) checked("direction", part, -kLongest, kLongest);
+  const Pose pose = from_ros(request.pose);
+  for (const double part_m : pose.p) checked("pose", part_m, -kFarthest_m, kFarthest_m);
+  const bool has_direction = direction.norm() > 0.0;
+  if (has_direction) light.direction = direction.normalized();
+  if (is_filled_in(request.pose)) light.pose = pose;
+  if (has_direction || is_filled_in(request.pose)) {
+    light.specular = specular;
+    light.cast_shadows = request.cast_shadows;
+  }
+  stage.simulation.set_light(light);
+  return "SetLightProperties: light set";
+}
+
+}  // namespace
+
+void add_light_services(ServiceServers& servers, Stage& stage) {
+  servers.add<gazebo_msgs::GetLightProperties>(
+      "get_light_properties", "GetLightProperties", [&stage](const auto& request, auto& response) {
+        return get_light(stage, request.light_name, response);
+      });
+  servers.add<gazebo_msgs::SetLightProperties>(
+      "set_light_properties", "SetLightProperties",
+      [&stage](const auto& request, auto&) { return set_light(stage, request); });
+  servers.add<gazebo_msgs::DeleteLight>(
+      "delete_light", "DeleteLight", [&stage](const auto& request, auto&) {
+        require_light(stage, request.light_name);
+        stage.simulation.remove_light(request.light_name);
+        return "DeleteLight: " + request.light_name + " successfully deleted";
+      });
+}
+
+}  // namespace ardee::node

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "ros/physics_tuning.h"
+
+#include <ros/console.h>
+
+namespace ardee::node {
+namespace {
+
+constexpr double kMostCount = 10000.0;
+
+/// A number that Gazebo has and this engine has not: 0, whatever is asked for.
+Tunable inert(const char* name, Tunable::Type type, double high) {
+  return {name,
+          "without effect",
+          type,
+          0.0,
+          high,
+          0.0,
+          [] { return 0.0; },
+          [](double) { warn_of_inert_physics(); }};
+}
+
+const Tunable& require(const Tuning& tuning, const std::string& name) {
+  for (const Tunable& each : tuning.parameters) {
+    if (each.name == name) return each;
+  }
+  throw Error("found the parameter '" + name + "', expected one of Physics.cfg");
+}
+
+}  // namespace
+
+void warn_of_inert_physics() {
+  ROS_WARN_ONCE(
+      "auto_disable_bodies, sor_pgs_precon_iters and sor_pgs_rms_error_tol have no effect: bodies "
+      "never sleep, and the solver takes all its iterations without preconditioning");
+}
+
+Tunable PhysicsTuning::number(const char* name, const char* unit, double high, double initial,
+                              double PhysicsParams::*field) {
+  return {name,
+          unit,
+          Tunable::Type::kDouble,
+          0.0,
+          high,
+          initial,
+          [this, field] { return stage_.simulation.physics().*field; },
+          [this, field](double value) { wanted_.*field = value; }};
+}
+
+Tunable PhysicsTuning::count(const char* name, double initial, int PhysicsParams::*field) {
+  return {name,
+          "",
+          Tunable::Type::kInt,
+          0.0,
+          kMostCount,
+          initial,
+          [this, field] { return double(stage_.simulation.physics().*field); },
+          [this, field](double value) { wanted_.*field = static_cast<int>(value); }};
+}
+
+Tunable PhysicsTuning::gravity(const char* name, Eigen::Index axis, double initial) {
+  constexpr double kMost_m_per_s2 = 100.0;
+  return {name,
+          "m/s^2",
+          Tunable::Type::kDouble,
+          -kMost_m_per_s2,
+          kMost_m_per_s2,
+          initial,
+          [this, axis] { return stage_.simulation.physics().gravity_m_per_s2[axis]; },
+          [this, axis](double value) { wanted_.gravity_m_per_s2[axis] = value; }};
+}
+
+Tuning PhysicsTuning::describe(const std::string& space) {
+  using P = PhysicsParams;
+  using Type = Tunable::Type;
+  return {
+      space,
+      {number("time_step", "s", 10.0, 0.001, &P::step_s),
+       number("max_update_rate", "steps a second of wall time, 0: as fast as it goes", 1e4, 1000.0,
+              &P::real_time_update_rate_hz),
+       gravity("gravity_x", 0, 0.0), gravity("gravity_y", 1, 0.0), gravity("gravity_z", 2, -9.8),
+       inert("auto_disable_bodies", Type::kBool, 1.0),
+       inert("sor_pgs_precon_iters", Type::kInt, kMostCount),
+       count("sor_pgs_iters", 50, &P::iterations),
+       inert("sor_pgs_rms_error_tol", Type::kDouble, 1e3),
+       number("sor_pgs_w", "over-relaxation", 5.0, 1.3, &P::sor),
+       number("contact_surface_layer", "m", 10.0, 0.001, &P::contact_surface_layer_m),
+       number("contact_max_correcting_vel", "m/s", 1e3, 100.0, &P::max_correcting_velocity_m_per_s),
+       number("cfm", "", 10.0, 0.0, &P::cfm), number("erp", "", 10.0, 0.2, &P::erp),
+       count("max_contacts", 20, &P::max_contacts)}};
+}
+
+PhysicsTuning::PhysicsTuning(const std::string& space, Stage& stage)
+    : stage_(stage),
+      tuning_(describe(space)),
+      server_(node_, tuning_, [this](const auto& values) { set(values); }) {}
+
+void PhysicsTuning::set(const TuningServer::Values& values) {
+  wanted_ = stage_.simulation.physics();
+  for (const auto& [name, value] : values) {
+    const Tunable& asked = require(tuning_, name);
+    // Who sends all numbers to change one sends back some that a world may have beyond the range.
+    if (value != asked.get()) asked.set(checked(name, value, asked.low, asked.high));
+  }
+  stage_.simulation.set_physics(wanted_);
+  stage_.runner.follow_physics();
+}
+
+}  // namespace ardee::node

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ros/services.h"
+#include "ros/tuning_server.h"
+
+namespace ardee::node {
+
+/// The world's physics by dynamic_reconfigure, with the names of gazebo_ros's Physics.cfg. A
+/// request acts whole, or is refused and changes nothing.
+class PhysicsTuning {
+ public:
+  /// `space` is the node's namespace; `stage` outlives this object.
+  PhysicsTuning(const std::string& space, Stage& stage);
+
+  /// The physics has changed by another way: whoever follows it is told.
+  void publish() { server_.publish(); }
+
+ private:
+  Tuning describe(const std::string& space);
+  Tunable number(const char* name, const char* unit, double high, double initial,
+                 double PhysicsParams::*field);
+  Tunable count(const char* name, double initial, int PhysicsParams::*field);
+  Tunable gravity(const char* name, Eigen::Index axis, double initial);
+  void set(const TuningServer::Values& values);
+
+  Stage& stage_;
+  ros::NodeHandle node_;
+  PhysicsParams wanted_;  // by the request that is being served
+  const Tuning tuning_;
+  TuningServer server_;
+};
+
+/// Says once that numbers of Gazebo's which were asked for have no effect.
+void warn_of_inert_physics();
+
+}  // namespace ardee::node

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Models of very many links are made quickly, or refused.
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "models.h"
+
+namespace ardee::test {
+namespace {
+
+constexpr int kLinks = 20'000;
+/// Ten times what a slow machine needs; what grows with the square takes far longer.
+constexpr double kAtOnce_s = 10.0;
+
+/// Boxes a centimetre apart, each hanging on the one before.
+std::shared_ptr<Model> chain(JointType type, bool self_collide) {
+  const std::shared_ptr<Model> one = box_model(1.0, {0.1, 0.1, 0.1});
+  auto made = std::make_shared<Model>(*one);
+  made->self_collide = self_collide;
+  made->links.clear();
+  for (int i = 0; i < kLinks; ++i) {
+    Link link = one->links.front();
+    link.name = "l" + std::to_string(i);
+    link.X_ML.p.x() = 0.01 * i;
+    made->links.push_back(link);
+    if (i == 0) continue;
+    Joint joint;
+    joint.name = "j" + std::to_string(i);
+    joint.type = type;
+    joint.parent = "l" + std::to_string(i - 1);
+    joint.child = link.name;
+    made->joints.push_back(joint);
+  }
+  made->canonical_link = "l0";
+  return made;
+}
+
+double seconds_to_add(PhysicsWorld& world, const std::shared_ptr<Model>& model) {
+  const auto start = std::chrono::steady_clock::now();
+  world.add_model(model, Pose{});
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST(LongChains, OfFixedJointsAreOneBodyAtOnce) {
+  PhysicsWorld world(params(0.001), silent());
+  EXPECT_LT(seconds_to_add(world, chain(JointType::kFixed, true)), kAtOnce_s);
+}
+
+TEST(LongChains, OfJointsThatTurnAreMadeAtOnce) {
+  PhysicsWorld world(params(0.001), silent());
+  EXPECT_LT(seconds_to_add(world, chain(JointType::kContinuous, false)), kAtOnce_s);
+}
+
+TEST(LongChains, WhoseLinksAllMayTouchEachOtherAreRefused) {
+  PhysicsWorld world(params(0.001), silent());
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THROW(world.add_model(chain(JointType::kContinuous, true), Pose{}), Error);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+            kAtOnce_s);
+}
+
+}  // namespace
+}  // namespace ardee::test

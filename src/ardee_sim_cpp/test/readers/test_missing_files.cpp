@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// What a loader that leaves out missing files reads of descriptions that need them.
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+constexpr const char* kBox = "<geometry><box><size>1 1 1</size></box></geometry>";
+
+/// A collision with a mesh.
+std::string mesh(const std::string& name, const std::string& uri) {
+  return "<collision name='" + name + "'><geometry><mesh><uri>" + uri +
+         "</uri></mesh></geometry></collision>";
+}
+
+class MissingFilesTest : public ReadersTest {
+ protected:
+  MissingFilesTest() : ReadersTest(MissingFiles::kLeaveOut) {
+    folder_.write_model("box", "<static>true</static><link name='l'><collision name='c'>" +
+                                   std::string(kBox) + "</collision></link>");
+  }
+
+  /// The one error that was said.
+  std::string only_error() const {
+    EXPECT_EQ(errors_->size(), 1u);
+    return errors_->empty() ? "" : errors_->front();
+  }
+};
+
+std::string include(const std::string& name) {
+  return "<include><uri>model://" + name + "</uri></include>";
+}
+
+TEST_F(MissingFilesTest, LeavesOutAnIncludeAndReadsWhatFollows) {
+  const World w = world(include("box") + "\n" + include("tree") + "\n" + include("box"));
+  ASSERT_EQ(w.models.size(), 2u);
+  EXPECT_EQ(w.models[1].name, "box_0");
+  EXPECT_HAS(only_error(), "test.world:2: <uri>: found 'model://tree', expected an existing file");
+  EXPECT_HAS(only_error(), folder_.path() + "/tree");
+}
+
+TEST_F(MissingFilesTest, SaysOnceWhatIsNamedOftenAndAgainForTheNextWorld) {
+  std::string rows;
+  for (int i = 0; i < 1000; ++i) rows += include("tree");
+  EXPECT_TRUE(world(rows).models.empty());
+  EXPECT_EQ(errors_->size(), 1u);
+  EXPECT_TRUE(world(rows).models.empty());
+  EXPECT_EQ(errors_->size(), 2u);
+}
+
+TEST_F(MissingFilesTest, FindsAModelThatHasComeSince) {
+  EXPECT_TRUE(world(include("tree")).models.empty());
+  folder_.write_model("tree", "<link name='l'/>");
+  EXPECT_EQ(world(include("tree")).models.size(), 1u);
+}
+
+TEST_F(MissingFilesTest, LeavesOutWhatIsNestedInAModel) {
+  folder_.write_model("orchard", "<static>true</static>" + include("box") + include("tree"));
+  const World w = world(include("orchard"));
+  ASSERT_EQ(w.models.size(), 1u);
+  EXPECT_EQ(w.models[0].model->instances.size(), 1u);
+  EXPECT_HAS(only_error(), "orchard/model.sdf:");
+  EXPECT_TRUE(warnings_->empty());
+}
+
+TEST_F(MissingFilesTest, LeavesOutMeshesAndHeightmapsAlone) {
+  folder_.write("broken.stl", "solid nothing");
+  const auto made =
+      model("<link name='l'>" + mesh("gone", "file://gone.dae") + mesh("again", "file://gone.dae") +
+            mesh("broken", "file://broken.stl") + "<collision name='kept'>" + kBox +
+            "</collision><visual name='hill'><geometry><heightmap><uri>hill.png</uri>"
+            "<size>1 1 1</size></heightmap></geometry></visual></link>");
+  ASSERT_EQ(made->links[0].collisions.size(), 1u);
+  EXPECT_EQ(made->links[0].collisions[0].name, "kept");
+  EXPECT_TRUE(made->links[0].visuals.empty());
+  ASSERT_EQ(errors_->size(), 3u);
+  EXPECT_HAS(errors_->at(0), "'file://gone.dae'");
+  EXPECT_HAS(errors_->at(1), "broken.stl");
+  EXPECT_HAS(errors_->at(2), "'hill.png'");
+}
+
+TEST_F(MissingFilesTest, LeavesOutMeshesOfRobots) {
+  const auto made = robot(
+      "<link name='l'><visual><geometry>\n<mesh filename='package://gone/wheel.dae'/></geometry>"
+      "</visual><collision><geometry><sphere radius='1'/></geometry></collision></link>");
+  EXPECT_TRUE(made->links[0].visuals.empty());
+  EXPECT_EQ(made->links[0].collisions.size(), 1u);
+  EXPECT_HAS(only_error(), "found 'package://gone/wheel.dae', expected a known package");
+}
+
+TEST_F(MissingFilesTest, LeavesOutRowsOfATable) {
+  folder_.write("rows.csv",
+                "model,name,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,scale,label\n"
+                "model://tree,a,0,0,0,0,0,0,1,0\nmodel://box,b,1,0,0,0,0,0,1,0\n"
+                "model://tree,c,2,0,0,0,0,0,1,0\n");
+  folder_.write_model("rows", "<static>true</static><ardee:instances>" + folder_.path() +
+                                  "/rows.csv</ardee:instances>");
+  const World w = world(include("rows"));
+  ASSERT_EQ(w.models.at(0).model->instances.size(), 1u);
+  EXPECT_EQ(w.models[0].model->instances[0].name, "b");
+  EXPECT_HAS(only_error(), "rows.csv:2: found 'model://tree'");
+}
+
+TEST_F(MissingFilesTest, RefusesWhatIsWrittenWrongAllTheSame) {
+  EXPECT_HAS(error_of([&] { world("<include/>"); }), "found no <uri>, expected one");
+  EXPECT_HAS(error_of([&] {
+               model(
+                   "<link name='l'><collision name='c'><geometry><mesh><uri></uri></mesh>"
+                   "</geometry></collision></link>");
+             }),
+             "uri");
+  EXPECT_TRUE(errors_->empty());
+}
+
+}  // namespace
+}  // namespace ardee

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// All that readings say, as bytes: what is equal in them is equal in each bit.
+class ReadingBytes {
+ public:
+  void put(const Reading& reading) {
+    std::visit([this](const auto& each) { add(each.header), add_reading(each); }, reading);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  template <typename T>
+  std::enable_if_t<std::is_arithmetic_v<T> || std::is_enum_v<T>> add(T value) {
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  template <typename Derived>
+  void add(const Eigen::MatrixBase<Derived>& matrix) {
+    for (const auto value : matrix.eval().reshaped()) add(value);
+  }
+  template <typename T, std::size_t kSize>
+  void add(const std::array<T, kSize>& values) {
+    for (const T& value : values) add(value);
+  }
+  template <typename T>
+  void add(const std::vector<T>& values) {
+    add(values.size());
+    for (const T& value : values) add(value);
+  }
+  void add(const std::string& text) {
+    add(text.size());
+    bytes_ += text;
+  }
+  void add(const Header& header) { all(header.stamp_ns, header.frame_id); }
+  void add(const Pose& pose) { all(pose.p, pose.q.coeffs()); }
+  void add(const Twist& twist) { all(twist.linear, twist.angular); }
+  void add(const PointCloudReading::Field& field) { all(field.name, field.offset, field.type); }
+  void add(const RegionsReading::Region& region) {
+    all(region.name, region.pose, region.size_m, region.rgba);
+  }
+  template <typename... Values>
+  void all(const Values&... values) {
+    (add(values), ...);
+  }
+
+  void add_reading(const LidarReading& r) {
+    all(r.angle_min_rad, r.angle_max_rad, r.angle_increment_rad, r.range_min_m, r.range_max_m,
+        r.ranges_m, r.intensities);
+  }
+  void add_reading(const OdometryReading& r) {
+    all(r.child_frame_id, r.pose, r.twist, r.pose_covariance, r.twist_covariance, r.places_frame);
+  }
+  void add_reading(const TransformReading& r) { all(r.child_frame_id, r.pose); }
+  void add_reading(const JointStateReading& r) { all(r.names, r.positions, r.velocities); }
+  void add_reading(const ImuReading& r) {
+    all(r.orientation.coeffs(), r.angular_velocity, r.linear_acceleration, r.orientation_covariance,
+        r.angular_velocity_covariance, r.linear_acceleration_covariance);
+  }
+  void add_reading(const FixReading& r) {
+    all(r.status, r.service, r.latitude_deg, r.longitude_deg, r.altitude_m, r.covariance);
+  }
+  void add_reading(const VectorReading& r) { add(r.vector); }
+  void add_reading(const MagneticFieldReading& r) { add(r.field_T); }
+  void add_reading(const EncoderReading& r) {
+    all(r.id, r.position_rad, r.speed_m_per_s, r.pulses_per_s);
+  }
+  void add_reading(const BatteryReading& r) { all(r.voltage_V, r.voltage_max_V, r.voltage_min_V); }
+  void add_reading(const BatteryStateReading& r) {
+    all(r.voltage_V, r.current_A, r.charge_Ah, r.capacity_Ah, r.design_capacity_Ah, r.percentage,
+        r.location);
+  }
+  void add_reading(const RangeReading& r) {
+    all(r.radiation, r.field_of_view_rad, r.range_min_m, r.range_max_m, r.range_m);
+  }
+  void add_reading(const PointCloudReading& r) {
+    all(r.height, r.width, r.fields, r.point_step, r.data, r.is_dense);
+  }
+  void add_reading(const LegacyCloudReading& r) { all(r.points, r.channel_name, r.channel); }
+  void add_reading(const ImageReading& r) { all(r.height, r.width, r.encoding, r.step, r.data); }
+  void add_reading(const CameraInfoReading& r) { all(r.height, r.width, r.D, r.K, r.R, r.P); }
+  void add_reading(const GpsQualityReading& r) {
+    all(r.region, r.position_std_m, r.has_fix, r.error_m);
+  }
+  void add_reading(const RegionsReading& r) { add(r.regions); }
+
+  std::string bytes_;
+};
+
+/// The bytes of all readings, topic by topic, in the order in which they come.
+class BytesByTopic : public ReadingSink {
+ public:
+  void on_reading(const Output& output, const Reading& reading) override {
+    topics_[output.topic].put(reading);
+  }
+  std::map<std::string, std::string> take() {
+    std::map<std::string, std::string> bytes;
+    for (const auto& [topic, readings] : topics_) bytes[topic] = readings.bytes();
+    topics_.clear();
+    return bytes;
+  }
+
+ private:
+  std::map<std::string, ReadingBytes> topics_;
+};
+
+/// The topics whose bytes differ, or that one of the two lacks.
+inline std::vector<std::string> differing(const std::map<std::string, std::string>& one,
+                                          const std::map<std::string, std::string>& other) {
+  std::vector<std::string> topics;
+  for (const auto& [topic, bytes] : one) {
+    const auto found = other.find(topic);
+    if (found == other.end() || found->second != bytes) topics.push_back(topic);
+  }
+  for (const auto& [topic, bytes] : other) {
+    if (one.count(topic) == 0) topics.push_back(topic);
+  }
+  return topics;
+}
+
+}  // namespace ardee

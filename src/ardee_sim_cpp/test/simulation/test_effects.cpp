@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Whatever element of SDF is said to act does: a world goes on differently with another value.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "../readers/specification.h"
+#include "effects.h"
+#include "fixture.h"
+#include "reading_bytes.h"
+
+namespace ardee {
+namespace {
+
+/// Elements whose effect has a test of its own, with a closed form or a file to go with it.
+const std::map<std::string, std::string> kTestedElsewhere{
+    {"include/static", "readers/test_sdf_include.cpp"},
+    {"include/pose", "readers/test_sdf_include.cpp"},
+    {"include/@merge", "readers/test_sdf_include.cpp"},
+    {"gui/camera/pose", "readers/test_sdf_world.cpp"},
+    {"limit/effort", "physics/test_joints.cpp"},
+    {"limit/velocity", "physics/test_joints.cpp"},
+    {"heightmap/texture/size", "render/test_textures.cpp"},
+    {"blend/min_height", "render/test_textures.cpp"},
+    {"blend/fade_dist", "render/test_textures.cpp"},
+    {"distortion/center", "simulation/test_camera.cpp"},
+};
+
+std::string filled(const Effect& effect, const std::string& value) {
+  const std::string name = effect.element.substr(effect.element.rfind('/') + 1);
+  const std::string text = name[0] == '@' ? name.substr(1) + "='" + value + "'"
+                                          : "<" + name + ">" + value + "</" + name + ">";
+  std::string world = effect.world;
+  for (std::size_t at = world.find("{}"); at != std::string::npos; at = world.find("{}", at)) {
+    world.replace(at, 2, text);
+    at += text.size();
+  }
+  return world;
+}
+
+/// All that a while of a world gives: the clock, where links are and how they move, readings.
+class Course {
+ public:
+  explicit Course(const std::string& world) {
+    const LogSink sink = [this](LogLevel level, const std::string& text) {
+      if (level != LogLevel::kInfo) said_ += text + "\n";
+    };
+    Loader loader(ResourceLocator{}, Log(sink));
+    Simulation simulation(
+        loader.load_world_text("<sdf version='1.7'><world name='w'>" + world + "</world></sdf>",
+                               "effect.world"),
+        {}, sink);
+    BytesByTopic readings;
+    simulation.set_sink(&readings);
+    for (int step = 0; step < 100; ++step) simulation.step();
+    put(simulation.physics().real_time_update_rate_hz);
+    put(static_cast<double>(simulation.now_ns()));
+    for (const auto& entity : simulation.entities()) {
+      const Robot& robot = *entity->robot;
+      for (std::size_t link = 0; link < robot.model().links.size(); ++link) put(robot, link);
+    }
+    for (const auto& [topic, bytes] : readings.take()) bytes_ += topic + bytes;
+  }
+
+  const std::string& bytes() const { return bytes_; }
+  /// Warnings and errors.
+  const std::string& said() const { return said_; }
+
+ private:
+  void put(double number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof(number)); }
+  void put(const Robot& robot, std::size_t link) {
+    const Pose pose = robot.link_pose(link);
+    const Twist twist = robot.link_twist(link);
+    for (int i = 0; i < 3; ++i) put(pose.p[i]), put(twist.linear[i]), put(twist.angular[i]);
+    for (int i = 0; i < 4; ++i) put(pose.q.coeffs()[i]);
+  }
+
+  std::string bytes_;
+  std::string said_;
+};
+
+TEST(Effects, EachElementThatActsMakesADifference) {
+  for (const Effect& effect : effects()) {
+    SCOPED_TRACE(effect.element);
+    try {
+      const Course one(filled(effect, effect.one));
+      const Course other(filled(effect, effect.other));
+      EXPECT_NE(one.bytes(), other.bytes())
+          << effect.one << " does what " << effect.other << " does";
+      EXPECT_EQ(one.said() + other.said(), "");
+    } catch (const Error& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
+TEST(Effects, EachNumberOfTheSpecificationThatActsIsTested) {
+  std::set<std::string> tested;
+  for (const Effect& effect : effects()) tested.insert(effect.element);
+  for (const auto& [element, file] : kTestedElsewhere) {
+    const std::string name = element.substr(element.find_last_of("/@") + 1);
+    std::ifstream source(std::string(ARDEE_TEST_DATA) + "/../" + file);
+    std::ostringstream text;
+    text << source.rdbuf();
+    EXPECT_NE(text.str().find(name), std::string::npos) << element << " is not in " << file;
+    tested.insert(element);
+  }
+  for (const std::string& version : SpecificationWalk::versions()) {
+    const SpecificationWalk walk(version);
+    for (const std::string& element : walk.acting_numbers()) {
+      EXPECT_TRUE(tested.count(element))
+          << element << " of SDF " << version << " acts, as the table says, and no test shows it";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ardee

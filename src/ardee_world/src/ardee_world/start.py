@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""Where a robot starts in front of a field, as <name>.start.yaml beside it says."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional
+
+import numpy as np
+
+from ardee_models.errors import GeneratorError
+from ardee_models.strict_yaml import build, read_yaml_lines
+from ardee_models.terrain import Ground
+from ardee_world.curves import Line
+from ardee_world.layout import Layout
+
+STAND_M = 0.175  # height of a robot's base_footprint above the ground below its wheels
+_REACH_M = 0.3  # half the length of a robot
+_TEXT = """# Where a robot starts: in the middle of the lane, before the first stalks, looking along the rows.
+x_m: {x_m:.4f}
+y_m: {y_m:.4f}
+z_m: {z_m:.4f}
+yaw_rad: {yaw_rad:.7f}
+"""
+
+
+def _option(default: float, limit: float) -> float:
+    return dataclasses.field(default=default, metadata={"limits": (-limit, limit)})
+
+
+@dataclass(frozen=True)
+class Start:
+    """Pose of base_footprint in the world; the default is that of launch_default_tsv1.launch."""
+
+    x_m: float = _option(0.0, 1e6)
+    y_m: float = _option(0.0, 1e6)
+    z_m: float = _option(STAND_M, 1e4)
+    yaw_rad: float = _option(-3.14, 7.0)
+
+    def on(self, ground: Optional[Ground]) -> "Start":
+        """The same standing on the highest ground within a robot's reach."""
+        if ground is None:
+            return dataclasses.replace(self, z_m=STAND_M)
+        beside = np.linspace(-_REACH_M, _REACH_M, 13)
+        dx, dy = (offsets.ravel() for offsets in np.meshgrid(beside, beside))
+        heights = ground.height_at(self.x_m + dx, self.y_m + dy)
+        return dataclasses.replace(self, z_m=STAND_M + float(heights.max()))
+
+    def text(self) -> str:
+        """Text of a .start.yaml file."""
+        return _TEXT.format(**dataclasses.asdict(self))
+
+
+def start_before(layout: Layout) -> Start:
+    """At the field's origin, which lies in a lane, along the first direction of the rows."""
+    x, y, turn = layout.config.world_pose
+    line = Line(layout.config.shape, layout.config.plots.length_m())
+    ahead = line.tangents(np.zeros(1))[0]
+    yaw = turn + np.arctan2(ahead[1], ahead[0])
+    return Start(x, y, yaw_rad=float((yaw + np.pi) % (2.0 * np.pi) - np.pi))
+
+
+def start_file(field: Path) -> Path:
+    """The file that goes with a field's .urdf.xacro."""
+    return field.with_name(field.name.replace(".urdf.xacro", "") + ".start.yaml")
+
+
+def read_start(path: Path) -> Start:
+    """The start pose of a file; the default without one."""
+    if not path.is_file():
+        return Start()
+    mapping = read_yaml_lines(path)
+    try:
+        return build(Start, mapping)
+    except ValueError as error:
+        raise GeneratorError(f"{path}:{mapping.own_line}: {error}") from None

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+"""A revolute joint without any <axis> turns about z, SDF's default, as that of the door in test_axis_default; one warning says so."""
+from ros_graph import RosGraph
+from test_axis_default import check_leaf_turns
+
+
+def test_the_leaf_turns_about_z_with_one_warning(graph: RosGraph) -> None:
+    said = check_leaf_turns(graph, "joint-without-axis")
+    assert said.count("found no <axis>, expected one; it is 0 0 1") == 1
