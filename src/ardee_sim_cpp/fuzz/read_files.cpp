@@ -21,14 +21,20 @@ void read_mesh(const std::string& input) {
       {'s', "stl"}, {'o', "obj"}, {'d', "dae"}, {'p', "ply"}, {'g', "gltf"}, {'b', "glb"}};
   const auto extension = input.empty() ? kExtensions.end() : kExtensions.find(input.front());
   if (extension == kExtensions.end()) throw Error(kSource, "found no letter of a format");
-  read_mesh_file(write_input("mesh." + extension->second, input.substr(1)), kSource);
+  Log log = quiet_log();
+  read_mesh_file(write_input("mesh." + extension->second, input.substr(1)), kSource, log);
 }
 
 void read_image(const std::string& input) {
   // The first bytes name the format, and only TGA, which has none, needs the file's name.
   const std::string path = write_input("image.tga", input);
-  read_color_image(path, kSource);
-  read_height_grid(path, {10.0, 10.0, 1.0}, kSource);
+  try {
+    read_color_image(path, kSource);
+  } catch (const Error&) {
+    // It may be an elevation file yet.
+  }
+  Log log = quiet_log();
+  read_height_grid(path, {10.0, 10.0, 1.0}, kSource, log);
 }
 
 void read_material(const std::string& input) {

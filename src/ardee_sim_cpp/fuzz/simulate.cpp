@@ -86,6 +86,19 @@ void command(Device& device) {
   }
 }
 
+/// Sets each property to what it is: no setter may refuse what its getter gives.
+void set_again(PhysicsModel& model, const Model& description) {
+  for (std::size_t link = 0; link < description.links.size(); ++link) {
+    model.set_link_properties(link, model.link_properties(link));
+  }
+  for (std::size_t joint = 0; joint < description.joints.size(); ++joint) {
+    for (std::size_t axis = 0; axis < model.joint_axes(joint); ++axis) {
+      model.set_joint_properties(joint, axis, model.joint_properties(joint, axis));
+      model.set_joint_motor(joint, axis, model.joint_motor(joint, axis));
+    }
+  }
+}
+
 void check_same(const std::vector<Pose>& found, const std::vector<Pose>& expected) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (found.size() != expected.size() || found[i].p != expected[i].p ||
@@ -102,10 +115,13 @@ void exercise(Simulation& simulation) {
   for (const auto& entity : simulation.entities()) {
     for (const auto& device : entity->devices) command(*device);
     if (entity->robot->is_dynamic()) {
+      set_again(entity->robot->dynamics(), entity->robot->model());
       simulation.wrenches().add({entity->robot.get(), 0, {10, 0, 0}, {0, 0, 1}, {}, 0, -1});
     }
   }
   run(simulation);
+  for (const Light& light : std::vector<Light>(simulation.world().lights))
+    simulation.set_light(light);
   simulation.reset_world();
   run(simulation);
   simulation.reset_simulation();
@@ -144,7 +160,11 @@ void simulate(const std::string& input) {
     request.X_WM.p.z() = 0.2;
     simulation.spawn(request);
   }
-  exercise(simulation);
+  try {
+    exercise(simulation);
+  } catch (const Error& error) {
+    throw std::logic_error(std::string("refused when it ran already: ") + error.what());
+  }
 }
 
 }  // namespace ardee::fuzz

@@ -93,6 +93,28 @@ void check_counts(const std::string& bytes, std::string_view key, const std::str
   }
 }
 
+/// Line ends are those of Unix, Windows or old Macs.
+bool has_line(const std::string& bytes, const std::string& line) {
+  const std::string ends = "\r\n";
+  for (std::size_t at = bytes.find(line, 1); at != std::string::npos;
+       at = bytes.find(line, at + 1)) {
+    const std::size_t end = at + line.size();
+    const bool begins = ends.find(bytes[at - 1]) != std::string::npos;
+    if (begins && end < bytes.size() && ends.find(bytes[end]) != std::string::npos) return true;
+  }
+  return false;
+}
+
+/// The mesh library looks for the end of a header beyond the end of the file, for ever.
+void check_ply(const std::string& bytes, const std::string& path, const Source& source) {
+  if (!has_line(bytes, "end_header")) {
+    throw Error(source, "found no line 'end_header' in PLY '" + path + "', expected one");
+  }
+  for (const char* key : {"element vertex", "element face"}) {
+    check_counts(bytes, key, path, source);
+  }
+}
+
 }  // namespace
 
 std::string check_mesh_file(const std::string& path, const Source& source) {
@@ -107,11 +129,7 @@ std::string check_mesh_file(const std::string& path, const Source& source) {
   if (extension == ".stl") check_stl(bytes, path, source);
   if (extension == ".glb") check_glb(bytes, path, source);
   if (extension == ".dae") check_collada(XmlFile(bytes, path).root());
-  if (extension == ".ply") {
-    for (const char* key : {"element vertex", "element face"}) {
-      check_counts(bytes, key, path, source);
-    }
-  }
+  if (extension == ".ply") check_ply(bytes, path, source);
   return bytes;
 }
 
