@@ -131,7 +131,7 @@ TEST_F(SdfState, InsertionsAreAddedAndDeletionsTakenOut) {
   ASSERT_EQ(w.lights.size(), 1u);
   EXPECT_EQ(w.lights.at(0).name, "lamp");
   EXPECT_EQ(warnings_->size(), 1u);
-  EXPECT_TRUE(warned("<model>: found 'a' in the world already, left out"));
+  EXPECT_TRUE(warned("<model>: found in the world already, left out: 'a'"));
 }
 
 TEST_F(SdfState, LightsStandWhereTheyWere) {
