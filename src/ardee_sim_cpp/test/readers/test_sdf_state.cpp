@@ -157,6 +157,14 @@ TEST_F(SdfState, TheFirstOfSeveralCounts) {
   EXPECT_TRUE(warned("<state>: found a second <state>, the first counts"));
 }
 
+TEST_F(SdfState, TheFirstStateOfAModelCounts) {
+  const World w = world(model_of("m", "<link name='l'/>") +
+                        state_of("<model name='m'><pose>1 0 0 0 0 0</pose></model>"
+                                 "<model name='m'><pose>2 0 0 0 0 0</pose></model>"));
+  expect_near(w.models.at(0).pose.p, {1, 0, 0});
+  EXPECT_TRUE(warned("<model>: found a second state of one name, the first counts"));
+}
+
 TEST_F(SdfState, RefusesWhatHasNoMeaning) {
   const std::string m = model_of("m", "<link name='l'/>");
   const auto refused = [&](const std::string& saved) {
