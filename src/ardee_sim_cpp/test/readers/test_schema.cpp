@@ -29,7 +29,8 @@ TEST_F(SchemaTest, HasNoOtherNamesButItsOwnAndNewerOnes) {
                               "shininess", "surface_axis_equatorial", "surface_axis_polar",
                               "trigger_topic", "triggered", "position_sensing", "velocity_sensing"};
   for (const std::string& version : SpecificationWalk::versions()) {
-    for (const std::string& path : SpecificationWalk(version).met()) known.insert(name_of(path));
+    const SpecificationWalk walk(version);
+    for (const std::string& path : walk.met()) known.insert(name_of(path));
   }
   for (const auto& [name, place] : sdf_schema().places()) {
     for (const auto& [child, entry] : place.entries) {
