@@ -115,8 +115,8 @@ TEST_F(SchemaTest, LooksIntoGazeboBlocksOfUrdf) {
       "</gazebo><gazebo><enable_wind>true</enable_wind></gazebo>");
   ASSERT_EQ(warnings_->size(), 4u);
   EXPECT_TRUE(warned("<light>: has no effect: not supported in a link, left out"));
-  EXPECT_TRUE(warned("<horizontl>: not an element of <scan> in SDF, ignored"));
-  EXPECT_TRUE(warned("<transparancy>: not an element of <visual> in SDF, ignored"));
+  EXPECT_TRUE(warned("<horizontl>: not an element of <scan> in URDF, ignored"));
+  EXPECT_TRUE(warned("<transparancy>: not an element of <visual> in URDF, ignored"));
   EXPECT_TRUE(warned("<enable_wind>: has no effect: no wind blows"));
 }
 
