@@ -53,8 +53,10 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
   };
   params.quality_topic = topic("dataTopicName", "data");
   params.regions_topic = topic("regionsTopicName", "regions");
-  parameters.ignore({"field_gps_noise_characteristics", "plot", "periodic_noise_box",
-                     "geofenceFile", "plotsFile"});
+  for (const char* key : {"field_gps_noise_characteristics", "plot", "periodic_noise_box",
+                          "geofenceFile", "plotsFile"}) {
+    parameters.block(key);  // read by GpsRegions
+  }
   parameters.finish(context.log);
   return std::make_unique<GpsWithDropout>(plugin.name, params, context);
 }

@@ -102,10 +102,11 @@ void Schema::check_inside(const Node& node, const Place& inside, Log& log) const
   node.each_attribute([&](const std::string& name, const std::string& value) {
     const auto known = inside.entries.find("@" + name);
     if (known == inside.entries.end()) {
-      if (name == "value" && node.text() == value) return;  // stands for the element's text
+      if (name == "value" && node.text() == node.attribute("value"))
+        return;  // stands for the element's text
       if (!is_foreign(name))
         log.warn(node.source(), "'" + name + "' is no attribute of " + of + ", ignored");
-    } else if (known->second.treatment == Treatment::kNoEffect &&
+    } else if (known->second.treatment == Treatment::kNoEffect && !value.empty() &&
                !is_harmless(value, known->second)) {
       log.warn(node.source(), "attribute '" + name + "' has no effect: " + known->second.note);
     }

@@ -76,7 +76,8 @@ class Schema {
 const Schema& sdf_schema();
 /// URDF without what is in <gazebo> blocks.
 const Schema& urdf_schema();
-/// What a URDF's <gazebo> block may hold, by what it is about: "link", "joint" or "robot".
+/// What a URDF's <gazebo> block may hold, by what it is about: "gazebo link", "gazebo joint" or
+/// "gazebo robot".
 const Schema& gazebo_schema();
 
 }  // namespace ardee

@@ -2,8 +2,9 @@
 #include "ardee_sim/readers/sdf_state.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <sstream>
-#include <unordered_map>
 
 #include "ardee_sim/description/parameters.h"
 
@@ -104,10 +105,24 @@ bool has_unit_scale(const Node& scale) {
 }
 
 template <typename Item>
-std::unordered_map<std::string, Item*> by_name(std::vector<Item>& items) {
-  std::unordered_map<std::string, Item*> found;
+std::map<std::string, Item*> by_name(std::vector<Item>& items) {
+  std::map<std::string, Item*> found;
   for (Item& item : items) found.emplace(item.name, &item);
   return found;
+}
+
+/// Visits the children of a kind, of several of one name the first.
+template <typename Visit>
+void each_named(const Node& parent, const char* kind, Log& log, Visit visit) {
+  std::set<std::string> seen;
+  parent.each(kind, [&](const Node& child) {
+    const std::string name = child.required_attribute("name");
+    if (seen.insert(name).second) {
+      visit(child, name);
+    } else {
+      log.warn(child.source(), "found a second state of one name, the first counts");
+    }
+  });
 }
 
 /// The state of one model of the world, and of those that it holds.
@@ -121,81 +136,72 @@ class ModelState {
       model.pose = X_WP.inverse() * saved.pose();
       model.pose.p /= scale_P;
     }
-    const Pose X_WM = X_WP * Pose{scale_P * model.pose.p, model.pose.q};
+    const auto scale = saved.child("scale");
+    const bool is_scaled = scale && !has_unit_scale(*scale);
+    if (!is_scaled && !saved.child("link") && !saved.child("model")) return;
     auto changed = std::make_shared<Model>(*model.model);
-    bool has_changed = false;
-    if (const auto scale = saved.child("scale"); scale && !has_unit_scale(*scale)) {
-      scale_shapes(*scale, *changed, log_);
-      has_changed = true;
-    }
-    const auto held = by_name(changed->instances);
-    LinkStates links;
-    collect_links(saved, "", *changed, held, links);
+    if (is_scaled) scale_shapes(*scale, *changed, log_);
+    const Pose X_WM = X_WP * Pose{scale_P * model.pose.p, model.pose.q};
     const double scale_M = scale_P * model.scale;
+    links_ = by_name(changed->links);
+    held_ = by_name(changed->instances);
+    LinkStates states;
+    collect(saved, "", *changed, states);
+    bool has_changed = is_scaled;
     if (model.is_static) {
-      has_changed |= move_links(links, X_WM, scale_M, *changed);
-    } else if (differs(links, X_WM, *changed)) {
-      model.link_states = std::make_shared<const LinkStates>(std::move(links));
+      has_changed |= move_links(states, X_WM, scale_M);
+    } else if (differs(states, X_WM)) {
+      model.link_states = std::make_shared<const LinkStates>(std::move(states));
     }
-    saved.each("model", [&](const Node& nested) {
-      const auto found = held.find(nested.attribute("name"));
-      if (found == held.end()) return;
-      apply(nested, *found->second, X_WM, scale_M);
+    each_named(saved, "model", log_, [&](const Node& nested, const std::string& name) {
+      const auto found = held_.find(name);
+      if (found == held_.end()) return;
+      ModelState(unknown_, log_).apply(nested, *found->second, X_WM, scale_M);
       has_changed = true;
     });
     if (has_changed) model.model = std::move(changed);
   }
 
  private:
-  using Held = std::unordered_map<std::string, Instance*>;
-
   /// Links by their names in the model; those of models merged into it have these before theirs.
-  void collect_links(const Node& saved, const std::string& prefix, const Model& model,
-                     const Held& held, LinkStates& links) {
-    saved.each("link", [&](const Node& link) {
-      const std::string name = prefix + link.required_attribute("name");
-      if (model.find_link(name) == nullptr) {
+  void collect(const Node& saved, const std::string& prefix, const Model& model,
+               LinkStates& states) {
+    each_named(saved, "link", log_, [&](const Node& link, const std::string& own) {
+      const std::string name = prefix + own;
+      if (links_.count(name) == 0) {
         unknown_.add("link", model.name + "::" + name);
       } else if (link.child("pose")) {
         const auto velocity = link.child("velocity");
-        links[name] = {link.pose(), velocity ? read_velocity(*velocity) : Twist{}};
+        states[name] = {link.pose(), velocity ? read_velocity(*velocity) : Twist{}};
       }
     });
-    saved.each("model", [&](const Node& nested) {
-      const std::string name = prefix + nested.required_attribute("name");
-      if (held.count(name) != 0) return;
-      const std::string inner = name + "::";
-      const bool is_merged = std::any_of(
-          model.links.begin(), model.links.end(),
-          [&](const Link& link) { return link.name.compare(0, inner.size(), inner) == 0; });
-      if (is_merged) {
-        collect_links(nested, inner, model, held, links);
+    each_named(saved, "model", log_, [&](const Node& nested, const std::string& own) {
+      const std::string name = prefix + own;
+      if (held_.count(name) != 0) return;
+      const auto first = links_.lower_bound(name + "::");
+      if (first != links_.end() && first->first.rfind(name + "::", 0) == 0) {
+        collect(nested, name + "::", model, states);
       } else {
         unknown_.add("model", model.name + "::" + name);
       }
     });
   }
 
-  static Pose described(const Model& model, const std::string& link, const Pose& X_WM) {
-    return X_WM * model.find_link(link)->X_ML;
-  }
-
-  static bool differs(const LinkStates& links, const Pose& X_WM, const Model& model) {
-    return std::any_of(links.begin(), links.end(), [&](const auto& entry) {
+  bool differs(const LinkStates& states, const Pose& X_WM) const {
+    return std::any_of(states.begin(), states.end(), [&](const auto& entry) {
       const auto& [name, state] = entry;
-      return !is_same(state.X_WL, described(model, name, X_WM)) ||
+      return !is_same(state.X_WL, X_WM * links_.at(name)->X_ML) ||
              !state.twist_W.linear.isZero(0.0) || !state.twist_W.angular.isZero(0.0);
     });
   }
 
-  static bool move_links(const LinkStates& links, const Pose& X_WM, double scale, Model& model) {
+  bool move_links(const LinkStates& states, const Pose& X_WM, double scale) {
     bool moved = false;
-    for (Link& link : model.links) {
-      const auto found = links.find(link.name);
-      const Pose X_WL = X_WM * Pose{scale * link.X_ML.p, link.X_ML.q};
-      if (found == links.end() || is_same(found->second.X_WL, X_WL)) continue;
-      link.X_ML = X_WM.inverse() * found->second.X_WL;
-      link.X_ML.p /= scale;
+    for (const auto& [name, state] : states) {
+      Pose& X_ML = links_.at(name)->X_ML;
+      if (is_same(state.X_WL, X_WM * Pose{scale * X_ML.p, X_ML.q})) continue;
+      X_ML = X_WM.inverse() * state.X_WL;
+      X_ML.p /= scale;
       moved = true;
     }
     return moved;
@@ -203,15 +209,19 @@ class ModelState {
 
   Unknown& unknown_;
   Log& log_;
+  std::map<std::string, Link*> links_;
+  std::map<std::string, Instance*> held_;
 };
 
+/// Takes out what has one of the names, and these from the names.
 template <typename Item>
-bool erase_named(std::vector<Item>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&name](const Item& item) { return item.name == name; });
-  if (found == items.end()) return false;
-  items.erase(found);
-  return true;
+void erase_named(std::vector<Item>& items, std::set<std::string>& names) {
+  std::set<std::string> found;
+  const auto is_gone = [&](const Item& item) {
+    return names.count(item.name) != 0 && found.insert(item.name).second;
+  };
+  items.erase(std::remove_if(items.begin(), items.end(), is_gone), items.end());
+  for (const std::string& name : found) names.erase(name);
 }
 
 }  // namespace
@@ -220,30 +230,29 @@ void apply_sdf_state(const Node& state, World& world, Log& log) {
   Unknown unknown;
   if (const auto time = state.child("sim_time")) world.start_ns = read_time(*time);
   const auto models = by_name(world.models);
-  state.each("model", [&](const Node& saved) {
-    const auto found = models.find(saved.required_attribute("name"));
+  each_named(state, "model", log, [&](const Node& saved, const std::string& name) {
+    const auto found = models.find(name);
     if (found == models.end()) {
-      unknown.add("model", saved.attribute("name"));
+      unknown.add("model", name);
     } else {
       ModelState(unknown, log).apply(saved, *found->second, Pose{}, 1.0);
     }
   });
   const auto lights = by_name(world.lights);
-  state.each("light", [&](const Node& saved) {
-    const auto found = lights.find(saved.required_attribute("name"));
+  each_named(state, "light", log, [&](const Node& saved, const std::string& name) {
+    const auto found = lights.find(name);
     if (found == lights.end()) {
-      unknown.add("light", saved.attribute("name"));
+      unknown.add("light", name);
     } else if (saved.child("pose")) {
       found->second->pose = saved.pose();
     }
   });
   if (const auto deletions = state.child("deletions")) {
-    deletions->each("name", [&](const Node& name) {
-      const std::string gone = name.required_text();
-      if (!erase_named(world.models, gone) && !erase_named(world.lights, gone)) {
-        unknown.add("entity", gone);
-      }
-    });
+    std::set<std::string> names;
+    deletions->each("name", [&](const Node& name) { names.insert(name.required_text()); });
+    erase_named(world.models, names);
+    erase_named(world.lights, names);
+    for (const std::string& name : names) unknown.add("entity", name);
   }
   unknown.warn(state.source(), log);
 }

@@ -145,14 +145,14 @@ class GazeboBlocks {
     const auto link = links_.find(reference);
     const auto joint = joints_.find(reference);
     if (link != links_.end()) {
-      apply_each(block, "link", [&](const Node& node) {
+      apply_each(block, "gazebo link", [&](const Node& node) {
         apply_to_link(node, model_.links[link->second], assets_);
       });
     } else if (joint != joints_.end()) {
-      apply_each(block, "joint",
+      apply_each(block, "gazebo joint",
                  [&](const Node& node) { apply_to_joint(node, model_.joints[joint->second]); });
     } else if (reference.empty()) {
-      apply_each(block, "robot", [this](const Node& node) { apply_to_model(node); });
+      apply_each(block, "gazebo robot", [this](const Node& node) { apply_to_model(node); });
     } else {
       assets_.log().warn(block.source(),
                          "found no link or joint that it refers to, expected one; it is left out",

@@ -22,8 +22,25 @@ std::string alternatives(std::string text) {
   return "`" + text + "`";
 }
 
+/// A note whose <elements> show in Markdown.
+std::string with_code(const std::string& note) {
+  std::string text;
+  bool inside = false;
+  for (std::size_t i = 0; i < note.size(); ++i) {
+    if (note[i] == '<' && !inside) text += '`';
+    inside = note[i] == '<' || (inside && note[i] != ' ');
+    text += note[i];
+    const bool goes_on = i + 1 < note.size() && note[i + 1] == '<';
+    if (note[i] == '>' && !goes_on) {
+      text += '`';
+      inside = false;
+    }
+  }
+  return text;
+}
+
 std::string outcome(const SchemaRow& row) {
-  const std::string note = row.note;
+  const std::string note = with_code(row.note);
   switch (row.treatment) {
     case Treatment::kActs:
       return note.empty() ? "acts" : "acts: " + note;

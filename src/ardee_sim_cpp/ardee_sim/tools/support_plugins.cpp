@@ -43,9 +43,9 @@ void write_ports(Device& device, std::ostringstream& page) {
   for (const Tuning& tuning : device.tunings()) {
     calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
   }
-  if (!out.empty()) page << "Publishes " << joined(out) << ". ";
-  if (!in.empty()) page << "Listens to " << joined(in) << ". ";
-  if (!calls.empty()) page << "Serves " << joined(calls) << ".";
+  if (!out.empty()) page << " Publishes " << joined(out) << ".";
+  if (!in.empty()) page << " Listens to " << joined(in) << ".";
+  if (!calls.empty()) page << " Serves " << joined(calls) << ".";
 }
 
 void write_keys(const KeyLog& keys, std::ostringstream& page) {
@@ -66,7 +66,7 @@ void write_keys(const KeyLog& keys, std::ostringstream& page) {
 
 void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& page) {
   const MadePlugin made(file, in_sensor);
-  page << "### `" << file << "`\n\n" << (in_sensor ? "Of a sensor. " : "Of a model. ");
+  page << "### `" << file << "`\n\n" << (in_sensor ? "Of a sensor." : "Of a model.");
   write_ports(made.device(), page);
   page << "\n\n";
   write_keys(made.keys(), page);

@@ -250,7 +250,8 @@ TEST_F(ReadersTest, ReadsTheHeightmapOfListingA23) {
   EXPECT_EQ(seen.textures[1].diffuse_path, "");
   EXPECT_EQ(seen.blends.at(0).min_height_m, 0.5);
   EXPECT_EQ(seen.blends.at(0).fade_m, 1.0);
-  EXPECT_EQ(warnings_->size(), 1u);
+  EXPECT_EQ(warnings_->size(), 2u);
+  EXPECT_TRUE(warned("<normal>: has no effect: there are no normal maps"));
   EXPECT_TRUE(warned("found no texture 'file://nowhere/grass.png'"));
 }
 

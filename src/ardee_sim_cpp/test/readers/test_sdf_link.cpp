@@ -114,7 +114,7 @@ TEST_F(SdfLink, ReadsShapes) {
   EXPECT_TRUE(mesh.center);
   EXPECT_EQ(mesh.scale, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(warnings_->size(), 1u);
-  EXPECT_TRUE(warned("<polyline>: shape not supported"));
+  EXPECT_TRUE(warned("<polyline>: has no effect: shape not supported"));
 }
 
 TEST_F(SdfLink, ReadsTheLookOfVisuals) {

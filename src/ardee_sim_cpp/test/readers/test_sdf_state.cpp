@@ -131,7 +131,7 @@ TEST_F(SdfState, InsertionsAreAddedAndDeletionsTakenOut) {
   ASSERT_EQ(w.lights.size(), 1u);
   EXPECT_EQ(w.lights.at(0).name, "lamp");
   EXPECT_EQ(warnings_->size(), 1u);
-  EXPECT_TRUE(warned("<model>: found 'a' in the world already, left out"));
+  EXPECT_TRUE(warned("<model>: found in the world already, left out: 'a'"));
 }
 
 TEST_F(SdfState, LightsStandWhereTheyWere) {
@@ -155,6 +155,14 @@ TEST_F(SdfState, TheFirstOfSeveralCounts) {
       world(state_of("<sim_time>1 0</sim_time>") + state_of("<sim_time>2 0</sim_time>")).start_ns,
       1'000'000'000);
   EXPECT_TRUE(warned("<state>: found a second <state>, the first counts"));
+}
+
+TEST_F(SdfState, TheFirstStateOfAModelCounts) {
+  const World w = world(model_of("m", "<link name='l'/>") +
+                        state_of("<model name='m'><pose>1 0 0 0 0 0</pose></model>"
+                                 "<model name='m'><pose>2 0 0 0 0 0</pose></model>"));
+  expect_near(w.models.at(0).pose.p, {1, 0, 0});
+  EXPECT_TRUE(warned("<model>: found a second state of one name, the first counts"));
 }
 
 TEST_F(SdfState, RefusesWhatHasNoMeaning) {

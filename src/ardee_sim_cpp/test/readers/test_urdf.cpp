@@ -264,13 +264,13 @@ TEST_F(Urdf, WarnsOfWhatItDoesNotKnow) {
   EXPECT_TRUE(warned("test.urdf:2: <inertail>: not an element of <link> in URDF"));
   EXPECT_TRUE(
       warned("found no link or joint that it refers to, expected one; it is left out: 'nobody'"));
-  EXPECT_TRUE(warned("<mu3>: not known in a <gazebo> block of a link"));
-  EXPECT_TRUE(warned("<plugni>: not known in a <gazebo> block of the model"));
+  EXPECT_TRUE(warned("<mu3>: not an element of <gazebo> in URDF, ignored"));
+  EXPECT_TRUE(warned("<plugni>: not an element of <gazebo> in URDF, ignored"));
 }
 
 TEST_F(Urdf, WarnsOfMimicAndUndefinedMaterials) {
   robot(kTwoLinks + joint("continuous", "<mimic joint='j'/>"));
-  EXPECT_TRUE(warned("<mimic>: not supported"));
+  EXPECT_TRUE(warned("<mimic>: has no effect: not supported"));
 }
 
 TEST_F(Urdf, ARootLinkCalledWorldIsTheWorld) {
