@@ -165,17 +165,6 @@ TEST(CameraPlugin, APluginThatContradictsTheLensIsWarned) {
   EXPECT_NE(messages[0].find("other than the <intrinsics>"), std::string::npos) << messages[0];
 }
 
-TEST(CameraPlugin, TheMiddleOfADistortionIsThePictures) {
-  for (const auto& [center, devices] : {std::pair("0.5 0.5", 1u), std::pair("0.4 0.5", 0u)}) {
-    TestWorld world("");
-    const std::string distortion = "<distortion><k1>-0.1</k1><center>" + std::string(center) +
-                                   "</center></distortion>";
-    const Entity& post =
-        world.spawn(camera_post("camera", camera_block(64, 48, 1.1, distortion)), "post");
-    EXPECT_EQ(post.devices.size(), devices) << center;
-  }
-}
-
 TEST(CameraPlugin, OtherProjectionsAreSaidOnce) {
   std::vector<std::string> messages;
   const auto info =

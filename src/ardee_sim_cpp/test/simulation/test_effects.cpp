@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "../readers/specification.h"
+#include "cameras.h"
 #include "effects.h"
-#include "fixture.h"
 #include "reading_bytes.h"
 
 namespace ardee {
@@ -26,7 +26,7 @@ constexpr OtherTest kTestedElsewhere[] = {
     {"gui/camera/pose", "readers/test_sdf_world.cpp", "ReadsListingA15sSettings"},
     {"limit/effort", "physics/test_joints.cpp", "EffortOfTheDescriptionBoundsAppliedEfforts"},
     {"limit/velocity", "physics/test_joints.cpp", "BeyondTheLimitOfVelocity"},
-    {"distortion/center", "simulation/test_camera.cpp", "TheMiddleOfADistortionIsThePictures"},
+    {"distortion/center", "simulation/test_effects.cpp", "TheMiddleOfADistortionIsThePictures"},
 };
 
 std::string filled(const Effect& effect, const std::string& value) {
@@ -113,6 +113,17 @@ TEST(Effects, EachNumberOfTheSpecificationThatActsIsTested) {
       EXPECT_TRUE(tested.count(element))
           << element << " of SDF " << version << " acts, as the table says, and no test shows it";
     }
+  }
+}
+
+TEST(Effects, TheMiddleOfADistortionIsThePictures) {
+  for (const auto& [center, devices] : {std::pair("0.5 0.5", 1u), std::pair("0.4 0.5", 0u)}) {
+    TestWorld world("");
+    const std::string distortion =
+        "<distortion><k1>-0.1</k1><center>" + std::string(center) + "</center></distortion>";
+    const Entity& post =
+        world.spawn(camera_post("camera", camera_block(64, 48, 1.1, distortion)), "post");
+    EXPECT_EQ(post.devices.size(), devices) << center;
   }
 }
 
