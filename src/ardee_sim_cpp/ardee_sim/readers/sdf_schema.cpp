@@ -12,6 +12,7 @@ constexpr Treatment elsewhere = Treatment::kElsewhere;
 
 constexpr char kFrames[] = "frames are known in worlds and models alone";
 constexpr char kOneEngine[] = "ode is the one engine";
+constexpr char kNoHighlights[] = "surfaces are matt, without highlights";
 constexpr char kNoWindow[] = "the simulator has no window; rviz is the view";
 
 const std::vector<SchemaRow>& world_rows() {
@@ -81,8 +82,9 @@ const std::vector<SchemaRow>& world_rows() {
       {"gui/camera", no_effect, "projection_type", kNoWindow, "perspective"},
       {"gui/camera", no_effect, "track_visual", kNoWindow},
       {"gui/camera", no_effect, "frame", kFrames},
-      {"light", acts, "@name @type cast_shadows diffuse specular attenuation direction spot pose",
+      {"light", acts, "@name @type cast_shadows diffuse attenuation direction spot pose",
        "a type other than directional, point and spot is refused"},
+      {"light", no_effect, "specular", kNoHighlights, "0.1 0.1 0.1 1|0 0 0 1"},
       {"light", no_effect, "intensity", "<diffuse> says how bright it is", "1"},
       {"light", no_effect, "visualize", kNoWindow, "true|false"},
       {"light", no_effect, "light_on", "a light shines", "true"},
@@ -149,13 +151,14 @@ const std::vector<SchemaRow>& model_rows() {
       {"visual", no_effect, "plugin", "visuals have no plugins"},
       {"visual", no_effect, "frame", kFrames},
       {"meta", no_effect, "layer", kNoWindow, "0"},
-      {"material", acts, "script ambient diffuse specular emissive shader"},
+      {"material", acts, "script ambient diffuse emissive shader"},
+      {"material", no_effect, "specular", kNoHighlights, "0 0 0 1|0 0 0"},
       {"material", no_effect, "lighting", "light falls on all", "true"},
       {"material", no_effect, "double_sided",
        "a material script's cull_hardware, or a DAE's, says that", "false"},
       {"material", no_effect, "render_order", "what is nearer is in front", "0"},
-      {"material", no_effect, "shininess", "highlights are of one width", "0"},
-      {"material", no_effect, "pbr", "<diffuse>, <specular> and textures say how it looks"},
+      {"material", no_effect, "shininess", kNoHighlights, "0"},
+      {"material", no_effect, "pbr", "<diffuse> and textures say how it looks"},
       {"script", acts, "uri name"},
       {"shader", no_effect, "@type", "there are no shaders to choose from", "pixel|vertex"},
       {"shader", no_effect, "normal_map", "there are no normal maps", "__default__"},
@@ -187,8 +190,7 @@ const std::vector<SchemaRow>& model_rows() {
       {"fdir1", no_effect, "@expressed_in", "<fdir1> is in the collision's frame"},
       {"torsional", acts, "coefficient use_patch_radius patch_radius surface_radius ode"},
       {"torsional/ode", no_effect, "slip", "turning on the spot has no slip", "0"},
-      {"surface/contact", acts,
-       "ode collide_bitmask category_bitmask collide_without_contact"},
+      {"surface/contact", acts, "ode collide_bitmask category_bitmask collide_without_contact"},
       {"surface/contact", no_effect, "collide_without_contact_bitmask",
        "<collide_bitmask> says what meets what", "1"},
       {"surface/contact", no_effect, "poissons_ratio", "<kp> and <kd> say how soft it is", "0.3"},

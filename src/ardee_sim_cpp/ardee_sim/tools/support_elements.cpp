@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <sstream>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/tools/support_markdown.h"
 
@@ -63,6 +64,44 @@ void write_table(const Schema& schema, std::ostringstream& page) {
   page << "\n";
 }
 
+struct BoundedNumbers {
+  const char* names;
+  bounds::Range range;
+};
+
+constexpr BoundedNumbers kBounded[] = {
+    {"mu mu2", bounds::kFriction},
+    {"slip1 slip2", bounds::kSlip},
+    {"kp", bounds::kStiffness},
+    {"kd", bounds::kDamping},
+    {"max_vel", bounds::kMaxVelocity},
+    {"min_depth", bounds::kMinDepth},
+    {"patch_radius surface_radius", bounds::kRadius_m},
+    {"restitution_coefficient", bounds::kRestitution},
+    {"bounce/threshold", bounds::kBounceThreshold},
+    {"velocity_decay/linear velocity_decay/angular", bounds::kDecay},
+    {"dynamics/damping dynamics/friction spring_stiffness", bounds::kJointCoefficient},
+    {"spring_reference", bounds::kJointReference},
+    {"joint/physics/ode/limit/cfm joint/physics/ode/limit/erp", bounds::kJointSoftness},
+    {"max_step_size", bounds::kStep_s},
+    {"iters", bounds::kIterations},
+    {"sor", bounds::kRelaxation},
+    {"constraints/cfm", bounds::kCfm},
+    {"constraints/erp", bounds::kErp},
+    {"contact_max_correcting_vel", bounds::kCorrectingVelocity},
+    {"contact_surface_layer", bounds::kSurfaceLayer_m},
+};
+
+void write_bounds(std::ostringstream& page) {
+  page << "### Numbers that are refused\n\nBesides what is not a number: sizes, masses and scales "
+          "that are not above zero, and others than these. SI units.\n\n"
+          "| number | from | to |\n|---|---|---|\n";
+  for (const auto& [names, range] : kBounded) {
+    page << "| " << in_code(names) << " | " << range.low << " | " << range.high << " |\n";
+  }
+  page << "\n";
+}
+
 }  // namespace
 
 std::string elements_in_markdown() {
@@ -71,6 +110,7 @@ std::string elements_in_markdown() {
           "says which: `joint/physics` is the\n`<physics>` of a joint. What is within an element "
           "that has no effect has none either.\n\n";
   write_table(sdf_schema(), page);
+  write_bounds(page);
   page << "## URDF\n\n";
   write_table(urdf_schema(), page);
   page << "## `<gazebo>` blocks of a URDF\n\nOf a link, a joint, or (without `reference`) of the "

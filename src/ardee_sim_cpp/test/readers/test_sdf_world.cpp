@@ -32,8 +32,9 @@ TEST_F(SdfWorld, ReadsListingA15sSettings) {
   EXPECT_EQ(w.physics.real_time_update_rate_hz, 200.0);  // real time, at 5 ms a step
   EXPECT_EQ(w.physics.gravity_m_per_s2, Eigen::Vector3d(0, 0, -9.8));
   EXPECT_TRUE(w.scene.sky && w.scene.shadows);
-  EXPECT_EQ(warnings_->size(), 1u);
+  EXPECT_EQ(warnings_->size(), 2u);
   EXPECT_TRUE(warned("<clouds>: has no effect: the sky is clear"));
+  EXPECT_TRUE(warned("<specular>: has no effect: surfaces are matt, without highlights"));
 }
 
 TEST_F(SdfWorld, PaceIsTheUpdateRateElseTheRealTimeFactorElseRealTime) {

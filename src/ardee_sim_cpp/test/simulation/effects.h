@@ -40,10 +40,13 @@ constexpr char kFloor[] =
     "<model name='floor'><static>true</static><link name='l'><collision name='c'><geometry><plane>"
     "<normal>0 0 1</normal></plane></geometry></collision></link></model>";
 
-/// A cube of one kilogram that is pushed along the ground: it is thrown down askew.
-inline std::string thrown(const std::string& in_collision) {
-  return kFloor + in_model("cube", in_link(collision(kCube, in_collision)), "0 0 0.5 0 0 0") +
-         "<state world_name='w'><model name='cube'><link name='l'><pose>0 0 0.499 0 0 0.3</pose>"
+/// A cube of one kilogram that is thrown down askew, on ground of the same kind.
+inline std::string thrown(const std::string& in_collision, const std::string& z_m = "0.495") {
+  const std::string ground = "<plane><normal>0 0 1</normal></plane>";
+  return still("floor", in_link(collision(ground, in_collision))) +
+         in_model("cube", in_link(collision(kCube, in_collision)), "0 0 0.5 0 0 0") +
+         "<state world_name='w'><model name='cube'><link name='l'><pose>0 0 " + z_m +
+         " 0 0 0.3</pose>"
          "<velocity>1 0.5 -1 0 0 1</velocity></link></model></state>";
 }
 
@@ -82,7 +85,7 @@ inline std::string two_axes(const std::string& first, const std::string& second,
 inline std::string post(const std::string& type, const std::string& in_sensor,
                         const std::string& plugin, const std::string& keys) {
   return still(
-      "post",
+      "post_of_" + type,
       in_link("<sensor name='s' type='" + type + "'>" + in_sensor +
               "<plugin name='p' filename='lib" + plugin + ".so'>" + keys + "</plugin></sensor>"),
       "0 0 1 0 0 0");

@@ -6,25 +6,27 @@
 #include <sstream>
 
 #include "../readers/specification.h"
+#include "cameras.h"
 #include "effects.h"
-#include "fixture.h"
 #include "reading_bytes.h"
 
 namespace ardee {
 namespace {
 
 /// Elements whose effect has a test of its own, with a closed form or a file to go with it.
-const std::map<std::string, std::string> kTestedElsewhere{
-    {"include/static", "readers/test_sdf_include.cpp"},
-    {"include/pose", "readers/test_sdf_include.cpp"},
-    {"include/@merge", "readers/test_sdf_include.cpp"},
-    {"gui/camera/pose", "readers/test_sdf_world.cpp"},
-    {"limit/effort", "physics/test_joints.cpp"},
-    {"limit/velocity", "physics/test_joints.cpp"},
-    {"heightmap/texture/size", "render/test_textures.cpp"},
-    {"blend/min_height", "render/test_textures.cpp"},
-    {"blend/fade_dist", "render/test_textures.cpp"},
-    {"distortion/center", "simulation/test_camera.cpp"},
+struct OtherTest {
+  const char* element;
+  const char* file;
+  const char* test;
+};
+constexpr OtherTest kTestedElsewhere[] = {
+    {"include/static", "readers/test_sdf_include.cpp", "TakesPoseNameAndStatic"},
+    {"include/pose", "readers/test_sdf_include.cpp", "TakesPoseNameAndStatic"},
+    {"include/@merge", "readers/test_sdf_include.cpp", "AMergedIncludeKeepsItsNames"},
+    {"gui/camera/pose", "readers/test_sdf_world.cpp", "ReadsListingA15sSettings"},
+    {"limit/effort", "physics/test_joints.cpp", "EffortOfTheDescriptionBoundsAppliedEfforts"},
+    {"limit/velocity", "physics/test_joints.cpp", "BeyondTheLimitOfVelocity"},
+    {"distortion/center", "simulation/test_effects.cpp", "TheMiddleOfADistortionIsThePictures"},
 };
 
 std::string filled(const Effect& effect, const std::string& value) {
@@ -98,12 +100,11 @@ TEST(Effects, EachElementThatActsMakesADifference) {
 TEST(Effects, EachNumberOfTheSpecificationThatActsIsTested) {
   std::set<std::string> tested;
   for (const Effect& effect : effects()) tested.insert(effect.element);
-  for (const auto& [element, file] : kTestedElsewhere) {
-    const std::string name = element.substr(element.find_last_of("/@") + 1);
+  for (const auto& [element, file, test] : kTestedElsewhere) {
     std::ifstream source(std::string(ARDEE_TEST_DATA) + "/../" + file);
     std::ostringstream text;
     text << source.rdbuf();
-    EXPECT_NE(text.str().find(name), std::string::npos) << element << " is not in " << file;
+    EXPECT_NE(text.str().find(test), std::string::npos) << file << " has no test " << test;
     tested.insert(element);
   }
   for (const std::string& version : SpecificationWalk::versions()) {
@@ -112,6 +113,17 @@ TEST(Effects, EachNumberOfTheSpecificationThatActsIsTested) {
       EXPECT_TRUE(tested.count(element))
           << element << " of SDF " << version << " acts, as the table says, and no test shows it";
     }
+  }
+}
+
+TEST(Effects, TheMiddleOfADistortionIsThePictures) {
+  for (const auto& [center, devices] : {std::pair("0.5 0.5", 1u), std::pair("0.4 0.5", 0u)}) {
+    TestWorld world("");
+    const std::string distortion =
+        "<distortion><k1>-0.1</k1><center>" + std::string(center) + "</center></distortion>";
+    const Entity& post =
+        world.spawn(camera_post("camera", camera_block(64, 48, 1.1, distortion)), "post");
+    EXPECT_EQ(post.devices.size(), devices) << center;
   }
 }
 

@@ -18,6 +18,12 @@ void add_world(std::vector<Effect>& rows) {
       {{"world/gravity", "{}" + falling, "0 0 -9.8", "0 0 -1.6"},
        {"physics/gravity", physics("{}") + falling, "0 0 -9.8", "0 0 -1.6"},
        {"physics/max_step_size", physics("{}") + falling, "0.001", "0.002"},
+       {"physics/@default",
+        physics("") +
+            "<physics name='other' type='ode' {}><max_step_size>0.002</max_step_size>"
+            "</physics>" +
+            falling,
+        "0", "1"},
        {"physics/real_time_update_rate", physics("{}"), "100", "200"},
        {"physics/update_rate", physics("{}"), "100", "200"},
        {"physics/real_time_factor", physics("{}"), "1", "2"},
@@ -32,7 +38,7 @@ void add_world(std::vector<Effect>& rows) {
         constraints(
             thrown("<surface><contact><ode><max_vel>10</max_vel></ode></contact></surface>")),
         "100", "0.001"},
-       {"constraints/contact_surface_layer", constraints(thrown("")), "0.001", "0.0001"},
+       {"constraints/contact_surface_layer", constraints(thrown("", "0.4995")), "0.001", "0.0001"},
        {"scene/ambient", "<scene>{}</scene>" + pictured(kCube), "0.1 0.1 0.1 1", "0.6 0.6 0.6 1"},
        {"scene/background", "<scene>{}</scene>" + camera(""), "0 0 0 1", "1 1 1 1"},
        {"scene/shadows", "<scene>{}</scene>" + pictured(kCube), "0", "1"},
@@ -73,11 +79,6 @@ void add_lights(std::vector<Effect>& rows) {
       rows.end(),
       {{"light/cast_shadows", pictured(kCube, sun), "0", "1"},
        {"light/diffuse", pictured(kCube, sun), "1 1 1 1", "0.2 0.2 0.2 1"},
-       {"light/specular",
-        pictured(
-            kCube, lamp("point", "{}"),
-            "<material><diffuse>0.1 0.1 0.1 1</diffuse><specular>1 1 1 1</specular></material>"),
-        "1 1 1 1", "0 0 0 1"},
        {"light/direction", pictured(kCube, "<light name='sun' type='directional'>{}</light>"),
         "0 0 -1", "1 0 -1"},
        {"attenuation/range", pictured(kCube, lamp("point", "<attenuation>{}</attenuation>")), "20",
@@ -158,11 +159,10 @@ void add_models(std::vector<Effect>& rows) {
             still("wall", in_link(visual(kCube, "{}")), "3 0 1 0 0 0"),
         "100", "200"},
        {"collision/max_contacts", thrown("{}"), "10", "1"}});
-  for (const char* color : {"ambient", "diffuse", "specular", "emissive"}) {
-    rows.push_back(
-        {std::string("material/") + color,
-         pictured(kCube, lamp("point", "<specular>1 1 1 1</specular>"), "<material>{}</material>"),
-         "0.1 0.1 0.1 1", "0.9 0.9 0.9 1"});
+  for (const char* color : {"ambient", "diffuse", "emissive"}) {
+    rows.push_back({std::string("material/") + color,
+                    pictured(kCube, lamp("point", ""), "<material>{}</material>"), "0.1 0.1 0.1 1",
+                    "0.9 0.9 0.9 1"});
   }
   // The axes of a body that is let go with a spin about all of them.
   for (const char* moment : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
@@ -185,16 +185,29 @@ void add_shapes(std::vector<Effect>& rows) {
   const auto seen = [](const std::string& shape, const std::string& pose = "3 0 1 0.3 0.2 0.4") {
     return lidar(scan(), kRange) + still("thing", in_link(collision(shape)), pose);
   };
+  // Seen from above.
   const auto ground = [&](const std::string& inside) {
-    return "<heightmap>" + heights + inside + "</heightmap>";
+    const std::string shape = "<heightmap>" + heights + inside + "</heightmap>";
+    const std::string down = "<pose>0 0 9 0 1.2 0</pose>";
+    return lidar(scan(), kRange, "", down) + camera("", down) +
+           still("ground", in_link(collision(shape) + visual(shape)));
   };
-  const std::string flat = ground("<size>20 20 0.5</size>{}");
+  const std::string flat = "<size>20 20 0.5</size>";
+  const auto texture = [&](const std::string& file, const std::string& more) {
+    return "<texture>" + more + "<diffuse>" + data.substr(5) + "/images/" + file +
+           "</diffuse><normal>__default__</normal></texture>";
+  };
+  const auto blended = [&](const std::string& blend) {
+    return ground(flat + texture("rgb.png", "<size>5</size>") +
+                  texture("grey8.png", "<size>5</size>") + "<blend>" + blend + "</blend>");
+  };
   rows.insert(
       rows.end(),
       {{"box/size", seen("<box>{}</box>"), "1 1 1", "2 1 1"},
        {"sphere/radius", seen("<sphere>{}</sphere>"), "1", "0.5"},
        {"cylinder/radius", seen("<cylinder><length>1</length>{}</cylinder>"), "1", "0.5"},
-       {"cylinder/length", seen("<cylinder><radius>0.1</radius>{}</cylinder>"), "0.2", "4"},
+       {"cylinder/length", seen("<cylinder><radius>0.1</radius>{}</cylinder>", "3 0 1 1.5 0 0"),
+        "0.2", "4"},
        {"plane/normal", seen("<plane>{}</plane>", "3 0 0 0 0 0"), "0 0 1", "-1 0 0.5"},
        {"plane/size", camera("") + still("p", in_link(visual("<plane>{}</plane>"))), "2 2",
         "30 30"},
@@ -203,8 +216,11 @@ void add_shapes(std::vector<Effect>& rows) {
         lidar(scan(), kRange) +
             still("thing", in_link(collision("<mesh>" + parts + "</mesh>")), "3 -0.5 0.5 0 0 0"),
         "0", "1"},
-       {"heightmap/size", seen(ground("{}"), "0 0 0 0 0 0"), "20 20 0.5", "20 20 5"},
-       {"heightmap/pos", seen(flat, "0 0 0 0 0 0"), "0 0 0", "0 0 1"}});
+       {"heightmap/size", ground("{}"), "20 20 0.5", "20 20 5"},
+       {"heightmap/pos", ground(flat + "{}"), "0 0 0", "0 0 1"},
+       {"heightmap/texture/size", ground(flat + texture("rgb.png", "{}")), "5", "7"},
+       {"blend/min_height", blended("<fade_dist>0.1</fade_dist>{}"), "0.1", "0.4"},
+       {"blend/fade_dist", blended("<min_height>0.1</min_height>{}"), "0.1", "0.3"}});
 }
 
 void add_surfaces(std::vector<Effect>& rows) {
@@ -231,16 +247,18 @@ void add_surfaces(std::vector<Effect>& rows) {
        {"friction/ode/slip1", friction("{}"), "0", "1"},
        {"friction/ode/slip2", friction("{}"), "0", "1"},
        {"surface/contact/collide_bitmask", contact("{}"), "65535", "0"},
-       {"surface/contact/category_bitmask", contact("<collide_bitmask>0</collide_bitmask>{}"), "0",
+       {"surface/contact/category_bitmask", contact("<collide_bitmask>2</collide_bitmask>{}"), "2",
         "1"},
        {"surface/contact/collide_without_contact", contact("{}"), "0", "1"},
        {"contact/ode/kp", contact("<ode>{}</ode>"), "1e12", "1e3"},
        {"contact/ode/kd", contact("<ode><kp>1e4</kp>{}</ode>"), "1", "1000"},
        {"contact/ode/max_vel", contact("<ode>{}</ode>"), "0.01", "0"},
-       {"contact/ode/min_depth", contact("<ode>{}</ode>"), "0", "0.0005"},
+       {"contact/ode/min_depth",
+        thrown("<surface><contact><ode>{}</ode></contact></surface>", "0.4995"), "0.001", "0.0001"},
        {"torsional/coefficient", torsional("<patch_radius>0.5</patch_radius>{}"), "1", "0.1"},
        {"torsional/use_patch_radius",
-        torsional("<patch_radius>0.5</patch_radius><surface_radius>1</surface_radius>{}"), "1", "0"},
+        torsional("<patch_radius>0.5</patch_radius><surface_radius>1</surface_radius>{}"), "1",
+        "0"},
        {"torsional/patch_radius", torsional("{}"), "0", "0.5"},
        {"torsional/surface_radius", torsional("<use_patch_radius>0</use_patch_radius>{}"), "0",
         "1"}});

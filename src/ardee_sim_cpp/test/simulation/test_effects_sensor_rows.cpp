@@ -32,10 +32,16 @@ void add_rays(std::vector<Effect>& rows) {
     rows.push_back({std::string("horizontal/") + name, with(across), one, other});
     rows.push_back({std::string("vertical/") + name, with(scan("", upward)), one, other});
   }
+  const auto newer = [](const std::string& range) {
+    return post("ray", "<lidar><scan>" + scan() + "</scan><range>" + range + "</range></lidar>",
+                "gazebo_ros_block_laser", "<topicName>scan</topicName>");
+  };
   const std::string gaussian = "<noise><type>gaussian_quantized</type>";
   rows.insert(
       rows.end(),
-      {{"ray/range/min", lidar(scan(), "{}<max>30</max>") + wall, "0.1", "8"},
+      {{"lidar/range/min", newer("{}<max>30</max>") + wall, "0.1", "8"},
+       {"lidar/range/max", newer("<min>0.1</min>{}") + wall, "30", "3"},
+       {"ray/range/min", lidar(scan(), "{}<max>30</max>") + wall, "0.1", "8"},
        {"ray/range/max", lidar(scan(), "<min>0.1</min>{}") + wall, "30", "3"},
        {"noise/mean", lidar(scan(), kRange, gaussian + "{}</noise>") + wall, "0", "0.1"},
        {"noise/stddev", lidar(scan(), kRange, gaussian + "{}</noise>") + wall, "0", "0.1"},
@@ -68,6 +74,16 @@ void add_cameras(std::vector<Effect>& rows) {
 }
 
 void add_imus(std::vector<Effect>& rows) {
+  for (const std::string axis : {"x", "y", "z"}) {
+    rows.push_back({"magnetometer/" + axis + "/noise/stddev",
+                    still("m", in_link("<sensor name='s' type='magnetometer'><topic>field</topic>"
+                                       "<magnetometer><" +
+                                       axis +
+                                       "><noise type='gaussian'>{}</noise>"
+                                       "</" +
+                                       axis + "></magnetometer></sensor>")),
+                    "0", "1"});
+  }
   const auto noise = [](const std::string& others) {
     return "<noise type='gaussian_quantized'>" + others + "{}</noise>";
   };

@@ -32,7 +32,6 @@ _MODEL = """<?xml version="1.0"?>
         <material>
           <ambient>{colour} 1</ambient>
           <diffuse>{colour} 1</diffuse>
-          <specular>0.05 0.05 0.05 1</specular>
         </material>
       </visual>
     </link>

@@ -17,7 +17,6 @@ _HEAD = """<?xml version="1.0" ?>
       <cast_shadows>1</cast_shadows>
       <pose>0 0 10 0 -0 0</pose>
       <diffuse>1.0 0.95 0.8 1</diffuse>
-      <specular>0.7 0.7 0.7 1</specular>
       <attenuation>
         <range>1000</range>
         <constant>0.9</constant>
