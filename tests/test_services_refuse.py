@@ -169,7 +169,7 @@ REFUSED: Dict[str, List[Request]] = {
         physics_properties(("erp", 1.5)),
         physics_properties(("cfm", -1.0)),
         physics_properties(("cfm", 1e8)),
-        physics_properties(("sor_pgs_w", 2.0)),
+        physics_properties(("sor_pgs_w", 2.5)),
         physics_properties(("sor_pgs_iters", 100000)),
         physics_properties(("max_contacts", 100000)),
         physics_properties(("contact_surface_layer", -1.0)),

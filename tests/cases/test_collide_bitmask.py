@@ -11,7 +11,7 @@ WORLD = pathlib.Path(__file__).parent / "collide-bitmask" / "shelf.world"
 
 
 def test_a_ball_meets_the_shelf_whose_mask_it_shares(graph: RosGraph) -> None:
-    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD))
+    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD), "-u")
     calls = [("/ardee/step", "ardee_msgs/Step", {"steps": 2000})]
     for name in ("one", "two"):
         calls.append(("/gazebo/get_model_state", "gazebo_msgs/GetModelState", {"model_name": name}))

@@ -12,7 +12,7 @@ CASE = pathlib.Path(__file__).parent / "contact-layer-diff-drive"
 
 
 def test_the_wheels_sink_by_their_own_depth_and_drive(graph: RosGraph) -> None:
-    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(CASE / "lab.world"))
+    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(CASE / "lab.world"), "-u")
     runner = {"model_name": "runner", "model_xml": (CASE / "runner.urdf").read_text()}
     spawned, stepped, state = graph.call(
         probes.call_services,

@@ -14,7 +14,7 @@ WORLD = CASES.parent / "data" / "plane.world"
 def test_the_robot_stands_with_one_warning(graph: RosGraph) -> None:
     from geometry_msgs.msg import Point, Pose
 
-    server = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD))
+    server = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD), "-u")
     lid = {
         "model_name": "lid_robot",
         "model_xml": (CASES / "inertia-not-positive" / "lid.urdf").read_text(),

@@ -15,7 +15,7 @@ STEP_S = 0.005
 def test_the_pad_rests_and_tells_where_it_is(graph: RosGraph) -> None:
     from geometry_msgs.msg import Point, Pose
 
-    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD))
+    graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD), "-u")
     pad = {
         "model_name": "pad",
         "model_xml": (CASES / "stiffness-1e30" / "pad.urdf").read_text(),
