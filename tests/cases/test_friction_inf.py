@@ -22,7 +22,11 @@ def test_the_crate_stays_where_it_is(graph: RosGraph) -> None:
             ("/gazebo/pause_physics", "std_srvs/Empty", {}),
             ("/ardee/step", "ardee_msgs/Step", {"steps": 500}),
             where,
-            ("/gazebo/apply_body_wrench", "gazebo_msgs/ApplyBodyWrench", {**push, "wrench": _along_x()}),
+            (
+                "/gazebo/apply_body_wrench",
+                "gazebo_msgs/ApplyBodyWrench",
+                {**push, "wrench": _along_x()},
+            ),
             ("/ardee/step", "ardee_msgs/Step", {"steps": 2000}),
             where,
         ],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A revolute joint without any <axis> turns about z, SDF's default, as that of the door in test_axis_default; one warning says so."""
+"""A revolute joint without <axis> turns about z, SDF's default, with one warning, as that of test_axis_default."""
 from ros_graph import RosGraph
 from test_axis_default import check_leaf_turns
 

@@ -112,7 +112,7 @@ class XmlMutator {
       case 0:
         return remove(element);
       case 1:
-        return add(clone(element), element.Parent());
+        return add(clone(element), parent_of(element));
       case 2:
         return add(clone(element), random_.one_of(elements_));
       case 3:
@@ -141,6 +141,11 @@ class XmlMutator {
     for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
       collect(*child);
     }
+  }
+
+  /// The root is its own: a text has one.
+  tinyxml2::XMLNode* parent_of(XMLElement& element) {
+    return &element == document_.RootElement() ? &element : element.Parent();
   }
 
   tinyxml2::XMLNode* clone(const XMLElement& element) { return element.DeepClone(&document_); }

@@ -22,8 +22,8 @@ constexpr Range kSlip{0.0, 1e9};
 constexpr Range kRadius_m{0.0, 1e9};
 constexpr Range kStiffness{0.0, kInfinity};
 constexpr Range kDamping{0.0, kInfinity};
-constexpr Range kMinDepth{-1e9, 1e9};             // not positive: none of its own
-constexpr Range kMaxVelocity{-1e9, kInfinity};    // negative: unlimited
+constexpr Range kMinDepth{-1e9, 1e9};           // not positive: none of its own
+constexpr Range kMaxVelocity{-1e9, kInfinity};  // negative: unlimited
 constexpr Range kRestitution{0.0, 1.0};
 constexpr Range kBounceThreshold{0.0, kInfinity};
 

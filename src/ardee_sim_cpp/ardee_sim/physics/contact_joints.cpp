@@ -58,8 +58,8 @@ void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& norma
 
 /// How deep a body may lie in another before it is pushed out: what its surface says, which takes
 /// the place of the world's layer. A surface that says nothing has no depth of its own in Gazebo
-/// either; here it keeps of the world's layer what ODE has by default, so that it rests and does not
-/// hop.
+/// either; here it keeps of the world's layer what ODE has by default, so that it rests and does
+/// not hop.
 double own_layer(const ContactSide& side, const PhysicsParams& params) {
   constexpr double kDefaultLayer_m = 0.001;
   if (!side.body) return dInfinity;
@@ -124,9 +124,9 @@ ContactLaw combine_surfaces(const ContactSide& side_a, const ContactSide& side_b
   law.min_depth_m = std::min(own_layer(side_a, params), own_layer(side_b, params));
   const double weight_n =
       side_b.body ? std::min(side_a.weight_n, side_b.weight_n) : side_a.weight_n;
-  law.max_push_m_per_s = std::min({params.max_correcting_velocity_m_per_s, own_push(side_a),
-                                   own_push(side_b)}) +
-                         2.0 * weight_n * law.cfm;
+  law.max_push_m_per_s =
+      std::min({params.max_correcting_velocity_m_per_s, own_push(side_a), own_push(side_b)}) +
+      2.0 * weight_n * law.cfm;
   law.restitution = std::min(a.restitution, b.restitution);
   law.bounce_threshold_m_per_s = std::min(a.bounce_threshold_m_per_s, b.bounce_threshold_m_per_s);
   return law;

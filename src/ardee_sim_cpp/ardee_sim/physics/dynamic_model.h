@@ -78,8 +78,8 @@ class DynamicModel : public PhysicsModel {
   /// Orders groups and what carries each, for turn_with_carriers.
   void order_carriers();
   /// Turns each body first with the body that carries it, then by its rate against that. Turned by
-  /// the sum of both at once, as the engine does, a wheel of a robot that turns leans out by half the
-  /// product of both rates and the step, and then rolls on one edge.
+  /// the sum of both at once, as the engine does, a wheel of a robot that turns leans out by half
+  /// the product of both rates and the step, and then rolls on one edge.
   void turn_with_carriers(double step_s);
   std::size_t parent_group(const Joint& joint) const;
   std::size_t child_group(const Joint& joint) const;

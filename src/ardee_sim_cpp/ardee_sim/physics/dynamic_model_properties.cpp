@@ -63,8 +63,8 @@ void DynamicModel::shift_frame(std::size_t group, const Vector3d& shift_B) {
   dBodyID moved = body(group);
   Pose X_WB = body_pose(moved);
   const Vector3d arm = X_WB.q * shift_B;
-  const Vector3d velocity = to_vector(dBodyGetLinearVel(moved)) +
-                            to_vector(dBodyGetAngularVel(moved)).cross(arm);
+  const Vector3d velocity =
+      to_vector(dBodyGetLinearVel(moved)) + to_vector(dBodyGetAngularVel(moved)).cross(arm);
   X_WB.p += arm;
   set_body_pose(moved, X_WB);
   dBodySetLinearVel(moved, velocity.x(), velocity.y(), velocity.z());

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSamePoint = 1e-6;  // m: two contacts nearer than this are one
+constexpr double kSamePoint = 1e-6;    // m: two contacts nearer than this are one
 constexpr double kRidgeHeight = 1e-4;  // m: how far the ground must rise to touch between the rims
 constexpr double kPastEnd = 1e-9;      // share of an edge: rounding at its ends
 constexpr double kOnEnd =

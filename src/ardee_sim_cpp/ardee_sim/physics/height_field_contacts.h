@@ -35,9 +35,9 @@ void collide_sphere(const HeightField& field, const Eigen::Vector3d& center, dou
                     GroundContacts& contacts);
 
 /// A cylinder on its side touches with its two rims and its middle, on which a wheel as wide as it
-/// is rolls, together as stiff as the rims alone: each is a circle whose deepest points over faces and over convex edges of the ground are found
-/// in closed form, so that a rolling wheel meets no steps. A cylinder on end touches with eight
-/// points of the lower rim.
+/// is rolls, together as stiff as the rims alone: each is a circle whose deepest points over faces
+/// and over convex edges of the ground are found in closed form, so that a rolling wheel meets no
+/// steps. A cylinder on end touches with eight points of the lower rim.
 void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder& cylinder,
                       GroundContacts& contacts);
 

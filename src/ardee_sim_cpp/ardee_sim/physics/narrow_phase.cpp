@@ -100,8 +100,8 @@ std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
 }
 
 /// Two ends of a lying cylinder that touch do not say where it rolls: the solver may give either of
-/// them all of the load. A third contact between them is where a wheel as wide as it is rolls; where
-/// fewer are wanted it stands for all. Together they are as stiff as they are without it.
+/// them all of the load. A third contact between them is where a wheel as wide as it is rolls;
+/// where fewer are wanted it stands for all. Together they are as stiff as they are without it.
 void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b, int max_contacts,
                             std::vector<ContactPoint>& points) {
   collide_geoms(a, b, std::max(max_contacts, kLeastOfCylinder), points);

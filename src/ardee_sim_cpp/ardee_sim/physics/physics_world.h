@@ -48,8 +48,9 @@ class PhysicsModel {
   virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
   virtual void set_joint_limits(std::size_t joint, double lower, double upper) = 0;
 
-  // Properties hold until changed; those of a model that is added are its description's. The setters
-  // throw Error and change nothing if a number has no meaning or the body could not be simulated.
+  // Properties hold until changed; those of a model that is added are its description's. The
+  // setters throw Error and change nothing if a number has no meaning or the body could not be
+  // simulated.
   virtual const LinkProperties& link_properties(std::size_t link) const = 0;
   /// Poses and velocities of the links' frames stay as they are.
   virtual void set_link_properties(std::size_t link, const LinkProperties& properties) = 0;

@@ -67,8 +67,8 @@ std::uint32_t read_mask(const Node& contact, const char* name, std::uint32_t fal
 void read_contact(const Node& contact, Surface& surface) {
   surface.kp_n_per_m = read(contact, "ode/kp", surface.kp_n_per_m, bounds::kStiffness);
   surface.kd_n_s_per_m = read(contact, "ode/kd", surface.kd_n_s_per_m, bounds::kDamping);
-  surface.max_correcting_velocity_m_per_s = read(
-      contact, "ode/max_vel", surface.max_correcting_velocity_m_per_s, bounds::kMaxVelocity);
+  surface.max_correcting_velocity_m_per_s =
+      read(contact, "ode/max_vel", surface.max_correcting_velocity_m_per_s, bounds::kMaxVelocity);
   surface.min_depth_m = read(contact, "ode/min_depth", surface.min_depth_m, bounds::kMinDepth);
   surface.collide_without_contact =
       contact.boolean("collide_without_contact", surface.collide_without_contact);
@@ -117,13 +117,13 @@ Surface read_sdf_surface(const Node& collision, Surface made) {
       surface->boolean("friction/torsional/use_patch_radius", made.use_patch_radius);
   made.patch_radius_m =
       read(*surface, "friction/torsional/patch_radius", made.patch_radius_m, bounds::kRadius_m);
-  made.surface_radius_m = read(*surface, "friction/torsional/surface_radius",
-                               made.surface_radius_m, bounds::kRadius_m);
+  made.surface_radius_m =
+      read(*surface, "friction/torsional/surface_radius", made.surface_radius_m, bounds::kRadius_m);
   if (const auto contact = surface->child("contact")) read_contact(*contact, made);
   made.restitution =
       read(*surface, "bounce/restitution_coefficient", made.restitution, bounds::kRestitution);
-  made.bounce_threshold_m_per_s = read(*surface, "bounce/threshold", made.bounce_threshold_m_per_s,
-                                       bounds::kBounceThreshold);
+  made.bounce_threshold_m_per_s =
+      read(*surface, "bounce/threshold", made.bounce_threshold_m_per_s, bounds::kBounceThreshold);
   return made;
 }
 

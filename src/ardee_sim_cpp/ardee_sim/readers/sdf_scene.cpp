@@ -68,8 +68,10 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
       log.warn(physics->source().to_string() + ": found type '" + type + "', ode is used");
     }
     // SDF 1.2 and 1.3 said <ode><solver><dt> and <update_rate>.
-    const double old_step = physics->number("ode/solver/dt", made.step_s, bounds::kStep_s.low, bounds::kStep_s.high);
-    made.step_s = physics->number("max_step_size", old_step, bounds::kStep_s.low, bounds::kStep_s.high);
+    const double old_step =
+        physics->number("ode/solver/dt", made.step_s, bounds::kStep_s.low, bounds::kStep_s.high);
+    made.step_s =
+        physics->number("max_step_size", old_step, bounds::kStep_s.low, bounds::kStep_s.high);
     made.real_time_update_rate_hz = read_update_rate(*physics, made.step_s);
     made.max_contacts = physics->integer("max_contacts", made.max_contacts, 1, 1000000);
     made.gravity_m_per_s2 = physics->vector3("gravity", made.gravity_m_per_s2);

@@ -9,8 +9,8 @@
 
 namespace ardee {
 
-/// A push on a link for a while; forces in world axes (N, N m), the point, in the link's frame (m), as
-/// the link stands when the push is added.
+/// A push on a link for a while; forces in world axes (N, N m), the point, in the link's frame (m),
+/// as the link stands when the push is added.
 struct Wrench {
   Robot* robot = nullptr;
   std::size_t link = 0;

@@ -16,7 +16,7 @@ class RayBlockTest : public testing::Test {
     Loader loader(ResourceLocator{}, log_);
     const auto model = loader.load_model_text(
         "<sdf version='1.6'><model name='m'><link name='l'><sensor name='s' type='ray'>" + body +
-            "</sensor></link></model></sdf>",
+            "<plugin name='p' filename='libgazebo_ros_laser.so'/></sensor></link></model></sdf>",
         "test.sdf");
     return model->links.at(0).sensors.at(0);
   }

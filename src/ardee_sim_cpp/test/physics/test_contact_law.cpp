@@ -74,10 +74,10 @@ TEST(ContactLaw, BodiesMeetWhereMasksDo) {
     std::uint32_t category_a, mask_a, category_b, mask_b;
     bool meet;
   };
-  for (const Case& c : {Case{0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF, true}, Case{1, 1, 2, 2, false},
-                        Case{1, 1, 3, 3, true}, Case{0, 0, 0xFFFF, 0xFFFF, false},
-                        Case{1, 0, 2, 1, true}, Case{1, 2, 2, 0, true}, Case{1, 0, 2, 0, false},
-                        Case{0x10000, 0x10000, 0x10000, 0x10000, true}}) {
+  for (const Case& c :
+       {Case{0xFFFF, 0xFFFF, 0xFFFF, 0xFFFF, true}, Case{1, 1, 2, 2, false}, Case{1, 1, 3, 3, true},
+        Case{0, 0, 0xFFFF, 0xFFFF, false}, Case{1, 0, 2, 1, true}, Case{1, 2, 2, 0, true},
+        Case{1, 0, 2, 0, false}, Case{0x10000, 0x10000, 0x10000, 0x10000, true}}) {
     Surface ground, ball;
     ground.category_bitmask = c.category_a;
     ground.collide_bitmask = c.mask_a;

@@ -217,8 +217,7 @@ TEST_P(Joints, SettingAPositionMovesAllThatHangsOnIt) {
 
 /// A wheel that steers about z and spins about an axis that leans 20 degrees out of the plane.
 std::shared_ptr<Model> leaning_wheel() {
-  auto wheel =
-      jointed_model(JointType::kRevolute2, wheel_inertial(1, 0.02), axis_along({0, 0, 1}));
+  auto wheel = jointed_model(JointType::kRevolute2, wheel_inertial(1, 0.02), axis_along({0, 0, 1}));
   wheel->joints[0].axis2.axis = {0, std::cos(M_PI / 9), std::sin(M_PI / 9)};
   return wheel;
 }

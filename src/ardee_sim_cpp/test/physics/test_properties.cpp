@@ -120,7 +120,8 @@ TEST(Properties, DampingStopsAndLimitsOfAnAxisHold) {
   properties.spring.damping = 2.0;
   head.set_joint_properties(0, 0, properties);
   push(1.0, 3.0);
-  EXPECT_NEAR(head.joint_velocity(0), 1.0 / 2.0, 1e-4) << "effort / damping, after 12 time constants";
+  EXPECT_NEAR(head.joint_velocity(0), 1.0 / 2.0, 1e-4)
+      << "effort / damping, after 12 time constants";
   properties.spring.damping = 0.0;
   properties.max_effort = 0.5;
   properties.max_velocity = 1.2;
@@ -181,7 +182,9 @@ TEST(Properties, WhatIsRefusedChangesNothing) {
   EXPECT_EQ(body.joint_properties(0, 0).spring.damping, 0.0);
   EXPECT_NE(error_of([&] { body.set_joint_motor(0, 0, {nan, 1.0}); }), "");
   EXPECT_NE(error_of([&] { body.set_joint_motor(0, 0, {1.0, -1.0}); }), "");
-  EXPECT_NE(error_of([&] { body.set_joint_motor(0, 1, {1.0, 1.0}); }).find("found axis 1"),
+  EXPECT_NE(error_of([&] {
+              body.set_joint_motor(0, 1, {1.0, 1.0});
+            }).find("found axis 1"),
             std::string::npos);
 }
 

@@ -105,8 +105,9 @@ TEST(Wheels, OnAMeshTheyDoSoWithinTheAccuracyOfItsContacts) {
 }
 
 TEST(Wheels, TheyAreAsStiffAsTheirEnds) {
-  // 5 kg on two wheels and a foot, the centre of mass 0.05 m behind the axle and the foot 0.3 m: the
-  // wheels carry 5/6 of the hull and themselves, on two springs each, in series with the ground's.
+  // 5 kg on two wheels and a foot, the centre of mass 0.05 m behind the axle and the foot 0.3 m:
+  // the wheels carry 5/6 of the hull and themselves, on two springs each, in series with the
+  // ground's.
   Tread tread;
   tread.kp_n_per_m = 1e5;
   for (const int max_contacts : {2, 10}) {

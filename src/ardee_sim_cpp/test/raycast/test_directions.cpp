@@ -39,8 +39,7 @@ std::shared_ptr<Model> wall(Walls kind) {
     case Walls::kMesh:
       return model_of(mesh_of({sheet()}));
     case Walls::kBox:
-      return model_of(Box{{kWall_m, kWall_m, 0.2}},
-                      {{0, 0, -0.1}, Eigen::Quaterniond::Identity()});
+      return model_of(Box{{kWall_m, kWall_m, 0.2}}, {{0, 0, -0.1}, Eigen::Quaterniond::Identity()});
     case Walls::kHeights:
       break;
   }
@@ -59,9 +58,8 @@ std::vector<Pose> places() {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector3d outwards = side * Eigen::Vector3d::Unit(axis);
-      poses.push_back(
-          {kHalfRoom_m * outwards,
-           Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -outwards)});
+      poses.push_back({kHalfRoom_m * outwards,
+                       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -outwards)});
     }
   }
   return poses;
@@ -152,10 +150,10 @@ class Directions : public ::testing::TestWithParam<std::tuple<Walls, bool>> {
   TestScene room_;
   std::vector<SceneRay> rays_;
 };
-INSTANTIATE_TEST_SUITE_P(
-    Rays, Directions,
-    ::testing::Combine(::testing::Values(Walls::kMesh, Walls::kBox, Walls::kHeights),
-                       ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(Rays, Directions,
+                         ::testing::Combine(::testing::Values(Walls::kMesh, Walls::kBox,
+                                                              Walls::kHeights),
+                                            ::testing::Bool()));
 
 TEST_P(Directions, OfScansMeetTheWall) {
   std::vector<RayHit> hits;

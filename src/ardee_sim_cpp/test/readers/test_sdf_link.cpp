@@ -77,9 +77,10 @@ TEST_F(SdfLink, ReadsSurfaces) {
 
 TEST_F(SdfLink, ReadsMasksInDecimalAndHexadecimalAndNothingElse) {
   const auto surface = [this](const std::string& mask) {
-    return model("<link name='a'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-                 "</geometry><surface><contact><collide_bitmask>" +
-                 mask + "</collide_bitmask></contact></surface></collision></link>")
+    return model(
+               "<link name='a'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
+               "</geometry><surface><contact><collide_bitmask>" +
+               mask + "</collide_bitmask></contact></surface></collision></link>")
         ->links.at(0)
         .collisions.at(0)
         .surface;

@@ -43,8 +43,8 @@ const std::vector<Number>& numbers() {
       {of_world("<solver><iters>{}</iters></solver>"), {"1", "100000"}, {"0", "100001"}},
       {of_world("<constraints><cfm>{}</cfm></constraints>"), {"0", "1e6"}, {"-1", "2e6"}},
       {of_world("<constraints><erp>{}</erp></constraints>"), {"0", "1"}, {"-0.1", "1.1"}},
-      {of_world(
-           "<constraints><contact_max_correcting_vel>{}</contact_max_correcting_vel></constraints>"),
+      {of_world("<constraints><contact_max_correcting_vel>{}</contact_max_correcting_vel></"
+                "constraints>"),
        {"0", "inf"},
        {"-1"}},
       {of_world("<constraints><contact_surface_layer>{}</contact_surface_layer></constraints>"),
