@@ -54,6 +54,8 @@ const std::vector<NodeTopic>& node_topics() {
       {"/gazebo/parameter_descriptions", "dynamic_reconfigure/ConfigDescription", true,
        "of the physics, latched"},
       {"/gazebo/parameter_updates", "dynamic_reconfigure/Config", true, "of the physics, latched"},
+      {"/tf_static", "tf2_msgs/TFMessage", true,
+       "`world` to a robot's odometry frame, where `~publish_world_tf` asks for it"},
       {"/ardee/scenery", "visualization_msgs/MarkerArray", true, "for rviz, latched"},
       {"/gazebo/set_model_state", "gazebo_msgs/ModelState", false,
        "as the service, without an answer"},

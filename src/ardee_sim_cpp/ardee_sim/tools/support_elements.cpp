@@ -93,7 +93,7 @@ constexpr BoundedNumbers kBounded[] = {
 };
 
 void write_bounds(std::ostringstream& page) {
-  page << "### Numbers that are refused\n\nBesides what is not a number: sizes, masses and scales "
+  page << "### Numbers that are refused\n\nBesides what is not a number: sizes and scales "
           "that are not above zero, and others than these. SI units.\n\n"
           "| number | from | to |\n|---|---|---|\n";
   for (const auto& [names, range] : kBounded) {
