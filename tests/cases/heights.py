@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What rays straight down find of a model of this folder."""
+"""Heights that rays straight down measure on a model of this folder."""
 import pathlib
 from typing import List, Sequence, Tuple
 

@@ -25,7 +25,7 @@ def is_generated(model: str) -> bool:
 
 
 def own_pose(model: str) -> WorldPose:
-    """Where the <pose> of a generated field's model.sdf stands it: x [m], y [m], yaw [rad]."""
+    """Returns x [m], y [m], yaw [rad] of the <pose> that a generated field's model.sdf has."""
     found = _OWN_POSE.search(model.split("<include>", 1)[0])
     if not found:
         return 0.0, 0.0, 0.0
@@ -39,7 +39,7 @@ def own_pose(model: str) -> WorldPose:
 
 
 def _heights(xy: np.ndarray, ground: Ground, pose: WorldPose) -> List[float]:
-    """Of the ground below places of a field that stands at `pose`."""
+    """Returns heights [m] of the ground below places of a field that stands at `pose`."""
     world = to_world(xy, pose)
     return ground.height_at(world[:, 0], world[:, 1]).tolist()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a robot starts in front of a field, as <name>.start.yaml beside it says."""
+"""The pose from which a robot starts in front of a field: <name>.start.yaml beside it holds it."""
 
 import dataclasses
 from dataclasses import dataclass
