@@ -32,6 +32,7 @@ WHEELS = [f"{end}_{side}_wheel_link" for end in ("front", "rear") for side in ("
 RATES_S = 1.0  # simulated; rates are counted over it
 STEADY_S = 0.6  # simulated, until a motion is steady
 SPEED_M_S, TURN_RAD_S = 0.5, 1.0
+MIDDLE_M = 0.06  # the point about which a robot turns lies nearer to its middle
 START_S = 120.0  # wall, until three launch files have brought up what they start on a busy machine
 
 
@@ -283,7 +284,8 @@ def test_it_turns_about_its_middle_as_coulombs_friction_lets_it(
     (x0, y0, yaw0, t0), (x1, y1, yaw1, t1) = surveyed["turn"][name]
     share = TRACK_M**2 / (TRACK_M**2 + ROBOTS[name]["base"] ** 2)
     assert (yaw1 - yaw0) / (t1 - t0) == pytest.approx(TURN_RAD_S * share, abs=0.05)
-    assert math.hypot(x1 - x0, y1 - y0) < 0.03
+    # the centre of mass lies up to 11 mm behind the wheels' middle, and the legs yield
+    assert math.hypot(x1 - x0, y1 - y0) < MIDDLE_M * (yaw1 - yaw0)
 
 
 @pytest.mark.parametrize("name", ROBOTS)

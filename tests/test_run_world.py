@@ -35,6 +35,17 @@ def test_ctrl_c_ends_world_and_robot_and_nothing_else(graph: RosGraph, script: s
     wait_until(lambda: _left(graph), f"all ended; left: {graph.alive()}", 10.0)
 
 
+@pytest.mark.parametrize("argument", ["use_rvis:=false", "world:=empty.world"])
+def test_an_argument_of_neither_launch_file_is_refused(argument: str) -> None:
+    run = subprocess.run(
+        [str(SCRIPTS / "run_custom_world"), "-y", argument], stderr=subprocess.PIPE, timeout=60
+    )
+    message = run.stderr.decode()
+    assert run.returncode == 2
+    assert f"found {argument}, expected an argument of the world (gui headless paused" in message
+    assert message.count("\n") == 1
+
+
 @pytest.mark.parametrize("answer", [b"n", b""])
 def test_no_ends_it_and_so_does_the_end_of_input(graph: RosGraph, answer: bytes) -> None:
     result = subprocess.run(
