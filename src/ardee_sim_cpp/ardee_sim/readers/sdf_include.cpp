@@ -51,14 +51,21 @@ const SdfReader::ModelFile& SdfReader::included_file(const std::string& uri, con
   key += uri;
   const auto known = by_uri_.find(key);
   if (known != by_uri_.end()) return *known->second;
-  std::string path;
-  if (!assets_.has_files([&] { path = assets_.locator().resolve_model(uri, source); })) {
+  const ModelFile* file = nullptr;
+  const auto read = [&] {
+    const std::string path = assets_.locator().resolve_model(uri, source);
+    try {
+      file = &read_file(path, source, make_static);
+    } catch (const Error& problem) {
+      throw FileError(problem, path);
+    }
+  };
+  if (!assets_.has_files(read)) {
     static const ModelFile kLeftOut;
     return kLeftOut;
   }
-  const ModelFile& file = read_file(path, source, make_static);
-  by_uri_[key] = &file;
-  return file;
+  by_uri_[key] = file;
+  return *file;
 }
 
 const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const Source& source,

@@ -48,6 +48,19 @@ TEST_F(MissingFilesTest, SaysOnceWhatIsNamedOftenAndAgainForTheNextWorld) {
   EXPECT_EQ(errors_->size(), 2u);
 }
 
+TEST_F(MissingFilesTest, LeavesOutAnIncludeThatCannotBeRead) {
+  folder_.write_model("torn", "<link name='l'>");
+  folder_.write_model("wrong", "<link name='l'><pose>0 0</pose></link>");
+  folder_.write_model("ring", include("ring"));
+  const World w = world(include("torn") + include("wrong") + include("ring") + include("box"));
+  ASSERT_EQ(w.models.size(), 2u);  // of the ring what is in it beside itself: nothing
+  EXPECT_EQ(w.models[1].name, "box");
+  ASSERT_EQ(errors_->size(), 3u);
+  EXPECT_HAS(errors_->at(0), "torn/model.sdf:");
+  EXPECT_HAS(errors_->at(1), "<pose>: found '0 0'");
+  EXPECT_HAS(errors_->at(2), "include cycle");
+}
+
 TEST_F(MissingFilesTest, FindsAModelThatHasComeSince) {
   EXPECT_TRUE(world(include("tree")).models.empty());
   folder_.write_model("tree", "<link name='l'/>");
