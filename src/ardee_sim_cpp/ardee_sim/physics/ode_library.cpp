@@ -3,12 +3,12 @@
 
 #include <ode/ode.h>
 
+#include <array>
 #include <cstdarg>
 #include <cstdio>
 #include <mutex>
+#include <string>
 #include <utility>
-
-#include "ardee_sim/core/error.h"
 
 namespace ardee::physics {
 namespace {
@@ -17,12 +17,11 @@ std::mutex holders_mutex;
 int holders = 0;
 thread_local bool complained = false;
 
-// ODE ends the process when these return, and they may not throw: all input is kept within ranges
-// in which it has no reason to call them.
-void on_failure(int, const char* format, va_list arguments) {
-  std::fputs("physics engine: ", stderr);
-  std::vfprintf(stderr, format, arguments);
-  std::fputs("\n", stderr);
+// ODE ends the process when this returns.
+[[noreturn]] void on_failure(int, const char* format, va_list arguments) {
+  std::array<char, 256> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  throw EngineFault(std::string("physics engine: ") + text.data());
 }
 
 // The solver's only messages say that it met a singular system.

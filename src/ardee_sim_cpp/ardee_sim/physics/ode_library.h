@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ardee_sim/core/error.h"
+
 namespace ardee::physics {
+
+/// A number that is none, met by ODE in the midst of its work: what it was doing is half done.
+class EngineFault : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Holds ODE open while it lives: ODE itself is initialised by the first holder in the process and
 /// closed by the last.

@@ -10,6 +10,9 @@
 namespace ardee::physics {
 
 struct OdeDeleter {
+  void operator()(dxThreadingImplementation* threads) const {
+    dThreadingFreeImplementation(threads);
+  }
   void operator()(dxWorld* world) const { dWorldDestroy(world); }
   void operator()(dxBody* body) const { dBodyDestroy(body); }
   void operator()(dxJoint* joint) const { dJointDestroy(joint); }
@@ -17,6 +20,7 @@ struct OdeDeleter {
   void operator()(dxGeom* geom) const { dGeomDestroy(geom); }
   void operator()(dxTriMeshData* data) const { dGeomTriMeshDataDestroy(data); }
 };
+using ThreadingHandle = std::unique_ptr<dxThreadingImplementation, OdeDeleter>;
 using WorldHandle = std::unique_ptr<dxWorld, OdeDeleter>;
 using BodyHandle = std::unique_ptr<dxBody, OdeDeleter>;
 using JointHandle = std::unique_ptr<dxJoint, OdeDeleter>;

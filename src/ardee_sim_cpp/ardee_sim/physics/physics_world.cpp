@@ -148,7 +148,11 @@ void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
 
 std::vector<LostModel> PhysicsWorld::step() {
   if (std::vector<LostModel> before = impl_->lost(); !before.empty()) return before;
-  impl_->step();
+  try {
+    impl_->step();
+  } catch (const physics::EngineFault&) {
+    if (impl_->lost().empty()) throw;
+  }
   return impl_->lost();
 }
 

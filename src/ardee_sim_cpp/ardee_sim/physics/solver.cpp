@@ -2,6 +2,8 @@
 #include "ardee_sim/physics/solver.h"
 
 #include <algorithm>
+#include <mutex>
+#include <utility>
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/physics/ode_library.h"
@@ -55,7 +57,28 @@ void enable(const Island& island) {
   for (dBodyID body : first) dBodyEnable(body);
 }
 
+/// ODE refuses to free a list with work left in it, which a fault leaves.
+void keep_for_ever(ThreadingHandle threads) {
+  static std::mutex mutex;
+  static auto* const kept = new std::vector<ThreadingHandle>;
+  const std::lock_guard<std::mutex> lock(mutex);
+  kept->push_back(std::move(threads));
+}
+
 }  // namespace
+
+Solver::Solver(dWorldID world) : world_(world) { renew_threads(); }
+
+Solver::~Solver() { dWorldSetStepThreadingImplementation(world_, nullptr, nullptr); }
+
+void Solver::renew_threads() {
+  ThreadingHandle fresh(dThreadingAllocateSelfThreadedImplementation());
+  if (!fresh) throw Error("physics engine: out of memory");
+  dWorldSetStepThreadingImplementation(
+      world_, dThreadingImplementationGetFunctions(fresh.get()), fresh.get());
+  std::swap(threads_, fresh);
+  if (fresh) keep_for_ever(std::move(fresh));
+}
 
 void Solver::save(const std::vector<dBodyID>& bodies) {
   saved_.resize(bodies.size());
@@ -85,7 +108,11 @@ void Solver::restore(const std::vector<dBodyID>& bodies) const {
 bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies) {
   save(bodies);
   OdeLibrary::take_complaint();
-  if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_complaint()) return true;
+  try {
+    if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_complaint()) return true;
+  } catch (const EngineFault&) {
+    renew_threads();
+  }
   restore(bodies);
   return false;
 }
@@ -93,7 +120,13 @@ bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBody
 void Solver::iterate(const PhysicsParams& params, const Island& island) {
   enable(island);
   dRandSetSeed(seed_);
-  const int done = dWorldQuickStep(world_, params.step_s);
+  int done = 0;
+  try {
+    done = dWorldQuickStep(world_, params.step_s);
+  } catch (const EngineFault&) {
+    renew_threads();
+    throw;
+  }
   seed_ = dRandGetSeed();
   if (!done) throw Error("physics engine: out of memory");
   disable(island);

@@ -27,13 +27,16 @@ struct Island {
 /// singular to it is solved again by iterations.
 class Solver {
  public:
-  explicit Solver(dWorldID world) : world_(world) {}
+  explicit Solver(dWorldID world);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
 
   /// The iterations shuffle rows with a random number that ODE keeps for the whole process: this
   /// world has its own, lent to ODE for each step.
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
 
-  /// Throws Error if the engine runs out of memory.
+  /// Throws Error if the engine runs out of memory, or what it is given cannot be solved at all.
   void step(const PhysicsParams& params, const std::vector<Island>& islands);
   /// Whether all of the last step was solved directly.
   bool was_direct() const { return was_direct_; }
@@ -47,10 +50,13 @@ class Solver {
 
   bool solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies);
   void iterate(const PhysicsParams& params, const Island& island);
+  /// The engine's list of work, from now on empty: a fault leaves one half done.
+  void renew_threads();
   void save(const std::vector<dBodyID>& bodies);
   void restore(const std::vector<dBodyID>& bodies) const;
 
   dWorldID world_;
+  ThreadingHandle threads_;
   unsigned long seed_ = 0;
   bool was_direct_ = false;
   std::vector<BodyState> saved_;

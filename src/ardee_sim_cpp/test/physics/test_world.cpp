@@ -199,6 +199,21 @@ TEST(PhysicsWorld, StateThatIsNotValidIsRefusedOrNamed) {
   EXPECT_EQ(body.link_twist(0).linear.x(), 0.0);
 }
 
+TEST(PhysicsWorld, OutlivesWhatTheEngineCannotSolve) {
+  // Whatever lifts the end of a board of 1e9 m, its light middle turns by more than a number holds.
+  PhysicsWorld world(params(0.02), silent());
+  world.add_scenery({Placement{static_model(Plane{}), Pose{}}});
+  const auto board = box_model(0.1, {0.4, 1e9, 0.4});
+  board->links[0].inertial->inertia_kg_m2 = 1e-4 * Eigen::Matrix3d::Identity();
+  PhysicsModel& kept = world.add_model(box_model(1, {1, 1, 1}), at(0, 0, 10), "kept");
+  for (int i = 0; i < 5; ++i) {
+    PhysicsModel& added = world.add_model(board, Pose{}, "board");
+    for (const LostModel& lost : world.step()) EXPECT_EQ(lost.model, &added);
+    world.remove_model(added);
+  }
+  EXPECT_NEAR(kept.link_twist(0).linear.z(), -kGravity * 5 * 0.02, 1e-9);
+}
+
 TEST(PhysicsWorld, ModelsThatLeaveTheWorldAreNamedAndNoOthers) {
   PhysicsWorld world(params(0.001), silent());
   PhysicsModel& one = world.add_model(box_model(1, {1, 1, 1}), Pose{});
