@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 #include "ardee_sim/simulation/simulation.h"
@@ -31,7 +32,17 @@ struct Cut {
 constexpr std::array<Cut, 5> kCuts{
     {{"width", 16}, {"height", 12}, {"samples", 32}, {"resolution", 2}, {"model_count", 5}}};
 
+/// A camera that says no size of its pictures takes large ones.
+void give_size(tinyxml2::XMLElement& camera) {
+  tinyxml2::XMLElement* image = camera.FirstChildElement("image");
+  if (!image) image = camera.InsertNewChildElement("image");
+  for (const char* size : {"width", "height"}) {
+    if (!image->FirstChildElement(size)) image->InsertNewChildElement(size)->SetText(8);
+  }
+}
+
 void cut_sizes(tinyxml2::XMLElement& element) {
+  if (std::strcmp(element.Name(), "camera") == 0) give_size(element);
   for (const Cut& cut : kCuts) {
     const char* text = element.GetText();
     if (std::string(element.Name()) == cut.element && text && std::atof(text) > cut.most) {

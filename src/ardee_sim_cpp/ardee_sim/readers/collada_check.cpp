@@ -77,6 +77,8 @@ class ColladaCheck {
       count_numbers<std::int32_t>(node);
     } else if (kValues.count(name) != 0) {
       count_numbers<float>(node);
+    } else if (name == "triangles" || name == "polylist" || name == "polygons") {
+      check_primitives(node);
     } else if (name == "node" && !id.empty()) {
       nodes_.emplace(id, node);
     } else if (name == "input" || name == "accessor" || name == "instance_geometry" ||
@@ -95,6 +97,20 @@ class ColladaCheck {
                        std::to_string(count));
     }
     arrays_[id] = found;
+  }
+
+  /// The mesh library ends the process where it finds another number of lists of indices.
+  static void check_primitives(const Node& node) {
+    const std::size_t count = whole_number(node, "count", 0);
+    const bool is_one_list = node.name() != "polygons";
+    if (count == 0 && is_one_list) return;
+    const std::size_t expected = is_one_list ? 1 : count;
+    std::size_t found = 0;
+    node.each("p", [&found](const Node&) { ++found; });
+    if (found != expected) {
+      throw node.error("found " + std::to_string(found) + " <p>, expected " +
+                       std::to_string(expected));
+    }
   }
 
   void check_reference(const Node& node) const {

@@ -192,6 +192,16 @@ TEST(MeshPolygons, OfEachKindOfCollada) {
   }
 }
 
+TEST(MeshPolygons, ListsThatAreMissingAreRefused) {
+  const TempFolder folder;
+  for (const std::string& each :
+       {primitive("triangles", 1, ""), primitive("polygons", 2, "<p>0 1 2</p>"),
+        primitive("polylist", 1, "<vcount>3</vcount>")}) {
+    const std::string path = folder.write("l.dae", collada(each));
+    EXPECT_THROW(Reading{path}, Error) << each;
+  }
+}
+
 TEST(MeshPolygons, AFanNeedNotBeFlat) {
   const TempFolder folder;
   const Reading cone(
