@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 #include <vector>
@@ -77,15 +78,18 @@ class ColladaCheck {
       count_numbers<std::int32_t>(node);
     } else if (kValues.count(name) != 0) {
       count_numbers<float>(node);
-    } else if (name == "triangles" || name == "polylist" || name == "polygons") {
-      check_primitives(node);
+    } else if (name == "effect") {
+      check_parameters(node);
     } else if (name == "node" && !id.empty()) {
       nodes_.emplace(id, node);
     } else if (name == "input" || name == "accessor" || name == "instance_geometry" ||
                name == "instance_node" || name == "instance_controller") {
       references_.push_back(node);
     }
-    node.each([this](const Node& child) { collect(child); });
+    node.each([&](const Node& child) {
+      check_place(child, name);
+      collect(child);
+    });
   }
 
   void check_array(const Node& node, const std::string& id) {
@@ -99,17 +103,49 @@ class ColladaCheck {
     arrays_[id] = found;
   }
 
-  /// The mesh library ends the process where it finds another number of lists of indices.
-  static void check_primitives(const Node& node) {
-    const std::size_t count = whole_number(node, "count", 0);
-    const bool is_one_list = node.name() != "polygons";
-    if (count == 0 && is_one_list) return;
-    const std::size_t expected = is_one_list ? 1 : count;
-    std::size_t found = 0;
-    node.each("p", [&found](const Node&) { ++found; });
-    if (found != expected) {
-      throw node.error("found " + std::to_string(found) + " <p>, expected " +
-                       std::to_string(expected));
+  /// The mesh library takes an element by its name wherever it stands, and then looks for what is
+  /// not there.
+  static void check_place(const Node& child, std::string_view parent) {
+    static const Names kPrimitives{"triangles", "polylist", "polygons",  "lines",
+                                   "linestrips", "trifans", "tristrips"};
+    static const std::map<std::string, Names, std::less<>> kParents{
+        {"library_geometries", {"COLLADA"}},
+        {"library_visual_scenes", {"COLLADA"}},
+        {"geometry", {"library_geometries"}},
+        {"mesh", {"geometry"}},
+        {"vertices", {"mesh", "brep", "convex_mesh"}},
+        {"float_array", {"source"}},
+        {"accessor", {"technique_common"}},
+        {"visual_scene", {"library_visual_scenes"}},
+        {"node", {"library_nodes", "visual_scene", "node"}},
+        {"effect", {"library_effects"}},
+    };
+    const bool is_primitive = kPrimitives.count(child.name()) != 0;
+    const auto found = kParents.find(is_primitive ? "vertices" : child.name());
+    if (found == kParents.end() || found->second.count(parent) != 0) return;
+    throw child.error("found it in <" + std::string(parent) + ">, expected it in <" +
+                      *found->second.begin() + ">");
+  }
+
+  /// A parameter of an effect names another; the mesh library follows them round and round.
+  static void check_parameters(const Node& effect) {
+    std::map<std::string, std::string> named;
+    const std::function<void(const Node&)> collect_named = [&](const Node& node) {
+      if (node.name() == "newparam") {
+        std::string target = node.text("sampler2D/source", "");
+        if (target.empty()) target = node.text("surface/init_from", "");
+        named[node.attribute("sid")] = target;
+      }
+      node.each(collect_named);
+    };
+    collect_named(effect);
+    for (const auto& [first, target] : named) {
+      std::string sid = target;
+      for (std::size_t steps = 0; named.count(sid) != 0; sid = named[sid]) {
+        if (++steps > named.size()) {
+          throw effect.error("found parameter '" + first + "' in a ring, expected none");
+        }
+      }
     }
   }
 

@@ -13,6 +13,17 @@
 #include "ardee_sim/readers/mesh_materials.h"
 #include "ardee_sim/readers/polygon.h"
 
+namespace Assimp {
+
+/// Takes the place of the mesh library's own function of this name, which ends the process: what it
+/// asserts of a file becomes an error like others.
+ASSIMP_API void aiAssertViolation(const char* failed, const char* file, int line);
+void aiAssertViolation(const char* failed, const char* /*file*/, int /*line*/) {
+  throw ardee::Error(std::string("the mesh library expects ") + failed);
+}
+
+}  // namespace Assimp
+
 namespace ardee {
 namespace {
 

@@ -202,6 +202,22 @@ TEST(MeshPolygons, ListsThatAreMissingAreRefused) {
   }
 }
 
+TEST(MeshReader, RefusesColladaThatTheLibraryWouldNotOutlive) {
+  const TempFolder folder;
+  const std::string part = primitive("triangles", 1, "<p>0 1 2</p>");
+  const std::string effect =
+      "<library_effects><effect id='e'><profile_COMMON><newparam sid='a'><sampler2D><source>a"
+      "</source></sampler2D></newparam></profile_COMMON></effect></library_effects>";
+  const std::string skew = "<node id='k'><skew>45 0 1 0 1 0 0</skew></node>";
+  const std::string in_node = "<node id='k'><mesh/></node>";
+  for (const std::string& text :
+       {collada(part, effect), collada(part, "", skew), collada(part, "", in_node)}) {
+    const std::string path = folder.write("l.dae", text);
+    EXPECT_THROW(Reading{path}, Error) << text;
+  }
+  EXPECT_EQ(triangles(Reading(folder.write("l.dae", collada(part))).file), 1u);
+}
+
 TEST(MeshPolygons, AFanNeedNotBeFlat) {
   const TempFolder folder;
   const Reading cone(
