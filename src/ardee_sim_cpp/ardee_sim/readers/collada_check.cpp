@@ -109,7 +109,11 @@ class ColladaCheck {
     static const Names kPrimitives{"triangles", "polylist", "polygons",  "lines",
                                    "linestrips", "trifans", "tristrips"};
     static const std::map<std::string, Names, std::less<>> kParents{
+        {"COLLADA", {"no other element"}},
+        {"library_effects", {"COLLADA"}},
         {"library_geometries", {"COLLADA"}},
+        {"library_materials", {"COLLADA"}},
+        {"library_nodes", {"COLLADA"}},
         {"library_visual_scenes", {"COLLADA"}},
         {"geometry", {"library_geometries"}},
         {"mesh", {"geometry"}},

@@ -27,8 +27,8 @@ using SurfaceRule = std::function<void(const Node&, Surface&)>;
 const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   static const std::map<std::string, SurfaceRule, std::less<>> rules = [] {
     std::map<std::string, SurfaceRule, std::less<>> made;
-    made["mu1"] = [](const Node& n, Surface& s) { s.mu = read(n, bounds::kFriction); };
-    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = read(n, bounds::kFriction); };
+    made["mu1"] = [](const Node& n, Surface& s) { s.mu = read_friction(n, s.mu); };
+    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = read_friction(n, s.mu2); };
     made["fdir1"] = [](const Node& n, Surface& s) { s.fdir1 = n.to_vector3(); };
     made["frictionCone"] = [](const Node& n, Surface& s) { s.friction_cone = n.to_boolean(); };
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = read(n, bounds::kSlip); };
@@ -57,8 +57,9 @@ void set_material(const Node& material, Link& link, Assets& assets) {
   const bool detailed = material.child("script") || material.child("ambient") ||
                         material.child("diffuse") || material.child("specular") ||
                         material.child("emissive");
+  if (!detailed && material.text().empty()) return;
   const Material made = detailed ? read_sdf_material(material, assets)
-                                 : assets.material(material.required_text(), {}, material.source());
+                                 : assets.material(material.text(), {}, material.source());
   for (Visual& visual : link.visuals) visual.material = made;
 }
 
