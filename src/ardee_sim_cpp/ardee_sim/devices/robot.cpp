@@ -10,9 +10,9 @@ template <typename Item>
 std::size_t index_of(const std::vector<Item>& items, const std::string& name, const char* what,
                      const Source& source, const std::string& scope) {
   for (const std::string& full_name : {scope + name, name}) {
-    const auto found =
-        std::find_if(items.begin(), items.end(),
-                     [&full_name](const Item& item) { return item.name == full_name; });
+    const auto found = std::find_if(items.begin(), items.end(), [&full_name](const Item& item) {
+      return item.name == full_name;
+    });
     if (found != items.end()) return static_cast<std::size_t>(found - items.begin());
   }
   std::string known;

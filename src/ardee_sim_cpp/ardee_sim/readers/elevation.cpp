@@ -67,7 +67,8 @@ class TiffFile {
     check_image_size(width_, height_, path_, source_);
     if (orientation_ != ORIENTATION_TOPLEFT) {
       throw Error(source_, "found elevations of orientation " + std::to_string(orientation_) +
-                               " in '" + path_ + "', expected 1 (rows from the top, from the left)");
+                               " in '" + path_ +
+                               "', expected 1 (rows from the top, from the left)");
     }
     check_samples();
     Elevation made;

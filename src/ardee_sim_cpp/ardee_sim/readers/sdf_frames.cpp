@@ -67,8 +67,8 @@ void SdfFrames::add_model(const std::string& name, const Node& element,
   const auto pose = pose_of(element);
   const std::string other = relative_to(pose);
   const Pose X_BP = own_pose(pose);
-  frames_.emplace(
-      name, Frame{X_MP ? X_BP * X_MP->inverse() : X_BP, other.empty() ? root_ : other, ""});
+  frames_.emplace(name,
+                  Frame{X_MP ? X_BP * X_MP->inverse() : X_BP, other.empty() ? root_ : other, ""});
   models_.emplace(name, std::move(model));
 }
 

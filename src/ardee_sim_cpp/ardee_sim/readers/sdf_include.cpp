@@ -92,7 +92,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   const Scope scope{read_version(root), make_static};
   sdf_schema().check(root, assets_.log());
   if (const auto model = root.child("model")) file.model = read_own_model(*model, scope);
-  root.each("light", [&file](const Node& light) { 
+  root.each("light", [&file](const Node& light) {
     file.lights.push_back(read_sdf_light(light, light.pose()));
   });
   if (!file.model && file.lights.empty()) {

@@ -25,8 +25,9 @@ JointType joint_type(const Node& joint) {
   const std::string type = joint.required_attribute("type");
   const auto found = types.find(type);
   if (found != types.end()) return found->second;
-  throw joint.error("found joint type '" + type +
-                    "', expected fixed, revolute, continuous, prismatic, ball, universal, revolute2 or screw");
+  throw joint.error(
+      "found joint type '" + type +
+      "', expected fixed, revolute, continuous, prismatic, ball, universal, revolute2 or screw");
 }
 
 /// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say

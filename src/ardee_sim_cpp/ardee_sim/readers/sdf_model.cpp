@@ -107,7 +107,7 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
 }
 
 std::vector<SdfReader::Placed> SdfReader::read_placed(const Node& parent, const Scope& scope,
-                                                     UniqueNames& names, SdfFrames& frames) {
+                                                      UniqueNames& names, SdfFrames& frames) {
   std::vector<Placed> placed;
   parent.each([&](const Node& child) {
     if (!is_nested(child)) return;

@@ -133,10 +133,8 @@ void apply_to_joint(const Node& node, Joint& joint) {
     joint.axis.spring_reference = read(node, bounds::kJointReference);
   } else if (name == "physics") {
     constexpr bounds::Range kSoftness = bounds::kJointSoftness;
-    joint.stop_cfm =
-        node.number("ode/limit/cfm", joint.stop_cfm, kSoftness.low, kSoftness.high);
-    joint.stop_erp =
-        node.number("ode/limit/erp", joint.stop_erp, kSoftness.low, kSoftness.high);
+    joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, kSoftness.low, kSoftness.high);
+    joint.stop_erp = node.number("ode/limit/erp", joint.stop_erp, kSoftness.low, kSoftness.high);
   }
 }
 
@@ -189,8 +187,8 @@ class GazeboBlocks {
       model_.joints.push_back(read_sdf_joint(node, *joint_scope_, assets_.log()));
       joints_.emplace(model_.joints.back().name, model_.joints.size() - 1);
     } else if (is_empty(node)) {
-    return;
-  } else if (name == "static") {
+      return;
+    } else if (name == "static") {
       model_.is_static = node.to_boolean();
     } else if (name == "selfCollide" || name == "self_collide") {
       model_.self_collide = node.to_boolean();

@@ -60,8 +60,9 @@ void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log
   made.canonical_link = root.name;
   if (root.name != "world") return;
   if (!root.visuals.empty() || !root.collisions.empty()) {
-    log.warn(root.source, "found visuals or collisions of the link 'world', expected none: it is "
-                          "the world itself; they are left out");
+    log.warn(root.source,
+             "found visuals or collisions of the link 'world', expected none: it is "
+             "the world itself; they are left out");
   }
   made.canonical_link = order.size() > 1 ? made.links[order[1]].name : "";
   made.links.erase(made.links.begin() + static_cast<std::ptrdiff_t>(order.front()));

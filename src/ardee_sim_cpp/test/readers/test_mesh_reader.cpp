@@ -255,9 +255,9 @@ TEST(MeshReader, LooksAtEachNodeOfAColladaFileOnce) {
   const TempFolder folder;
   const auto error = [&](int length, int copies) {
     const std::string triangle = primitive("triangles", 1, "<p>0 1 2</p>");
-    return error_of(folder.write(
-        "chain.dae", collada(triangle, chain(length, copies),
-                             "<node id='top'><instance_node url='#c0'/></node>")));
+    return error_of(
+        folder.write("chain.dae", collada(triangle, chain(length, copies),
+                                          "<node id='top'><instance_node url='#c0'/></node>")));
   };
   EXPECT_EQ(error(900, 1), "");
   EXPECT_EQ(error(10, 2), "");
@@ -266,9 +266,9 @@ TEST(MeshReader, LooksAtEachNodeOfAColladaFileOnce) {
   const std::string ring =
       "<library_nodes><node id='a'><instance_node url='#b'/></node><node id='b'>"
       "<node id='c'><instance_node url='#a'/></node></node></library_nodes>";
-  EXPECT_HAS(error_of(folder.write(
-                 "ring.dae", collada(primitive("triangles", 1, "<p>0 1 2</p>"), ring))),
-             "within itself, expected a tree");
+  EXPECT_HAS(
+      error_of(folder.write("ring.dae", collada(primitive("triangles", 1, "<p>0 1 2</p>"), ring))),
+      "within itself, expected a tree");
 }
 
 TEST(MeshPolygons, WhatIsNoneIsToldOnce) {

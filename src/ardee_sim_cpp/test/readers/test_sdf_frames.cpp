@@ -135,8 +135,7 @@ TEST_F(SdfFramesTest, APlacedModelIsWhereItIsForWhatComesBeforeItToo) {
   const auto arm = [](const std::string& more) {
     return "<include><uri>model://arm</uri>" + more + "</include>";
   };
-  const std::string placed =
-      "<pose>5 0 0 0 0 0</pose><placement_frame>tip</placement_frame>";
+  const std::string placed = "<pose>5 0 0 0 0 0</pose><placement_frame>tip</placement_frame>";
   const auto tool = [&](const std::string& in, const std::string& after) {
     return model(link("tool", pose(in, "0 0 1 0 0 0")) + after)->links.at(0).X_ML.p;
   };
@@ -154,32 +153,34 @@ TEST_F(SdfFramesTest, APlacedModelIsWhereItIsForWhatComesBeforeItToo) {
 }
 
 TEST_F(SdfFramesTest, AModelInANestedModelIsAFrame) {
-  const std::string nested =
-      "<model name='a'><pose>1 0 0 0 0 0</pose>" + link("x") +
-      "<model name='b'><pose>0 1 0 0 0 0</pose>" + link("y") + "</model></model>";
+  const std::string nested = "<model name='a'><pose>1 0 0 0 0 0</pose>" + link("x") +
+                             "<model name='b'><pose>0 1 0 0 0 0</pose>" + link("y") +
+                             "</model></model>";
   const auto m = model(link("t", pose("a::b", "0 0 1 0 0 0")) + nested + fixed("a::b", "t"));
   expect_near(m->find_link("t")->X_ML.p, {1, 1, 1});
   EXPECT_EQ(m->joints.at(0).parent, "a::b::y");
-  const World w = world("<model name='c'>" + pose("a::b", "0 0 1 0 0 0") + link("l") + "</model>" +
-                        nested + "<model name='s'><static>1</static><model name='d'>" +
-                        "<pose>0 3 0 0 0 0</pose>" + link("y", "<pose>0 0 1 0 0 0</pose>") +
-                        "</model></model><model name='e'>" + pose("s::d::y", "1 0 0 0 0 0") +
-                        link("l") + "</model>");
+  const World w =
+      world("<model name='c'>" + pose("a::b", "0 0 1 0 0 0") + link("l") + "</model>" + nested +
+            "<model name='s'><static>1</static><model name='d'>" + "<pose>0 3 0 0 0 0</pose>" +
+            link("y", "<pose>0 0 1 0 0 0</pose>") + "</model></model><model name='e'>" +
+            pose("s::d::y", "1 0 0 0 0 0") + link("l") + "</model>");
   expect_near(w.models.at(0).pose.p, {1, 1, 1});
   expect_near(w.models.at(3).pose.p, {1, 3, 1});
 }
 
 TEST_F(SdfFramesTest, AFrameAttachedToNothingIsTheModels) {
-  const auto m = model(link("a", "<pose>1 0 0 0 0 0</pose>") + link("b") +
-                       "<frame name='f' attached_to=''><pose>0 0 1 0 0 0</pose></frame>" +
-                       fixed("f", "b"));
+  const auto m =
+      model(link("a", "<pose>1 0 0 0 0 0</pose>") + link("b") +
+            "<frame name='f' attached_to=''><pose>0 0 1 0 0 0</pose></frame>" + fixed("f", "b"));
   expect_near(m->find_frame("f")->X_MF.p, {0, 0, 1});
   EXPECT_EQ(m->joints.at(0).parent, "a");
 }
 
 TEST_F(SdfFramesTest, ALampStandsInAFrame) {
-  const World w = world("<frame name='f'><pose>1 2 3 0 0 0</pose></frame><light name='l' "
-                        "type='point'>" + pose("f", "0 0 1 0 0 0") + "</light>");
+  const World w = world(
+      "<frame name='f'><pose>1 2 3 0 0 0</pose></frame><light name='l' "
+      "type='point'>" +
+      pose("f", "0 0 1 0 0 0") + "</light>");
   expect_near(w.lights.at(0).pose.p, {1, 2, 4});
 }
 

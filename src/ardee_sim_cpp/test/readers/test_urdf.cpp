@@ -287,7 +287,8 @@ TEST_F(Urdf, TheFirstLinkBelowTheWorldStandsForTheRobot) {
 TEST_F(Urdf, AnEmptyBlockIsAsOneThatIsNotThere) {
   const auto m = robot(
       "<link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/>"
-      "<child link='b'/><axis xyz='0 0 1'/></joint><gazebo reference='j'><stopCfm/><stopErp></stopErp>"
+      "<child link='b'/><axis xyz='0 0 1'/></joint><gazebo "
+      "reference='j'><stopCfm/><stopErp></stopErp>"
       "<springStiffness/><springReference/></gazebo><gazebo reference='b'><gravity/><selfCollide/>"
       "<turnGravityOff/><kinematic/><dampingFactor/><laserRetro/><material/></gazebo>"
       "<gazebo><static/><selfCollide/></gazebo>");
