@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/collada_check.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -60,7 +62,8 @@ class ColladaCheck {
   void check(const Node& root) {
     collect(root);
     for (const Node& node : references_) check_reference(node);
-    for (const auto& entry : nodes_) check_holds(entry.second, {});
+    for (const auto& [id, node] : nodes_) extent_of(id, node, 0);
+    for (const Node& scene : scenes_) extent(scene, 0);
   }
 
  private:
@@ -82,6 +85,8 @@ class ColladaCheck {
       check_parameters(node);
     } else if (name == "node" && !id.empty()) {
       nodes_.emplace(id, node);
+    } else if (name == "visual_scene") {
+      scenes_.push_back(node);
     } else if (name == "input" || name == "accessor" || name == "instance_geometry" ||
                name == "instance_node" || name == "instance_controller") {
       references_.push_back(node);
@@ -186,26 +191,53 @@ class ColladaCheck {
     }
   }
 
-  /// That no node comes again within itself, through <instance_node>.
-  void check_holds(const Node& node, Names above) {
-    constexpr std::size_t kMaxVisits = 200'000;
-    if (++visits_ > kMaxVisits) throw node.error("found too many nodes, expected fewer");
-    const std::string id = node.attribute("id");
-    if (!id.empty() && !above.insert(id).second) {
+  /// How many nodes a node becomes when each <instance_node> is replaced by what it names, and how
+  /// deep they lie in each other.
+  struct Extent {
+    std::size_t count = 1;
+    std::size_t depth = 1;
+  };
+
+  /// Throws Error if a node comes again within itself, or becomes too many.
+  Extent extent(const Node& node, std::size_t above) {
+    constexpr std::size_t kMost = 200'000;
+    constexpr std::size_t kDeepest = 1000;
+    Extent made;
+    const auto add = [&made](const Extent& below) {
+      made.count += below.count;
+      made.depth = std::max(made.depth, below.depth + 1);
+    };
+    if (above < kDeepest) {
+      node.each("node", [&](const Node& child) { add(extent(child, above + 1)); });
+      node.each("instance_node", [&](const Node& instance) {
+        const auto target = nodes_.find(instance.attribute("url").substr(1));
+        if (target != nodes_.end()) add(extent_of(target->first, target->second, above + 1));
+      });
+    }
+    if (made.count > kMost) throw node.error("found too many nodes, expected fewer");
+    if (above + made.depth > kDeepest) {
+      throw node.error("found nodes more than " + std::to_string(kDeepest) +
+                       " deep in each other, expected fewer");
+    }
+    return made;
+  }
+
+  /// The same of a node that has an id, each of which is looked at once.
+  Extent extent_of(const std::string& id, const Node& node, std::size_t above) {
+    const auto [known, is_new] = extents_.emplace(id, std::nullopt);
+    if (is_new) known->second = extent(node, above);
+    if (!known->second) {
       throw node.error("found node '" + id + "' within itself, expected a tree");
     }
-    node.each("node", [&](const Node& child) { check_holds(child, above); });
-    node.each("instance_node", [&](const Node& instance) {
-      const auto target = nodes_.find(instance.attribute("url").substr(1));
-      if (target != nodes_.end()) check_holds(target->second, above);
-    });
+    return *known->second;
   }
 
   Names ids_;
   std::map<std::string, std::size_t> arrays_;  // numbers in each
   std::map<std::string, Node, std::less<>> nodes_;
+  std::map<std::string, std::optional<Extent>> extents_;  // by id; none: being looked at
+  std::vector<Node> scenes_;
   std::vector<Node> references_;
-  std::size_t visits_ = 0;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "ardee_sim/readers/mesh_file_check.h"
 #include "ardee_sim/readers/mesh_materials.h"
 #include "ardee_sim/readers/polygon.h"
+#include "ardee_sim/readers/xml_text.h"
 
 namespace Assimp {
 
@@ -30,6 +31,8 @@ namespace {
 constexpr std::size_t kMaxTriangles = 20'000'000;
 /// Of a polygon: cutting it takes time that grows with their cube.
 constexpr std::size_t kMaxCorners = 1000;
+/// Comparisons of corners when the polygons of a file are cut: some seconds.
+constexpr std::uint64_t kMaxWork = 2'000'000'000;
 constexpr float kAbsurdCoordinate = 1e9f;
 
 /// What of a file is not in the mesh.
@@ -85,7 +88,7 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, const
     if (bytes.find("<trifans") == std::string::npos) {
       scene = importer.ReadFile(path, 0);
     } else {
-      const std::string triangles = fans_to_triangles(bytes);
+      const std::string triangles = fans_to_triangles(plain_xml(bytes, path), path);
       scene = importer.ReadFileFromMemory(triangles.data(), triangles.size(), 0, "dae");
     }
     if (scene) {
@@ -177,7 +180,7 @@ class PartReader {
     }
   }
 
-  void add_face(const aiFace& face, unsigned number, SubMesh& part) const {
+  void add_face(const aiFace& face, unsigned number, SubMesh& part) {
     std::vector<Eigen::Vector3f> corners;
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] >= part.vertices.size()) {
@@ -197,8 +200,12 @@ class PartReader {
       }
       return;
     }
-    for (const auto& cut : cut_polygon(corners)) {
+    for (const auto& cut : cut_polygon(corners, &work_)) {
       part.triangles.push_back({index[cut[0]], index[cut[1]], index[cut[2]]});
+    }
+    if (work_ > kMaxWork) {
+      throw Error(source_, "found too many polygons of many corners in '" + file_.path +
+                               "', expected fewer, or triangles");
     }
   }
 
@@ -212,6 +219,7 @@ class PartReader {
   MeshFile& file_;
   const Source& source_;
   std::size_t count_ = 0;
+  std::uint64_t work_ = 0;
   std::size_t flat_faces_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <set>
 
 #include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
@@ -21,6 +21,12 @@ std::optional<Node> saved_state(const Node& world, Log& log) {
     if (!first) first = state;
   });
   return first;
+}
+
+/// A light alone in its file stands where its <include> says, under the name that this gives it.
+void adopt_place(const Node& include, const SdfFrames& frames, Light& light) {
+  light.name = include.text("name", light.name);
+  if (include.child("pose")) light.pose = frames.pose(include);
 }
 
 }  // namespace
@@ -51,10 +57,13 @@ World SdfReader::read_world(const Node& root) {
 
 /// Adds what was put into the world after it had been loaded.
 void SdfReader::read_insertions(const Node& insertions, const Scope& scope, World& made) {
-  const auto is_there = [this](const auto& items, const Node& inserted) {
+  std::set<std::string> models;
+  std::set<std::string> lights;
+  for (const Instance& instance : made.models) models.insert(instance.name);
+  for (const Light& light : made.lights) lights.insert(light.name);
+  const auto is_there = [this](std::set<std::string>& names, const Node& inserted) {
     const std::string name = inserted.required_attribute("name");
-    const bool found = std::any_of(items.begin(), items.end(),
-                                   [&name](const auto& item) { return item.name == name; });
+    const bool found = !names.insert(name).second;
     if (found) {
       assets_.log().warn(inserted.source(), "found in the world already, left out",
                          ": '" + name + "'");
@@ -62,7 +71,7 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     return found;
   };
   insertions.each("model", [&](const Node& inserted) {
-    if (is_there(made.models, inserted)) return;
+    if (is_there(models, inserted)) return;
     Instance instance;
     instance.model = read_model(inserted, scope);
     instance.name = instance.model->name;
@@ -71,7 +80,8 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     made.models.push_back(std::move(instance));
   });
   insertions.each("light", [&](const Node& inserted) {
-    if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
+    if (is_there(lights, inserted)) return;
+    made.lights.push_back(read_sdf_light(inserted, inserted.pose()));
   });
 }
 
@@ -104,33 +114,24 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
     light.name = light_names.claim(light.name);
     made.lights.push_back(std::move(light));
   };
+  std::vector<Placed> placed = read_placed(world, scope, names, frames);
+  auto next = placed.begin();
   world.each([&](const Node& child) {
     const std::string_view kind = child.name();
-    if (kind == "include") {
-      const ModelFile& file = included_file(child, std::nullopt);
-      for (const Light& light : file.lights) add_light(light);
-      if (!file.model) return;
+    if (is_nested(child)) {
       if (child.has_attribute("merge")) {
         assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
       }
-      made.models.push_back(read_include(child, file, names, frames));
-      frames.replace(made.models.back().name, made.models.back().pose);
-      frames.add_links(made.models.back().name, file.model);
-    } else if (kind == "model") {
-      Instance instance;
-      instance.model = read_model(child, scope);
-      instance.name = names.claim(instance.model->name);
-      if (instance.name != instance.model->name) {
-        assets_.log().warn(child.source(), "a second model of one name gets another",
-                           ": '" + instance.name + "'");
+      auto& [instance, lights] = *next++;
+      for (Light& light : lights) {
+        if (!instance) adopt_place(child, frames, light);
+        add_light(std::move(light));
       }
-      instance.pose = place_model(frames.pose(child), instance.model->X_MP);
-      frames.replace(instance.name, instance.pose);
-      frames.add_links(instance.name, instance.model);
-      instance.is_static = instance.model->is_static;
-      made.models.push_back(std::move(instance));
+      if (!instance) return;
+      instance->pose = frames.find(instance->name, child.child("pose").value_or(child));
+      made.models.push_back(std::move(*instance));
     } else if (kind == "light") {
-      add_light(read_sdf_light(child));
+      add_light(read_sdf_light(child, frames.pose(child)));
     } else if (kind == "plugin") {
       PluginDescription plugin = read_plugin(child);
       if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));

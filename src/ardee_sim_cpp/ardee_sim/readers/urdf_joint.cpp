@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/urdf_link.h"
 
 namespace ardee {
@@ -68,10 +69,13 @@ Eigen::Vector3d read_axis(const Node& joint) {
 void read_dynamics(const Node& node, JointAxis& axis) {
   const auto dynamics = node.child("dynamics");
   if (!dynamics) return;
-  axis.damping = dynamics->attribute_number("damping", 0.0);
-  axis.friction = dynamics->attribute_number("friction", 0.0);
-  axis.spring_stiffness = dynamics->attribute_number("spring_stiffness", 0.0);
-  axis.spring_reference = dynamics->attribute_number("spring_reference", 0.0);
+  const auto read = [&dynamics](const char* name, const bounds::Range& range) {
+    return dynamics->attribute_number(name, 0.0, range.low, range.high);
+  };
+  axis.damping = read("damping", bounds::kJointCoefficient);
+  axis.friction = read("friction", bounds::kJointCoefficient);
+  axis.spring_stiffness = read("spring_stiffness", bounds::kJointCoefficient);
+  axis.spring_reference = read("spring_reference", bounds::kJointReference);
 }
 
 }  // namespace

@@ -53,6 +53,21 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
   }
 }
 
+/// The root link stands for the robot, but one called "world" is the world: then the first link
+/// that hangs on it does.
+void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log) {
+  const Link& root = made.links[order.front()];
+  made.canonical_link = root.name;
+  if (root.name != "world") return;
+  if (!root.visuals.empty() || !root.collisions.empty()) {
+    log.warn(root.source,
+             "found visuals or collisions of the link 'world', expected none: it is "
+             "the world itself; they are left out");
+  }
+  made.canonical_link = order.size() > 1 ? made.links[order[1]].name : "";
+  made.links.erase(made.links.begin() + static_cast<std::ptrdiff_t>(order.front()));
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
@@ -74,12 +89,7 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   for (UrdfJoint& each : joints) {
     if (!each.is_free) made->joints.push_back(std::move(each.joint));
   }
-  const std::size_t root = tree.order.front();
-  made->canonical_link = made->links[root].name;
-  if (made->canonical_link == "world") {
-    made->links.erase(made->links.begin() + static_cast<std::ptrdiff_t>(root));
-    made->canonical_link = made->links.empty() ? "" : made->links.front().name;
-  }
+  take_out_world(tree.order, *made, assets.log());
   apply_gazebo_blocks(robot, *made, assets);
   adopt_gz_systems(*made, assets.log());
   validate_model(*made, assets.log());
