@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The services of the running simulator, on level ground, with answers known by hand."""
+import copy
 import math
 import pathlib
 from typing import Any, Iterator
@@ -266,6 +267,36 @@ def test_gravity_is_set_and_read(world: RosGraph) -> None:
     assert moon[0].success
     assert moon[1].gravity.z == pytest.approx(-1.62)
     assert moon[4].twist.linear.z == pytest.approx(-1.62 * 10 * STEP_S, abs=1e-9)
+
+
+def test_physics_takes_what_it_has_told(world: RosGraph) -> None:
+    get = ("/gazebo/get_physics_properties", "gazebo_msgs/GetPhysicsProperties", {})
+    service = ("/gazebo/set_physics_properties", "gazebo_msgs/SetPhysicsProperties")
+    old = call(world, empty("pause_physics"), get)[1]
+
+    def request(told: Any, **ode: float) -> Any:
+        config = copy.deepcopy(told.ode_config)
+        for name, value in ode.items():
+            setattr(config, name, value)
+        return (
+            *service,
+            {
+                "time_step": told.time_step,
+                "max_update_rate": told.max_update_rate,
+                "gravity": told.gravity,
+                "ode_config": config,
+            },
+        )
+
+    wide = dict(sor_pgs_iters=20000, max_contacts=20000, contact_surface_layer=2.0)
+    answer, told = call(world, request(old, contact_max_correcting_vel=math.inf, **wide), get)
+    assert answer.success
+    again, same, back = call(world, request(told), get, request(old))
+    assert again.success
+    assert back.success
+    assert same.ode_config == told.ode_config
+    assert told.ode_config.contact_max_correcting_vel == math.inf
+    assert all(getattr(told.ode_config, name) == value for name, value in wide.items())
 
 
 def test_a_force_accelerates_for_its_duration(world: RosGraph) -> None:

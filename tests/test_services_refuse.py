@@ -21,6 +21,8 @@ ARM = """<sdf version="1.6"><model name="arm">
   <link name="lower"><pose>1 0 1 0 0 0</pose></link>
   <joint name="shoulder" type="revolute"><parent>foot</parent><child>upper</child><axis><xyz>0 0 1</xyz></axis></joint>
   <joint name="elbow" type="revolute"><parent>upper</parent><child>lower</child><axis><xyz>0 0 1</xyz></axis></joint>
+  <link name="hand"><pose>2 0 1 0 0 0</pose></link>
+  <joint name="wrist" type="ball"><parent>lower</parent><child>hand</child></joint>
   <joint name="weld" type="fixed"><parent>world</parent><child>foot</child></joint>
 </model></sdf>"""
 RING = (pathlib.Path(__file__).parent / "data/ring.sdf").read_text()
@@ -131,6 +133,7 @@ REFUSED: Dict[str, List[Request]] = {
         link_state(twist=Twist(Vector3(), Vector3(0, 0, 2e9))),
     ],
     "set_model_configuration": [
+        joints(["wrist"], [0.5]),
         joints(["shoulder", "elbow"], [0.5, 1e10]),
         joints(["shoulder", "elbow"], [0.5, NAN]),
         joints(["shoulder", "ghost"], [0.5, 0.5]),
@@ -170,8 +173,8 @@ REFUSED: Dict[str, List[Request]] = {
         physics_properties(("cfm", -1.0)),
         physics_properties(("cfm", 1e8)),
         physics_properties(("sor_pgs_w", 2.5)),
-        physics_properties(("sor_pgs_iters", 100000)),
-        physics_properties(("max_contacts", 100000)),
+        physics_properties(("sor_pgs_iters", 100001)),
+        physics_properties(("max_contacts", 1000001)),
         physics_properties(("contact_surface_layer", -1.0)),
         physics_properties(("contact_max_correcting_vel", NAN)),
         physics_properties(("sor_pgs_rms_error_tol", NAN)),
@@ -200,6 +203,7 @@ REFUSED: Dict[str, List[Request]] = {
     "apply_joint_effort": [
         {"joint_name": "arm::ghost", "effort": 1.0},
         {"joint_name": "arm::weld", "effort": 1.0},
+        {"joint_name": "arm::wrist", "effort": 1.0},
         {"joint_name": "arm::elbow", "effort": NAN},
         {"joint_name": "arm::elbow", "effort": 2e9},
     ],

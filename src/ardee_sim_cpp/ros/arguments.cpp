@@ -61,7 +61,7 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
 
 std::string usage() {
   return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--lenient] [--verbose] [-h]\n"
-         "  WORLD         world file (SDF 1.2 to 1.7); default: the parameter ~world\n"
+         "  WORLD         world file (SDF 1.2 to 1.12); default: the parameter ~world\n"
          "  -u, --paused  start with the clock stopped\n"
          "  --seed N      root of all random numbers, a whole number from 0\n"
          "  --lenient     leave out includes, meshes and heightmaps whose files are missing, with "

@@ -29,7 +29,7 @@ std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest
                         request.reference_frame == "map";
   const Eigen::Vector3d point_R = from_ros(request.reference_point);
   const Pose X_WL = ref.entity.robot->link_pose(ref.link);
-  const auto& inertial = ref.entity.robot->model().links[ref.link].inertial;
+  const auto inertial = ref.entity.robot->dynamics().link_properties(ref.link).inertial;
   const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d::Zero().eval();
 
   Wrench wrench;
@@ -50,11 +50,13 @@ std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortReques
   if (!(std::abs(request.effort) <= limits::kStrongest)) {
     throw Error("found an effort that is not finite or above 1e9 N m or N");
   }
-  if (ref.entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
-    throw Error("joint '" + request.joint_name + "' is fixed");
+  if (ref.entity.robot->dynamics().joint_axes(ref.joint) == 0) {
+    throw Error("joint '" + request.joint_name +
+                "' has no axis, expected one that moves along one");
   }
-  stage.runner.efforts().add({ref.entity.name(), ref.joint, request.effort,
-                              start_time(stage, request.start_time), request.duration.toNSec()});
+  stage.simulation.joint_efforts().add({ref.entity.robot.get(), ref.joint, request.effort,
+                                        start_time(stage, request.start_time),
+                                        request.duration.toNSec()});
   return "ApplyJointEffort: effort set";
 }
 
@@ -76,7 +78,7 @@ void add_force_services(ServiceServers& servers, Stage& stage) {
   servers.add<gazebo_msgs::JointRequest>(
       "clear_joint_forces", "ClearJointForces", [&stage](const auto& request, auto&) {
         const JointRef ref = require_joint(stage, request.joint_name);
-        stage.runner.efforts().clear(ref.entity.name(), ref.joint);
+        stage.simulation.joint_efforts().clear(*ref.entity.robot, ref.joint);
         return "";
       });
 }

@@ -3,6 +3,7 @@
 #include <gazebo_msgs/GetLightProperties.h>
 #include <gazebo_msgs/SetLightProperties.h>
 
+#include "ardee_sim/core/limits.h"
 #include "ros/conversions.h"
 #include "ros/services.h"
 
@@ -10,8 +11,7 @@ namespace ardee::node {
 namespace {
 
 constexpr double kMostAttenuation = 1e9;
-constexpr double kLongest = 1e9;     // of a direction, whose length means nothing
-constexpr double kFarthest_m = 1e6;  // beyond this is no world
+constexpr double kLongest = 1e9;  // of a direction, whose length means nothing
 
 const Light& require_light(const Stage& stage, const std::string& name) {
   for (const Light& light : stage.simulation.world().lights) {
@@ -65,7 +65,9 @@ std::string set_light(Stage& stage, const gazebo_msgs::SetLightPropertiesRequest
   const Eigen::Vector3d direction = from_ros(request.direction);
   for (const double part : direction) checked("direction", part, -kLongest, kLongest);
   const Pose pose = from_ros(request.pose);
-  for (const double part_m : pose.p) checked("pose", part_m, -kFarthest_m, kFarthest_m);
+  for (const double part_m : pose.p) {
+    checked("pose", part_m, -limits::kFarthest_m, limits::kFarthest_m);
+  }
   const bool has_direction = direction.norm() > 0.0;
   if (has_direction) light.direction = direction.normalized();
   if (is_filled_in(request.pose)) light.pose = pose;

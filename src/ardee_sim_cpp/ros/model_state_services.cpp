@@ -62,8 +62,9 @@ std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationReq
   std::vector<std::size_t> joints;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
     const JointRef ref = require_joint(stage, entity.name() + "::" + request.joint_names[i]);
-    if (entity.robot->model().joints[ref.joint].type == JointType::kFixed) {
-      throw Error("joint '" + request.joint_names[i] + "' is fixed");
+    if (entity.robot->dynamics().joint_axes(ref.joint) == 0) {
+      throw Error("joint '" + request.joint_names[i] +
+                  "' has no axis, expected one that moves along one");
     }
     checked("joint '" + request.joint_names[i] + "'", request.joint_positions[i], -kMostPosition,
             kMostPosition);

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "ardee_sim/description/bounds.h"
 #include "ros/conversions.h"
 #include "ros/physics_tuning.h"
 #include "ros/services.h"
@@ -28,36 +29,44 @@ std::string get_physics(Stage& stage, gazebo_msgs::GetPhysicsPropertiesResponse&
   return "GetPhysicsProperties: got properties";
 }
 
-/// A value below 1 (a field nobody filled in) leaves what is in force.
-int checked_count(const char* field, std::uint32_t value, int in_force) {
-  constexpr double kMost = 10000;
-  return value == 0 ? in_force : static_cast<int>(checked(field, value, 1, kMost));
+/// A number as asked for. Who sends back what get_physics_properties told is never refused: only
+/// one that differs from what is in force has to lie within the range.
+void change(const char* field, double asked, const bounds::Range& range, double& in_force) {
+  if (asked != in_force) in_force = checked(field, asked, range.low, range.high);
 }
 
-std::string set_physics(Stage& stage, const gazebo_msgs::SetPhysicsPropertiesRequest& request) {
-  constexpr double kLarge = 1e9;
-  PhysicsParams physics = stage.simulation.physics();
-  physics.step_s = checked("time_step", request.time_step, 1e-6, 1.0);
-  physics.real_time_update_rate_hz =
-      checked("max_update_rate", request.max_update_rate, 0.0, kLarge);
-  physics.gravity_m_per_s2 = from_ros(request.gravity);
-  for (const double g : physics.gravity_m_per_s2) checked("gravity", g, -1e6, 1e6);
-  const gazebo_msgs::ODEPhysics& ode = request.ode_config;
-  physics.iterations =
-      checked_count("ode_config.sor_pgs_iters", ode.sor_pgs_iters, physics.iterations);
-  physics.max_contacts =
-      checked_count("ode_config.max_contacts", ode.max_contacts, physics.max_contacts);
-  if (ode.sor_pgs_w != 0.0) physics.sor = checked("ode_config.sor_pgs_w", ode.sor_pgs_w, 0.01, 2.0);
-  physics.contact_surface_layer_m =
-      checked("ode_config.contact_surface_layer", ode.contact_surface_layer, 0.0, 1.0);
-  physics.max_correcting_velocity_m_per_s =
-      checked("ode_config.contact_max_correcting_vel", ode.contact_max_correcting_vel, 0.0, kLarge);
-  physics.cfm = checked("ode_config.cfm", ode.cfm, 0.0, kLarge);
-  physics.erp = checked("ode_config.erp", ode.erp, 0.0, 1.0);
-  checked("ode_config.sor_pgs_rms_error_tol", ode.sor_pgs_rms_error_tol, 0.0, kLarge);
+/// The same of a count; 0 (a field nobody filled in) leaves what is in force.
+void change(const char* field, std::uint32_t asked, const bounds::Range& range, int& in_force) {
+  double count = in_force;
+  if (asked != 0) change(field, static_cast<double>(asked), range, count);
+  in_force = static_cast<int>(count);
+}
+
+void set_ode(const gazebo_msgs::ODEPhysics& ode, PhysicsParams& physics) {
+  change("ode_config.sor_pgs_iters", ode.sor_pgs_iters, bounds::kIterations, physics.iterations);
+  change("ode_config.max_contacts", ode.max_contacts, bounds::kMaxContacts, physics.max_contacts);
+  if (ode.sor_pgs_w != 0.0) {
+    change("ode_config.sor_pgs_w", ode.sor_pgs_w, bounds::kRelaxation, physics.sor);
+  }
+  change("ode_config.contact_surface_layer", ode.contact_surface_layer, bounds::kSurfaceLayer_m,
+         physics.contact_surface_layer_m);
+  change("ode_config.contact_max_correcting_vel", ode.contact_max_correcting_vel,
+         bounds::kCorrectingVelocity, physics.max_correcting_velocity_m_per_s);
+  change("ode_config.cfm", ode.cfm, bounds::kCfm, physics.cfm);
+  change("ode_config.erp", ode.erp, bounds::kErp, physics.erp);
+  checked("ode_config.sor_pgs_rms_error_tol", ode.sor_pgs_rms_error_tol, 0.0, bounds::kInfinity);
   if (ode.auto_disable_bodies || ode.sor_pgs_precon_iters > 0 || ode.sor_pgs_rms_error_tol > 0.0) {
     warn_of_inert_physics();
   }
+}
+
+std::string set_physics(Stage& stage, const gazebo_msgs::SetPhysicsPropertiesRequest& request) {
+  PhysicsParams physics = stage.simulation.physics();
+  change("time_step", request.time_step, bounds::kStep_s, physics.step_s);
+  change("max_update_rate", request.max_update_rate, bounds::kUpdateRate_hz,
+         physics.real_time_update_rate_hz);
+  physics.gravity_m_per_s2 = from_ros(request.gravity);
+  set_ode(request.ode_config, physics);
   stage.simulation.set_physics(physics);
   stage.runner.follow_physics();
   return "physics engine updated";

@@ -3,6 +3,8 @@
 
 #include <ros/console.h>
 
+#include <cmath>
+
 namespace ardee::node {
 namespace {
 
@@ -100,7 +102,11 @@ void PhysicsTuning::set(const TuningServer::Values& values) {
   for (const auto& [name, value] : values) {
     const Tunable& asked = require(tuning_, name);
     // Who sends all numbers to change one sends back some that a world may have beyond the range.
-    if (value != asked.get()) asked.set(checked(name, value, asked.low, asked.high));
+    if (value == asked.get()) continue;
+    if (asked.type == Tunable::Type::kInt && value != std::floor(value)) {
+      throw Error(name + ": found " + std::to_string(value) + ", expected a whole number");
+    }
+    asked.set(checked(name, value, asked.low, asked.high));
   }
   stage_.simulation.set_physics(wanted_);
   stage_.runner.follow_physics();

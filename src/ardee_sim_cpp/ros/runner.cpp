@@ -52,7 +52,6 @@ void Runner::wait_for_pace() {
 void Runner::step() {
   outlets_.robots.update_demand();
   try {
-    efforts_.apply(simulation_);
     simulation_.step();
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM("the simulation is paused: " << error.what());
@@ -89,14 +88,12 @@ std::uint32_t Runner::advance(std::uint32_t steps) {
 
 void Runner::reset_world() {
   simulation_.reset_world();
-  efforts_.clear_all();
   outlets_.frames.restart();
   outlets_.clock.publish(simulation_.now_ns());
 }
 
 void Runner::reset_simulation() {
   simulation_.reset_simulation();
-  efforts_.clear_all();
   outlets_.frames.restart();
   pacer_.restart(simulation_.now_ns());
   outlets_.clock.restart(simulation_.now_ns());

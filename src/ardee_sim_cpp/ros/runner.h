@@ -7,7 +7,6 @@
 
 #include "ardee_sim/simulation/simulation.h"
 #include "ros/clock_publisher.h"
-#include "ros/joint_efforts.h"
 #include "ros/odometry_frames.h"
 #include "ros/pacer.h"
 #include "ros/robot_topics.h"
@@ -42,7 +41,6 @@ class Runner {
   void reset_simulation();
   /// The world's physics changed: its update rate sets the pace.
   void follow_physics();
-  JointEfforts& efforts() { return efforts_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -57,7 +55,6 @@ class Runner {
   std::function<void()> chores_;
   Clock::time_point next_chores_ = Clock::now();
   Pacer pacer_;
-  JointEfforts efforts_;
   bool paused_ = false;
   bool advancing_ = false;
 };

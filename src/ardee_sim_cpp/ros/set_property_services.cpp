@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "ardee_sim/core/limits.h"
 #include "ros/conversions.h"
 #include "ros/services.h"
 
 namespace ardee::node {
 namespace {
 
-constexpr double kLarge = 1e9;       // kg, kg m^2, rad/s: beyond any robot's
-constexpr double kFarthest_m = 1e6;  // of a centre of mass from its link
+constexpr double kLarge = 1e9;  // kg, kg m^2, rad/s: beyond any robot's
 
 double checked_moment(const char* field, double value) {
   return checked(field, value, -kLarge, kLarge);
@@ -23,7 +23,9 @@ std::string set_link(Stage& stage, const gazebo_msgs::SetLinkPropertiesRequest& 
   PhysicsModel& dynamics = ref.entity.robot->dynamics();
   Inertial inertial;
   inertial.X_LI = from_ros(request.com);
-  for (const double part_m : inertial.X_LI.p) checked("com", part_m, -kFarthest_m, kFarthest_m);
+  for (const double part_m : inertial.X_LI.p) {
+    checked("com", part_m, -limits::kFarthest_m, limits::kFarthest_m);
+  }
   inertial.mass_kg = checked("mass", request.mass, std::numeric_limits<double>::min(), kLarge);
   const double ixy = checked_moment("ixy", request.ixy);
   const double ixz = checked_moment("ixz", request.ixz);

@@ -45,7 +45,6 @@ std::string spawn(Stage& stage, const gazebo_msgs::SpawnModelRequest& request) {
 std::string remove(Stage& stage, const std::string& name) {
   require_model(stage, name);
   stage.topics.remove(name);
-  stage.runner.efforts().clear_model(name);
   stage.simulation.remove(name);
   return "DeleteModel: successfully deleted model";
 }

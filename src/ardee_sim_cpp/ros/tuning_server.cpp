@@ -13,6 +13,8 @@ namespace {
 
 using dynamic_reconfigure::Config;
 
+const ros::WallDuration kLook(0.2);
+
 /// The numbers that `value` gives for the parameters, as one message.
 Config config_of(const Tuning& tuning, const std::function<double(const Tunable&)>& value) {
   Config config;
@@ -86,6 +88,20 @@ TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning,
       service_(node.advertiseService(service_of(tuning), &TuningServer::serve, this)) {
   descriptions_.publish(describe(tuning_));
   publish();
+  timer_ = node.createWallTimer(kLook, [this](const ros::WallTimerEvent&) {
+    if (numbers() != published_) publish();
+  });
+}
+
+void TuningServer::publish() {
+  published_ = numbers();
+  updates_.publish(current());
+}
+
+std::vector<double> TuningServer::numbers() const {
+  std::vector<double> made;
+  for (const Tunable& each : tuning_.parameters) made.push_back(each.get());
+  return made;
 }
 
 Config TuningServer::current() const {
@@ -104,7 +120,7 @@ bool TuningServer::serve(dynamic_reconfigure::Reconfigure::Request& request,
     ROS_ERROR_STREAM(tuning_.name << ": " << error.what() << "; nothing is changed");
   }
   response.config = current();
-  updates_.publish(response.config);
+  publish();
   return true;
 }
 

@@ -29,12 +29,14 @@ class TuningServer {
   /// `set` sets all numbers of a request together, or throws Error and sets none.
   TuningServer(ros::NodeHandle& node, const Tuning& tuning, std::function<void(const Values&)> set);
 
-  /// The numbers have changed by other ways: whoever follows them is told.
-  void publish() { updates_.publish(current()); }
+  /// Tells whoever follows the numbers what they are. What changes them by other ways (a reset)
+  /// need not call it: a few times a second it is looked whether something has.
+  void publish();
   static std::string service_of(const Tuning& tuning) { return tuning.name + "/set_parameters"; }
 
  private:
   dynamic_reconfigure::Config current() const;
+  std::vector<double> numbers() const;
   bool serve(dynamic_reconfigure::Reconfigure::Request& request,
              dynamic_reconfigure::Reconfigure::Response& response);
 
@@ -43,6 +45,8 @@ class TuningServer {
   ros::Publisher descriptions_;
   ros::Publisher updates_;
   ros::ServiceServer service_;
+  std::vector<double> published_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace ardee::node

@@ -31,7 +31,6 @@ class DynamicModel : public PhysicsModel {
 
   const Model& description() const override { return *model_; }
   Pose pose() const override;
-  void set_pose(const Pose& X_WM) override;
   void set_twist(const Twist& twist_W) override;
   void set_link_states(const LinkStates& states) override;
   void set_state(const Pose& X_WM, const Twist& twist_W) override;

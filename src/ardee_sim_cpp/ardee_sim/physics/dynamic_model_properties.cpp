@@ -15,9 +15,11 @@ using Eigen::Vector3d;
 /// What is wrong with an axis's numbers; empty if nothing.
 std::string fault_of(const JointProperties& properties) {
   const JointSpring& spring = properties.spring;
-  if (!(properties.lower <= properties.upper)) return "found a lower limit above the upper";
+  if (!(properties.lower <= properties.upper)) {
+    return "found a lower limit above the upper, or one that is not a number";
+  }
   if (!(properties.max_effort >= 0.0) || !(properties.max_velocity >= 0.0)) {
-    return "found a negative limit of effort or velocity";
+    return "found a limit of effort or velocity that is negative or not a number";
   }
   using bounds::kJointCoefficient, bounds::kJointSoftness;
   if (!kJointCoefficient.holds(spring.stiffness) || !kJointCoefficient.holds(spring.damping) ||

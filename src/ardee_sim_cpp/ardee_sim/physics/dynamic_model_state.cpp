@@ -33,12 +33,6 @@ Pose DynamicModel::pose() const {
   return link_pose(canonical_) * model_->links[canonical_].X_ML.inverse();
 }
 
-void DynamicModel::set_pose(const Pose& X_WM) {
-  const Pose motion = X_WM * pose().inverse();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) check_motion(i, motion);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) move_body(i, motion);
-}
-
 void DynamicModel::check_motion(std::size_t group, const Pose& motion) const {
   require(limits::is_valid(motion * body_pose(body(group))), *model_, "a pose");
 }

@@ -23,14 +23,13 @@ class PhysicsModel {
   virtual const Model& description() const = 0;
   /// Pose of the model's frame, carried by its canonical link.
   virtual Pose pose() const = 0;
-  /// Moves the whole model, joints as they are; velocities are kept.
-  virtual void set_pose(const Pose& X_WM) = 0;
   /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
   /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
   /// Puts links, with what is fixed to them, where a saved world says; joints follow.
   virtual void set_link_states(const LinkStates& states) = 0;
-  /// Both at once: throws Error and changes neither if one of them is not valid.
+  /// Moves the whole model, joints as they are, and gives it that twist: throws Error and changes
+  /// neither if one of them is not valid.
   virtual void set_state(const Pose& X_WM, const Twist& twist_W) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
   /// Velocity of the link frame's origin, and angular velocity, in world axes.

@@ -11,6 +11,7 @@
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/registry.h"
 #include "ardee_sim/simulation/entity.h"
+#include "ardee_sim/simulation/joint_efforts.h"
 #include "ardee_sim/simulation/picture_maker.h"
 #include "ardee_sim/simulation/ray_scenes.h"
 #include "ardee_sim/simulation/wrenches.h"
@@ -97,12 +98,15 @@ class Simulation {
   /// Throws Error if that is not valid, and has then changed nothing.
   void set_state(const std::string& model, const RelativeState& state,
                  const std::string& reference);
+  /// What pushes links and joints for a while; a reset ends it, as does one of the model alone.
   Wrenches& wrenches() { return wrenches_; }
+  JointEfforts& joint_efforts() { return joint_efforts_; }
   /// Rays into the present world, for tools (pictures, labels).
   RayScenes& scenes() { return scenes_; }
 
  private:
   void apply_commands();
+  void clear_commands(const Robot& robot);
   void run_controllers();
   void run_observers();
   void step_physics();
@@ -128,6 +132,7 @@ class Simulation {
   SceneSet scenes_;
   PictureMaker pictures_;
   Wrenches wrenches_;
+  JointEfforts joint_efforts_;
   std::vector<std::unique_ptr<Entity>> entities_;  // gone before what their devices refer to
   std::map<std::string, Entity*> by_name_;         // the order in which they act and measure
   ReadingSink* sink_ = nullptr;

@@ -170,7 +170,7 @@ std::string render_usage() {
          "         [--size 1280x720] [--fov-deg 60] [--robot FILE] [--robot-pose X Y Z R P Y]\n"
          "         [--samples 4] [--no-shadows] [--threads 0]\n"
          "Draws a picture of a world without a display.\n"
-         "  WORLD         world file (SDF 1.2 to 1.7)\n"
+         "  WORLD         world file (SDF 1.2 to 1.12)\n"
          "  --output      PNG file to write\n"
          "  --pose        the camera's place in m and rad; it looks along its x axis, z is up\n"
          "  --look-from   the camera's place in m, with --look-at, a point in its middle; "

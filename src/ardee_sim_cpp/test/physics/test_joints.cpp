@@ -210,7 +210,7 @@ TEST_P(Joints, SettingAPositionMovesAllThatHangsOnIt) {
   EXPECT_NEAR(body.joint_position(1), 0.0, 1e-12);
   body.set_joint_position(1, 7.0);
   EXPECT_NEAR(body.joint_position(1), 1.0, 1e-12) << "within its limits";
-  body.set_pose(at(0, 0, 5));
+  body.set_state(at(0, 0, 5), {});
   EXPECT_NEAR(body.joint_position(1), 1.0, 1e-12);
   EXPECT_NEAR(body.link_pose(3).p.z(), 5.0, 1e-12);
 }

@@ -189,7 +189,7 @@ TEST(PhysicsWorld, StateThatIsNotValidIsRefusedOrNamed) {
   PhysicsWorld world(params(0.001), silent());
   PhysicsModel& body = world.add_model(box_model(1, {1, 1, 1}), Pose{});
   EXPECT_NE(error_of([&] { body.apply_wrench(0, {kNan, 0, 0}, {0, 0, 0}, {0, 0, 0}); }), "");
-  EXPECT_NE(error_of([&] { body.set_pose(at(0, kNan, 0)); }), "");
+  EXPECT_NE(error_of([&] { body.set_state(at(0, kNan, 0), {}); }), "");
   world.step();
   EXPECT_NE(error_of([&] { body.apply_wrench(0, {1e300, 0, 0}, {0, 0, 0}, {0, 0, 0}); }), "");
   EXPECT_NE(error_of([&] { body.set_twist({{2e9, 0, 0}, {0, 0, 0}}); }), "");
@@ -289,8 +289,7 @@ TEST(PhysicsWorld, AnImpossibleInertiaIsTheNearestPossibleOne) {
     PhysicsWorld world(weightless(0.001), silent());
     PhysicsModel& body = world.add_model(flat, Pose{});
     for (int i = 0; i < 3; ++i) {
-      body.set_twist({});
-      body.set_pose(Pose{});
+      body.set_state(Pose{}, {});
       body.apply_wrench(0, {0, 0, 0}, {0, 0, 0}, 1e-3 * Eigen::Vector3d::Unit(i));
       world.step();
       const double moment = 1e-3 * 0.001 / body.link_twist(0).angular[i];

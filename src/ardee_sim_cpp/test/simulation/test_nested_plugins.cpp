@@ -29,9 +29,10 @@ std::vector<std::string> topics(const Entity& robot) {
 
 TEST(NestedPlugins, FindTheirOwnLinksAndKeepTheirTopics) {
   TestWorld world(free_space(0.0));
-  const Entity& robot = world.spawn(
-      robot_with_arm(plugin("gazebo_ros_p3d", "<bodyName>imu</bodyName><topicName>imu</topicName>")),
-      "r");
+  const Entity& robot =
+      world.spawn(robot_with_arm(plugin("gazebo_ros_p3d",
+                                        "<bodyName>imu</bodyName><topicName>imu</topicName>")),
+                  "r");
   EXPECT_EQ(topics(robot), std::vector<std::string>{"/imu"});
   world.run(0.002);
   const auto readings = world.recorder().on<OdometryReading>("/imu");

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "ardee_sim/simulation/simulation.h"
+#include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/robot.h"
 
-namespace ardee::node {
+namespace ardee {
 
-/// An effort (N m or N) along a joint's axis for a while.
+/// An effort (N m or N) along a joint's first axis for a while.
 struct JointEffort {
-  std::string model;
+  Robot* robot = nullptr;
   std::size_t joint = 0;
   double effort = 0.0;
   TimeNs start_ns = 0;
@@ -21,14 +21,14 @@ struct JointEffort {
 class JointEfforts {
  public:
   void add(const JointEffort& effort) { efforts_.push_back(effort); }
-  void clear(const std::string& model, std::size_t joint);
-  void clear_model(const std::string& model);
+  void clear(const Robot& robot, std::size_t joint);
+  void clear(const Robot& robot);
   void clear_all() { efforts_.clear(); }
-  /// Before a step: applies those in force and forgets those that are over.
-  void apply(Simulation& simulation);
+  /// Applies those in force at `now_ns` and forgets those that are over.
+  void apply(TimeNs now_ns);
 
  private:
   std::vector<JointEffort> efforts_;
 };
 
-}  // namespace ardee::node
+}  // namespace ardee

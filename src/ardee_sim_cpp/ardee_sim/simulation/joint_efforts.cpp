@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/simulation/joint_efforts.h"
+
+#include <algorithm>
+
+namespace ardee {
+namespace {
+
+template <typename Predicate>
+void erase_if(std::vector<JointEffort>& efforts, Predicate predicate) {
+  efforts.erase(std::remove_if(efforts.begin(), efforts.end(), predicate), efforts.end());
+}
+
+}  // namespace
+
+void JointEfforts::clear(const Robot& robot, std::size_t joint) {
+  erase_if(efforts_,
+           [&](const JointEffort& each) { return each.robot == &robot && each.joint == joint; });
+}
+
+void JointEfforts::clear(const Robot& robot) {
+  erase_if(efforts_, [&](const JointEffort& each) { return each.robot == &robot; });
+}
+
+void JointEfforts::apply(TimeNs now_ns) {
+  erase_if(efforts_, [now_ns](const JointEffort& each) {
+    return each.duration_ns >= 0 && now_ns >= each.start_ns + each.duration_ns;
+  });
+  for (const JointEffort& each : efforts_) {
+    if (now_ns < each.start_ns) continue;
+    each.robot->dynamics().apply_joint_effort(each.joint, each.effort);
+  }
+}
+
+}  // namespace ardee
