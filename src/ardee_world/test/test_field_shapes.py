@@ -111,6 +111,11 @@ def test_a_row_too_short_to_have_a_direction_has_the_lines():
     assert plan.along == pytest.approx(np.tile([np.sin(1.0), -np.cos(1.0)], (len(plan.along), 1)))
 
 
+def test_a_field_beyond_what_a_world_holds_is_refused():
+    with pytest.raises(GeneratorError, match="found one 100010 m from the field's origin"):
+        plan_centres(Plots(row_length_m=10.0, headland_m=1e5, stalk_spacing_m=5.0))
+
+
 def test_a_circle_too_tight_for_its_rows_is_refused(pool):
     tight = RowShape(row_shape="curved", curve_radius_m=2.0)
     plots = Plots(rows_per_plot=12, row_length_m=2.0)
