@@ -37,7 +37,7 @@ const std::vector<Number>& numbers() {
       {contact("min_depth"), {"-1", "0", "0.01"}, {"inf", "1e10"}},
       {contact("kp"), {"0", "1e30", "Inf"}, {"-1"}},
       {contact("kd"), {"0", "1e30", "Inf"}, {"-1"}},
-      {friction("mu"), {"0", "1e30", "Inf"}, {"-1"}},
+      {friction("mu"), {"-1", "0", "1e30", "Inf"}, {"nan"}},
       {friction("slip1"), {"0", "1e9"}, {"-1", "1e10"}},
       {of_world("<solver><sor>{}</sor></solver>"), {"1e-6", "2"}, {"0", "2.1"}},
       {of_world("<solver><iters>{}</iters></solver>"), {"1", "100000"}, {"0", "100001"}},
