@@ -24,11 +24,15 @@ class SdfFrames {
   /// `body` is what it moves with (empty: it is a body itself).
   void add(const Node& element, const std::string& name, const std::string& base,
            const std::string& body = "");
-  /// All children that are placed: links, joints, frames, models, includes that say where.
-  void add_children(const Node& parent);
+  /// A child that is placed: a link, joint, frame, model, include that says where.
+  void add_child(const Node& child);
+  void add_children(const Node& parent) {
+    parent.each([this](const Node& child) { add_child(child); });
+  }
   void add(const std::string& name, const Pose& X_R);
   /// Stands elsewhere than its <pose> says: that places another frame of the model.
   void replace(const std::string& name, const Pose& X_R);
+  void forget(const std::string& name) { frames_.erase(name); }
   /// Known from now on with its links and other frames, as name::link.
   void add_links(const std::string& name, std::shared_ptr<const Model> model);
 

@@ -104,8 +104,6 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
                                  const SdfFrames& frames) {
   Instance made;
   made.model = file.model;
-  const auto name = include.child("name");
-  made.name = names.claim(name ? name->required_text() : file.model->name);
   std::optional<Pose> X_MP = file.model->X_MP;
   if (const auto placed = include.child("placement_frame"); placed && !placed->text().empty()) {
     const auto frame = file.model->find_frame(placed->text());
@@ -134,6 +132,8 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
     placements_[with_plugins.get()] = placements_.at(file.model.get());
     made.model = with_plugins;
   }
+  const auto name = include.child("name");
+  made.name = names.claim(name ? name->required_text() : file.model->name);
   return made;
 }
 

@@ -8,6 +8,7 @@
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_scene.h"
 #include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/validate.h"
 
@@ -35,10 +36,12 @@ int SdfReader::read_version(const Node& root) {
   }
   const auto version = parse_sdf_version(text);
   if (!version) throw root.error("found version '" + text + "', expected 1.2 to " + newest);
-  if (*version > kNewestSdf) {
-    assets_.log().warn(root.source(), "found version " + text + ", read as SDF " + newest);
+  const int nearest = std::clamp(*version, kOldestSdf, kNewestSdf);
+  if (nearest != *version) {
+    assets_.log().warn(root.source(), "found version " + text + ", read as SDF " +
+                                          sdf_version_text(nearest));
   }
-  return *version;
+  return nearest;
 }
 
 std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
@@ -58,6 +61,12 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   }
   reading_.clear();
   return model;
+}
+
+Light SdfReader::read_light(const Node& root) {
+  read_version(root);
+  sdf_schema().check(root, assets_.log());
+  return read_sdf_light(root.required("light"));
 }
 
 std::shared_ptr<const Model> SdfReader::read_own_model(const Node& node, const Scope& scope) {

@@ -24,6 +24,7 @@ class SdfReader {
   /// `root` is a document's <sdf>.
   World read_world(const Node& root);
   std::shared_ptr<const Model> read_model(const Node& root);
+  Light read_light(const Node& root);
 
  private:
   /// An included file: a model, or lights alone; neither where it is left out.
@@ -57,9 +58,13 @@ class SdfReader {
                              std::optional<bool> make_static);
   Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names,
                         const SdfFrames& frames);
+  /// What the parts of a world are read into.
+  struct WorldParts;
   void read_world_models(const Node& world, const Scope& scope, World& made);
-  void add_population(const Node& population, const Scope& scope, UniqueNames& names,
-                      const SdfFrames& frames, World& made);
+  void read_world_part(const Node& part, const Scope& scope, WorldParts& parts);
+  void add_world_include(const Node& include, WorldParts& parts);
+  void add_world_model(const Node& model, const Scope& scope, WorldParts& parts);
+  void add_population(const Node& population, const Scope& scope, WorldParts& parts);
   void read_insertions(const Node& insertions, const Scope& scope, World& made);
   void check_size(const World& world) const;
   int read_version(const Node& root);

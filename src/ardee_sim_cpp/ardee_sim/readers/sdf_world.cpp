@@ -23,6 +23,18 @@ std::optional<Node> saved_state(const Node& world, Log& log) {
   return first;
 }
 
+/// Of a part of a world, as far as it is written: an include may have its model's.
+std::string name_of(const Node& part) {
+  return part.name() == "include" ? part.text("name", "") : part.attribute("name");
+}
+
+/// A part of a world in messages: "<model> 'wall'".
+std::string label_of(const Node& part) {
+  std::string name = name_of(part);
+  if (name.empty()) name = part.text("uri", "");
+  return "<" + std::string(part.name()) + "> '" + name + "'";
+}
+
 }  // namespace
 
 World SdfReader::read_world(const Node& root) {
@@ -61,7 +73,7 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     }
     return found;
   };
-  insertions.each("model", [&](const Node& inserted) {
+  const auto add_model = [&](const Node& inserted) {
     if (is_there(made.models, inserted)) return;
     Instance instance;
     instance.model = read_model(inserted, scope);
@@ -69,9 +81,14 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     instance.pose = place_model(inserted.pose(), instance.model->X_MP);
     instance.is_static = instance.model->is_static;
     made.models.push_back(std::move(instance));
+  };
+  insertions.each("model", [&](const Node& inserted) {
+    assets_.is_good(label_of(inserted), [&] { add_model(inserted); });
   });
   insertions.each("light", [&](const Node& inserted) {
-    if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
+    assets_.is_good(label_of(inserted), [&] {
+      if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
+    });
   });
 }
 
@@ -95,68 +112,92 @@ void SdfReader::check_size(const World& world) const {
   }
 }
 
-void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
-  UniqueNames names;
-  UniqueNames light_names;
-  SdfFrames frames("world");
-  frames.add_children(world);
-  const auto add_light = [&](Light light) {
+struct SdfReader::WorldParts {
+  World& made;
+  UniqueNames names{};
+  UniqueNames light_names{};
+  SdfFrames frames{"world"};
+
+  void add_light(Light light) {
     light.name = light_names.claim(light.name);
     made.lights.push_back(std::move(light));
-  };
-  world.each([&](const Node& child) {
-    const std::string_view kind = child.name();
-    if (kind == "include") {
-      const ModelFile& file = included_file(child, std::nullopt);
-      for (const Light& light : file.lights) add_light(light);
-      if (!file.model) return;
-      if (child.has_attribute("merge")) {
-        assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
-      }
-      made.models.push_back(read_include(child, file, names, frames));
-      frames.replace(made.models.back().name, made.models.back().pose);
-      frames.add_links(made.models.back().name, file.model);
-    } else if (kind == "model") {
-      Instance instance;
-      instance.model = read_model(child, scope);
-      instance.name = names.claim(instance.model->name);
-      if (instance.name != instance.model->name) {
-        assets_.log().warn(child.source(), "a second model of one name gets another",
-                           ": '" + instance.name + "'");
-      }
-      instance.pose = place_model(frames.pose(child), instance.model->X_MP);
-      frames.replace(instance.name, instance.pose);
-      frames.add_links(instance.name, instance.model);
-      instance.is_static = instance.model->is_static;
-      made.models.push_back(std::move(instance));
-    } else if (kind == "light") {
-      add_light(read_sdf_light(child));
-    } else if (kind == "plugin") {
-      PluginDescription plugin = read_plugin(child);
-      if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));
-    } else if (kind == "population") {
-      add_population(child, scope, names, frames, made);
-    }
+  }
+};
+
+void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
+  WorldParts parts{made};
+  world.each([&](const Node& part) {
+    assets_.is_good(label_of(part), [&] { parts.frames.add_child(part); });
+  });
+  world.each([&](const Node& part) {
+    const bool good =
+        assets_.is_good(label_of(part), [&] { read_world_part(part, scope, parts); });
+    if (!good && !parts.names.is_taken(name_of(part))) parts.frames.forget(name_of(part));
   });
 }
 
+/// Adds a part when all of it is read: on a throw nothing of it is there.
+void SdfReader::read_world_part(const Node& part, const Scope& scope, WorldParts& parts) {
+  const std::string_view kind = part.name();
+  if (kind == "include") {
+    add_world_include(part, parts);
+  } else if (kind == "model") {
+    add_world_model(part, scope, parts);
+  } else if (kind == "light") {
+    parts.add_light(read_sdf_light(part));
+  } else if (kind == "plugin") {
+    PluginDescription plugin = read_plugin(part);
+    if (!is_settled_gz_system(plugin)) parts.made.plugins.push_back(std::move(plugin));
+  } else if (kind == "population") {
+    add_population(part, scope, parts);
+  }
+}
+
+void SdfReader::add_world_include(const Node& include, WorldParts& parts) {
+  const ModelFile& file = included_file(include, std::nullopt);
+  if (file.model) {
+    if (include.has_attribute("merge")) {
+      assets_.log().warn(include.source(), "found merge, which acts on an <include> in a <model>");
+    }
+    Instance instance = read_include(include, file, parts.names, parts.frames);
+    parts.frames.replace(instance.name, instance.pose);
+    parts.frames.add_links(instance.name, file.model);
+    parts.made.models.push_back(std::move(instance));
+  }
+  for (const Light& light : file.lights) parts.add_light(light);
+}
+
+void SdfReader::add_world_model(const Node& model, const Scope& scope, WorldParts& parts) {
+  Instance instance;
+  instance.model = read_model(model, scope);
+  instance.pose = place_model(parts.frames.pose(model), instance.model->X_MP);
+  instance.is_static = instance.model->is_static;
+  instance.name = parts.names.claim(instance.model->name);
+  if (instance.name != instance.model->name) {
+    assets_.log().warn(model.source(), "a second model of one name gets another",
+                       ": '" + instance.name + "'");
+  }
+  parts.frames.replace(instance.name, instance.pose);
+  parts.frames.add_links(instance.name, instance.model);
+  parts.made.models.push_back(std::move(instance));
+}
+
 /// Copies are named as Gazebo does it.
-void SdfReader::add_population(const Node& population, const Scope& scope, UniqueNames& names,
-                               const SdfFrames& frames, World& made) {
+void SdfReader::add_population(const Node& population, const Scope& scope, WorldParts& parts) {
   const std::vector<Eigen::Vector3d> places = read_population(population);
-  if (made.models.size() + places.size() > std::size_t{kMaxPopulation}) {
+  if (parts.made.models.size() + places.size() > std::size_t{kMaxPopulation}) {
     throw population.error("found more than " + std::to_string(kMaxPopulation) +
                            " models with those before, expected fewer");
   }
-  const Pose X_WP = frames.pose(population);
+  const Pose X_WP = parts.frames.pose(population);
   Instance instance;
   instance.model = read_model(population.required("model"), scope);
   instance.is_static = instance.model->is_static;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    instance.name = names.claim(instance.model->name + "_clone_" + std::to_string(k));
+    instance.name = parts.names.claim(instance.model->name + "_clone_" + std::to_string(k));
     instance.pose = X_WP;
     instance.pose.p += X_WP.q * places[k];
-    made.models.push_back(instance);
+    parts.made.models.push_back(instance);
   }
 }
 

@@ -18,6 +18,7 @@ class UniqueNames {
       if (taken_.insert(name).second) return name;
     }
   }
+  bool is_taken(const std::string& name) const { return taken_.count(name) != 0; }
 
  private:
   std::unordered_set<std::string> taken_;
