@@ -100,6 +100,7 @@ class ScriptReader {
     try {
       material(words);
     } catch (const Error& problem) {
+      if (at_ == tokens_.size()) throw;  // the script ends within it
       at_ = begin;
       skip_block();
       log_.warn(std::string(problem.what()) + "; the material is left out");

@@ -234,8 +234,7 @@ class PartReader {
 }  // namespace
 
 MeshFile read_mesh_file(const std::string& path, const Source& source, Log& log) {
-  const std::string bytes =
-      repair_mesh_file(check_mesh_file(path, source), path, source, log);
+  const std::string bytes = repair_mesh_file(check_mesh_file(path, source), path, source, log);
   MeshFile file;
   file.path = path;
   Assimp::Importer importer;

@@ -38,8 +38,8 @@ int SdfReader::read_version(const Node& root) {
   if (!version) throw root.error("found version '" + text + "', expected 1.2 to " + newest);
   const int nearest = std::clamp(*version, kOldestSdf, kNewestSdf);
   if (nearest != *version) {
-    assets_.log().warn(root.source(), "found version " + text + ", read as SDF " +
-                                          sdf_version_text(nearest));
+    assets_.log().warn(root.source(),
+                       "found version " + text + ", read as SDF " + sdf_version_text(nearest));
   }
   return nearest;
 }

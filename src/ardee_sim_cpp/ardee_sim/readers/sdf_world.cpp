@@ -130,8 +130,7 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
     assets_.is_good(label_of(part), [&] { parts.frames.add_child(part); });
   });
   world.each([&](const Node& part) {
-    const bool good =
-        assets_.is_good(label_of(part), [&] { read_world_part(part, scope, parts); });
+    const bool good = assets_.is_good(label_of(part), [&] { read_world_part(part, scope, parts); });
     if (!good && !parts.names.is_taken(name_of(part))) parts.frames.forget(name_of(part));
   });
 }

@@ -84,9 +84,9 @@ TEST(MaterialScript, ReadsColoursAndPassesOverTheRest) {
 }
 
 TEST(MaterialScript, InheritsFromAParent) {
-  const MaterialScript s = read_script(
-      std::string(kListingA14) +
-          "\nmaterial Mid : Corn/LeavesBase { technique { pass { diffuse 1 0 0\n } } }");
+  const MaterialScript s =
+      read_script(std::string(kListingA14) +
+                  "\nmaterial Mid : Corn/LeavesBase { technique { pass { diffuse 1 0 0\n } } }");
   EXPECT_TRUE(s.at("Mid").two_sided);
   EXPECT_EQ(s.at("Mid").texture_path, "AG20lef3.tif");
   EXPECT_EQ(s.at("Mid").diffuse, Color(1, 0, 0, 1));
@@ -173,8 +173,9 @@ TEST(MaterialScript, OfABadMaterialKeepsTheOthers) {
       &said);
   EXPECT_EQ(s.size(), 1u);
   EXPECT_EQ(s.at("C").diffuse, Color(0, 0, 1, 1));
-  EXPECT_HAS(said, "s:1: found parent material 'Nobody', expected one defined before; the "
-                   "material is left out\n");
+  EXPECT_HAS(said,
+             "s:1: found parent material 'Nobody', expected one defined before; the "
+             "material is left out\n");
   EXPECT_HAS(said, "s:2: ");
 }
 

@@ -280,8 +280,8 @@ TEST(MeshPolygons, AFaceOfTwoCornersIsALine) {
   const TempFolder folder;
   const Reading reading(folder.write("two.obj", kBlock + "f 1 2\nf 3\n"));
   EXPECT_EQ(triangles(reading.file), 12u);
-  EXPECT_EQ(reading.said, "test:1: <uri>: left out of '" + folder.path() +
-                              "/two.obj': 1 point(s), 1 line(s)\n");
+  EXPECT_EQ(reading.said,
+            "test:1: <uri>: left out of '" + folder.path() + "/two.obj': 1 point(s), 1 line(s)\n");
 }
 
 TEST(MeshReader, CutsOffWhatFollowsTheTrianglesOfABinaryStl) {

@@ -155,9 +155,10 @@ TEST_P(BadPartsTest, AreLeftOutOfAWorld) {
 INSTANTIATE_TEST_SUITE_P(
     World, BadPartsTest,
     ::testing::Values(
-        BadPart{"<model name='m'><pose>1 2 3 0 0 0 9</pose><link name='l'/></model>",
-                "found '1 2 3 0 0 0 9', expected six finite numbers (x y z roll pitch yaw); <model> "
-                "'m' is left out"},
+        BadPart{
+            "<model name='m'><pose>1 2 3 0 0 0 9</pose><link name='l'/></model>",
+            "found '1 2 3 0 0 0 9', expected six finite numbers (x y z roll pitch yaw); <model> "
+            "'m' is left out"},
         BadPart{"<model name='m'><link name='l'/><joint name='j' type='fixed'><parent>l</parent>"
                 "<child>nope</child></joint></model>",
                 "'nope'"},
@@ -191,9 +192,9 @@ TEST_F(MissingFilesTest, WhatIsLeftOutIsNoFrame) {
 }
 
 TEST_F(MissingFilesTest, LeavesOutWhatWasNotDownloaded) {
-  const World w = world(
-      "<include><uri>https://fuel.gazebosim.org/1.0/o/models/Cone</uri></include>" +
-      include("box"));
+  const World w =
+      world("<include><uri>https://fuel.gazebosim.org/1.0/o/models/Cone</uri></include>" +
+            include("box"));
   EXPECT_EQ(w.models.size(), 1u);
   EXPECT_HAS(only_error(), "found 'https://fuel.gazebosim.org/1.0/o/models/Cone'");
 }

@@ -152,8 +152,7 @@ TEST_F(Locator, FindsWhatWasDownloadedFromFuel) {
   folder_.write(cone + "9/model.sdf", "");
   const std::string newest = folder_.write(cone + "10/model.sdf", "");
   const std::string mesh = folder_.write(cone + "9/meshes/a.dae", "");
-  const std::string uri =
-      "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Construction%20Cone";
+  const std::string uri = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Construction%20Cone";
   EXPECT_EQ(locator_.resolve_model(uri, {}), newest);
   EXPECT_EQ(locator_.resolve_model(uri + "/tip", {}), newest);
   EXPECT_EQ(locator_.resolve(uri + "/9/files/meshes/a.dae", {}), mesh);

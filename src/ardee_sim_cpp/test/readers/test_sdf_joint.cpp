@@ -138,8 +138,9 @@ TEST_F(SdfJointTest, TakesLinksInTheScopeOfTheirOwnModel) {
                                "</joint>");
   EXPECT_EQ(of_nested->joints.at(0).child, "m::a");
   EXPECT_HAS(error_of([&] {
-               model("<link name='a'/><joint name='j' type='fixed'><parent>m::x</parent>"
-                     "<child>a</child></joint>");
+               model(
+                   "<link name='a'/><joint name='j' type='fixed'><parent>m::x</parent>"
+                   "<child>a</child></joint>");
              }),
              "found link 'x', expected one of 'a'");
 }

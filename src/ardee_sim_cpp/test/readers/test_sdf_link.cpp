@@ -181,8 +181,9 @@ TEST_F(SdfLink, APlaneThatCollidesMayHaveNoSize) {
                        "</collision></link>");
   EXPECT_TRUE(std::holds_alternative<Plane>(m->links.at(0).collisions.at(0).geometry));
   EXPECT_TRUE(warned("found '0 0', expected two positive numbers"));
-  EXPECT_HAS(error_of([&] { model("<link name='a'><visual name='v'>" + plane + "</visual></link>"); }),
-             "found '0 0', expected two positive numbers");
+  EXPECT_HAS(
+      error_of([&] { model("<link name='a'><visual name='v'>" + plane + "</visual></link>"); }),
+      "found '0 0', expected two positive numbers");
 }
 
 TEST_F(SdfLink, AMaterialScriptWithoutNameIsNone) {
@@ -190,7 +191,7 @@ TEST_F(SdfLink, AMaterialScriptWithoutNameIsNone) {
       "<link name='a'><visual name='v'><geometry><box><size>1 1 1</size></box></geometry><material>"
       "<script><uri>file://media/materials/scripts/gazebo.material</uri></script></material>"
       "</visual></link>");
-  EXPECT_EQ(m->links.at(0).visuals.at(0).material.diffuse, Material{}.diffuse);
+  EXPECT_EQ(m->links.at(0).visuals.at(0).material->diffuse, Material{}.diffuse);
   EXPECT_TRUE(warned("<script>: found no <name>"));
 }
 

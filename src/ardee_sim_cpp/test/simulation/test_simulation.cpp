@@ -102,9 +102,10 @@ TEST(Simulation, LeavesOutModelsOfTheWorldThatCannotBeBuilt) {
   ASSERT_EQ(world->entities().size(), 2u);
   EXPECT_EQ(world->entities()[1]->name(), "z");
   EXPECT_TRUE(any_contains(world.messages(), "; model 'm' is left out"));
-  EXPECT_TRUE(any_contains(
-      world.messages(), "found joint 'nope', expected one of: none, as the model has none; model "
-                        "'n' is left out"));
+  EXPECT_TRUE(
+      any_contains(world.messages(),
+                   "found joint 'nope', expected one of: none, as the model has none; model "
+                   "'n' is left out"));
   EXPECT_EQ(world.messages().size(), 2u);
   world.run(0.1);
   world.spawn(ball(), "m", kHigh);
