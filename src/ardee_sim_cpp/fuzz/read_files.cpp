@@ -38,7 +38,8 @@ void read_image(const std::string& input) {
 }
 
 void read_material(const std::string& input) {
-  parse_material_script(input, "fuzz.material", gazebo_materials());
+  Log log = quiet_log();
+  parse_material_script(input, "fuzz.material", log, gazebo_materials());
 }
 
 void read_instances(const std::string& input) {

@@ -25,8 +25,7 @@ std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest
   const LinkRef ref = require_link(stage, request.body_name);
   if (!ref.entity.robot->is_dynamic()) throw Error("'" + request.body_name + "' does not move");
   const Pose X_WR = frame_in_world(stage, request.reference_frame, "reference_frame").pose;
-  const bool in_world = request.reference_frame.empty() || request.reference_frame == "world" ||
-                        request.reference_frame == "map";
+  const bool in_world = names_world(request.reference_frame);
   const Eigen::Vector3d point_R = from_ros(request.reference_point);
   const Pose X_WL = ref.entity.robot->link_pose(ref.link);
   const auto inertial = ref.entity.robot->dynamics().link_properties(ref.link).inertial;

@@ -43,12 +43,17 @@ World load_world(Loader& loader, const std::string& world) {
   const std::filesystem::path path(world);
   if (std::filesystem::exists(path)) return loader.load_world(world);
   if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
-  return loader.load_world(make_locator().resolve(world_uri(world), Source{"", 0, "world"}));
+  std::string found;
+  try {
+    found = make_locator().resolve(world_uri(world), Source{});
+  } catch (const FileError&) {
+    throw Error("found no world '" + world +
+                "', expected a file, here or below a folder of GAZEBO_RESOURCE_PATH");
+  }
+  return loader.load_world(found);
 }
 
-MissingFiles missing_files(bool lenient) {
-  return lenient ? MissingFiles::kLeaveOut : MissingFiles::kRefuse;
-}
+BadParts bad_parts(bool lenient) { return lenient ? BadParts::kLeaveOut : BadParts::kRefuse; }
 
 /// tf_prefix of a namespace or of one around it, as tf::resolve finds it.
 std::string tf_prefix(const std::string& robot_namespace) {
@@ -67,6 +72,7 @@ SimulationOptions simulation_options(const Settings& settings) {
   SimulationOptions options;
   options.seed = settings.seed;
   options.rays.threads = settings.threads;
+  options.bad_parts = bad_parts(settings.lenient);
   options.tf_prefix = tf_prefix;
   return options;
 }
@@ -102,7 +108,7 @@ void log_at_debug_level() {
 
 SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
     : messages_(log_to_ros()),
-      loader_(make_locator(), Log(messages_.sink()), missing_files(settings.lenient)),
+      loader_(make_locator(), Log(messages_.sink()), bad_parts(settings.lenient)),
       simulation_(load_world(loader_, settings.world), simulation_options(settings),
                   messages_.sink()),
       frames_(settings.publish_world_tf),
@@ -158,7 +164,7 @@ void check_world(const CommandLine& command_line) {
   bool lenient = false;
   ros::param::get("~lenient", lenient);
   Loader loader(make_locator(), Log([](LogLevel, const std::string&) {}),
-                missing_files(command_line.lenient.value_or(lenient)));
+                bad_parts(command_line.lenient.value_or(lenient)));
   if (!world.empty()) load_world(loader, world);
 }
 

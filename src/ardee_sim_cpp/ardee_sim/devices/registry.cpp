@@ -117,13 +117,6 @@ void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make)
   add(sensor_plugins_, filename, std::move(make));
 }
 
-std::string Registry::known_names() const {
-  std::string names;
-  for (const std::string& file : model_plugin_files()) names += " " + file;
-  for (const std::string& file : sensor_plugin_files()) names += " " + file;
-  return names;
-}
-
 std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext& context) const {
   const PluginDescription& plugin = *candidate.plugin;
   const std::string name = stem(plugin.filename);
@@ -134,7 +127,7 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
   if (!found) {
     const std::string expected = of_sensor != sensor_plugins_.end() ? "it within a <sensor>"
                                  : of_model != model_plugins_.end() ? "it outside of <sensor>"
-                                                                    : "one of:" + known_names();
+                                                                    : "one in docs/support.md";
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
                      "', expected " + expected + "; it is left out");
     return nullptr;

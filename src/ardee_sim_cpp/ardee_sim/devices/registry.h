@@ -27,8 +27,8 @@ class Registry {
 
   /// A device for each plugin of the robot and of its links' sensors, in the order of their names,
   /// whatever the order of the description: that in which they act. A plugin of unknown file name
-  /// is a warning that lists the known ones. A bad value inside a controller is an Error; a sensor
-  /// with one is left out, and the log says why.
+  /// is a warning that says where the known ones are listed. A bad value inside a controller is an
+  /// Error; a sensor with one is left out, and the log says why.
   std::vector<std::unique_ptr<Device>> make_devices(const DeviceContext& robot) const;
   /// File names, sorted.
   std::vector<std::string> model_plugin_files() const { return files_of(model_plugins_); }
@@ -40,7 +40,6 @@ class Registry {
   static std::vector<Candidate> candidates_of(const Model& model);
   /// Nothing for a plugin that is unknown or left out.
   std::unique_ptr<Device> make(const Candidate& candidate, DeviceContext& context) const;
-  std::string known_names() const;
   template <typename Plugins>
   static std::vector<std::string> files_of(const Plugins& plugins) {
     std::vector<std::string> files;

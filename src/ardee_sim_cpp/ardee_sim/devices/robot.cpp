@@ -17,7 +17,8 @@ std::size_t index_of(const std::vector<Item>& items, const std::string& name, co
   }
   std::string known;
   for (const Item& item : items) known += (known.empty() ? "" : ", ") + item.name;
-  throw Error(source, "found " + std::string(what) + " '" + name + "', expected one of: " + known);
+  throw Error(source, "found " + std::string(what) + " '" + name + "', expected one of: " +
+                          (known.empty() ? "none, as the model has none" : known));
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ std::vector<std::string> script_files(const std::string& place) {
 
 }  // namespace
 
-void Assets::leave_out(const FileError& problem) {
-  if (!left_out_.insert(problem.file()).second) return;
-  log_.error(std::string(problem.what()) + "; what needs it is left out");
+void Assets::leave_out(const Error& problem, const std::string& key, const std::string& part) {
+  if (!left_out_.insert(key).second) return;
+  log_.error(std::string(problem.what()) + "; " + part + " is left out");
 }
 
 std::shared_ptr<const MeshFile> Assets::mesh(const std::string& uri, const Source& source) {
@@ -78,7 +78,7 @@ const MaterialScript& Assets::script(const std::string& path) {
   if (found != scripts_.end()) return found->second;
   MaterialScript read;
   try {
-    read = parse_material_script(read_text_file(path, Source{path, 0, ""}, kMaxBytes), path);
+    read = parse_material_script(read_text_file(path, Source{path, 0, ""}, kMaxBytes), path, log_);
   } catch (const Error& problem) {
     log_.warn(std::string(problem.what()) + "; the script is left out");
   }

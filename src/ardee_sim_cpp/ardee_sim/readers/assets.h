@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/core/bad_parts.h"
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/description/geometry.h"
 #include "ardee_sim/readers/material_script.h"
@@ -18,8 +19,8 @@ namespace ardee {
 /// The files that descriptions refer to, each read once: meshes, heightmaps, material scripts.
 class Assets {
  public:
-  Assets(ResourceLocator locator, Log& log, MissingFiles missing)
-      : locator_(std::move(locator)), log_(log), missing_(missing) {}
+  Assets(ResourceLocator locator, Log& log, BadParts bad_parts)
+      : locator_(std::move(locator)), log_(log), bad_parts_(bad_parts) {}
 
   /// Begins a world or a model of its own: errors of files left out in an earlier one are said
   /// again.
@@ -33,8 +34,22 @@ class Assets {
       read();
       return true;
     } catch (const FileError& problem) {
-      if (missing_ == MissingFiles::kRefuse) throw;
-      leave_out(problem);
+      if (bad_parts_ == BadParts::kRefuse) throw;
+      leave_out(problem, problem.file(), "what needs it");
+      return false;
+    }
+  }
+
+  /// Runs `read`, which reads a part of a world that the rest can do without. Where that is bad,
+  /// and such parts are to be left out, says so once; else passes the Error on. `part` names it.
+  template <typename Read>
+  bool is_good(const std::string& part, Read read) {
+    try {
+      read();
+      return true;
+    } catch (const Error& problem) {
+      if (bad_parts_ == BadParts::kRefuse) throw;
+      leave_out(problem, problem.what(), part);
       return false;
     }
   }
@@ -54,14 +69,15 @@ class Assets {
 
  private:
   std::optional<std::string> try_resolve(const std::string& uri, const Source& source) const;
-  void leave_out(const FileError& problem);
+  /// Says that `part` is, once for each `key`.
+  void leave_out(const Error& problem, const std::string& key, const std::string& part);
   const MaterialScript& script(const std::string& path);
   std::string find_texture(const std::string& file, const std::vector<std::string>& folders) const;
 
   ResourceLocator locator_;
   Log& log_;
-  MissingFiles missing_;
-  std::set<std::string> left_out_;  // files that were said to be
+  BadParts bad_parts_;
+  std::set<std::string> left_out_;  // files and problems that were said
   std::map<std::string, std::shared_ptr<const MeshFile>> meshes_;
   std::map<std::string, std::shared_ptr<const HeightGrid>> heights_;
   std::map<std::string, MaterialScript> scripts_;

@@ -30,18 +30,19 @@ bool is_sdf(const Node& root) { return root.name() == "sdf" || root.name() == "g
 }  // namespace
 
 struct Loader::Impl {
-  Impl(ResourceLocator locator, Log given_log, MissingFiles missing)
-      : log(std::move(given_log)), assets(std::move(locator), log, missing), sdf(assets) {}
+  Impl(ResourceLocator locator, Log given_log, BadParts bad_parts)
+      : log(std::move(given_log)), assets(std::move(locator), log, bad_parts), sdf(assets) {}
 
   World read_world(const XmlFile& document);
+  std::shared_ptr<const Model> read_model(const XmlFile& document);
 
   Log log;
   Assets assets;
   SdfReader sdf;
 };
 
-Loader::Loader(ResourceLocator locator, Log log, MissingFiles missing)
-    : impl_(std::make_unique<Impl>(std::move(locator), std::move(log), missing)) {}
+Loader::Loader(ResourceLocator locator, Log log, BadParts bad_parts)
+    : impl_(std::make_unique<Impl>(std::move(locator), std::move(log), bad_parts)) {}
 Loader::~Loader() = default;
 Loader::Loader(Loader&&) noexcept = default;
 
@@ -50,6 +51,14 @@ World Loader::Impl::read_world(const XmlFile& document) {
   const Node root = document.root();
   if (!is_sdf(root)) throw root.error("found this root element, expected <sdf> with a <world>");
   return sdf.read_world(root);
+}
+
+std::shared_ptr<const Model> Loader::Impl::read_model(const XmlFile& document) {
+  assets.begin();
+  const Node root = document.root();
+  if (is_sdf(root)) return sdf.read_model(root);
+  if (root.name() == "robot") return read_urdf(root, assets);
+  throw root.error("found this root element, expected <sdf> or <robot>");
 }
 
 World Loader::load_world(const std::string& path) {
@@ -71,12 +80,18 @@ std::shared_ptr<const Model> Loader::load_model(const std::string& path) {
 std::shared_ptr<const Model> Loader::load_model_text(const std::string& xml,
                                                      const std::string& name) {
   const LogGroup group(impl_->log);
-  impl_->assets.begin();
+  return impl_->read_model(XmlFile(xml, name));
+}
+
+std::variant<std::shared_ptr<const Model>, Light> Loader::load_model_or_light_text(
+    const std::string& xml, const std::string& name) {
+  const LogGroup group(impl_->log);
   const XmlFile document(xml, name);
   const Node root = document.root();
-  if (is_sdf(root)) return impl_->sdf.read_model(root);
-  if (root.name() == "robot") return read_urdf(root, impl_->assets);
-  throw root.error("found this root element, expected <sdf> or <robot>");
+  if (is_sdf(root) && root.child("light") && !root.child("model")) {
+    return impl_->sdf.read_light(root);
+  }
+  return impl_->read_model(document);
 }
 
 }  // namespace ardee

@@ -45,15 +45,18 @@ std::vector<Token> tokens_of(const std::string& text) {
 
 class ScriptReader {
  public:
-  ScriptReader(const std::string& text, const std::string& name, const MaterialScript& known)
-      : name_(name), tokens_(tokens_of(text)), known_(known) {}
+  ScriptReader(const std::string& text, const std::string& name, Log& log,
+               const MaterialScript& known)
+      : name_(name), tokens_(tokens_of(text)), log_(log), known_(known) {}
 
   MaterialScript read() {
     while (at_ < tokens_.size()) {
-      const std::vector<Token> words = statement();
+      std::vector<Token> words = statement();
       if (!opens()) continue;
+      // Those that others start from.
+      if (!words.empty() && words[0].text == "abstract") words.erase(words.begin());
       if (!words.empty() && words[0].text == "material") {
-        material(words);
+        material_or_warning(words);
       } else {
         skip_block();
       }
@@ -89,6 +92,19 @@ class ScriptReader {
       if (tokens_[at_].text == "}") --depth;
       ++at_;
     } while (depth > 0);
+  }
+
+  /// One that is written wrong does not cost the others.
+  void material_or_warning(const std::vector<Token>& words) {
+    const std::size_t begin = at_;
+    try {
+      material(words);
+    } catch (const Error& problem) {
+      if (at_ == tokens_.size()) throw;  // the script ends within it
+      at_ = begin;
+      skip_block();
+      log_.warn(std::string(problem.what()) + "; the material is left out");
+    }
   }
 
   void material(const std::vector<Token>& words) {
@@ -170,6 +186,7 @@ class ScriptReader {
 
   std::string name_;
   std::vector<Token> tokens_;
+  Log& log_;
   const MaterialScript& known_;
   MaterialScript materials_;
   std::size_t at_ = 0;
@@ -178,9 +195,9 @@ class ScriptReader {
 
 }  // namespace
 
-MaterialScript parse_material_script(const std::string& text, const std::string& name,
+MaterialScript parse_material_script(const std::string& text, const std::string& name, Log& log,
                                      const MaterialScript& known) {
-  return ScriptReader(text, name, known).read();
+  return ScriptReader(text, name, log, known).read();
 }
 
 }  // namespace ardee

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "ardee_sim/core/error.h"
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/material.h"
 
 namespace ardee {
@@ -14,9 +14,9 @@ using MaterialScript = std::map<std::string, Material>;
 
 /// Reads the materials of an OGRE script: of each the first technique, its colours, cull modes,
 /// alpha rejection and first texture. What else a script may say is passed over. `known` holds the
-/// materials that a parent may be taken from. Throws Error with `name` and the line if a block does
-/// not end.
-MaterialScript parse_material_script(const std::string& text, const std::string& name,
+/// materials that a parent may be taken from. A material that is written wrong is left out with a
+/// warning. Throws Error with `name` and the line if a block does not end.
+MaterialScript parse_material_script(const std::string& text, const std::string& name, Log& log,
                                      const MaterialScript& known = {});
 
 /// The colours that Gazebo brings with it (Gazebo/Grey, Gazebo/Orange, ...).

@@ -18,13 +18,6 @@ namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
 
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 /// The mesh library would pass over a fourth corner.
 void check_facets(const std::string& text, const std::string& path, const Source& source) {
   constexpr std::size_t kCorners = 3;
@@ -44,23 +37,34 @@ void check_facets(const std::string& text, const std::string& path, const Source
   }
 }
 
+constexpr std::size_t kStlHeader = 84;
+constexpr std::size_t kStlTriangle = 50;
+
+/// Of a binary STL with as many triangles as it says.
+std::size_t whole_stl_size(const std::string& bytes) {
+  std::uint32_t count = 0;
+  if (bytes.size() >= kStlHeader) std::memcpy(&count, bytes.data() + 80, sizeof(count));
+  return kStlHeader + kStlTriangle * count;
+}
+
+bool is_ascii_stl(const std::string& bytes) {
+  return bytes.size() != whole_stl_size(bytes) && bytes.compare(0, 5, "solid") == 0 &&
+         bytes.find("facet") != std::string::npos;
+}
+
 /// A binary STL says its number of triangles; an ASCII one ends in "endsolid".
 void check_stl(const std::string& bytes, const std::string& path, const Source& source) {
-  constexpr std::size_t kHeader = 84;
-  constexpr std::size_t kTriangle = 50;
-  std::uint32_t count = 0;
-  if (bytes.size() >= kHeader) std::memcpy(&count, bytes.data() + 80, sizeof(count));
-  if (bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * count) return;
-  if (bytes.compare(0, 5, "solid") == 0 && bytes.find("facet") != std::string::npos) {
+  if (is_ascii_stl(bytes)) {
     if (bytes.find("endsolid") == std::string::npos) {
       throw Error(source, "found no 'endsolid' in STL '" + path + "', expected a whole file");
     }
     return check_facets(bytes, path, source);
   }
-  if (bytes.size() < kHeader || bytes.size() < kHeader + kTriangle * count) {
+  const std::size_t whole = whole_stl_size(bytes);
+  if (bytes.size() < whole) {
     throw Error(source, "found " + std::to_string(bytes.size()) + " bytes in STL '" + path +
-                            "', expected " + std::to_string(kHeader + kTriangle * count) +
-                            " for its " + std::to_string(count) + " triangles");
+                            "', expected " + std::to_string(whole) + " for its " +
+                            std::to_string((whole - kStlHeader) / kStlTriangle) + " triangles");
   }
 }
 
@@ -117,9 +121,20 @@ void check_ply(const std::string& bytes, const std::string& path, const Source& 
 
 }  // namespace
 
+std::string mesh_file_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::size_t binary_stl_size(const std::string& bytes) {
+  return is_ascii_stl(bytes) ? bytes.size() : whole_stl_size(bytes);
+}
+
 std::string check_mesh_file(const std::string& path, const Source& source) {
   static const std::set<std::string> kExtensions{".dae", ".stl", ".obj", ".ply", ".gltf", ".glb"};
-  const std::string extension = lower_extension(path);
+  const std::string extension = mesh_file_extension(path);
   if (kExtensions.count(extension) == 0) {
     throw Error(source,
                 "found mesh '" + path + "', expected a .dae, .stl, .obj, .ply, .gltf or .glb file");

@@ -12,4 +12,10 @@ namespace ardee {
 /// Throws Error at `source`.
 std::string check_mesh_file(const std::string& path, const Source& source);
 
+/// ".stl", in small letters.
+std::string mesh_file_extension(const std::string& path);
+
+/// Of a checked STL: where the triangles of a binary one end, or all bytes of an ASCII one.
+std::size_t binary_stl_size(const std::string& bytes);
+
 }  // namespace ardee

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/mesh_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -8,11 +10,10 @@
 #include <assimp/Importer.hpp>
 #include <set>
 
-#include "ardee_sim/readers/collada_fans.h"
 #include "ardee_sim/readers/mesh_file_check.h"
+#include "ardee_sim/readers/mesh_file_repair.h"
 #include "ardee_sim/readers/mesh_materials.h"
 #include "ardee_sim/readers/polygon.h"
-#include "ardee_sim/readers/xml_text.h"
 
 namespace Assimp {
 
@@ -55,6 +56,34 @@ struct LeftOut {
   }
 };
 
+/// Gives `bytes` for the file at `path`, and what lies beside it from the disk.
+class OneFileInMemory : public Assimp::DefaultIOSystem {
+ public:
+  OneFileInMemory(std::string path, const std::string& bytes)
+      : path_(std::move(path)), bytes_(bytes) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (file != path_) return DefaultIOSystem::Open(file, mode);
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes_.data());
+    return new Assimp::MemoryIOStream(data, bytes_.size());
+  }
+
+ private:
+  std::string path_;
+  const std::string& bytes_;
+};
+
+/// The library's validation asks for these marks, which its OBJ reader forgets for a face of two
+/// corners; what has fewer than three is removed afterwards.
+void mark_kinds_of_faces(const aiScene& scene) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+      mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(mesh.mFaces[k].mNumIndices);
+    }
+  }
+}
+
 LeftOut count_left_out(const aiScene& scene) {
   LeftOut left_out;
   left_out.pictures = scene.mNumTextures;
@@ -85,13 +114,10 @@ const aiScene& import(Assimp::Importer& importer, const std::string& path, const
   set_properties(importer);
   const aiScene* scene = nullptr;
   try {
-    if (bytes.find("<trifans") == std::string::npos) {
-      scene = importer.ReadFile(path, 0);
-    } else {
-      const std::string triangles = fans_to_triangles(plain_xml(bytes, path), path);
-      scene = importer.ReadFileFromMemory(triangles.data(), triangles.size(), 0, "dae");
-    }
+    importer.SetIOHandler(new OneFileInMemory(path, bytes));  // its own from now on
+    scene = importer.ReadFile(path, 0);
     if (scene) {
+      mark_kinds_of_faces(*scene);
       left_out = count_left_out(*scene);
       // Two cameras of one name would not pass as valid, and no camera is looked at.
       scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent);
@@ -226,7 +252,7 @@ class PartReader {
 }  // namespace
 
 MeshFile read_mesh_file(const std::string& path, const Source& source, Log& log) {
-  const std::string bytes = check_mesh_file(path, source);
+  const std::string bytes = repair_mesh_file(check_mesh_file(path, source), path, source, log);
   MeshFile file;
   file.path = path;
   Assimp::Importer importer;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "ardee_sim/readers/fuel_cache.h"
 #include "ardee_sim/readers/package_index.h"
 #include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/text_file.h"
@@ -84,6 +85,9 @@ ResourceLocator ResourceLocator::from_environment() {
     std::error_code error;
     const std::string kept = normal(fs::path(home) / ".gazebo" / "models");
     if (fs::is_directory(kept, error)) locator.model_paths_.push_back(kept);
+    for (const char* tools : {".gz", ".ignition"}) {
+      locator.fuel_caches_.push_back(normal(fs::path(home) / tools / "fuel"));
+    }
   }
   locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
   auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
@@ -99,6 +103,7 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
   const std::string rest = mark == std::string::npos ? uri : uri.substr(mark + 3);
   if (rest.empty()) throw Error(source, "found an empty path '" + uri + "', expected a file's");
   if (scheme == "package") return resolve_package(uri, rest, source);
+  if (scheme == "https" || scheme == "http") return resolve_fuel(uri, rest, source);
   std::vector<fs::path> places;
   if (scheme == "model") {
     for (const std::string& folder : model_paths_) places.push_back(fs::path(folder) / rest);
@@ -119,7 +124,8 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
   } else if (scheme.empty()) {
     places.push_back(fs::path(folder_of(source.file)) / rest);
   } else {
-    throw Error(source, "found '" + uri + "', expected model://, package://, file:// or a path");
+    throw FileError(source, uri,
+                    "found '" + uri + "', expected model://, package://, file:// or a path");
   }
   return first_existing(places, uri, source);
 }
@@ -136,6 +142,20 @@ std::string ResourceLocator::resolve_package(const std::string& uri, const std::
   }
   const std::string inside = slash < rest.size() ? rest.substr(slash + 1) : "";
   return first_existing({fs::path(*folder) / inside}, uri, source);
+}
+
+std::string ResourceLocator::resolve_fuel(const std::string& uri, const std::string& rest,
+                                          const Source& source) const {
+  std::string caches;
+  for (const std::string& cache : fuel_caches_) {
+    for (const fs::path& place : places_in_fuel_cache(cache, rest)) {
+      if (is_there(place)) return normal(place);
+    }
+    caches += (caches.empty() ? "" : " and ") + cache;
+  }
+  throw FileError(source, uri,
+                  "found '" + uri + "', expected what was downloaded before, as nothing is now" +
+                      (caches.empty() ? "" : "; searched: " + caches));
 }
 
 std::string ResourceLocator::resolve_model(const std::string& uri, const Source& source) const {

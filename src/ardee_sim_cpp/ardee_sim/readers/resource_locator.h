@@ -10,10 +10,6 @@
 
 namespace ardee {
 
-/// What becomes of a part of a description whose file is not there or cannot be read: the whole is
-/// refused, or the part is left out with one error, as Gazebo does.
-enum class MissingFiles { kRefuse, kLeaveOut };
-
 /// That a file is not there, or cannot be read as what it should be.
 class FileError : public Error {
  public:
@@ -28,8 +24,8 @@ class FileError : public Error {
   std::string file_;
 };
 
-/// Finds the file behind a URI: model://, package://, file://, an absolute path, or a path beside
-/// the referring file.
+/// Finds the file behind a URI: model://, package://, file://, an absolute path, a path beside the
+/// referring file, or https:// of a model of Fuel that was downloaded before.
 class ResourceLocator {
  public:
   using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
@@ -41,6 +37,8 @@ class ResourceLocator {
 
   void add_model_path(const std::string& folder) { model_paths_.push_back(folder); }
   void add_resource_path(const std::string& folder) { resource_paths_.push_back(folder); }
+  /// A folder with models that Gazebo's tools downloaded from Fuel.
+  void add_fuel_cache(const std::string& folder) { fuel_caches_.push_back(folder); }
   void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
 
   /// Further model folders; asked for only when a model is in none of the others.
@@ -58,9 +56,12 @@ class ResourceLocator {
  private:
   std::string resolve_package(const std::string& uri, const std::string& rest,
                               const Source& source) const;
+  std::string resolve_fuel(const std::string& uri, const std::string& rest,
+                           const Source& source) const;
 
   std::vector<std::string> model_paths_;
   std::vector<std::string> resource_paths_;
+  std::vector<std::string> fuel_caches_;
   PackageFinder find_package_;
   PathExports model_exports_;
   PathExports media_exports_;

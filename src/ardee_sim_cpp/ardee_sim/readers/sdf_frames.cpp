@@ -42,20 +42,18 @@ void SdfFrames::add(const Node& element, const std::string& name, const std::str
   frames_.emplace(name, Frame{own_pose(pose), other.empty() ? base : other, body});
 }
 
-void SdfFrames::add_children(const Node& parent) {
-  parent.each([&](const Node& child) {
-    const std::string name = child.attribute("name");
-    if (child.name() == "link") {
-      add(child, name, root_);
-    } else if (child.name() == "frame") {
-      const std::string attached_to = child.attribute("attached_to");
-      const std::string& body = attached_to.empty() ? root_ : attached_to;
-      add(child, name, body, body);
-    } else if (child.name() == "joint") {
-      const std::string held = child.text("child", "");
-      add(child, name, held, held);
-    }
-  });
+void SdfFrames::add_child(const Node& child) {
+  const std::string name = child.attribute("name");
+  if (child.name() == "link") {
+    add(child, name, root_);
+  } else if (child.name() == "frame") {
+    const std::string attached_to = child.attribute("attached_to");
+    const std::string& body = attached_to.empty() ? root_ : attached_to;
+    add(child, name, body, body);
+  } else if (child.name() == "joint") {
+    const std::string held = child.text("child", "");
+    add(child, name, held, held);
+  }
 }
 
 void SdfFrames::add(const std::string& name, const Pose& X_R) {

@@ -25,8 +25,11 @@ class SdfFrames {
   /// `body` is what it moves with (empty: it is a body itself).
   void add(const Node& element, const std::string& name, const std::string& base,
            const std::string& body = "");
-  /// The links, joints and frames among the children.
-  void add_children(const Node& parent);
+  /// A link, joint or frame; nothing else.
+  void add_child(const Node& child);
+  void add_children(const Node& parent) {
+    parent.each([this](const Node& child) { add_child(child); });
+  }
   void add(const std::string& name, const Pose& X_R);
   /// A model within, with its links and other frames, as name::link. The <pose> of its element
   /// places its frame X_MP.

@@ -24,7 +24,8 @@ Box read_box(const Node& shape) {
   return box;
 }
 
-Plane read_plane(const Node& shape) {
+/// A plane that collides has no end, whatever its size.
+Plane read_plane(const Node& shape, bool collides, Log& log) {
   Plane plane;
   plane.normal = shape.vector3("normal", plane.normal);
   if (!(plane.normal.norm() > 1e-9)) {
@@ -32,8 +33,13 @@ Plane read_plane(const Node& shape) {
   }
   plane.normal.normalize();
   if (const auto size = shape.child("size")) {
-    plane.size_m = size->to_vector2();
-    if (!(plane.size_m.minCoeff() > 0.0)) {
+    const Eigen::Vector2d size_m = size->to_vector2();
+    if (size_m.minCoeff() > 0.0) {
+      plane.size_m = size_m;
+    } else if (collides) {
+      log.warn(size->source(), "found '" + size->text() +
+                                   "', expected two positive numbers; sensors see 1 m x 1 m of it");
+    } else {
       throw size->error("found '" + size->text() + "', expected two positive numbers");
     }
   }
@@ -90,8 +96,9 @@ Mesh make_mesh(const std::string& uri, const std::string& submesh, bool center,
   const auto& parts = mesh.file->parts;
   if (!submesh.empty() && std::none_of(parts.begin(), parts.end(),
                                        [&](const SubMesh& part) { return part.name == submesh; })) {
-    throw Error(source, "found no submesh '" + submesh + "' in '" + uri + "', expected one of " +
-                            part_names(*mesh.file));
+    throw FileError(source, uri + " " + submesh,
+                    "found no submesh '" + submesh + "' in '" + uri + "', expected one of " +
+                        part_names(*mesh.file));
   }
   return mesh;
 }
@@ -113,7 +120,7 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
   if (name == "cylinder") {
     return Cylinder{positive(*shape, "radius"), positive(*shape, "length")};
   }
-  if (name == "plane") return read_plane(*shape);
+  if (name == "plane") return read_plane(*shape, owner.name() == "collision", assets.log());
   std::optional<Geometry> made;
   if (name == "mesh") assets.has_files([&] { made = read_mesh(*shape, assets); });
   if (name == "heightmap") assets.has_files([&] { made = read_heightmap(*shape, assets); });

@@ -101,6 +101,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   return files_[key] = std::move(file);
 }
 
+/// Last adds it to the frames: on a throw it is not there.
 Instance SdfReader::read_include(const Node& include, const ModelFile& file,
                                  const std::string& name, SdfFrames& frames) {
   Instance made;
@@ -112,11 +113,6 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file,
     if (!frame)
       throw placed->error("found frame '" + placed->text() + "', expected one of the model");
     X_MP = frame->X_MF;
-  }
-  if (include.child("pose") || include.child("placement_frame")) {
-    frames.add_model(name, include, X_MP, file.model);
-  } else {
-    frames.add_model(name, file.model->own_pose, file.model);
   }
   made.is_static = file.model->is_static;
   if (const auto scale = include.child("ardee:scale")) {
@@ -136,6 +132,11 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file,
     });
     placements_[with_plugins.get()] = placements_.at(file.model.get());
     made.model = with_plugins;
+  }
+  if (include.child("pose") || include.child("placement_frame")) {
+    frames.add_model(name, include, X_MP, file.model);
+  } else {
+    frames.add_model(name, file.model->own_pose, file.model);
   }
   return made;
 }

@@ -72,6 +72,13 @@ JointAxis read_axis(const Node& axis) {
   return made;
 }
 
+/// The name of a link or frame as the model knows it: "model::link" may name its own scope.
+std::string without_own_scope(const std::string& name, const JointScope& scope) {
+  const std::string own = scope.model.name + "::";
+  const bool is_nested = scope.X_ML.count(scope.frames.body_of(name)) != 0;
+  return !is_nested && name.compare(0, own.size(), own) == 0 ? name.substr(own.size()) : name;
+}
+
 /// The link that a frame moves with.
 std::string link_of(const std::string& frame, const JointScope& scope) {
   const std::string body = scope.frames.body_of(frame);
@@ -113,8 +120,9 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   joint.name = node.required_attribute("name");
   joint.type = joint_type(node);
   joint.source = node.source();
-  const std::string child = node.required("child").required_text();
-  joint.parent = link_of(node.required("parent").required_text(), scope);
+  const std::string child = without_own_scope(node.required("child").required_text(), scope);
+  const std::string parent = without_own_scope(node.required("parent").required_text(), scope);
+  joint.parent = link_of(parent, scope);
   joint.child = link_of(child, scope);
   const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
   const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;

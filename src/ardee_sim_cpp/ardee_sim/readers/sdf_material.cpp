@@ -11,9 +11,12 @@ Material read_sdf_material(const Node& material, Assets& assets) {
     script->each("uri", [&uris](const Node& uri) {
       if (const std::string text = uri.text(); !text.empty()) uris.push_back(text);
     });
-    const Node name = script->required("name");
-    made = assets.material(name.required_text(), uris, name.source());
-    scripted = true;
+    if (const std::string name = script->text("name", ""); !name.empty()) {
+      made = assets.material(name, uris, script->required("name").source());
+      scripted = true;
+    } else {
+      assets.log().warn(script->source(), "found no <name>, expected a material's; left out");
+    }
   }
   made.diffuse = material.color("diffuse", made.diffuse);
   made.ambient = material.color("ambient", scripted ? made.ambient : made.diffuse);

@@ -8,6 +8,7 @@
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
+#include "ardee_sim/readers/sdf_scene.h"
 #include "ardee_sim/readers/sdf_version.h"
 #include "ardee_sim/readers/validate.h"
 
@@ -42,10 +43,12 @@ int SdfReader::read_version(const Node& root) {
   }
   const auto version = parse_sdf_version(text);
   if (!version) throw root.error("found version '" + text + "', expected 1.2 to " + newest);
-  if (*version > kNewestSdf) {
-    assets_.log().warn(root.source(), "found version " + text + ", read as SDF " + newest);
+  const int nearest = std::clamp(*version, kOldestSdf, kNewestSdf);
+  if (nearest != *version) {
+    assets_.log().warn(root.source(),
+                       "found version " + text + ", read as SDF " + sdf_version_text(nearest));
   }
-  return *version;
+  return nearest;
 }
 
 std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
@@ -65,6 +68,13 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   }
   reading_.clear();
   return model;
+}
+
+Light SdfReader::read_light(const Node& root) {
+  read_version(root);
+  sdf_schema().check(root, assets_.log());
+  const Node light = root.required("light");
+  return read_sdf_light(light, light.pose());
 }
 
 std::shared_ptr<const Model> SdfReader::read_own_model(const Node& node, const Scope& scope) {
@@ -112,7 +122,13 @@ std::vector<SdfReader::Placed> SdfReader::read_placed(const Node& parent, const 
   parent.each([&](const Node& child) {
     if (!is_nested(child)) return;
     const bool is_merged = parent.name() == "model" && merges(child);
-    placed.push_back(placed_instance(child, scope, is_merged, names, frames));
+    Placed& made = placed.emplace_back();
+    const auto read = [&] { made = placed_instance(child, scope, is_merged, names, frames); };
+    if (parent.name() == "world") {
+      assets_.is_good(label_of(child), read);
+    } else {
+      read();
+    }
     if (is_merged && placed.back().instance) {
       frames.add_merged(placed.back().instance->name, *placed.back().instance->model);
     }
@@ -129,17 +145,20 @@ SdfReader::Placed SdfReader::placed_instance(const Node& child, const Scope& sco
     const std::string name = given ? given->required_text() : file.model->name;
     // A link may have the name of the model that it is merged out of.
     const std::string own_name = is_merged ? "_merged__" + name + "__model__" : name;
-    return {read_include(child, file, names.claim(own_name), frames), file.lights};
+    Instance made = read_include(child, file, names.find_free(own_name), frames);
+    names.take(made.name);
+    return {std::move(made), file.lights};
   }
   Instance made;
   made.model = read_model(child, scope);
-  made.name = names.claim(made.model->name);
+  made.name = names.find_free(made.model->name);
   if (made.name != made.model->name) {
     assets_.log().warn(child.source(), "a second model of one name gets another",
                        ": '" + made.name + "'");
   }
   made.is_static = made.model->is_static;
   frames.add_model(made.name, child, made.model->X_MP, made.model);
+  names.take(made.name);
   return {made, {}};
 }
 

@@ -24,6 +24,7 @@ class SdfReader {
   /// `root` is a document's <sdf>.
   World read_world(const Node& root);
   std::shared_ptr<const Model> read_model(const Node& root);
+  Light read_light(const Node& root);
 
  private:
   /// An included file: a model, or lights alone; neither where it is left out.
@@ -86,6 +87,9 @@ class SdfReader {
 
 /// Whether an element is one of Placed.
 bool is_nested(const Node& child);
+
+/// A part of a world in messages: "<model> 'wall'".
+std::string label_of(const Node& part);
 
 /// X_HM of a model in what holds it, of the place of its placement frame.
 inline Pose place_model(const Pose& X_HP, const std::optional<Pose>& X_MP) {

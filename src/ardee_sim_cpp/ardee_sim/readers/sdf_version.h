@@ -6,8 +6,9 @@
 
 namespace ardee {
 
-/// Versions of SDF as numbers that compare: 1.7 is 107, 1.10 is 110. Files of a newer version than
-/// kNewestSdf are read as that; kNewestClassicSdf is Gazebo Classic's.
+/// Versions of SDF as numbers that compare: 1.7 is 107, 1.10 is 110. Files of an older or newer
+/// version than these are read as the nearest; kNewestClassicSdf is Gazebo Classic's.
+constexpr int kOldestSdf = 102;
 constexpr int kNewestSdf = 112;
 constexpr int kNewestClassicSdf = 107;
 

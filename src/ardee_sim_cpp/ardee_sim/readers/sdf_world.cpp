@@ -31,6 +31,13 @@ void adopt_place(const Node& include, const SdfFrames& frames, Light& light) {
 
 }  // namespace
 
+std::string label_of(const Node& part) {
+  const bool is_include = part.name() == "include";
+  const std::string name =
+      is_include ? part.text("name", part.text("uri", "")) : part.attribute("name");
+  return "<" + std::string(part.name()) + "> '" + name + "'";
+}
+
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
   sdf_schema().check(root, assets_.log());
@@ -70,7 +77,7 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     }
     return found;
   };
-  insertions.each("model", [&](const Node& inserted) {
+  const auto add_model = [&](const Node& inserted) {
     if (is_there(models, inserted)) return;
     Instance instance;
     instance.model = read_model(inserted, scope);
@@ -78,10 +85,16 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     instance.pose = place_model(inserted.pose(), instance.model->X_MP);
     instance.is_static = instance.model->is_static;
     made.models.push_back(std::move(instance));
-  });
-  insertions.each("light", [&](const Node& inserted) {
+  };
+  const auto add_light = [&](const Node& inserted) {
     if (is_there(lights, inserted)) return;
     made.lights.push_back(read_sdf_light(inserted, inserted.pose()));
+  };
+  insertions.each("model", [&](const Node& inserted) {
+    assets_.is_good(label_of(inserted), [&] { add_model(inserted); });
+  });
+  insertions.each("light", [&](const Node& inserted) {
+    assets_.is_good(label_of(inserted), [&] { add_light(inserted); });
   });
 }
 
@@ -109,27 +122,33 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
   UniqueNames names;
   UniqueNames light_names;
   SdfFrames frames("world");
-  frames.add_children(world);
+  world.each([&](const Node& child) {
+    assets_.is_good(label_of(child), [&] { frames.add_child(child); });
+  });
+  std::vector<Placed> placed = read_placed(world, scope, names, frames);
+  auto next = placed.begin();
   const auto add_light = [&](Light light) {
     light.name = light_names.claim(light.name);
     made.lights.push_back(std::move(light));
   };
-  std::vector<Placed> placed = read_placed(world, scope, names, frames);
-  auto next = placed.begin();
-  world.each([&](const Node& child) {
+  const auto add_placed = [&](const Node& child, Placed from) {
+    if (child.has_attribute("merge")) {
+      assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
+    }
+    if (from.instance) {
+      Instance& instance = *from.instance;
+      instance.pose = frames.find(instance.name, child.child("pose").value_or(child));
+      made.models.push_back(std::move(instance));
+    }
+    for (Light& light : from.lights) {
+      if (!from.instance) adopt_place(child, frames, light);
+      add_light(std::move(light));
+    }
+  };
+  const auto add = [&](const Node& child) {
     const std::string_view kind = child.name();
     if (is_nested(child)) {
-      if (child.has_attribute("merge")) {
-        assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
-      }
-      auto& [instance, lights] = *next++;
-      for (Light& light : lights) {
-        if (!instance) adopt_place(child, frames, light);
-        add_light(std::move(light));
-      }
-      if (!instance) return;
-      instance->pose = frames.find(instance->name, child.child("pose").value_or(child));
-      made.models.push_back(std::move(*instance));
+      add_placed(child, std::move(*next++));
     } else if (kind == "light") {
       add_light(read_sdf_light(child, frames.pose(child)));
     } else if (kind == "plugin") {
@@ -138,7 +157,8 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
     } else if (kind == "population") {
       add_population(child, scope, names, frames, made);
     }
-  });
+  };
+  world.each([&](const Node& child) { assets_.is_good(label_of(child), [&] { add(child); }); });
 }
 
 /// Copies are named as Gazebo does it.

@@ -2,27 +2,43 @@
 // The world's lights: the part of Simulation that services ask for.
 #include <algorithm>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
 namespace {
 
 std::vector<Light>::iterator find_light(std::vector<Light>& lights, const std::string& name) {
-  const auto found = std::find_if(lights.begin(), lights.end(),
-                                  [&name](const Light& light) { return light.name == name; });
+  return std::find_if(lights.begin(), lights.end(),
+                      [&name](const Light& light) { return light.name == name; });
+}
+
+std::vector<Light>::iterator require_light(std::vector<Light>& lights, const std::string& name) {
+  const auto found = find_light(lights, name);
   if (found == lights.end()) throw Error("light '" + name + "' does not exist");
   return found;
 }
 
 }  // namespace
 
+void Simulation::add_light(const Light& light) {
+  if (find_light(world_.lights, light.name) != world_.lights.end()) {
+    throw Error("light '" + light.name + "' already exists");
+  }
+  if (!limits::is_valid(light.pose)) {
+    throw Error("light '" + light.name + "': found a pose that is not finite or too far away");
+  }
+  world_.lights.push_back(light);
+  pictures_.relight();
+}
+
 void Simulation::set_light(const Light& light) {
-  *find_light(world_.lights, light.name) = light;
+  *require_light(world_.lights, light.name) = light;
   pictures_.relight();
 }
 
 void Simulation::remove_light(const std::string& name) {
-  world_.lights.erase(find_light(world_.lights, name));
+  world_.lights.erase(require_light(world_.lights, name));
   pictures_.relight();
 }
 

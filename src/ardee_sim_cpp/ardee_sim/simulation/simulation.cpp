@@ -70,7 +70,12 @@ void Simulation::add_world_models(const std::vector<Instance>& models) {
   for (const auto& [name, index] : place) {
     auto entity = std::make_unique<Entity>();
     entity->instance = models[index];
-    add(std::move(entity));
+    try {
+      add(std::move(entity));
+    } catch (const Error& problem) {
+      if (options_.bad_parts == BadParts::kRefuse) throw;
+      log_.error(std::string(problem.what()) + "; model '" + name + "' is left out");
+    }
   }
   std::sort(entities_.begin(), entities_.end(), [&place](const auto& one, const auto& other) {
     return place.at(one->name()) < place.at(other->name());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/core/bad_parts.h"
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/registry.h"
@@ -21,6 +22,7 @@ namespace ardee {
 struct SimulationOptions {
   std::uint64_t seed = 0;
   RayOptions rays;
+  BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
 };
 
@@ -41,6 +43,9 @@ struct RelativeState {
   Twist twist;
 };
 
+/// Whether a reference is the world: "", "world", "map" or "/map", as in gazebo_ros.
+bool names_world(const std::string& name);
+
 /// A link of a model in the world.
 struct LinkOf {
   Entity* entity = nullptr;
@@ -51,7 +56,7 @@ struct LinkOf {
 /// and services act between steps.
 class Simulation {
  public:
-  /// Throws Error if something in the world cannot be built.
+  /// Throws Error if something in the world cannot be built and is not to be left out.
   Simulation(const World& world, const SimulationOptions& options, LogSink log_sink);
   ~Simulation();
 
@@ -85,13 +90,16 @@ class Simulation {
   const World& world() const { return world_; }
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
+  /// Adds a light; pictures follow, and resets leave it. Throws Error if its name is taken or its
+  /// pose is none in the world.
+  void add_light(const Light& light);
   /// Replaces the light of that name in world(); pictures follow, and resets leave it. Throws Error
   /// if there is none, as does remove_light.
   void set_light(const Light& light);
   void remove_light(const std::string& name);
 
   /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
-  /// name; "" and "world" name the world. Throws Error for an unknown name.
+  /// name, or to the world (names_world). Throws Error for an unknown name.
   RelativeState state(const std::string& name, const std::string& reference) const;
   /// Moves a model. The pose is relative to `reference`; the velocity is the one that the model
   /// gets in the world, in the axes of `reference`, whose own is not added (as gazebo_ros does).

@@ -4,13 +4,10 @@
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
-namespace {
 
 bool names_world(const std::string& name) {
-  return name.empty() || name == "world" || name == "map";
+  return name.empty() || name == "world" || name == "map" || name == "/map";
 }
-
-}  // namespace
 
 std::optional<LinkOf> Simulation::find_link(const std::string& name) const {
   std::optional<LinkOf> unscoped;

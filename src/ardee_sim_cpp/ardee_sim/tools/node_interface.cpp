@@ -6,7 +6,8 @@ namespace ardee {
 const std::vector<NodeService>& node_services() {
   static const std::vector<NodeService> services{
       {"/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", "takes URDF and SDF"},
-      {"/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel", "takes SDF and URDF"},
+      {"/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel",
+       "takes SDF and URDF, also an SDF with a light and no model"},
       {"/gazebo/delete_model", "gazebo_msgs/DeleteModel", ""},
       {"/gazebo/get_model_state", "gazebo_msgs/GetModelState", ""},
       {"/gazebo/set_model_state", "gazebo_msgs/SetModelState", ""},

@@ -17,8 +17,8 @@ namespace ardee {
 /// A loader over a temporary model folder and the test data, with what it says recorded.
 class ReadersTest : public ::testing::Test {
  protected:
-  explicit ReadersTest(MissingFiles missing = MissingFiles::kRefuse)
-      : loader_(make_locator(), make_log(), missing) {}
+  explicit ReadersTest(BadParts bad_parts = BadParts::kRefuse)
+      : loader_(make_locator(), make_log(), bad_parts) {}
 
   static std::string data(const std::string& name) {
     return std::string(ARDEE_TEST_DATA "/") + name;

@@ -5,6 +5,15 @@
 namespace ardee {
 namespace {
 
+/// Reads a script and keeps what is said of it.
+MaterialScript read_script(const std::string& text, std::string* said = nullptr) {
+  std::string warnings;
+  Log log([&warnings](LogLevel, const std::string& warning) { warnings += warning + "\n"; });
+  MaterialScript made = parse_material_script(text, "s", log);
+  if (said) *said = warnings;
+  return made;
+}
+
 constexpr const char* kListingA14 = R"(material Corn/LeavesBase
 {
   technique
@@ -24,7 +33,7 @@ constexpr const char* kListingA14 = R"(material Corn/LeavesBase
 })";
 
 TEST(MaterialScript, ReadsListingA14) {
-  const Material m = parse_material_script(kListingA14, "s").at("Corn/LeavesBase");
+  const Material m = read_script(kListingA14).at("Corn/LeavesBase");
   EXPECT_TRUE(m.two_sided);
   EXPECT_NEAR(m.alpha_rejection, 128.0 / 255.0, 1e-6);
   EXPECT_EQ(m.texture_path, "AG20lef3.tif");
@@ -32,17 +41,16 @@ TEST(MaterialScript, ReadsListingA14) {
 }
 
 TEST(MaterialScript, IsOneSidedUnlessItSaysOtherwise) {
-  const MaterialScript s = parse_material_script(
+  const MaterialScript s = read_script(
       "material A { technique { pass { cull_hardware clockwise\n } } }\nmaterial B { technique { "
-      "pass { } } }",
-      "s");
+      "pass { } } }");
   EXPECT_FALSE(s.at("A").two_sided);
   EXPECT_FALSE(s.at("B").two_sided);
   EXPECT_LT(s.at("B").alpha_rejection, 0.0f);
 }
 
 TEST(MaterialScript, ReadsColoursAndPassesOverTheRest) {
-  const MaterialScript s = parse_material_script(R"(
+  const MaterialScript s = read_script(R"(
     import * from "other.material" // a comment { with a brace
     vertex_program glow glsl { source x.glsl }
     /* a longer
@@ -66,8 +74,7 @@ TEST(MaterialScript, ReadsColoursAndPassesOverTheRest) {
       }
       technique { pass { diffuse 0 0 0
       } }
-    })",
-                                                 "s");
+    })");
   const Material& m = s.at("Two words");
   EXPECT_TRUE(m.ambient.isApprox(Color(0.1f, 0.2f, 0.3f, 1)));
   EXPECT_TRUE(m.diffuse.isApprox(Color(0.4f, 0.5f, 0.6f, 0.7f)));
@@ -77,10 +84,9 @@ TEST(MaterialScript, ReadsColoursAndPassesOverTheRest) {
 }
 
 TEST(MaterialScript, InheritsFromAParent) {
-  const MaterialScript s = parse_material_script(
-      std::string(kListingA14) +
-          "\nmaterial Mid : Corn/LeavesBase { technique { pass { diffuse 1 0 0\n } } }",
-      "s");
+  const MaterialScript s =
+      read_script(std::string(kListingA14) +
+                  "\nmaterial Mid : Corn/LeavesBase { technique { pass { diffuse 1 0 0\n } } }");
   EXPECT_TRUE(s.at("Mid").two_sided);
   EXPECT_EQ(s.at("Mid").texture_path, "AG20lef3.tif");
   EXPECT_EQ(s.at("Mid").diffuse, Color(1, 0, 0, 1));
@@ -146,6 +152,31 @@ TEST_F(ScriptedVisual, ColoursBesideTheScriptGoOverIt) {
       "1</diffuse></material></visual></link>");
   EXPECT_EQ(m->links.at(0).visuals.at(0).material->diffuse, Color(0, 1, 0, 1));
   EXPECT_EQ(m->links.at(0).visuals.at(0).material->ambient, Color(1, 0, 0, 1));
+}
+
+TEST(MaterialScript, KnowsAbstractMaterials) {
+  std::string said;
+  const MaterialScript s = read_script(
+      "abstract material Base { technique { pass { diffuse 0 1 0 1\n } } }\n"
+      "material Green : Base { }",
+      &said);
+  EXPECT_EQ(s.at("Green").diffuse, Color(0, 1, 0, 1));
+  EXPECT_EQ(said, "");
+}
+
+TEST(MaterialScript, OfABadMaterialKeepsTheOthers) {
+  std::string said;
+  const MaterialScript s = read_script(
+      "material A : Nobody { technique { pass { } } }\n"
+      "material B { technique { pass { diffuse red 0 0\n } } }\n"
+      "material C { technique { pass { diffuse 0 0 1\n } } }",
+      &said);
+  EXPECT_EQ(s.size(), 1u);
+  EXPECT_EQ(s.at("C").diffuse, Color(0, 0, 1, 1));
+  EXPECT_HAS(said,
+             "s:1: found parent material 'Nobody', expected one defined before; the "
+             "material is left out\n");
+  EXPECT_HAS(said, "s:2: ");
 }
 
 }  // namespace

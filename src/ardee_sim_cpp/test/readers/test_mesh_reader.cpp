@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/mesh_reader.h"
+#include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
 
 // Assimp forgets some memory when it refuses a broken file; a leak check is to look at our own
@@ -355,6 +356,34 @@ TEST(MeshReader, RefusesAnStlFacetOfFourCorners) {
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex "
       "0 1 0\nendloop\nendfacet\nendsolid a\n");
   EXPECT_HAS(error_of(path), "found a facet of 4 corners in STL '" + path + "', line 3");
+}
+
+TEST(MeshReader, ReadsNumbersOfAnObjThatBeginWithAPoint) {
+  const TempFolder folder;
+  folder.write("m.mtl", "newmtl a\nKd .5 .25 0\n");
+  const Reading reading(folder.write(
+      "m.obj", "mtllib ./m.mtl\nv 0 0 .5\nv -.5 0 .5\nv 0\t.25 .5\nusemtl a\nf 1 2 3\n"));
+  expect_box(reading.file.parts.at(0), {-0.5f, 0, 0.5f}, {0, 0.25f, 0.5f});
+  EXPECT_TRUE(reading.file.materials.back().diffuse.isApprox(Color(0.5f, 0.25f, 0, 1)));
+  EXPECT_EQ(reading.said, "");
+}
+
+TEST(MeshPolygons, AFaceOfTwoCornersIsALine) {
+  const TempFolder folder;
+  const Reading reading(folder.write("two.obj", kBlock + "f 1 2\nf 3\n"));
+  EXPECT_EQ(triangles(reading.file), 12u);
+  EXPECT_EQ(reading.said,
+            "test:1: <uri>: left out of '" + folder.path() + "/two.obj': 1 point(s), 1 line(s)\n");
+}
+
+TEST(MeshReader, CutsOffWhatFollowsTheTrianglesOfABinaryStl) {
+  const std::string path = ARDEE_TEST_DATA "/meshes/cube.stl";
+  const std::string cube = read_text_file(path, Source{}, 10000);
+  const TempFolder folder;
+  const Reading reading(folder.write("long.stl", cube + "tail"));
+  EXPECT_EQ(triangles(reading.file), 12u);
+  EXPECT_EQ(reading.said, "test:1: <uri>: found 4 bytes after the last triangle of '" +
+                              folder.path() + "/long.stl', expected none; left out\n");
 }
 
 }  // namespace

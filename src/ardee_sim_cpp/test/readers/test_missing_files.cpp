@@ -15,7 +15,7 @@ std::string mesh(const std::string& name, const std::string& uri) {
 
 class MissingFilesTest : public ReadersTest {
  protected:
-  MissingFilesTest() : ReadersTest(MissingFiles::kLeaveOut) {
+  MissingFilesTest() : ReadersTest(BadParts::kLeaveOut) {
     folder_.write_model("box", "<static>true</static><link name='l'><collision name='c'>" +
                                    std::string(kBox) + "</collision></link>");
   }
@@ -114,8 +114,7 @@ TEST_F(MissingFilesTest, LeavesOutRowsOfATable) {
   EXPECT_HAS(only_error(), "rows.csv:2: found 'model://tree'");
 }
 
-TEST_F(MissingFilesTest, RefusesWhatIsWrittenWrongAllTheSame) {
-  EXPECT_HAS(error_of([&] { world("<include/>"); }), "found no <uri>, expected one");
+TEST_F(MissingFilesTest, RefusesAModelThatIsWrittenWrongAllTheSame) {
   EXPECT_HAS(error_of([&] {
                model(
                    "<link name='l'><collision name='c'><geometry><mesh><uri></uri></mesh>"
@@ -123,6 +122,81 @@ TEST_F(MissingFilesTest, RefusesWhatIsWrittenWrongAllTheSame) {
              }),
              "uri");
   EXPECT_TRUE(errors_->empty());
+}
+
+TEST_F(MissingFilesTest, LeavesOutASubmeshThatIsNotThere) {
+  const auto made = model(
+      "<link name='l'><visual name='v'><geometry><mesh><uri>" + data("meshes/parts_z_up.dae") +
+      "</uri><submesh><name>Root</name></submesh></mesh></geometry></visual></link>");
+  EXPECT_TRUE(made->links[0].visuals.empty());
+  EXPECT_HAS(only_error(), "found no submesh 'Root' in");
+}
+
+struct BadPart {
+  const char* xml;
+  const char* said;
+};
+
+class BadPartsTest : public MissingFilesTest, public ::testing::WithParamInterface<BadPart> {};
+
+/// A world between whose good models one part is bad: of it there is one error, and no name.
+TEST_P(BadPartsTest, AreLeftOutOfAWorld) {
+  const World w = world("<model name='a'><link name='l'/></model>" + std::string(GetParam().xml) +
+                        "<model name='m'><link name='l'/></model>");
+  ASSERT_EQ(w.models.size(), 2u);
+  EXPECT_EQ(w.models[0].name, "a");
+  EXPECT_EQ(w.models[1].name, "m");
+  EXPECT_TRUE(w.lights.empty());
+  EXPECT_TRUE(w.plugins.empty());
+  EXPECT_HAS(only_error(), GetParam().said);
+  EXPECT_HAS(only_error(), "is left out");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    World, BadPartsTest,
+    ::testing::Values(
+        BadPart{
+            "<model name='m'><pose>1 2 3 0 0 0 9</pose><link name='l'/></model>",
+            "found '1 2 3 0 0 0 9', expected six finite numbers (x y z roll pitch yaw); <model> "
+            "'m' is left out"},
+        BadPart{"<model name='m'><link name='l'/><joint name='j' type='fixed'><parent>l</parent>"
+                "<child>nope</child></joint></model>",
+                "'nope'"},
+        BadPart{"<model name='m'><link name='l'/><model name='n'><static>1</static>"
+                "<link name='z'><pose>0</pose></link></model></model>",
+                "found '0'"},
+        BadPart{"<model><link name='l'/></model>", "name"},
+        BadPart{"<model name='q'><pose relative_to='x'/><link name='l'/></model>", "frame 'x'"},
+        BadPart{"<include><uri></uri></include>", "<uri>"},
+        BadPart{"<include/>", "found no <uri>, expected one; <include> '' is left out"},
+        BadPart{"<include><uri>model://box</uri><name>m</name><ardee:scale>0</ardee:scale>"
+                "</include>",
+                "<include> 'm' is left out"},
+        BadPart{"<light name='a' type='area'/>", "<light> 'a' is left out"},
+        BadPart{"<plugin name='p'/>", "filename"},
+        BadPart{"<frame name='f'><pose>0</pose></frame>", "<frame> 'f' is left out"},
+        BadPart{"<population name='p'><model name='m'><link name='l'/></model></population>",
+                "<population> 'p' is left out"},
+        BadPart{"<state world_name='w'><insertions><model name='i'><link/></model></insertions>"
+                "</state>",
+                "<model> 'i' is left out"}));
+
+TEST_F(MissingFilesTest, WhatIsLeftOutIsNoFrame) {
+  const World w = world(
+      "<model name='m'><link name='l'/><link name='l'/></model>"
+      "<model name='on_it'><pose relative_to='m'>0 0 1 0 0 0</pose><link name='l'/></model>",
+      "1.7");
+  EXPECT_TRUE(w.models.empty());
+  ASSERT_EQ(errors_->size(), 2u);
+  EXPECT_HAS(errors_->at(1), "found frame 'm'");
+}
+
+TEST_F(MissingFilesTest, LeavesOutWhatWasNotDownloaded) {
+  const World w =
+      world("<include><uri>https://fuel.gazebosim.org/1.0/o/models/Cone</uri></include>" +
+            include("box"));
+  EXPECT_EQ(w.models.size(), 1u);
+  EXPECT_HAS(only_error(), "found 'https://fuel.gazebosim.org/1.0/o/models/Cone'");
 }
 
 }  // namespace

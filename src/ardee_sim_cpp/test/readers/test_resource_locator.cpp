@@ -52,7 +52,7 @@ TEST_F(Locator, SaysWhereItSearched) {
   EXPECT_HAS(error,
              "f.sdf:3: <uri>: found 'model://a/b.dae', expected an existing file; searched: ");
   EXPECT_HAS(error, folder_.path() + "/models/a/b.dae");
-  EXPECT_HAS(error_of("http://x/y"), "expected model://, package://, file:// or a path");
+  EXPECT_HAS(error_of("ftp://x/y"), "expected model://, package://, file:// or a path");
   EXPECT_HAS(error_of("model://"), "found an empty path");
   EXPECT_HAS(error_of("package://nobody/x"), "searched for package 'nobody'");
 }
@@ -143,6 +143,26 @@ TEST_F(Locator, FindsWorldsBelowTheMediaPathsThatPackagesExport) {
 
 TEST(PathList, LeavesOutEmptyParts) {
   EXPECT_EQ(split_path_list("/a::/b:"), (std::vector<std::string>{"/a", "/b"}));
+}
+
+TEST_F(Locator, FindsWhatWasDownloadedFromFuel) {
+  locator_.add_fuel_cache(folder_.path() + "/none");
+  locator_.add_fuel_cache(folder_.path() + "/fuel");
+  const std::string cone = "fuel/fuel.gazebosim.org/openrobotics/models/construction cone/";
+  folder_.write(cone + "9/model.sdf", "");
+  const std::string newest = folder_.write(cone + "10/model.sdf", "");
+  const std::string mesh = folder_.write(cone + "9/meshes/a.dae", "");
+  const std::string uri = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Construction%20Cone";
+  EXPECT_EQ(locator_.resolve_model(uri, {}), newest);
+  EXPECT_EQ(locator_.resolve_model(uri + "/tip", {}), newest);
+  EXPECT_EQ(locator_.resolve(uri + "/9/files/meshes/a.dae", {}), mesh);
+  for (const std::string& each :
+       {uri + "/11", std::string("https://fuel.gazebosim.org/1.0/OpenRobotics/models"),
+        std::string("http://x")}) {
+    EXPECT_THROW(locator_.resolve(each, {}), FileError) << each;
+    EXPECT_HAS(error_of(each), "found '" + each + "', expected what was downloaded before");
+    EXPECT_HAS(error_of(each), folder_.path() + "/fuel");
+  }
 }
 
 }  // namespace

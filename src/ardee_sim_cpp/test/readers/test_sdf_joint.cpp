@@ -126,5 +126,24 @@ TEST_F(SdfJointTest, MayHangOnTheWorld) {
   EXPECT_EQ(m->joints.at(0).parent, "world");
 }
 
+TEST_F(SdfJointTest, TakesLinksInTheScopeOfTheirOwnModel) {
+  const auto m = model(
+      "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link><joint name='j' type='fixed'>"
+      "<parent>m::a</parent><child>m::b</child></joint>");
+  EXPECT_EQ(m->joints.at(0).parent, "a");
+  EXPECT_EQ(m->joints.at(0).child, "b");
+  const std::string nested = "<model name='m'><link name='a'/></model>";
+  const auto of_nested = model("<link name='a'/>" + nested +
+                               "<joint name='j' type='fixed'><parent>a</parent><child>m::a</child>"
+                               "</joint>");
+  EXPECT_EQ(of_nested->joints.at(0).child, "m::a");
+  EXPECT_HAS(error_of([&] {
+               model(
+                   "<link name='a'/><joint name='j' type='fixed'><parent>m::x</parent>"
+                   "<child>a</child></joint>");
+             }),
+             "found link 'x', expected one of 'a'");
+}
+
 }  // namespace
 }  // namespace ardee

@@ -175,5 +175,25 @@ TEST_F(SdfLink, StaticModelsNeedNoInertia) {
       model("<static>1</static><link name='a'><inertial><mass>0</mass></inertial></link>"));
 }
 
+TEST_F(SdfLink, APlaneThatCollidesMayHaveNoSize) {
+  const std::string plane = "<geometry><plane><size>0 0</size></plane></geometry>";
+  const auto m = model("<static>1</static><link name='a'><collision name='c'>" + plane +
+                       "</collision></link>");
+  EXPECT_TRUE(std::holds_alternative<Plane>(m->links.at(0).collisions.at(0).geometry));
+  EXPECT_TRUE(warned("found '0 0', expected two positive numbers"));
+  EXPECT_HAS(
+      error_of([&] { model("<link name='a'><visual name='v'>" + plane + "</visual></link>"); }),
+      "found '0 0', expected two positive numbers");
+}
+
+TEST_F(SdfLink, AMaterialScriptWithoutNameIsNone) {
+  const auto m = model(
+      "<link name='a'><visual name='v'><geometry><box><size>1 1 1</size></box></geometry><material>"
+      "<script><uri>file://media/materials/scripts/gazebo.material</uri></script></material>"
+      "</visual></link>");
+  EXPECT_EQ(m->links.at(0).visuals.at(0).material->diffuse, Material{}.diffuse);
+  EXPECT_TRUE(warned("<script>: found no <name>"));
+}
+
 }  // namespace
 }  // namespace ardee

@@ -145,5 +145,23 @@ TEST_F(SdfWorld, SaysWhatItLeavesOut) {
   EXPECT_TRUE(warned("<actor>: has no effect: not supported in a world, left out"));
 }
 
+TEST_F(SdfWorld, OfAVersionBeforeTheFirstIsReadAsThat) {
+  EXPECT_EQ(world("", "1.0").name, "w");
+  EXPECT_TRUE(warned("found version 1.0, read as SDF 1.2"));
+}
+
+TEST_F(SdfWorld, ALightOfItsOwnIsRead) {
+  const auto made = loader_.load_model_or_light_text(
+      "<sdf version='1.6'><light name='lamp' type='point'><pose>0 0 2 0 0 0</pose></light></sdf>",
+      "lamp.sdf");
+  const Light light = std::get<Light>(made);
+  EXPECT_EQ(light.name, "lamp");
+  EXPECT_EQ(light.type, Light::Type::kPoint);
+  EXPECT_EQ(light.pose.p.z(), 2.0);
+  const auto model = loader_.load_model_or_light_text(
+      "<sdf version='1.6'><model name='m'><link name='l'/></model></sdf>", "m.sdf");
+  EXPECT_EQ(std::get<0>(model)->name, "m");
+}
+
 }  // namespace
 }  // namespace ardee

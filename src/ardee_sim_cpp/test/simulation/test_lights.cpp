@@ -87,5 +87,20 @@ TEST(Lights, OfUnknownNamesAreRefused) {
   EXPECT_EQ(next_picture(studio.world()), studio.before());
 }
 
+TEST(Lights, ThatAreAddedAreThoseOfAWorldThatWasWrittenSo) {
+  Studio lit(lamp("1 0 0"));
+  Light light = lit.world()->world().lights.at(0);
+  EXPECT_THROW(lit.world()->add_light(light), Error);
+  Studio dark("");
+  dark.world()->add_light(light);
+  EXPECT_EQ(next_picture(dark.world()), lit.before());
+  dark.world()->reset_simulation();
+  EXPECT_EQ(next_picture(dark.world()), lit.before());
+  light.name = "lost";
+  light.pose.p.x() = NAN;
+  EXPECT_THROW(dark.world()->add_light(light), Error);
+  EXPECT_EQ(dark.world()->world().lights.size(), 1u);
+}
+
 }  // namespace
 }  // namespace ardee

@@ -64,11 +64,12 @@ TEST(Simulation, ANameIsTakenOnce) {
   EXPECT_EQ(refusal([&] { world.spawn(ball(), "ball"); }), "entity already exists: 'ball'");
 }
 
-TEST(Simulation, AnUnknownPluginIsAWarningThatListsTheKnown) {
+TEST(Simulation, AnUnknownPluginIsAWarning) {
   TestWorld world("");
   world.spawn(ball("<plugin name='p' filename='libno_such.so'/>"), "ball", kHigh);
-  EXPECT_TRUE(any_contains(world.messages(), "found plugin 'libno_such.so', expected one of:"));
-  EXPECT_TRUE(any_contains(world.messages(), "libgazebo_ros_skid_steer_drive.so"));
+  EXPECT_TRUE(any_contains(
+      world.messages(),
+      "found plugin 'libno_such.so', expected one in docs/support.md; it is left out"));
   EXPECT_NE(world->find("ball"), nullptr);
 }
 
@@ -83,6 +84,35 @@ TEST(Simulation, ABadPluginValueRefusesTheSpawnAndLeavesNothing) {
   EXPECT_EQ(world->find("ball"), nullptr);
   world.run(0.1);
   world.spawn(ball(), "ball", kHigh);
+}
+
+/// Between two good models one with a plane that moves, and one with a drive without its joints.
+const std::string kTwoBadModels =
+    static_box("a", "0 0 0 0 0 0", "1 1 1") +
+    "<model name='m'><link name='l'><collision name='c'><geometry><plane/></geometry></collision>"
+    "</link></model><model name='n'><link name='l'/><plugin name='d' "
+    "filename='libgazebo_ros_diff_drive.so'><leftJoint>nope</leftJoint><rightJoint>no</rightJoint>"
+    "</plugin></model>" +
+    static_box("z", "5 0 0 0 0 0", "1 1 1");
+
+TEST(Simulation, LeavesOutModelsOfTheWorldThatCannotBeBuilt) {
+  SimulationOptions options;
+  options.bad_parts = BadParts::kLeaveOut;
+  TestWorld world(kTwoBadModels, 0.001, options);
+  ASSERT_EQ(world->entities().size(), 2u);
+  EXPECT_EQ(world->entities()[1]->name(), "z");
+  EXPECT_TRUE(any_contains(world.messages(), "; model 'm' is left out"));
+  EXPECT_TRUE(
+      any_contains(world.messages(),
+                   "found joint 'nope', expected one of: none, as the model has none; model "
+                   "'n' is left out"));
+  EXPECT_EQ(world.messages().size(), 2u);
+  world.run(0.1);
+  world.spawn(ball(), "m", kHigh);
+}
+
+TEST(Simulation, RefusesAWorldWithAModelThatCannotBeBuilt) {
+  EXPECT_THROW(TestWorld{kTwoBadModels}, Error);
 }
 
 TEST(Simulation, ResetWorldPutsModelsBackAndLeavesTheClock) {
@@ -296,6 +326,14 @@ TEST(Simulation, AModelThatDivergesIsPutBackAndTheRestGoesOn) {
   EXPECT_TRUE(world->state("lost", "").pose.is_finite());
   EXPECT_TRUE(any_contains(world.messages(), "model 'lost' is put back"));
   EXPECT_NEAR(world->state("kept", "").twist.linear.z(), -9.8, 1e-9);
+}
+
+TEST(Simulation, TheWorldHasTheNamesThatGazeboRosGivesIt) {
+  TestWorld world("");
+  world.spawn(ball(), "ball", kHigh);
+  for (const char* name : {"", "world", "map", "/map"}) {
+    EXPECT_EQ(world->state("ball", name).pose.p, kHigh.p) << name;
+  }
 }
 
 }  // namespace
