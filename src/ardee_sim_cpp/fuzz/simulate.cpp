@@ -32,6 +32,15 @@ struct Cut {
 constexpr std::array<Cut, 5> kCuts{
     {{"width", 16}, {"height", 12}, {"samples", 32}, {"resolution", 2}, {"model_count", 5}}};
 
+/// As readers take it: all that stands directly inside.
+std::string text_of(const tinyxml2::XMLElement& element) {
+  std::string text;
+  for (const auto* child = element.FirstChild(); child; child = child->NextSibling()) {
+    if (const auto* part = child->ToText()) text += part->Value();
+  }
+  return text;
+}
+
 /// A camera that says no size of its pictures takes large ones.
 void give_size(tinyxml2::XMLElement& camera) {
   tinyxml2::XMLElement* image = camera.FirstChildElement("image");
@@ -44,10 +53,10 @@ void give_size(tinyxml2::XMLElement& camera) {
 void cut_sizes(tinyxml2::XMLElement& element) {
   if (std::strcmp(element.Name(), "camera") == 0) give_size(element);
   for (const Cut& cut : kCuts) {
-    const char* text = element.GetText();
-    if (std::string(element.Name()) == cut.element && text && std::atof(text) > cut.most) {
-      element.SetText(cut.most);
-    }
+    if (std::strcmp(element.Name(), cut.element) != 0) continue;
+    if (std::atof(text_of(element).c_str()) <= cut.most) continue;
+    element.DeleteChildren();
+    element.SetText(cut.most);
   }
   for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
     cut_sizes(*child);

@@ -159,11 +159,12 @@ def test_a_field_that_says_no_start_gets_the_usual_one(put_together, tmp_path):
     assert (start["x_m"], start["y_m"], start["yaw_rad"]) == (0.0, 0.0, -3.14)
 
 
-def test_a_field_that_was_tilted_by_hand_is_refused(put_together, tmp_path):
+@pytest.mark.parametrize("pose", ["0 0 0 0.1 0 0", "nan 0 0 0 0 0"])
+def test_a_field_that_was_tilted_by_hand_is_refused(put_together, tmp_path, pose):
     field = tmp_path / "models/field/field.urdf.xacro"
-    field.write_text(field.read_text().replace("<pose>0.0 0.0 0 0 0 0.0", "<pose>0 0 0 0.1 0 0", 1))
+    field.write_text(field.read_text().replace("<pose>0.0 0.0 0 0 0 0.0", f"<pose>{pose}", 1))
     code, error = put_together()
-    assert code == 2 and "found <pose>0 0 0 0.1 0 0</pose>, expected X Y 0 0 0 YAW" in error
+    assert code == 2 and f"found <pose>{pose}</pose>, expected X Y 0 0 0 YAW" in error
 
 
 def test_heights_can_be_kept_and_those_of_others_always_are(put_together, tmp_path):

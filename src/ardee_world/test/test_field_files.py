@@ -152,6 +152,7 @@ def test_bad_input_writes_nothing_and_keeps_the_earlier_field(
         "x_m,y_m\n1,two\n",
         "x,y\n1,2\n",
         "x_m,y_m\n1,inf\n",
+        "x_m,y_m\n1,nan\n",
         "x_m,y_m\n1\n",
         "x_m,y_m\n0,0\n5e10,0\n",
         "x_m,y_m,plot\n0,0,99999999999999999999\n",

@@ -104,6 +104,13 @@ def test_impossible_shapes_are_refused(pool, shape, message):
         generate(FieldConfig(plots=PLOTS, shape=shape), pool, 1)
 
 
+def test_a_row_too_short_to_have_a_direction_has_the_lines():
+    plots = Plots(row_length_m=1e-13, headland_m=1000.0)
+    plan = plan_centres(plots, RowShape(row_shape="curved", curve_radius_m=1000.0))
+    # 1000 m along a circle of 1000 m: the line has turned by 1 rad from its first direction, -y
+    assert plan.along == pytest.approx(np.tile([np.sin(1.0), -np.cos(1.0)], (len(plan.along), 1)))
+
+
 def test_a_circle_too_tight_for_its_rows_is_refused(pool):
     tight = RowShape(row_shape="curved", curve_radius_m=2.0)
     plots = Plots(rows_per_plot=12, row_length_m=2.0)

@@ -37,6 +37,8 @@ constexpr Range kJointSoftness{-1e9, 1e9};  // ERP, CFM; negative: the world's
 
 // Of a world.
 constexpr Range kStep_s{1e-6, 1.0};
+constexpr Range kUpdateRate_hz{0.0, 1e6};  // 0: as fast as it goes
+constexpr Range kMaxContacts{1.0, 1e6};
 constexpr Range kIterations{1.0, 100000.0};
 constexpr Range kRelaxation{1e-6, 2.0};
 constexpr Range kCfm{0.0, 1e6};

@@ -30,8 +30,15 @@ std::optional<NamedFrame> Model::find_frame(const std::string& frame_name) const
     const Link* child = find_link(joint->child);
     if (child) return NamedFrame{frame_name, child->X_ML * joint->X_CJ, child->name};
   }
-  const NamedFrame* frame = find_named(frames, frame_name);
-  return frame ? std::optional<NamedFrame>(*frame) : std::nullopt;
+  if (const NamedFrame* frame = find_named(frames, frame_name)) return *frame;
+  for (const Instance& instance : instances) {
+    const std::string prefix = instance.name + "::";
+    if (frame_name == instance.name) return NamedFrame{frame_name, instance.pose, ""};
+    if (frame_name.compare(0, prefix.size(), prefix) != 0) continue;
+    const auto inside = instance.model->find_frame(frame_name.substr(prefix.size()));
+    if (inside) return NamedFrame{frame_name, instance.pose * inside->X_MF, ""};
+  }
+  return std::nullopt;
 }
 
 }  // namespace ardee

@@ -75,6 +75,7 @@ struct PluginDescription {
   std::string name;
   std::string filename;
   Element element;
+  std::string scope = "";  // "arm::" if it came with a nested model, whose links it names without
 };
 
 /// A <sensor> as written: what all kinds share is read here, the rest by the sensor's own parser
@@ -191,7 +192,8 @@ struct Model {
 
   const Link* find_link(const std::string& link_name) const;
   const Joint* find_joint(const std::string& joint_name) const;
-  /// The frame of a link or joint, or a named one, with the link that it moves with.
+  /// The frame of a link or joint, a named one, with the link that it moves with, or that of a
+  /// static model within or of what is in it ("shed::door").
   std::optional<NamedFrame> find_frame(const std::string& frame_name) const;
 };
 

@@ -131,6 +131,15 @@ struct DeviceContext {
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   Surroundings surroundings;
+  std::string scope = "";  // of the plugin (PluginDescription)
+
+  /// Of the link or joint that the plugin names. Throws Error at `source` if there is none.
+  std::size_t link_index(const std::string& name, const Source& source) const {
+    return robot.link_index(name, source, scope);
+  }
+  std::size_t joint_index(const std::string& name, const Source& source) const {
+    return robot.joint_index(name, source, scope);
+  }
 };
 
 /// Something active on a robot: a controller, a sensor, a publisher of state.

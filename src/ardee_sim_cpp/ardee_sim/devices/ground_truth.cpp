@@ -18,7 +18,7 @@ std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, Devic
   const std::string frame = parameters.text("frameName", "world");
   const bool is_world = frame == "world" || frame == "/world" || frame == "map" || frame == "/map";
   if (!is_world) {
-    params.reference_link = context.robot.link_index(frame, parameters.block("frameName")->source);
+    params.reference_link = context.link_index(frame, parameters.block("frameName")->source);
   }
   params.frame = resolve_frame(frame, space, context);
   params.child_frame = resolve_frame(body, space, context);

@@ -22,7 +22,7 @@ JointPosition::Params read(const PluginDescription& plugin, DeviceContext& conte
   const std::string name = parameters.required_text("joint");
   const Source& source = parameters.block("joint")->source;
   JointPosition::Params params;
-  params.joint = context.robot.joint_index(name, source);
+  params.joint = context.joint_index(name, source);
   const Joint& joint = context.robot.model().joints[params.joint];
   if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous &&
       joint.type != JointType::kPrismatic) {

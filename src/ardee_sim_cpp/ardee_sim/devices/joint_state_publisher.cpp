@@ -29,7 +29,7 @@ std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugi
   if (space.empty() && !parameters.has("robotNamespace")) space = context.robot.name();
   std::vector<std::size_t> joints;
   for (const std::string& name : split_at_commas(parameters.required_text("jointName"))) {
-    joints.push_back(context.robot.joint_index(name, plugin.element.source));
+    joints.push_back(context.joint_index(name, plugin.element.source));
   }
   const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
   parameters.ignore({"alwaysOn"});

@@ -41,7 +41,7 @@ std::string plugin_frame(Parameters& parameters, const char* key, const char* fa
 std::size_t plugin_link(Parameters& parameters, const DeviceContext& context) {
   const Element* body = parameters.block("bodyName");
   if (!body || body->text.empty()) return 0;
-  return context.robot.link_index(body->text, body->source);
+  return context.link_index(body->text, body->source);
 }
 
 }  // namespace ardee

@@ -98,9 +98,10 @@ std::vector<Registry::Candidate> Registry::candidates_of(const Model& model) {
         each.name, each.plugin->filename, each.sensor ? model.links[each.link].name : "",
         text_of(each.plugin->element) + (each.sensor ? text_of(each.sensor->element) : ""));
   };
-  std::stable_sort(
-      found.begin(), found.end(),
-      [&key](const Candidate& one, const Candidate& other) { return key(one) < key(other); });
+  std::multimap<decltype(key(Candidate{})), Candidate> sorted;  // keeps the order of equal keys
+  for (Candidate& each : found) sorted.emplace(key(each), each);
+  std::transform(sorted.begin(), sorted.end(), found.begin(),
+                 [](const auto& entry) { return entry.second; });
   return found;
 }
 
@@ -151,6 +152,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
   std::map<std::string, int> namesakes;
   for (const Candidate& candidate : candidates_of(robot.robot.model())) {
     DeviceContext context = robot;
+    context.scope = candidate.plugin->scope;
     // A device's errors follow from seed and name: of two with one name each gets a seed of its
     // own.
     const int before = namesakes[candidate.name]++;

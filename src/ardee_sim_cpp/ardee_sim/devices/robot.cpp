@@ -8,10 +8,13 @@ namespace {
 
 template <typename Item>
 std::size_t index_of(const std::vector<Item>& items, const std::string& name, const char* what,
-                     const Source& source) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&name](const Item& item) { return item.name == name; });
-  if (found != items.end()) return static_cast<std::size_t>(found - items.begin());
+                     const Source& source, const std::string& scope) {
+  for (const std::string& full_name : {scope + name, name}) {
+    const auto found = std::find_if(items.begin(), items.end(), [&full_name](const Item& item) {
+      return item.name == full_name;
+    });
+    if (found != items.end()) return static_cast<std::size_t>(found - items.begin());
+  }
   std::string known;
   for (const Item& item : items) known += (known.empty() ? "" : ", ") + item.name;
   throw Error(source, "found " + std::string(what) + " '" + name + "', expected one of: " +
@@ -50,12 +53,14 @@ Twist Robot::own_twist() const {
   return {q_MW * twist_W.linear, q_MW * twist_W.angular};
 }
 
-std::size_t Robot::link_index(const std::string& link_name, const Source& source) const {
-  return index_of(model_->links, link_name, "link", source);
+std::size_t Robot::link_index(const std::string& link_name, const Source& source,
+                              const std::string& scope) const {
+  return index_of(model_->links, link_name, "link", source, scope);
 }
 
-std::size_t Robot::joint_index(const std::string& joint_name, const Source& source) const {
-  return index_of(model_->joints, joint_name, "joint", source);
+std::size_t Robot::joint_index(const std::string& joint_name, const Source& source,
+                               const std::string& scope) const {
+  return index_of(model_->joints, joint_name, "joint", source, scope);
 }
 
 }  // namespace ardee

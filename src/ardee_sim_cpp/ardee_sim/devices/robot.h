@@ -37,8 +37,12 @@ class Robot {
   Twist twist() const;
   /// The same in the model's own axes.
   Twist own_twist() const;
-  std::size_t link_index(const std::string& link_name, const Source& source) const;
-  std::size_t joint_index(const std::string& joint_name, const Source& source) const;
+  /// Of the link scope + link_name ("arm::" + "hand"), or where there is none of link_name. Throws
+  /// Error at `source` if there is neither.
+  std::size_t link_index(const std::string& link_name, const Source& source,
+                         const std::string& scope = "") const;
+  std::size_t joint_index(const std::string& joint_name, const Source& source,
+                          const std::string& scope = "") const;
 
  private:
   std::string name_;

@@ -40,7 +40,7 @@ TorsionalSpring::Params read(const PluginDescription& plugin, DeviceContext& con
 std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
                                               DeviceContext& context) {
   const Params params = read(plugin, context);
-  const std::size_t joint = context.robot.joint_index(params.joint, plugin.element.source);
+  const std::size_t joint = context.joint_index(params.joint, plugin.element.source);
   const JointType type = context.robot.model().joints[joint].type;
   if (type != JointType::kRevolute && type != JointType::kContinuous &&
       type != JointType::kPrismatic) {

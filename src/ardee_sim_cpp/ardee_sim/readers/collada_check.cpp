@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/collada_check.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -59,7 +62,8 @@ class ColladaCheck {
   void check(const Node& root) {
     collect(root);
     for (const Node& node : references_) check_reference(node);
-    for (const auto& entry : nodes_) check_holds(entry.second, {});
+    for (const auto& [id, node] : nodes_) extent_of(id, node, 0);
+    for (const Node& scene : scenes_) extent(scene, 0);
   }
 
  private:
@@ -77,15 +81,20 @@ class ColladaCheck {
       count_numbers<std::int32_t>(node);
     } else if (kValues.count(name) != 0) {
       count_numbers<float>(node);
-    } else if (name == "triangles" || name == "polylist" || name == "polygons") {
-      check_primitives(node);
+    } else if (name == "effect") {
+      check_parameters(node);
     } else if (name == "node" && !id.empty()) {
       nodes_.emplace(id, node);
+    } else if (name == "visual_scene") {
+      scenes_.push_back(node);
     } else if (name == "input" || name == "accessor" || name == "instance_geometry" ||
                name == "instance_node" || name == "instance_controller") {
       references_.push_back(node);
     }
-    node.each([this](const Node& child) { collect(child); });
+    node.each([&](const Node& child) {
+      check_place(child, name);
+      collect(child);
+    });
   }
 
   void check_array(const Node& node, const std::string& id) {
@@ -99,17 +108,53 @@ class ColladaCheck {
     arrays_[id] = found;
   }
 
-  /// The mesh library ends the process where it finds another number of lists of indices.
-  static void check_primitives(const Node& node) {
-    const std::size_t count = whole_number(node, "count", 0);
-    const bool is_one_list = node.name() != "polygons";
-    if (count == 0 && is_one_list) return;
-    const std::size_t expected = is_one_list ? 1 : count;
-    std::size_t found = 0;
-    node.each("p", [&found](const Node&) { ++found; });
-    if (found != expected) {
-      throw node.error("found " + std::to_string(found) + " <p>, expected " +
-                       std::to_string(expected));
+  /// The mesh library takes an element by its name wherever it stands, and then looks for what is
+  /// not there.
+  static void check_place(const Node& child, std::string_view parent) {
+    static const Names kPrimitives{"triangles", "polylist", "polygons",  "lines",
+                                   "linestrips", "trifans", "tristrips"};
+    static const std::map<std::string, Names, std::less<>> kParents{
+        {"COLLADA", {"no other element"}},
+        {"library_effects", {"COLLADA"}},
+        {"library_geometries", {"COLLADA"}},
+        {"library_materials", {"COLLADA"}},
+        {"library_nodes", {"COLLADA"}},
+        {"library_visual_scenes", {"COLLADA"}},
+        {"geometry", {"library_geometries"}},
+        {"mesh", {"geometry"}},
+        {"vertices", {"mesh", "brep", "convex_mesh"}},
+        {"float_array", {"source"}},
+        {"accessor", {"technique_common"}},
+        {"visual_scene", {"library_visual_scenes"}},
+        {"node", {"library_nodes", "visual_scene", "node"}},
+        {"effect", {"library_effects"}},
+    };
+    const bool is_primitive = kPrimitives.count(child.name()) != 0;
+    const auto found = kParents.find(is_primitive ? "vertices" : child.name());
+    if (found == kParents.end() || found->second.count(parent) != 0) return;
+    throw child.error("found it in <" + std::string(parent) + ">, expected it in <" +
+                      *found->second.begin() + ">");
+  }
+
+  /// A parameter of an effect names another; the mesh library follows them round and round.
+  static void check_parameters(const Node& effect) {
+    std::map<std::string, std::string> named;
+    const std::function<void(const Node&)> collect_named = [&](const Node& node) {
+      if (node.name() == "newparam") {
+        std::string target = node.text("sampler2D/source", "");
+        if (target.empty()) target = node.text("surface/init_from", "");
+        named[node.attribute("sid")] = target;
+      }
+      node.each(collect_named);
+    };
+    collect_named(effect);
+    for (const auto& [first, target] : named) {
+      std::string sid = target;
+      for (std::size_t steps = 0; named.count(sid) != 0; sid = named[sid]) {
+        if (++steps > named.size()) {
+          throw effect.error("found parameter '" + first + "' in a ring, expected none");
+        }
+      }
     }
   }
 
@@ -146,26 +191,53 @@ class ColladaCheck {
     }
   }
 
-  /// That no node comes again within itself, through <instance_node>.
-  void check_holds(const Node& node, Names above) {
-    constexpr std::size_t kMaxVisits = 200'000;
-    if (++visits_ > kMaxVisits) throw node.error("found too many nodes, expected fewer");
-    const std::string id = node.attribute("id");
-    if (!id.empty() && !above.insert(id).second) {
+  /// How many nodes a node becomes when each <instance_node> is replaced by what it names, and how
+  /// deep they lie in each other.
+  struct Extent {
+    std::size_t count = 1;
+    std::size_t depth = 1;
+  };
+
+  /// Throws Error if a node comes again within itself, or becomes too many.
+  Extent extent(const Node& node, std::size_t above) {
+    constexpr std::size_t kMost = 200'000;
+    constexpr std::size_t kDeepest = 1000;
+    Extent made;
+    const auto add = [&made](const Extent& below) {
+      made.count += below.count;
+      made.depth = std::max(made.depth, below.depth + 1);
+    };
+    if (above < kDeepest) {
+      node.each("node", [&](const Node& child) { add(extent(child, above + 1)); });
+      node.each("instance_node", [&](const Node& instance) {
+        const auto target = nodes_.find(instance.attribute("url").substr(1));
+        if (target != nodes_.end()) add(extent_of(target->first, target->second, above + 1));
+      });
+    }
+    if (made.count > kMost) throw node.error("found too many nodes, expected fewer");
+    if (above + made.depth > kDeepest) {
+      throw node.error("found nodes more than " + std::to_string(kDeepest) +
+                       " deep in each other, expected fewer");
+    }
+    return made;
+  }
+
+  /// The same of a node that has an id, each of which is looked at once.
+  Extent extent_of(const std::string& id, const Node& node, std::size_t above) {
+    const auto [known, is_new] = extents_.emplace(id, std::nullopt);
+    if (is_new) known->second = extent(node, above);
+    if (!known->second) {
       throw node.error("found node '" + id + "' within itself, expected a tree");
     }
-    node.each("node", [&](const Node& child) { check_holds(child, above); });
-    node.each("instance_node", [&](const Node& instance) {
-      const auto target = nodes_.find(instance.attribute("url").substr(1));
-      if (target != nodes_.end()) check_holds(target->second, above);
-    });
+    return *known->second;
   }
 
   Names ids_;
   std::map<std::string, std::size_t> arrays_;  // numbers in each
   std::map<std::string, Node, std::less<>> nodes_;
+  std::map<std::string, std::optional<Extent>> extents_;  // by id; none: being looked at
+  std::vector<Node> scenes_;
   std::vector<Node> references_;
-  std::size_t visits_ = 0;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <vector>
 
+#include "ardee_sim/core/error.h"
+
 namespace ardee {
 namespace {
 
@@ -64,9 +66,12 @@ void convert_all(XMLElement& element) {
 
 }  // namespace
 
-std::string fans_to_triangles(const std::string& collada) {
+std::string fans_to_triangles(const std::string& collada, const std::string& name) {
   tinyxml2::XMLDocument document;
-  document.Parse(collada.data(), collada.size());
+  if (document.Parse(collada.data(), collada.size()) != tinyxml2::XML_SUCCESS) {
+    throw Error(Source{name, document.ErrorLineNum(), ""},
+                std::string("found ") + document.ErrorStr() + ", expected well-formed XML");
+  }
   convert_all(*document.RootElement());
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);

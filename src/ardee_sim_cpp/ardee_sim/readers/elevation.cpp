@@ -53,6 +53,7 @@ class TiffFile {
     TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_SAMPLEFORMAT, &format_);
     TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_SAMPLESPERPIXEL, &channels_);
     TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_PLANARCONFIG, &planes_);
+    TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_ORIENTATION, &orientation_);
   }
 
   bool holds_elevations() const {
@@ -64,6 +65,11 @@ class TiffFile {
 
   Elevation read() {
     check_image_size(width_, height_, path_, source_);
+    if (orientation_ != ORIENTATION_TOPLEFT) {
+      throw Error(source_, "found elevations of orientation " + std::to_string(orientation_) +
+                               " in '" + path_ +
+                               "', expected 1 (rows from the top, from the left)");
+    }
     check_samples();
     Elevation made;
     made.width = static_cast<int>(width_);
@@ -169,6 +175,7 @@ class TiffFile {
   std::uint16_t format_ = 0;
   std::uint16_t channels_ = 0;
   std::uint16_t planes_ = 0;
+  std::uint16_t orientation_ = 0;
 };
 
 }  // namespace

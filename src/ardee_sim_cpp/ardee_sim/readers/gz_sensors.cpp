@@ -86,8 +86,8 @@ PluginDescription make_camera(SensorDescription& sensor, const std::string& topi
     add_key(made, "pointCloudCutoff", "0");
   }
   const std::string trigger = text_at(sensor.element, {"camera", "trigger_topic"});
-  if (text_at(sensor.element, {"camera", "triggered"}) == "true")
-    add_key(made, "triggered", "true");
+  const std::string triggered = text_at(sensor.element, {"camera", "triggered"});
+  if (!triggered.empty()) add_key(made, "triggered", triggered);
   if (!trigger.empty()) add_key(made, "triggerTopicName", trigger);
   for (Element& block : sensor.element.children) {
     if (block.name != "camera") continue;

@@ -4,12 +4,15 @@
 #include <Magick++.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <mutex>
 #include <optional>
+
+#include "ardee_sim/readers/text_file.h"
 
 namespace ardee {
 namespace {
@@ -115,6 +118,52 @@ Image empty_image(const Magick::Image& decoded, int channels) {
   return image;
 }
 
+/// A PNG without the chunks by which a decoder would change its samples for a screen: those of a
+/// heightmap are no brightness.
+std::string without_gamma(const std::string& png) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk
+  std::string made = png.substr(0, kSignature);
+  for (std::size_t at = kSignature; at < png.size();) {
+    std::size_t length = kAround;
+    for (std::size_t k = 0; k < 4 && at + k < png.size(); ++k) {
+      length += std::size_t{static_cast<unsigned char>(png[at + k])} << (24 - 8 * k);
+    }
+    const std::string type = png.substr(std::min(at + 4, png.size()), 4);
+    const bool is_color = type == "gAMA" || type == "sRGB" || type == "iCCP" || type == "cHRM";
+    if (!is_color) made += png.substr(at, length);
+    at += length;
+  }
+  return made;
+}
+
+/// A PNG of one channel of 8 bits, which the library would hold in ten bytes a pixel; none for any
+/// other file.
+std::optional<Image> read_gray_png(const std::string& path, const Source& source) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || size > kMaxFileBytes || format_of(path, source) != "png") return std::nullopt;
+  const std::string bytes = without_gamma(read_text_file(path, source, kMaxFileBytes));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return std::nullopt;
+  const std::unique_ptr<png_image, void (*)(png_image*)> closer(&png, &png_image_free);
+  if (png.format != PNG_FORMAT_GRAY) return std::nullopt;
+  check_image_size(png.width, png.height, path, source);
+  Image image;
+  image.width = static_cast<int>(png.width);
+  image.height = static_cast<int>(png.height);
+  image.channels = 1;
+  std::vector<std::uint8_t> samples(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, samples.data(), 0, nullptr) == 0) return std::nullopt;
+  constexpr int kWhiteOfBoth = 65535 / 255;
+  image.samples16.reserve(samples.size());
+  for (const std::uint8_t sample : samples) {
+    image.samples16.push_back(static_cast<std::uint16_t>(kWhiteOfBoth * sample));
+  }
+  return image;
+}
+
 }  // namespace
 
 void check_image_size(std::size_t width, std::size_t height, const std::string& path,
@@ -132,29 +181,6 @@ Image read_color_image(const std::string& path, const Source& source) {
   Magick::Image decoded = decode(path, source);
   Image image = empty_image(decoded, 4);
   image.samples8 = pixels<std::uint8_t>(decoded, "RGBA", Magick::CharPixel, 4, path, source);
-  return image;
-}
-
-/// A PNG of one channel of 8 bits, which the library would hold in ten bytes a pixel; none for any
-/// other file.
-std::optional<Image> read_gray_png(const std::string& path, const Source& source) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_file(&png, path.c_str()) == 0) return std::nullopt;
-  const std::unique_ptr<png_image, void (*)(png_image*)> closer(&png, &png_image_free);
-  if (png.format != PNG_FORMAT_GRAY) return std::nullopt;
-  check_image_size(png.width, png.height, path, source);
-  Image image;
-  image.width = static_cast<int>(png.width);
-  image.height = static_cast<int>(png.height);
-  image.channels = 1;
-  std::vector<std::uint8_t> samples(PNG_IMAGE_SIZE(png));
-  if (png_image_finish_read(&png, nullptr, samples.data(), 0, nullptr) == 0) return std::nullopt;
-  constexpr int kWhiteOfBoth = 65535 / 255;
-  image.samples16.reserve(samples.size());
-  for (const std::uint8_t sample : samples) {
-    image.samples16.push_back(static_cast<std::uint16_t>(kWhiteOfBoth * sample));
-  }
   return image;
 }
 

@@ -16,6 +16,8 @@ constexpr int kMaxPopulation = 1'000'000;
 constexpr std::size_t kMaxPlacements = 2'000'000;
 /// Links of a model that moves, and of all such models of a world.
 constexpr std::size_t kMaxLinks = 100'000;
+/// Of a file of a world, a model or a robot.
+constexpr std::size_t kMaxXmlBytes = std::size_t{1} << 30;
 /// Of one model with all that is merged into it.
 constexpr std::size_t kMaxModelBytes = std::size_t{1} << 28;
 

@@ -2,6 +2,7 @@
 #include "ardee_sim/readers/loader.h"
 
 #include "ardee_sim/readers/assets.h"
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/urdf_reader.h"
@@ -13,10 +14,8 @@
 namespace ardee {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
-
 std::string read_description(const std::string& path) {
-  return read_text_file(path, Source{path, 0, ""}, kMaxFileBytes);
+  return read_text_file(path, Source{path, 0, ""}, kMaxXmlBytes);
 }
 
 /// Gives the memory of a large parsed document back to the system, as the C library would keep it.

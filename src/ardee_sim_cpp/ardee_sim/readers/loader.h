@@ -12,7 +12,7 @@
 
 namespace ardee {
 
-/// Reads worlds and models, SDF 1.2-1.7 or URDF, into plain descriptions. What is read once (model
+/// Reads worlds and models, SDF 1.2-1.12 or URDF, into plain descriptions. What is read once (model
 /// files, meshes, heightmap images, material scripts) is shared by all that refer to it. Throws
 /// Error; on a throw nothing is kept. With kLeaveOut a missing include, mesh or heightmap, and each
 /// model, include or light of a world that is written wrong, is an error in the log and the rest is

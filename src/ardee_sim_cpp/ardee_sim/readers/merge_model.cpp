@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <set>
-
 #include "ardee_sim/readers/sdf_reader.h"
 
 namespace ardee {
 namespace {
-
-/// A plugin's texts that name a link or joint of the nested model get that one's new name.
-void scope_texts(const std::set<std::string>& names, const std::string& prefix, Element& element) {
-  if (names.count(element.text) != 0) element.text = prefix + element.text;
-  for (Element& child : element.children) scope_texts(names, prefix, child);
-}
 
 std::size_t bytes_of(const Element& element) {
   std::size_t bytes = sizeof(Element) + element.text.size();
@@ -39,15 +31,15 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
   const auto scoped = [&prefix](const std::string& link) {
     return link == "world" ? link : prefix + link;
   };
-  std::set<std::string> names;
   for (Link link : nested.links) {
-    names.insert(link.name);
     link.name = prefix + link.name;
     link.X_ML = X_MN * link.X_ML;
+    for (SensorDescription& sensor : link.sensors) {
+      for (PluginDescription& plugin : sensor.plugins) plugin.scope = prefix + plugin.scope;
+    }
     made.links.push_back(std::move(link));
   }
   for (Joint joint : nested.joints) {
-    names.insert(joint.name);
     joint.name = prefix + joint.name;
     joint.parent = scoped(joint.parent);
     joint.child = scoped(joint.child);
@@ -57,8 +49,10 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
     frame.link = scoped(frame.link.empty() ? nested.canonical_link : frame.link);
     made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link});
   }
+  // The model itself is a frame, for what is placed or held by it.
+  if (!name.empty()) made.frames.push_back({name, X_MN, prefix + nested.canonical_link});
   for (PluginDescription plugin : nested.plugins) {
-    scope_texts(names, prefix, plugin.element);
+    plugin.scope = prefix + plugin.scope;
     made.plugins.push_back(std::move(plugin));
   }
   for (Instance instance : nested.instances) {

@@ -22,9 +22,9 @@ constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
 void check_facets(const std::string& text, const std::string& path, const Source& source) {
   constexpr std::size_t kCorners = 3;
   for (std::size_t at = text.find("outer loop"); at != std::string::npos;) {
-    const std::size_t next = text.find("outer loop", at + 1);
+    const std::size_t end = std::min(text.find("endloop", at), text.size());
     std::size_t corners = 0;
-    for (std::size_t corner = text.find("vertex", at); corner < std::min(next, text.size());
+    for (std::size_t corner = text.find("vertex", at); corner < end;
          corner = text.find("vertex", corner + 1)) {
       ++corners;
     }
@@ -33,7 +33,7 @@ void check_facets(const std::string& text, const std::string& path, const Source
       throw Error(source, "found a facet of " + std::to_string(corners) + " corners in STL '" +
                               path + "', line " + std::to_string(line) + ", expected 3");
     }
-    at = next;
+    at = text.find("outer loop", end);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "ardee_sim/readers/collada_fans.h"
 #include "ardee_sim/readers/mesh_file_check.h"
+#include "ardee_sim/readers/xml_text.h"
 
 namespace ardee {
 namespace {
@@ -36,7 +37,7 @@ std::string repair_mesh_file(std::string bytes, const std::string& path, const S
   const std::string extension = mesh_file_extension(path);
   if (extension == ".obj") return with_leading_zeros(bytes);
   if (extension == ".dae" && bytes.find("<trifans") != std::string::npos) {
-    return fans_to_triangles(bytes);
+    return fans_to_triangles(plain_xml(bytes, path), path);
   }
   if (extension == ".stl") {
     const std::size_t size = binary_stl_size(bytes);

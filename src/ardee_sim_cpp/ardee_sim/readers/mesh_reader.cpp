@@ -15,12 +15,25 @@
 #include "ardee_sim/readers/mesh_materials.h"
 #include "ardee_sim/readers/polygon.h"
 
+namespace Assimp {
+
+/// Takes the place of the mesh library's own function of this name, which ends the process: what it
+/// asserts of a file becomes an error like others.
+ASSIMP_API void aiAssertViolation(const char* failed, const char* file, int line);
+void aiAssertViolation(const char* failed, const char* /*file*/, int /*line*/) {
+  throw ardee::Error(std::string("the mesh library expects ") + failed);
+}
+
+}  // namespace Assimp
+
 namespace ardee {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 20'000'000;
 /// Of a polygon: cutting it takes time that grows with their cube.
 constexpr std::size_t kMaxCorners = 1000;
+/// Comparisons of corners when the polygons of a file are cut: some seconds.
+constexpr std::uint64_t kMaxWork = 2'000'000'000;
 constexpr float kAbsurdCoordinate = 1e9f;
 
 /// What of a file is not in the mesh.
@@ -193,7 +206,7 @@ class PartReader {
     }
   }
 
-  void add_face(const aiFace& face, unsigned number, SubMesh& part) const {
+  void add_face(const aiFace& face, unsigned number, SubMesh& part) {
     std::vector<Eigen::Vector3f> corners;
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] >= part.vertices.size()) {
@@ -213,8 +226,12 @@ class PartReader {
       }
       return;
     }
-    for (const auto& cut : cut_polygon(corners)) {
+    for (const auto& cut : cut_polygon(corners, &work_)) {
       part.triangles.push_back({index[cut[0]], index[cut[1]], index[cut[2]]});
+    }
+    if (work_ > kMaxWork) {
+      throw Error(source_, "found too many polygons of many corners in '" + file_.path +
+                               "', expected fewer, or triangles");
     }
   }
 
@@ -228,6 +245,7 @@ class PartReader {
   MeshFile& file_;
   const Source& source_;
   std::size_t count_ = 0;
+  std::uint64_t work_ = 0;
   std::size_t flat_faces_ = 0;
 };
 

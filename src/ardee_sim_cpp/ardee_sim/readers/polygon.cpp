@@ -65,6 +65,7 @@ class EarClipping {
     add(1, triangles);
     return triangles;
   }
+  std::uint64_t work() const { return work_; }
 
  private:
   std::uint32_t before(std::size_t at) const {
@@ -78,11 +79,12 @@ class EarClipping {
     if (area != 0.0) triangles.push_back(triangle);
   }
 
-  bool is_ear(std::size_t at) const {
+  bool is_ear(std::size_t at) {
     const Eigen::Vector2d& a = corners_[before(at)];
     const Eigen::Vector2d& b = corners_[left_[at]];
     const Eigen::Vector2d& c = corners_[after(at)];
     if (!(turn(a, b, c) > 0.0)) return false;
+    work_ += left_.size();
     for (std::size_t k = 0; k < left_.size(); ++k) {
       const Eigen::Vector2d& p = corners_[left_[k]];
       if (p == a || p == b || p == c) continue;
@@ -95,17 +97,23 @@ class EarClipping {
 
   const std::vector<Eigen::Vector2d>& corners_;
   std::vector<std::uint32_t> left_;
+  std::uint64_t work_ = 0;
 };
 
 }  // namespace
 
-Triangles cut_polygon(const std::vector<Eigen::Vector3f>& corners) {
+Triangles cut_polygon(const std::vector<Eigen::Vector3f>& corners, std::uint64_t* work) {
   if (corners.size() < 3) return {};
   const std::vector<Eigen::Vector2d> flat = flatten(corners);
   if (flat.empty()) return {};
   Triangles fan;
   for (std::uint32_t k = 1; k + 1 < flat.size(); ++k) {
-    if (turn(flat[0], flat[k], flat[k + 1]) <= 0.0) return EarClipping(flat).cut();
+    if (turn(flat[0], flat[k], flat[k + 1]) <= 0.0) {
+      EarClipping clipping(flat);
+      const Triangles triangles = clipping.cut();
+      if (work) *work += clipping.work();
+      return triangles;
+    }
     fan.push_back({0, k, k + 1});
   }
   return fan;  // all of it is seen from its first corner, as of a convex one

@@ -44,13 +44,12 @@ void SdfFrames::add(const Node& element, const std::string& name, const std::str
 
 void SdfFrames::add_child(const Node& child) {
   const std::string name = child.attribute("name");
-  if (child.name() == "link" || child.name() == "model") {
+  if (child.name() == "link") {
     add(child, name, root_);
-  } else if (child.name() == "include" && child.child("name") && child.child("pose")) {
-    add(child, child.text("name", ""), root_);
   } else if (child.name() == "frame") {
-    const std::string attached_to = child.attribute("attached_to", root_);
-    add(child, name, attached_to, attached_to);
+    const std::string attached_to = child.attribute("attached_to");
+    const std::string& body = attached_to.empty() ? root_ : attached_to;
+    add(child, name, body, body);
   } else if (child.name() == "joint") {
     const std::string held = child.text("child", "");
     add(child, name, held, held);
@@ -61,12 +60,32 @@ void SdfFrames::add(const std::string& name, const Pose& X_R) {
   frames_.emplace(name, Frame{X_R, root_, ""});
 }
 
-void SdfFrames::replace(const std::string& name, const Pose& X_R) {
-  frames_[name] = Frame{X_R, root_, ""};
+void SdfFrames::add_model(const std::string& name, const Node& element,
+                          const std::optional<Pose>& X_MP, std::shared_ptr<const Model> model) {
+  const auto pose = pose_of(element);
+  const std::string other = relative_to(pose);
+  const Pose X_BP = own_pose(pose);
+  frames_.emplace(name,
+                  Frame{X_MP ? X_BP * X_MP->inverse() : X_BP, other.empty() ? root_ : other, ""});
+  models_.emplace(name, std::move(model));
 }
 
-void SdfFrames::add_links(const std::string& name, std::shared_ptr<const Model> model) {
+void SdfFrames::add_model(const std::string& name, const Pose& X_RM,
+                          std::shared_ptr<const Model> model) {
+  add(name, X_RM);
   models_.emplace(name, std::move(model));
+}
+
+void SdfFrames::add_merged(const std::string& name, const Model& model) {
+  const auto add_frame = [&](const NamedFrame& frame) {
+    const std::string body = frame.link.empty() ? model.canonical_link : frame.link;
+    frames_.emplace(frame.name, Frame{frame.X_MF, name, body == frame.name ? "" : body});
+  };
+  for (const Link& link : model.links) add_frame({link.name, link.X_ML, link.name});
+  for (const Joint& joint : model.joints) {
+    frames_.emplace(joint.name, Frame{joint.X_CJ, joint.child, joint.child});
+  }
+  for (const NamedFrame& frame : model.frames) add_frame(frame);
 }
 
 Pose SdfFrames::pose(const Node& element, const std::string& base) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,17 +25,19 @@ class SdfFrames {
   /// `body` is what it moves with (empty: it is a body itself).
   void add(const Node& element, const std::string& name, const std::string& base,
            const std::string& body = "");
-  /// A child that is placed: a link, joint, frame, model, include that says where.
+  /// A link, joint or frame; nothing else.
   void add_child(const Node& child);
   void add_children(const Node& parent) {
     parent.each([this](const Node& child) { add_child(child); });
   }
   void add(const std::string& name, const Pose& X_R);
-  /// Stands elsewhere than its <pose> says: that places another frame of the model.
-  void replace(const std::string& name, const Pose& X_R);
-  void forget(const std::string& name) { frames_.erase(name); }
-  /// Known from now on with its links and other frames, as name::link.
-  void add_links(const std::string& name, std::shared_ptr<const Model> model);
+  /// A model within, with its links and other frames, as name::link. The <pose> of its element
+  /// places its frame X_MP.
+  void add_model(const std::string& name, const Node& element, const std::optional<Pose>& X_MP,
+                 std::shared_ptr<const Model> model);
+  void add_model(const std::string& name, const Pose& X_RM, std::shared_ptr<const Model> model);
+  /// The links and other frames of `model`, which was added as `name`, by their own names too.
+  void add_merged(const std::string& name, const Model& model);
 
   /// X_R of an element: of its <pose>, given in `base` unless that names another frame.
   Pose pose(const Node& element, const std::string& base) const;

@@ -83,8 +83,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
                             " deep, expected fewer");
   }
   const Reading mark(reading_, path);
-  constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-  const XmlFile document(read_text_file(path, source, kMaxBytes), path);
+  const XmlFile document(read_text_file(path, source, kMaxXmlBytes), path);
   const Node root = document.root();
   if (root.name() != "sdf" && root.name() != "gazebo") {
     throw root.error("found this root element, expected <sdf>");
@@ -93,17 +92,21 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   const Scope scope{read_version(root), make_static};
   sdf_schema().check(root, assets_.log());
   if (const auto model = root.child("model")) file.model = read_own_model(*model, scope);
-  root.each("light", [&file](const Node& light) { file.lights.push_back(read_sdf_light(light)); });
+  root.each("light", [&file](const Node& light) {
+    file.lights.push_back(read_sdf_light(light, light.pose()));
+  });
   if (!file.model && file.lights.empty()) {
     throw root.error("found no <model> and no <light>, expected one");
   }
   return files_[key] = std::move(file);
 }
 
-Instance SdfReader::read_include(const Node& include, const ModelFile& file, UniqueNames& names,
-                                 const SdfFrames& frames) {
+/// Last adds it to the frames: on a throw it is not there.
+Instance SdfReader::read_include(const Node& include, const ModelFile& file,
+                                 const std::string& name, SdfFrames& frames) {
   Instance made;
   made.model = file.model;
+  made.name = name;
   std::optional<Pose> X_MP = file.model->X_MP;
   if (const auto placed = include.child("placement_frame"); placed && !placed->text().empty()) {
     const auto frame = file.model->find_frame(placed->text());
@@ -111,8 +114,6 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
       throw placed->error("found frame '" + placed->text() + "', expected one of the model");
     X_MP = frame->X_MF;
   }
-  const bool is_placed = include.child("pose") || include.child("placement_frame");
-  made.pose = is_placed ? place_model(frames.pose(include), X_MP) : file.model->own_pose;
   made.is_static = file.model->is_static;
   if (const auto scale = include.child("ardee:scale")) {
     made.scale = scale->to_number(0.0, kMaxScale);
@@ -132,8 +133,11 @@ Instance SdfReader::read_include(const Node& include, const ModelFile& file, Uni
     placements_[with_plugins.get()] = placements_.at(file.model.get());
     made.model = with_plugins;
   }
-  const auto name = include.child("name");
-  made.name = names.claim(name ? name->required_text() : file.model->name);
+  if (include.child("pose") || include.child("placement_frame")) {
+    frames.add_model(name, include, X_MP, file.model);
+  } else {
+    frames.add_model(name, file.model->own_pose, file.model);
+  }
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/validate.h"
 
 namespace ardee {
@@ -24,8 +25,9 @@ JointType joint_type(const Node& joint) {
   const std::string type = joint.required_attribute("type");
   const auto found = types.find(type);
   if (found != types.end()) return found->second;
-  throw joint.error("found joint type '" + type +
-                    "', expected fixed, revolute, prismatic, ball, universal, revolute2 or screw");
+  throw joint.error(
+      "found joint type '" + type +
+      "', expected fixed, revolute, continuous, prismatic, ball, universal, revolute2 or screw");
 }
 
 /// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say
@@ -60,10 +62,13 @@ JointAxis read_axis(const Node& axis) {
   }
   made.effort = unlimited_if_negative(axis, "limit/effort");
   made.velocity = unlimited_if_negative(axis, "limit/velocity");
-  made.damping = axis.number("dynamics/damping", 0.0, 0.0);
-  made.friction = axis.number("dynamics/friction", 0.0, 0.0);
-  made.spring_stiffness = axis.number("dynamics/spring_stiffness", 0.0, 0.0);
-  made.spring_reference = axis.number("dynamics/spring_reference", 0.0);
+  const auto read = [&axis](const char* path, const bounds::Range& range) {
+    return axis.number(path, 0.0, range.low, range.high);
+  };
+  made.damping = read("dynamics/damping", bounds::kJointCoefficient);
+  made.friction = read("dynamics/friction", bounds::kJointCoefficient);
+  made.spring_stiffness = read("dynamics/spring_stiffness", bounds::kJointCoefficient);
+  made.spring_reference = read("dynamics/spring_reference", bounds::kJointReference);
   return made;
 }
 
@@ -133,8 +138,9 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
     if (pitch_rad_per_m == 0.0) throw node.error("found a thread pitch of zero, expected another");
     joint.thread_pitch_m = -2.0 * kPi / pitch_rad_per_m;
   }
-  joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0);
-  joint.stop_erp = node.number("physics/ode/limit/erp", -1.0);
+  constexpr bounds::Range kSoftness = bounds::kJointSoftness;
+  joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0, kSoftness.low, kSoftness.high);
+  joint.stop_erp = node.number("physics/ode/limit/erp", -1.0, kSoftness.low, kSoftness.high);
   const Eigen::Quaterniond q_MJ = place(node, child, scope, joint);
   const auto turn = [&](const Node& written, Eigen::Vector3d& direction) {
     const std::string frame = frame_of_axis(written, scope.sdf_version);

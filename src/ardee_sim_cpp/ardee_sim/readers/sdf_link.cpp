@@ -102,12 +102,18 @@ Visual read_visual(const Node& node, const Pose& X_LV, Geometry geometry, Assets
 
 }  // namespace
 
+double read_friction(const Node& mu, double otherwise) {
+  if (mu.text().empty()) return otherwise;
+  const double written = mu.to_number(-bounds::kInfinity, bounds::kInfinity);
+  return written < 0.0 ? bounds::kInfinity : written;
+}
+
 Surface read_sdf_surface(const Node& collision, Surface made) {
   made.max_contacts = collision.integer("max_contacts", made.max_contacts, 0, kMaxContacts);
   const auto surface = collision.child("surface");
   if (!surface) return made;
-  made.mu = read(*surface, "friction/ode/mu", made.mu, bounds::kFriction);
-  made.mu2 = read(*surface, "friction/ode/mu2", made.mu2, bounds::kFriction);
+  if (const auto mu = surface->find("friction/ode/mu")) made.mu = read_friction(*mu, made.mu);
+  if (const auto mu = surface->find("friction/ode/mu2")) made.mu2 = read_friction(*mu, made.mu2);
   made.fdir1 = surface->vector3("friction/ode/fdir1", made.fdir1);
   made.slip1 = read(*surface, "friction/ode/slip1", made.slip1, bounds::kSlip);
   made.slip2 = read(*surface, "friction/ode/slip2", made.slip2, bounds::kSlip);

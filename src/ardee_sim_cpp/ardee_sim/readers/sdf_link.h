@@ -14,6 +14,9 @@ Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets);
 /// `made` with what a <collision>'s <surface> and <max_contacts> say.
 Surface read_sdf_surface(const Node& collision, Surface made = {});
 
+/// A <mu>: a negative one is infinite, as in Gazebo; `otherwise` where it is empty.
+double read_friction(const Node& mu, double otherwise);
+
 SensorDescription read_sensor(const Node& sensor, const Pose& X_LS);
 PluginDescription read_plugin(const Node& plugin);
 

@@ -25,7 +25,14 @@ void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& mod
   }
 }
 
+bool merges(const Node& child) {
+  return child.name() == "include" &&
+         parse_boolean(child.attribute("merge", "false"), child.source());
+}
+
 }  // namespace
+
+bool is_nested(const Node& child) { return child.name() == "model" || child.name() == "include"; }
 
 int SdfReader::read_version(const Node& root) {
   const std::string text = root.attribute("version");
@@ -66,7 +73,8 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
 Light SdfReader::read_light(const Node& root) {
   read_version(root);
   sdf_schema().check(root, assets_.log());
-  return read_sdf_light(root.required("light"));
+  const Node light = root.required("light");
+  return read_sdf_light(light, light.pose());
 }
 
 std::shared_ptr<const Model> SdfReader::read_own_model(const Node& node, const Scope& scope) {
@@ -83,14 +91,16 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   made->self_collide = node.boolean("self_collide", false);
   SdfFrames frames("__model__");
   frames.add_children(node);
+  UniqueNames names;
+  const Scope nested_scope{scope.version,
+                           made->is_static ? std::optional<bool>(true) : std::nullopt};
+  std::vector<Placed> placed = read_placed(node, nested_scope, names, frames);
   node.each("link", [&](const Node& link) {
     made->links.push_back(read_sdf_link(link, frames, assets_));
     if (made->self_collide) made->links.back().self_collide = true;
   });
   node.each("plugin", [&](const Node& plugin) { made->plugins.push_back(read_plugin(plugin)); });
-  UniqueNames names;
-  read_nested(node, {scope.version, made->is_static ? std::optional<bool>(true) : std::nullopt},
-              names, frames, *made);
+  add_nested_models(node, std::move(placed), names, frames, *made);
   choose_canonical_link(node, frames, *made);
   for (NamedFrame& frame : frames.named_frames(node)) made->frames.push_back(std::move(frame));
   if (node.has_attribute("placement_frame")) {
@@ -106,40 +116,69 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   return made;
 }
 
-void SdfReader::read_nested(const Node& model, const Scope& scope, UniqueNames& names,
-                            SdfFrames& frames, Model& made) {
+std::vector<SdfReader::Placed> SdfReader::read_placed(const Node& parent, const Scope& scope,
+                                                      UniqueNames& names, SdfFrames& frames) {
+  std::vector<Placed> placed;
+  parent.each([&](const Node& child) {
+    if (!is_nested(child)) return;
+    const bool is_merged = parent.name() == "model" && merges(child);
+    Placed& made = placed.emplace_back();
+    const auto read = [&] { made = placed_instance(child, scope, is_merged, names, frames); };
+    if (parent.name() == "world") {
+      assets_.is_good(label_of(child), read);
+    } else {
+      read();
+    }
+    if (is_merged && placed.back().instance) {
+      frames.add_merged(placed.back().instance->name, *placed.back().instance->model);
+    }
+  });
+  return placed;
+}
+
+SdfReader::Placed SdfReader::placed_instance(const Node& child, const Scope& scope, bool is_merged,
+                                             UniqueNames& names, SdfFrames& frames) {
+  if (child.name() == "include") {
+    const ModelFile& file = included_file(child, scope.make_static);
+    if (!file.model) return {std::nullopt, file.lights};
+    const auto given = child.child("name");
+    const std::string name = given ? given->required_text() : file.model->name;
+    // A link may have the name of the model that it is merged out of.
+    const std::string own_name = is_merged ? "_merged__" + name + "__model__" : name;
+    Instance made = read_include(child, file, names.find_free(own_name), frames);
+    names.take(made.name);
+    return {std::move(made), file.lights};
+  }
+  Instance made;
+  made.model = read_model(child, scope);
+  made.name = names.find_free(made.model->name);
+  if (made.name != made.model->name) {
+    assets_.log().warn(child.source(), "a second model of one name gets another",
+                       ": '" + made.name + "'");
+  }
+  made.is_static = made.model->is_static;
+  frames.add_model(made.name, child, made.model->X_MP, made.model);
+  names.take(made.name);
+  return {made, {}};
+}
+
+void SdfReader::add_nested_models(const Node& model, std::vector<Placed> placed, UniqueNames& names,
+                                  const SdfFrames& frames, Model& made) {
   std::size_t bytes = bytes_of(made);
+  auto next = placed.begin();
   model.each([&](const Node& child) {
-    if (child.name() == "include") {
-      const ModelFile& file = included_file(child, scope.make_static);
-      if (!file.model && file.lights.empty()) return;
-      if (!file.model) {
-        assets_.log().warn(child.source(), "a light within a model is not supported, left out");
-        return;
-      }
-      Instance nested = read_include(child, file, names, frames);
-      if (parse_boolean(child.attribute("merge", "false"), child.source())) {
-        const std::size_t before = made.links.size();
-        merge(child, nested, "", bytes, made);
-        for (std::size_t i = before; i < made.links.size(); ++i) {
-          frames.add(made.links[i].name, made.links[i].X_ML);
-        }
-        return;
-      }
-      frames.replace(nested.name, nested.pose);
-      frames.add_links(nested.name, nested.model);
-      add_nested(child, std::move(nested), bytes, made);
-    } else if (child.name() == "model") {
-      Instance nested;
-      nested.model = read_model(child, scope);
-      nested.name = names.claim(nested.model->name);
-      nested.pose = place_model(frames.pose(child), nested.model->X_MP);
-      nested.is_static = nested.model->is_static;
-      frames.replace(nested.name, nested.pose);
-      frames.add_links(nested.name, nested.model);
-      add_nested(child, std::move(nested), bytes, made);
-    } else if (child.name() == "ardee:instances") {
-      read_instances(child, names, made);
+    if (child.name() == "ardee:instances") read_instances(child, names, made);
+    if (!is_nested(child)) return;
+    auto& [nested, lights] = *next++;
+    if (!nested && !lights.empty()) {
+      assets_.log().warn(child.source(), "a light within a model is not supported, left out");
+    }
+    if (!nested) return;
+    nested->pose = frames.find(nested->name, child.child("pose").value_or(child));
+    if (merges(child)) {
+      merge(child, *nested, "", bytes, made);
+    } else {
+      add_nested(child, std::move(*nested), bytes, made);
     }
   });
 }
@@ -155,7 +194,7 @@ void SdfReader::add_nested(const Node& asker, Instance nested, std::size_t& byte
 void SdfReader::merge(const Node& asker, const Instance& nested, const std::string& name,
                       std::size_t& bytes, Model& made) {
   if (nested.scale != 1.0 || nested.label != 0) {
-    throw asker.error("found a scale or label on the nested model '" + nested.name +
+    throw asker.error("found a scale or label on the nested model '" + nested.model->name +
                       "', expected them on static models only");
   }
   if (made.links.size() + nested.model->links.size() > kMaxLinks) {

@@ -32,6 +32,11 @@ class SdfReader {
     std::shared_ptr<const Model> model;
     std::vector<Light> lights;
   };
+  /// What a nested <model> or an <include> adds; nothing where it is left out.
+  struct Placed {
+    std::optional<Instance> instance;
+    std::vector<Light> lights;
+  };
   /// How a model is to be read: the version of its file, and whether what holds it makes it static
   /// or not.
   struct Scope {
@@ -44,8 +49,14 @@ class SdfReader {
   std::shared_ptr<const Model> read_own_model(const Node& model, const Scope& scope);
   /// But for its own pose, which depends on what holds it.
   std::shared_ptr<Model> read_model(const Node& model, const Scope& scope);
-  void read_nested(const Node& model, const Scope& scope, UniqueNames& names, SdfFrames& frames,
-                   Model& made);
+  /// All nested models and includes of a model or world, known to `frames` from now on; where they
+  /// stand is asked of those when all are.
+  std::vector<Placed> read_placed(const Node& parent, const Scope& scope, UniqueNames& names,
+                                  SdfFrames& frames);
+  Placed placed_instance(const Node& child, const Scope& scope, bool is_merged, UniqueNames& names,
+                         SdfFrames& frames);
+  void add_nested_models(const Node& model, std::vector<Placed> placed, UniqueNames& names,
+                         const SdfFrames& frames, Model& made);
   /// The models below one, of about `bytes` so far, that are merged into it.
   void add_nested(const Node& asker, Instance nested, std::size_t& bytes, Model& made);
   void merge(const Node& asker, const Instance& nested, const std::string& name, std::size_t& bytes,
@@ -56,15 +67,11 @@ class SdfReader {
                                  std::optional<bool> make_static);
   const ModelFile& read_file(const std::string& path, const Source& source,
                              std::optional<bool> make_static);
-  Instance read_include(const Node& include, const ModelFile& file, UniqueNames& names,
-                        const SdfFrames& frames);
-  /// What the parts of a world are read into.
-  struct WorldParts;
+  Instance read_include(const Node& include, const ModelFile& file, const std::string& name,
+                        SdfFrames& frames);
   void read_world_models(const Node& world, const Scope& scope, World& made);
-  void read_world_part(const Node& part, const Scope& scope, WorldParts& parts);
-  void add_world_include(const Node& include, WorldParts& parts);
-  void add_world_model(const Node& model, const Scope& scope, WorldParts& parts);
-  void add_population(const Node& population, const Scope& scope, WorldParts& parts);
+  void add_population(const Node& population, const Scope& scope, UniqueNames& names,
+                      const SdfFrames& frames, World& made);
   void read_insertions(const Node& insertions, const Scope& scope, World& made);
   void check_size(const World& world) const;
   int read_version(const Node& root);
@@ -77,6 +84,12 @@ class SdfReader {
       placements_;                    // of models that files_ or a world hold
   std::vector<std::string> reading_;  // files being read, outermost first
 };
+
+/// Whether an element is one of Placed.
+bool is_nested(const Node& child);
+
+/// A part of a world in messages: "<model> 'wall'".
+std::string label_of(const Node& part);
 
 /// X_HM of a model in what holds it, of the place of its placement frame.
 inline Pose place_model(const Pose& X_HP, const std::optional<Pose>& X_MP) {

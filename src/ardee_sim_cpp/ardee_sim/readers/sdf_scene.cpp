@@ -6,8 +6,6 @@
 namespace ardee {
 namespace {
 
-constexpr double kMaxRateHz = 1e6;
-
 /// The <physics> marked as default, else the first.
 std::optional<Node> choose_physics(const Node& world) {
   std::optional<Node> chosen;
@@ -50,12 +48,13 @@ void read_ode(const Node& physics, PhysicsParams& made) {
 /// <real_time_update_rate> alone, so a positive one counts. Where it is 0 or absent (thesis Listing
 /// A.15), a <real_time_factor> that is written there is what its author wants to see.
 double read_update_rate(const Node& physics, double step_s) {
+  constexpr bounds::Range kRate = bounds::kUpdateRate_hz;
   const auto now = physics.child("real_time_update_rate");
   const auto written = now ? now : physics.child("update_rate");
-  const double rate = written ? written->to_number(0.0, kMaxRateHz) : 1.0 / step_s;
+  const double rate = written ? written->to_number(kRate.low, kRate.high) : 1.0 / step_s;
   if (written && rate > 0.0) return rate;
   const auto factor = physics.child("real_time_factor");
-  return factor ? factor->to_number(0.0, kMaxRateHz) / step_s : rate;
+  return factor ? factor->to_number(kRate.low, kRate.high) / step_s : rate;
 }
 
 }  // namespace
@@ -73,7 +72,9 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
     made.step_s =
         physics->number("max_step_size", old_step, bounds::kStep_s.low, bounds::kStep_s.high);
     made.real_time_update_rate_hz = read_update_rate(*physics, made.step_s);
-    made.max_contacts = physics->integer("max_contacts", made.max_contacts, 1, 1000000);
+    made.max_contacts = physics->integer("max_contacts", made.max_contacts,
+                                         static_cast<int>(bounds::kMaxContacts.low),
+                                         static_cast<int>(bounds::kMaxContacts.high));
     made.gravity_m_per_s2 = physics->vector3("gravity", made.gravity_m_per_s2);
     read_ode(*physics, made);
   }
@@ -81,7 +82,7 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
   return made;
 }
 
-Light read_sdf_light(const Node& light) {
+Light read_sdf_light(const Node& light, const Pose& X_WL) {
   Light made;
   made.name = light.required_attribute("name");
   const std::string type = light.required_attribute("type");
@@ -92,7 +93,7 @@ Light read_sdf_light(const Node& light) {
   } else if (type != "directional") {
     throw light.error("found type '" + type + "', expected directional, point or spot");
   }
-  made.pose = light.pose();
+  made.pose = X_WL;
   made.diffuse = light.color("diffuse", made.diffuse);
   made.specular = light.color("specular", made.specular);
   made.direction = light.vector3("direction", made.direction);

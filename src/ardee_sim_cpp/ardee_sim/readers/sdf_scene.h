@@ -8,7 +8,7 @@
 namespace ardee {
 
 /// What a world holds besides models.
-Light read_sdf_light(const Node& light);
+Light read_sdf_light(const Node& light, const Pose& X_WL);
 Scene read_sdf_scene(const Node& scene);
 SphericalCoordinates read_spherical_coordinates(const Node& coordinates);
 /// <physics> (the default one of several) and <gravity> of a <world>.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include <set>
 
 #include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
@@ -23,19 +23,20 @@ std::optional<Node> saved_state(const Node& world, Log& log) {
   return first;
 }
 
-/// Of a part of a world, as far as it is written: an include may have its model's.
-std::string name_of(const Node& part) {
-  return part.name() == "include" ? part.text("name", "") : part.attribute("name");
-}
-
-/// A part of a world in messages: "<model> 'wall'".
-std::string label_of(const Node& part) {
-  std::string name = name_of(part);
-  if (name.empty()) name = part.text("uri", "");
-  return "<" + std::string(part.name()) + "> '" + name + "'";
+/// A light alone in its file stands where its <include> says, under the name that this gives it.
+void adopt_place(const Node& include, const SdfFrames& frames, Light& light) {
+  light.name = include.text("name", light.name);
+  if (include.child("pose")) light.pose = frames.pose(include);
 }
 
 }  // namespace
+
+std::string label_of(const Node& part) {
+  const bool is_include = part.name() == "include";
+  const std::string name =
+      is_include ? part.text("name", part.text("uri", "")) : part.attribute("name");
+  return "<" + std::string(part.name()) + "> '" + name + "'";
+}
 
 World SdfReader::read_world(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
@@ -63,10 +64,13 @@ World SdfReader::read_world(const Node& root) {
 
 /// Adds what was put into the world after it had been loaded.
 void SdfReader::read_insertions(const Node& insertions, const Scope& scope, World& made) {
-  const auto is_there = [this](const auto& items, const Node& inserted) {
+  std::set<std::string> models;
+  std::set<std::string> lights;
+  for (const Instance& instance : made.models) models.insert(instance.name);
+  for (const Light& light : made.lights) lights.insert(light.name);
+  const auto is_there = [this](std::set<std::string>& names, const Node& inserted) {
     const std::string name = inserted.required_attribute("name");
-    const bool found = std::any_of(items.begin(), items.end(),
-                                   [&name](const auto& item) { return item.name == name; });
+    const bool found = !names.insert(name).second;
     if (found) {
       assets_.log().warn(inserted.source(), "found in the world already, left out",
                          ": '" + name + "'");
@@ -74,7 +78,7 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     return found;
   };
   const auto add_model = [&](const Node& inserted) {
-    if (is_there(made.models, inserted)) return;
+    if (is_there(models, inserted)) return;
     Instance instance;
     instance.model = read_model(inserted, scope);
     instance.name = instance.model->name;
@@ -82,13 +86,15 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
     instance.is_static = instance.model->is_static;
     made.models.push_back(std::move(instance));
   };
+  const auto add_light = [&](const Node& inserted) {
+    if (is_there(lights, inserted)) return;
+    made.lights.push_back(read_sdf_light(inserted, inserted.pose()));
+  };
   insertions.each("model", [&](const Node& inserted) {
     assets_.is_good(label_of(inserted), [&] { add_model(inserted); });
   });
   insertions.each("light", [&](const Node& inserted) {
-    assets_.is_good(label_of(inserted), [&] {
-      if (!is_there(made.lights, inserted)) made.lights.push_back(read_sdf_light(inserted));
-    });
+    assets_.is_good(label_of(inserted), [&] { add_light(inserted); });
   });
 }
 
@@ -112,91 +118,66 @@ void SdfReader::check_size(const World& world) const {
   }
 }
 
-struct SdfReader::WorldParts {
-  World& made;
-  UniqueNames names{};
-  UniqueNames light_names{};
-  SdfFrames frames{"world"};
-
-  void add_light(Light light) {
+void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
+  UniqueNames names;
+  UniqueNames light_names;
+  SdfFrames frames("world");
+  world.each([&](const Node& child) {
+    assets_.is_good(label_of(child), [&] { frames.add_child(child); });
+  });
+  std::vector<Placed> placed = read_placed(world, scope, names, frames);
+  auto next = placed.begin();
+  const auto add_light = [&](Light light) {
     light.name = light_names.claim(light.name);
     made.lights.push_back(std::move(light));
-  }
-};
-
-void SdfReader::read_world_models(const Node& world, const Scope& scope, World& made) {
-  WorldParts parts{made};
-  world.each([&](const Node& part) {
-    assets_.is_good(label_of(part), [&] { parts.frames.add_child(part); });
-  });
-  world.each([&](const Node& part) {
-    const bool good = assets_.is_good(label_of(part), [&] { read_world_part(part, scope, parts); });
-    if (!good && !parts.names.is_taken(name_of(part))) parts.frames.forget(name_of(part));
-  });
-}
-
-/// Adds a part when all of it is read: on a throw nothing of it is there.
-void SdfReader::read_world_part(const Node& part, const Scope& scope, WorldParts& parts) {
-  const std::string_view kind = part.name();
-  if (kind == "include") {
-    add_world_include(part, parts);
-  } else if (kind == "model") {
-    add_world_model(part, scope, parts);
-  } else if (kind == "light") {
-    parts.add_light(read_sdf_light(part));
-  } else if (kind == "plugin") {
-    PluginDescription plugin = read_plugin(part);
-    if (!is_settled_gz_system(plugin)) parts.made.plugins.push_back(std::move(plugin));
-  } else if (kind == "population") {
-    add_population(part, scope, parts);
-  }
-}
-
-void SdfReader::add_world_include(const Node& include, WorldParts& parts) {
-  const ModelFile& file = included_file(include, std::nullopt);
-  if (file.model) {
-    if (include.has_attribute("merge")) {
-      assets_.log().warn(include.source(), "found merge, which acts on an <include> in a <model>");
+  };
+  const auto add_placed = [&](const Node& child, Placed from) {
+    if (child.has_attribute("merge")) {
+      assets_.log().warn(child.source(), "found merge, which acts on an <include> in a <model>");
     }
-    Instance instance = read_include(include, file, parts.names, parts.frames);
-    parts.frames.replace(instance.name, instance.pose);
-    parts.frames.add_links(instance.name, file.model);
-    parts.made.models.push_back(std::move(instance));
-  }
-  for (const Light& light : file.lights) parts.add_light(light);
-}
-
-void SdfReader::add_world_model(const Node& model, const Scope& scope, WorldParts& parts) {
-  Instance instance;
-  instance.model = read_model(model, scope);
-  instance.pose = place_model(parts.frames.pose(model), instance.model->X_MP);
-  instance.is_static = instance.model->is_static;
-  instance.name = parts.names.claim(instance.model->name);
-  if (instance.name != instance.model->name) {
-    assets_.log().warn(model.source(), "a second model of one name gets another",
-                       ": '" + instance.name + "'");
-  }
-  parts.frames.replace(instance.name, instance.pose);
-  parts.frames.add_links(instance.name, instance.model);
-  parts.made.models.push_back(std::move(instance));
+    if (from.instance) {
+      Instance& instance = *from.instance;
+      instance.pose = frames.find(instance.name, child.child("pose").value_or(child));
+      made.models.push_back(std::move(instance));
+    }
+    for (Light& light : from.lights) {
+      if (!from.instance) adopt_place(child, frames, light);
+      add_light(std::move(light));
+    }
+  };
+  const auto add = [&](const Node& child) {
+    const std::string_view kind = child.name();
+    if (is_nested(child)) {
+      add_placed(child, std::move(*next++));
+    } else if (kind == "light") {
+      add_light(read_sdf_light(child, frames.pose(child)));
+    } else if (kind == "plugin") {
+      PluginDescription plugin = read_plugin(child);
+      if (!is_settled_gz_system(plugin)) made.plugins.push_back(std::move(plugin));
+    } else if (kind == "population") {
+      add_population(child, scope, names, frames, made);
+    }
+  };
+  world.each([&](const Node& child) { assets_.is_good(label_of(child), [&] { add(child); }); });
 }
 
 /// Copies are named as Gazebo does it.
-void SdfReader::add_population(const Node& population, const Scope& scope, WorldParts& parts) {
+void SdfReader::add_population(const Node& population, const Scope& scope, UniqueNames& names,
+                               const SdfFrames& frames, World& made) {
   const std::vector<Eigen::Vector3d> places = read_population(population);
-  if (parts.made.models.size() + places.size() > std::size_t{kMaxPopulation}) {
+  if (made.models.size() + places.size() > std::size_t{kMaxPopulation}) {
     throw population.error("found more than " + std::to_string(kMaxPopulation) +
                            " models with those before, expected fewer");
   }
-  const Pose X_WP = parts.frames.pose(population);
+  const Pose X_WP = frames.pose(population);
   Instance instance;
   instance.model = read_model(population.required("model"), scope);
   instance.is_static = instance.model->is_static;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    instance.name = parts.names.claim(instance.model->name + "_clone_" + std::to_string(k));
+    instance.name = names.claim(instance.model->name + "_clone_" + std::to_string(k));
     instance.pose = X_WP;
     instance.pose.p += X_WP.q * places[k];
-    parts.made.models.push_back(instance);
+    made.models.push_back(instance);
   }
 }
 

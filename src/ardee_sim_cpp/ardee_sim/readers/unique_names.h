@@ -11,14 +11,21 @@ namespace ardee {
 class UniqueNames {
  public:
   std::string claim(const std::string& wanted) {
-    if (taken_.insert(wanted).second) return wanted;
+    const std::string name = find_free(wanted);
+    take(name);
+    return name;
+  }
+  /// The name that a claim would give.
+  std::string find_free(const std::string& wanted) {
+    if (taken_.count(wanted) == 0) return wanted;
     int& next = next_[wanted];
     while (true) {
-      std::string name = wanted + "_" + std::to_string(next++);
-      if (taken_.insert(name).second) return name;
+      std::string name = wanted + "_" + std::to_string(next);
+      if (taken_.count(name) == 0) return name;
+      ++next;
     }
   }
-  bool is_taken(const std::string& name) const { return taken_.count(name) != 0; }
+  void take(const std::string& name) { taken_.insert(name); }
 
  private:
   std::unordered_set<std::string> taken_;

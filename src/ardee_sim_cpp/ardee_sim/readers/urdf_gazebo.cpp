@@ -27,8 +27,8 @@ using SurfaceRule = std::function<void(const Node&, Surface&)>;
 const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   static const std::map<std::string, SurfaceRule, std::less<>> rules = [] {
     std::map<std::string, SurfaceRule, std::less<>> made;
-    made["mu1"] = [](const Node& n, Surface& s) { s.mu = read(n, bounds::kFriction); };
-    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = read(n, bounds::kFriction); };
+    made["mu1"] = [](const Node& n, Surface& s) { s.mu = read_friction(n, s.mu); };
+    made["mu2"] = [](const Node& n, Surface& s) { s.mu2 = read_friction(n, s.mu2); };
     made["fdir1"] = [](const Node& n, Surface& s) { s.fdir1 = n.to_vector3(); };
     made["frictionCone"] = [](const Node& n, Surface& s) { s.friction_cone = n.to_boolean(); };
     made["slip1"] = [](const Node& n, Surface& s) { s.slip1 = read(n, bounds::kSlip); };
@@ -53,12 +53,20 @@ const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   return rules;
 }
 
+/// An element that holds nothing is as one that is not there.
+bool is_empty(const Node& node) {
+  bool has_children = false;
+  node.each([&has_children](const Node&) { has_children = true; });
+  return !has_children && node.text().empty();
+}
+
 void set_material(const Node& material, Link& link, Assets& assets) {
   const bool detailed = material.child("script") || material.child("ambient") ||
                         material.child("diffuse") || material.child("specular") ||
                         material.child("emissive");
+  if (!detailed && material.text().empty()) return;
   const Material made = detailed ? read_sdf_material(material, assets)
-                                 : assets.material(material.required_text(), {}, material.source());
+                                 : assets.material(material.text(), {}, material.source());
   for (Visual& visual : link.visuals) visual.material = made;
 }
 
@@ -82,11 +90,12 @@ void apply_collision(const Node& node, Link& link) {
 void apply_to_link(const Node& node, Link& link, Assets& assets) {
   const std::string_view name = node.name();
   const auto rule = surface_rules().find(name);
-  if (rule != surface_rules().end()) {
-    if (node.text().empty()) return;  // the default
-    each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
-  } else if (name == "sensor") {
+  if (name == "sensor") {
     link.sensors.push_back(read_sensor(node, node.pose()));
+  } else if (is_empty(node)) {
+    return;
+  } else if (rule != surface_rules().end()) {
+    each_surface(link, [&](Surface& surface) { rule->second(node, surface); });
   } else if (name == "material") {
     set_material(node, link, assets);
   } else if (name == "visual") {
@@ -114,17 +123,19 @@ void apply_to_link(const Node& node, Link& link, Assets& assets) {
 
 void apply_to_joint(const Node& node, Joint& joint) {
   const std::string_view name = node.name();
+  if (is_empty(node)) return;
   if (name == "stopCfm" || name == "stop_cfm") {
-    joint.stop_cfm = node.to_number(0.0);
+    joint.stop_cfm = read(node, bounds::kJointSoftness);
   } else if (name == "stopErp" || name == "stop_erp") {
-    joint.stop_erp = node.to_number(0.0);
+    joint.stop_erp = read(node, bounds::kJointSoftness);
   } else if (name == "springStiffness" || name == "spring_stiffness") {
-    joint.axis.spring_stiffness = node.to_number(0.0);
+    joint.axis.spring_stiffness = read(node, bounds::kJointCoefficient);
   } else if (name == "springReference" || name == "spring_reference") {
-    joint.axis.spring_reference = node.to_number();
+    joint.axis.spring_reference = read(node, bounds::kJointReference);
   } else if (name == "physics") {
-    joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, 0.0);
-    joint.stop_erp = node.number("ode/limit/erp", joint.stop_erp, 0.0);
+    constexpr bounds::Range kSoftness = bounds::kJointSoftness;
+    joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, kSoftness.low, kSoftness.high);
+    joint.stop_erp = node.number("ode/limit/erp", joint.stop_erp, kSoftness.low, kSoftness.high);
   }
 }
 
@@ -176,6 +187,8 @@ class GazeboBlocks {
       if (!joint_scope_) joint_scope_.emplace(106, frames_, model_);
       model_.joints.push_back(read_sdf_joint(node, *joint_scope_, assets_.log()));
       joints_.emplace(model_.joints.back().name, model_.joints.size() - 1);
+    } else if (is_empty(node)) {
+      return;
     } else if (name == "static") {
       model_.is_static = node.to_boolean();
     } else if (name == "selfCollide" || name == "self_collide") {

@@ -3,7 +3,9 @@
 
 #include <limits>
 #include <map>
+#include <utility>
 
+#include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/urdf_link.h"
 
 namespace ardee {
@@ -35,7 +37,7 @@ double unlimited_unless_positive(const Node& limit, const char* name) {
   return value > 0.0 ? value : kInfinity;
 }
 
-void read_limit(const Node& node, const std::string& type, Joint& joint) {
+void read_limit(const Node& node, const std::string& type, Joint& joint, Log& log) {
   const auto limit = node.child("limit");
   const bool ends = type == "revolute" || type == "prismatic";
   if (!limit && ends) {
@@ -44,11 +46,12 @@ void read_limit(const Node& node, const std::string& type, Joint& joint) {
   if (!limit) return;
   joint.axis.effort = unlimited_unless_positive(*limit, "effort");
   joint.axis.velocity = unlimited_unless_positive(*limit, "velocity");
-  const double lower = limit->attribute_number("lower", 0.0, -kInfinity, kInfinity);
-  const double upper = limit->attribute_number("upper", 0.0, -kInfinity, kInfinity);
+  double lower = limit->attribute_number("lower", 0.0, -kInfinity, kInfinity);
+  double upper = limit->attribute_number("upper", 0.0, -kInfinity, kInfinity);
   if (!ends) return;
   if (lower > upper) {
-    throw limit->error("found a lower limit above the upper, expected it below");
+    log.warn(limit->source(), "found a lower limit above the upper; they change places");
+    std::swap(lower, upper);
   }
   joint.axis.lower = lower;
   joint.axis.upper = upper;
@@ -66,10 +69,13 @@ Eigen::Vector3d read_axis(const Node& joint) {
 void read_dynamics(const Node& node, JointAxis& axis) {
   const auto dynamics = node.child("dynamics");
   if (!dynamics) return;
-  axis.damping = dynamics->attribute_number("damping", 0.0);
-  axis.friction = dynamics->attribute_number("friction", 0.0);
-  axis.spring_stiffness = dynamics->attribute_number("spring_stiffness", 0.0);
-  axis.spring_reference = dynamics->attribute_number("spring_reference", 0.0);
+  const auto read = [&dynamics](const char* name, const bounds::Range& range) {
+    return dynamics->attribute_number(name, 0.0, range.low, range.high);
+  };
+  axis.damping = read("damping", bounds::kJointCoefficient);
+  axis.friction = read("friction", bounds::kJointCoefficient);
+  axis.spring_stiffness = read("spring_stiffness", bounds::kJointCoefficient);
+  axis.spring_reference = read("spring_reference", bounds::kJointReference);
 }
 
 }  // namespace
@@ -90,7 +96,7 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
   }
   if (made.joint.type == JointType::kFixed) return made;
   made.joint.axis.axis = read_axis(node);
-  read_limit(node, type_name, made.joint);
+  read_limit(node, type_name, made.joint, log);
   read_dynamics(node, made.joint.axis);
   return made;
 }

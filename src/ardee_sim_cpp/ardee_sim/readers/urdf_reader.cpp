@@ -23,8 +23,8 @@ void refuse_xacro(const Node& robot) {
   });
 }
 
-/// Nothing can move what has no mass: the joint of a link that has no <inertial>, nor anything
-/// fixed to it further out, is held. Gazebo leaves such a link out with all that hangs on it; here
+/// Nothing can move what has no mass: the joint of a link that has none, nor anything fixed to it
+/// further out, is held. Gazebo leaves such a link out with all that hangs on it; here
 /// it keeps its place. A robot without any mass is as it is: a drawing, or an error of the physics.
 void hold_massless_links(const std::vector<Link>& links, const std::vector<std::size_t>& order,
                          std::vector<UrdfJoint>& joints, Log& log) {
@@ -35,7 +35,7 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
   std::unordered_map<std::string, UrdfJoint*> joint_above;
   for (UrdfJoint& each : joints) joint_above[each.joint.child] = &each;
   std::unordered_map<std::string, bool> has_inertial;  // of a link or what is fixed to it
-  for (const Link& link : links) has_inertial[link.name] = link.inertial.has_value();
+  for (const Link& link : links) has_inertial[link.name] = has_mass(link);
   for (auto link = order.rbegin(); link != order.rend(); ++link) {  // children before parents
     const auto above = joint_above.find(links[*link].name);
     if (above == joint_above.end() || above->second->is_free) continue;
@@ -47,10 +47,25 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
   for (UrdfJoint& each : joints) {
     Joint& joint = each.joint;
     if (each.is_free || joint.type == JointType::kFixed || has_inertial[joint.child]) continue;
-    log.warn(joint.source, "found no <inertial> on a link that moves, expected one; it is held",
+    log.warn(joint.source, "found no mass on a link that moves, expected one; it is held",
              ": link '" + joint.child + "' by joint '" + joint.name + "'");
     joint.type = JointType::kFixed;
   }
+}
+
+/// The root link stands for the robot, but one called "world" is the world: then the first link
+/// that hangs on it does.
+void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log) {
+  const Link& root = made.links[order.front()];
+  made.canonical_link = root.name;
+  if (root.name != "world") return;
+  if (!root.visuals.empty() || !root.collisions.empty()) {
+    log.warn(root.source,
+             "found visuals or collisions of the link 'world', expected none: it is "
+             "the world itself; they are left out");
+  }
+  made.canonical_link = order.size() > 1 ? made.links[order[1]].name : "";
+  made.links.erase(made.links.begin() + static_cast<std::ptrdiff_t>(order.front()));
 }
 
 }  // namespace
@@ -74,12 +89,7 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   for (UrdfJoint& each : joints) {
     if (!each.is_free) made->joints.push_back(std::move(each.joint));
   }
-  const std::size_t root = tree.order.front();
-  made->canonical_link = made->links[root].name;
-  if (made->canonical_link == "world") {
-    made->links.erase(made->links.begin() + static_cast<std::ptrdiff_t>(root));
-    made->canonical_link = made->links.empty() ? "" : made->links.front().name;
-  }
+  take_out_world(tree.order, *made, assets.log());
   apply_gazebo_blocks(robot, *made, assets);
   adopt_gz_systems(*made, assets.log());
   validate_model(*made, assets.log());

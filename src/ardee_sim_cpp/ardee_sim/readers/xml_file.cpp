@@ -8,8 +8,6 @@
 namespace ardee {
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{1} << 30;
-
 /// XML_ERROR_MISMATCHED_ELEMENT -> mismatched element
 std::string in_words(std::string name) {
   constexpr std::string_view kPrefix = "XML_ERROR_";
@@ -39,7 +37,7 @@ XmlFile::XmlFile(const std::string& text, const std::string& name) : name_(name)
 }
 
 XmlFile XmlFile::read(const std::string& path, const Source& source) {
-  return XmlFile(read_text_file(path, source, kMaxFileBytes), path);
+  return XmlFile(read_text_file(path, source, kMaxXmlBytes), path);
 }
 
 }  // namespace ardee

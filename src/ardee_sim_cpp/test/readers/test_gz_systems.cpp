@@ -161,6 +161,12 @@ TEST_F(GzSystems, CamerasPublishBesideTheirTopic) {
                                                 {"imageTopicName", "front/image"},
                                                 {"cameraInfoTopicName", "front/camera_info"}}));
   EXPECT_TRUE(color.element.child("camera")->children.empty());
+  for (const std::string truth : {"1", "true", "0"}) {
+    const SensorDescription waits =
+        sensor("<sensor name='s' type='camera'><topic>image</topic><camera><triggered>" + truth +
+               "</triggered></camera></sensor>");
+    EXPECT_EQ(keys_of(waits.plugins.at(0)).at("triggered"), truth);
+  }
   const Keys depth = keys_of(sensor("<sensor name='d' type='rgbd_camera'/>").plugins.at(0));
   EXPECT_EQ(depth.at("imageTopicName"), "d/image");
   EXPECT_EQ(depth.at("depthImageTopicName"), "d/depth_image");

@@ -5,6 +5,7 @@
 
 #include "ardee_sim/readers/heightmap_reader.h"
 #include "ardee_sim/readers/image.h"
+#include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
 
 namespace ardee {
@@ -23,6 +24,16 @@ TEST(Image, ReadsGreyOfEachFormat) {
     EXPECT_EQ(image.bits, 8) << name;
     for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(image.samples16[i], 257 * 20 * i) << name;
   }
+}
+
+/// The numbers of a heightmap are no brightness, whatever a file says of screens.
+TEST(Image, DoesNotCorrectGamma) {
+  const TempFolder folder;
+  std::string png = read_text_file(picture("grey8.png"), {}, 10'000);
+  constexpr std::size_t kBehindHeader = 33;
+  png.insert(kBehindHeader, std::string("\0\0\0\x04gAMA\0\x01\x86\xa0\x31\xe8\x96\x5f", 16));
+  const Image image = read_gray_image(folder.write("linear.png", png), {});
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(image.samples16.at(i), 257 * 20 * i);
 }
 
 TEST(Image, KeepsSixteenBits) {
@@ -86,7 +97,8 @@ enum class Samples : std::uint32_t { kUnsigned = 1, kSigned = 2, kFloat = 3 };
 /// A TIFF of two columns and one strip, with GDAL's tag for no data and a GeoTIFF's keys if asked.
 template <typename Number>
 std::string tiff(Samples format, const std::vector<Number>& samples,
-                 const std::string& no_data = "", bool is_geo = false) {
+                 const std::string& no_data = "", bool is_geo = false,
+                 std::uint32_t orientation = 1) {
   std::string bytes;
   for (const Number sample : samples) {
     bytes.append(reinterpret_cast<const char*>(&sample), sizeof(sample));
@@ -106,6 +118,7 @@ std::string tiff(Samples format, const std::vector<Number>& samples,
   entry(259, 3, 1, 1);
   entry(262, 3, 1, 1);
   entry(273, 4, 1, 8);
+  entry(274, 3, 1, orientation);
   entry(277, 3, 1, 1);
   entry(278, 3, 1, rows);
   entry(279, 4, 1, length);
@@ -223,6 +236,18 @@ TEST(Heightmap, RefusesABrokenElevationFile) {
   for (std::size_t length = 9; length + 4 < whole.size(); ++length) {
     const std::string path = folder.write("t.tif", whole.substr(0, length));
     EXPECT_THROW(Heights(path, {1, 1, 1}), Error) << length;
+  }
+}
+
+TEST(Heightmap, RefusesElevationsThatDoNotBeginAtTheUpperLeft) {
+  const TempFolder folder;
+  const std::string path =
+      folder.write("o.tif", tiff<float>(Samples::kFloat, {1, 2, 3, 4}, "", false, 4));
+  try {
+    const Heights heights(path, {1, 1, 1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_HAS(error.what(), "found elevations of orientation 4");
   }
 }
 

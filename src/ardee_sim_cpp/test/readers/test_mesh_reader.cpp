@@ -203,11 +203,99 @@ TEST(MeshPolygons, ListsThatAreMissingAreRefused) {
   }
 }
 
+TEST(MeshReader, RefusesColladaThatTheLibraryWouldNotOutlive) {
+  const TempFolder folder;
+  const std::string part = primitive("triangles", 1, "<p>0 1 2</p>");
+  const std::string effect =
+      "<library_effects><effect id='e'><profile_COMMON><newparam sid='a'><sampler2D><source>a"
+      "</source></sampler2D></newparam></profile_COMMON></effect></library_effects>";
+  const std::string skew = "<node id='k'><skew>45 0 1 0 1 0 0</skew></node>";
+  const std::string in_node = "<node id='k'><mesh/></node>";
+  for (const std::string& text :
+       {collada(part, effect), collada(part, "", skew), collada(part, "", in_node)}) {
+    const std::string path = folder.write("l.dae", text);
+    EXPECT_THROW(Reading{path}, Error) << text;
+  }
+  EXPECT_EQ(triangles(Reading(folder.write("l.dae", collada(part))).file), 1u);
+}
+
 TEST(MeshPolygons, AFanNeedNotBeFlat) {
   const TempFolder folder;
   const Reading cone(
       folder.write("cone.dae", collada(primitive("trifans", 1, "<p>0 1 3 5 1</p>"))));
   EXPECT_EQ(triangles(cone.file), 3u);
+}
+
+TEST(MeshPolygons, AFanIsReadWhateverStandsBesideTheElements) {
+  const TempFolder folder;
+  std::string fan = collada(primitive("trifans", 1, "<p>3 4 5 0 1 2</p>"));
+  const std::string declaration = "<?xml version='1.0'?>";
+  fan.erase(0, declaration.size());
+  std::string note = fan;
+  note.insert(note.find("<asset>"), "<?note made by hand?>");
+  for (const std::string& text : {declaration + note, "<!-- a comment -->\n" + declaration + fan}) {
+    EXPECT_NEAR(area(Reading(folder.write("l.dae", text)).file), 3.0, 1e-6) << text;
+  }
+}
+
+/// What reading a file throws; empty if nothing.
+std::string error_of(const std::string& path) {
+  try {
+    const Reading reading(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A comb of many teeth, none of which is cut off before all corners were looked at.
+TEST(MeshPolygons, TakeAtMostSomeSecondsAFile) {
+  std::string corners;
+  std::string face = "f";
+  const int teeth = 500;
+  for (int k = 0; k < teeth; ++k) {
+    corners += "v " + std::to_string(k) + " 0 0\nv " + std::to_string(k) + " " +
+               std::to_string(1 + (k * 7919) % 13) + " 0\n";
+  }
+  for (int k = 1; k <= 2 * teeth; ++k) face += " " + std::to_string(k * 379 % 1000 + 1);
+  std::string text = corners;
+  for (int k = 0; k < 200; ++k) text += face + "\n";
+  const TempFolder folder;
+  EXPECT_HAS(error_of(folder.write("combs.obj", text)), "found too many polygons of many corners");
+}
+
+/// Nodes of a library, each of which holds the next `copies` times.
+std::string chain(int length, int copies) {
+  std::string nodes;
+  for (int k = 0; k < length; ++k) {
+    nodes += "<node id='c" + std::to_string(k) + "'>";
+    for (int copy = 0; copy < copies; ++copy) {
+      nodes += "<instance_node url='#c" + std::to_string(k + 1) + "'/>";
+    }
+    nodes += "</node>";
+  }
+  return "<library_nodes>" + nodes + "<node id='c" + std::to_string(length) +
+         "'><instance_geometry url='#g'/></node></library_nodes>";
+}
+
+TEST(MeshReader, LooksAtEachNodeOfAColladaFileOnce) {
+  const TempFolder folder;
+  const auto error = [&](int length, int copies) {
+    const std::string triangle = primitive("triangles", 1, "<p>0 1 2</p>");
+    return error_of(
+        folder.write("chain.dae", collada(triangle, chain(length, copies),
+                                          "<node id='top'><instance_node url='#c0'/></node>")));
+  };
+  EXPECT_EQ(error(900, 1), "");
+  EXPECT_EQ(error(10, 2), "");
+  EXPECT_HAS(error(20'000, 1), "found nodes more than 1000 deep in each other");
+  EXPECT_HAS(error(40, 2), "found too many nodes");
+  const std::string ring =
+      "<library_nodes><node id='a'><instance_node url='#b'/></node><node id='b'>"
+      "<node id='c'><instance_node url='#a'/></node></node></library_nodes>";
+  EXPECT_HAS(
+      error_of(folder.write("ring.dae", collada(primitive("triangles", 1, "<p>0 1 2</p>"), ring))),
+      "within itself, expected a tree");
 }
 
 TEST(MeshPolygons, WhatIsNoneIsToldOnce) {
@@ -252,18 +340,22 @@ TEST(MeshReader, ReadsGltfWithItsNodesAndAsItsAxesLie) {
   EXPECT_THROW(Reading(folder.write("t.glb", "glTF\x02")), Error);
 }
 
+TEST(MeshReader, ASolidMayBeCalledVertex) {
+  const TempFolder folder;
+  const Reading reading(folder.write(
+      "v.stl",
+      "solid vertex_cube\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 "
+      "0\nendloop\nendfacet\nendsolid vertex_cube\n"));
+  EXPECT_EQ(triangles(reading.file), 1u);
+}
+
 TEST(MeshReader, RefusesAnStlFacetOfFourCorners) {
   const TempFolder folder;
   const std::string path = folder.write(
       "q.stl",
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nvertex "
       "0 1 0\nendloop\nendfacet\nendsolid a\n");
-  try {
-    const Reading reading(path);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_HAS(error.what(), "found a facet of 4 corners in STL '" + path + "', line 3");
-  }
+  EXPECT_HAS(error_of(path), "found a facet of 4 corners in STL '" + path + "', line 3");
 }
 
 TEST(MeshReader, ReadsNumbersOfAnObjThatBeginWithAPoint) {

@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "<link name='z'><pose>0</pose></link></model></model>",
                 "found '0'"},
         BadPart{"<model><link name='l'/></model>", "name"},
-        BadPart{"<model name='m'><pose relative_to='x'/><link name='l'/></model>", "frame 'x'"},
+        BadPart{"<model name='q'><pose relative_to='x'/><link name='l'/></model>", "frame 'x'"},
         BadPart{"<include><uri></uri></include>", "<uri>"},
         BadPart{"<include/>", "found no <uri>, expected one; <include> '' is left out"},
         BadPart{"<include><uri>model://box</uri><name>m</name><ardee:scale>0</ardee:scale>"

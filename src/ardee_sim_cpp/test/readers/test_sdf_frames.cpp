@@ -128,6 +128,62 @@ TEST_F(SdfFramesTest, ModelsOfAWorldArePlacedInEachOther) {
   expect_near(w.models[2].pose.p, {10, 1, 2});
 }
 
+TEST_F(SdfFramesTest, APlacedModelIsWhereItIsForWhatComesBeforeItToo) {
+  const std::string parts = link("base") + link("tip", "<pose>1 0 0 0 0 0</pose>");
+  folder_.write("arm/model.sdf", "<sdf version='1.8'><model name='arm'><pose>0 0 7 0 0 0</pose>" +
+                                     parts + "</model></sdf>");
+  const auto arm = [](const std::string& more) {
+    return "<include><uri>model://arm</uri>" + more + "</include>";
+  };
+  const std::string placed = "<pose>5 0 0 0 0 0</pose><placement_frame>tip</placement_frame>";
+  const auto tool = [&](const std::string& in, const std::string& after) {
+    return model(link("tool", pose(in, "0 0 1 0 0 0")) + after)->links.at(0).X_ML.p;
+  };
+  expect_near(tool("arm", arm(placed)), {4, 0, 1});
+  expect_near(tool("arm::tip", arm(placed)), {5, 0, 1});
+  expect_near(tool("arm", arm("")), {0, 0, 8});
+  expect_near(tool("a::tip", arm("<name>a</name>")), {1, 0, 8});
+  const World w = world("<model name='first'>" + pose("b", "0 0 1 0 0 0") + link("l") +
+                        "</model><model name='second'>" + pose("b::base", "0 0 2 0 0 0") +
+                        link("l") + "</model><model name='b' placement_frame='tip'>" +
+                        "<pose>5 0 0 0 0 0</pose>" + parts + "</model>");
+  expect_near(w.models.at(0).pose.p, {4, 0, 1});
+  expect_near(w.models.at(1).pose.p, {4, 0, 2});
+  expect_near(w.models.at(2).pose.p, {4, 0, 0});
+}
+
+TEST_F(SdfFramesTest, AModelInANestedModelIsAFrame) {
+  const std::string nested = "<model name='a'><pose>1 0 0 0 0 0</pose>" + link("x") +
+                             "<model name='b'><pose>0 1 0 0 0 0</pose>" + link("y") +
+                             "</model></model>";
+  const auto m = model(link("t", pose("a::b", "0 0 1 0 0 0")) + nested + fixed("a::b", "t"));
+  expect_near(m->find_link("t")->X_ML.p, {1, 1, 1});
+  EXPECT_EQ(m->joints.at(0).parent, "a::b::y");
+  const World w =
+      world("<model name='c'>" + pose("a::b", "0 0 1 0 0 0") + link("l") + "</model>" + nested +
+            "<model name='s'><static>1</static><model name='d'>" + "<pose>0 3 0 0 0 0</pose>" +
+            link("y", "<pose>0 0 1 0 0 0</pose>") + "</model></model><model name='e'>" +
+            pose("s::d::y", "1 0 0 0 0 0") + link("l") + "</model>");
+  expect_near(w.models.at(0).pose.p, {1, 1, 1});
+  expect_near(w.models.at(3).pose.p, {1, 3, 1});
+}
+
+TEST_F(SdfFramesTest, AFrameAttachedToNothingIsTheModels) {
+  const auto m =
+      model(link("a", "<pose>1 0 0 0 0 0</pose>") + link("b") +
+            "<frame name='f' attached_to=''><pose>0 0 1 0 0 0</pose></frame>" + fixed("f", "b"));
+  expect_near(m->find_frame("f")->X_MF.p, {0, 0, 1});
+  EXPECT_EQ(m->joints.at(0).parent, "a");
+}
+
+TEST_F(SdfFramesTest, ALampStandsInAFrame) {
+  const World w = world(
+      "<frame name='f'><pose>1 2 3 0 0 0</pose></frame><light name='l' "
+      "type='point'>" +
+      pose("f", "0 0 1 0 0 0") + "</light>");
+  expect_near(w.lights.at(0).pose.p, {1, 2, 4});
+}
+
 TEST_F(SdfFramesTest, TheCanonicalLinkMayBeNamed) {
   EXPECT_EQ(model(link("a") + link("b"))->canonical_link, "a");
   const auto named = [this](const std::string& name) {
@@ -175,7 +231,7 @@ TEST_F(SdfFramesTest, NamesWhatIsWrong) {
       "found that frame 'f' lies in itself");
   EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
              "found frame 'x', expected one of world, m");
-  // Where no frames are known: the pose of a file's own model, and of a lamp.
+  // Where no frames are known: the pose of a file's own model.
   EXPECT_HAS(error_of([&] {
                loader_.load_model_text("<sdf version='1.7'><model name='m'>" +
                                            pose("x", "0 0 0 0 0 0") + link("a") + "</model></sdf>",

@@ -117,8 +117,8 @@ TEST_F(SdfInclude, MergesMovingModelsUnderScopedNames) {
   EXPECT_EQ(elbow->parent, "left::upper");
   EXPECT_EQ(elbow->child, "left::lower");
   expect_near(elbow->axis.axis, {0, 0, 1});
-  EXPECT_EQ(m->plugins.at(0).element.child("bodyName")->text, "left::lower");
-  EXPECT_EQ(m->plugins.at(0).element.child("other")->text, "x");
+  EXPECT_EQ(m->plugins.at(0).element.child("bodyName")->text, "lower");
+  EXPECT_EQ(m->plugins.at(0).scope, "left::");
   EXPECT_TRUE(m->instances.empty());
 }
 
@@ -144,6 +144,26 @@ TEST_F(SdfInclude, AMergedIncludeKeepsItsNames) {
                      "1.9");
              }),
              "found a second link 'upper'");
+}
+
+TEST_F(SdfInclude, WhatIsMergedHoldsAndPlacesOthers) {
+  folder_.write_model("arm",
+                      "<link name='arm'><pose>0 1 0 0 0 0</pose></link><link name='hand'/>"
+                      "<frame name='flange' attached_to='arm'><pose>0 0 1 0 0 0</pose></frame>"
+                      "<joint name='wrist' type='fixed'><parent>arm</parent><child>hand</child>"
+                      "<pose>0 0 3 0 0 0</pose></joint>",
+                      "1.9");
+  const auto m = model(
+      "<link name='tool'><pose relative_to='flange'>0 0 1 0 0 0</pose></link>"
+      "<link name='ring'><pose relative_to='wrist'/></link>"
+      "<include merge='true'><uri>model://arm</uri><pose>1 0 0 0 0 0</pose></include>"
+      "<joint name='mount' type='fixed'><parent>flange</parent><child>tool</child></joint>"
+      "<joint name='other' type='fixed'><parent>arm</parent><child>ring</child></joint>",
+      "1.9");
+  expect_near(m->find_link("tool")->X_ML.p, {1, 1, 2});
+  expect_near(m->find_link("ring")->X_ML.p, {1, 0, 3});
+  EXPECT_EQ(m->find_joint("mount")->parent, "arm");
+  EXPECT_EQ(m->find_joint("other")->parent, "arm");
 }
 
 TEST_F(SdfInclude, APlacementFrameStandsWhereThePoseSays) {
@@ -209,6 +229,12 @@ TEST_F(SdfInclude, AddsTheLightOfAnIncludedSun) {
   const World w = world("<include><uri>model://sun</uri></include>");
   EXPECT_TRUE(w.models.empty());
   EXPECT_EQ(w.lights.at(0).name, "sun");
+  const World placed = world(
+      "<frame name='f'><pose>0 0 4 0 0 0</pose></frame><include><uri>model://sun</uri>"
+      "<name>lamp</name><pose relative_to='f'>1 2 3 0 0 0</pose></include>",
+      "1.7");
+  EXPECT_EQ(placed.lights.at(0).name, "lamp");
+  expect_near(placed.lights.at(0).pose.p, {1, 2, 7});
 }
 
 TEST_F(SdfInclude, AddsAnIncludesPluginToItsModelAlone) {

@@ -273,6 +273,31 @@ TEST_F(Urdf, WarnsOfMimicAndUndefinedMaterials) {
   EXPECT_TRUE(warned("<mimic>: has no effect: not supported"));
 }
 
+TEST_F(Urdf, TheFirstLinkBelowTheWorldStandsForTheRobot) {
+  const auto m = robot(
+      "<link name='hand'/><link name='base'/><link name='world'><visual><geometry><sphere "
+      "radius='1'/></geometry></visual></link>"
+      "<joint name='a' type='fixed'><parent link='world'/><child link='base'/></joint>"
+      "<joint name='b' type='fixed'><parent link='base'/><child link='hand'/></joint>");
+  EXPECT_EQ(m->canonical_link, "base");
+  EXPECT_EQ(m->links.size(), 2u);
+  EXPECT_TRUE(warned("found visuals or collisions of the link 'world'"));
+}
+
+TEST_F(Urdf, AnEmptyBlockIsAsOneThatIsNotThere) {
+  const auto m = robot(
+      "<link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/>"
+      "<child link='b'/><axis xyz='0 0 1'/></joint><gazebo "
+      "reference='j'><stopCfm/><stopErp></stopErp>"
+      "<springStiffness/><springReference/></gazebo><gazebo reference='b'><gravity/><selfCollide/>"
+      "<turnGravityOff/><kinematic/><dampingFactor/><laserRetro/><material/></gazebo>"
+      "<gazebo><static/><selfCollide/></gazebo>");
+  EXPECT_TRUE(m->find_link("b")->gravity);
+  EXPECT_FALSE(m->is_static || m->self_collide || m->find_link("b")->self_collide);
+  EXPECT_EQ(m->joints.at(0).stop_cfm, -1.0);
+  EXPECT_EQ(m->joints.at(0).axis.spring_stiffness, 0.0);
+}
+
 TEST_F(Urdf, ARootLinkCalledWorldIsTheWorld) {
   const auto m = robot(
       "<link name='world'/><link name='a'/><joint name='j' type='fixed'>"

@@ -38,7 +38,8 @@ def _line(path: Path, number: int, entry: dict) -> tuple:
     except (KeyError, TypeError, ValueError):
         x = y = float("nan")
         plot = row = 0
-    within = max(abs(x), abs(y)) <= FAR_M and 0 <= min(plot, row) and max(plot, row) <= _MAX_PLOT
+    near = abs(x) <= FAR_M and abs(y) <= FAR_M  # a NaN is not
+    within = near and 0 <= min(plot, row) and max(plot, row) <= _MAX_PLOT
     if None in entry or None in entry.values() or not within:
         found = {k: v for k, v in entry.items() if k is not None}
         raise GeneratorError(f"{path}: line {number}: found {found}, expected {_COLUMNS}")

@@ -60,7 +60,9 @@ def _bent_row(line: Line, start_m: float, d: float, plots: Plots) -> Tuple[np.nd
     stalks = int(np.floor(arc[-1] / plots.stalk_spacing_m + 1e-6)) + 1
     at = np.minimum(np.arange(stalks) * plots.stalk_spacing_m, arc[-1])
     tangents = np.gradient(points, axis=0)
-    tangents /= np.linalg.norm(tangents, axis=1)[:, None]
+    lengths = np.linalg.norm(tangents, axis=1)[:, None]
+    # the line's own where steps are too short to tell one
+    tangents = np.divide(tangents, lengths, out=line.tangents(s), where=lengths > 1e-9)
 
     def sample(where: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.column_stack([np.interp(where, arc, column) for column in values.T])

@@ -33,7 +33,7 @@ def own_pose(model: str) -> WorldPose:
         x, y, *upright, yaw = (float(value) for value in found.group(1).split())
     except ValueError:
         upright = []
-    if upright != [0.0, 0.0, 0.0]:
+    if upright != [0.0, 0.0, 0.0] or not np.isfinite([x, y, yaw]).all():
         raise GeneratorError(f"field: found <pose>{found.group(1)}</pose>, expected X Y 0 0 0 YAW")
     return x, y, yaw
 
