@@ -74,8 +74,8 @@ Solver::~Solver() { dWorldSetStepThreadingImplementation(world_, nullptr, nullpt
 void Solver::renew_threads() {
   ThreadingHandle fresh(dThreadingAllocateSelfThreadedImplementation());
   if (!fresh) throw Error("physics engine: out of memory");
-  dWorldSetStepThreadingImplementation(
-      world_, dThreadingImplementationGetFunctions(fresh.get()), fresh.get());
+  dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(fresh.get()),
+                                       fresh.get());
   std::swap(threads_, fresh);
   if (fresh) keep_for_ever(std::move(fresh));
 }

@@ -111,8 +111,8 @@ class ColladaCheck {
   /// The mesh library takes an element by its name wherever it stands, and then looks for what is
   /// not there.
   static void check_place(const Node& child, std::string_view parent) {
-    static const Names kPrimitives{"triangles", "polylist", "polygons",  "lines",
-                                   "linestrips", "trifans", "tristrips"};
+    static const Names kPrimitives{"triangles",  "polylist", "polygons", "lines",
+                                   "linestrips", "trifans",  "tristrips"};
     static const std::map<std::string, Names, std::less<>> kParents{
         {"COLLADA", {"no other element"}},
         {"library_effects", {"COLLADA"}},

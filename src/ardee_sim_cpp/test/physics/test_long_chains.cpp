@@ -10,8 +10,8 @@ namespace ardee::test {
 namespace {
 
 constexpr int kLinks = 20'000;
-/// Of this process's own time, ten times what a slow machine needs; what grows with the square takes
-/// far longer.
+/// Of this process's own time, ten times what a slow machine needs; what grows with the square
+/// takes far longer.
 constexpr double kAtOnce_s = 10.0;
 
 /// Boxes a centimetre apart, each hanging on the one before.

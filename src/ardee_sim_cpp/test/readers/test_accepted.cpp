@@ -46,9 +46,8 @@ TEST_F(Accepted, FrictionAndStiffnessMayBeInfinite) {
 }
 
 TEST_F(Accepted, WhatCannotBeInfiniteOrNoNumberIsRefused) {
-  EXPECT_HAS(
-      error_of([&] { model(collision("<friction><ode><mu>nan</mu></ode></friction>")); }),
-      "<mu>: found 'nan', expected");
+  EXPECT_HAS(error_of([&] { model(collision("<friction><ode><mu>nan</mu></ode></friction>")); }),
+             "<mu>: found 'nan', expected");
   EXPECT_HAS(error_of([&] { model("<link name='a'><pose>inf 0 0 0 0 0</pose></link>"); }),
              "expected six finite numbers");
   EXPECT_HAS(
