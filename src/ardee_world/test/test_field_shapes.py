@@ -111,9 +111,11 @@ def test_a_row_too_short_to_have_a_direction_has_the_lines():
     assert plan.along == pytest.approx(np.tile([np.sin(1.0), -np.cos(1.0)], (len(plan.along), 1)))
 
 
-def test_a_field_beyond_what_a_world_holds_is_refused():
-    with pytest.raises(GeneratorError, match="found one 100010 m from the field's origin"):
-        plan_centres(Plots(row_length_m=10.0, headland_m=1e5, stalk_spacing_m=5.0))
+def test_a_field_beyond_what_a_world_holds_is_refused(pool):
+    plots = Plots(row_length_m=10.0, headland_m=1e5, stalk_spacing_m=5.0)
+    for config in (FieldConfig(plots=plots), FieldConfig(noise_covariance_m2=(1e30, 0.0, 1e30))):
+        with pytest.raises(GeneratorError, match="m from the field's origin, expected at most"):
+            generate(config, pool, 0)
 
 
 def test_a_circle_too_tight_for_its_rows_is_refused(pool):

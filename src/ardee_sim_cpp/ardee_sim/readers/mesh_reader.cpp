@@ -79,7 +79,8 @@ void mark_kinds_of_faces(const aiScene& scene) {
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     aiMesh& mesh = *scene.mMeshes[i];
     for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
-      mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(mesh.mFaces[k].mNumIndices);
+      const unsigned corners = mesh.mFaces[k].mNumIndices;
+      if (corners > 0) mesh.mPrimitiveTypes |= AI_PRIMITIVE_TYPE_FOR_N_INDICES(corners);
     }
   }
 }

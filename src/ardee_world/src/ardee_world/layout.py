@@ -11,7 +11,7 @@ from ardee_models.lookup import CropModel
 from ardee_models.terrain import Ground
 from ardee_world import noise
 from ardee_world.clutter import KINDS, Items, bounds_of, draw_items
-from ardee_world.config import FieldConfig
+from ardee_world.config import FAR_M, FieldConfig
 from ardee_world.curves import left_of
 from ardee_world.plots import Plan, plan_centres
 from ardee_world.stand import Gap, Lean, draw_gaps, draw_lean, roll_pitch_yaw
@@ -121,6 +121,15 @@ def _draw_clutter(
     return tuple((i, ground_heights(i.xy_m, config, terrain)) for i in drawn if i is not None)
 
 
+def _check_within(places_m: np.ndarray) -> None:
+    """Raises GeneratorError if a place of a plant is farther away than a world holds."""
+    farthest = float(np.abs(places_m).max())
+    if not farthest <= FAR_M:
+        raise GeneratorError(
+            f"plants: found one {farthest:g} m from the field's origin, expected at most {FAR_M:g} m"
+        )
+
+
 def generate(
     config: FieldConfig,
     pool: Tuple[CropModel, ...],
@@ -148,6 +157,7 @@ def generate(
         beside = centre + stand.double_spacing_m * plan.along
         draws.append(_draw_plants(config, pool, twice, beside, streams, "double_"))
     xy = _join(draws, "xy_m")
+    _check_within(np.concatenate((plan.centres_m, xy)))
     lean = Lean(
         *(np.concatenate([getattr(d.lean, n) for d in draws]) for n in Lean.__annotations__)
     )

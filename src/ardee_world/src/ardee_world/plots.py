@@ -7,7 +7,7 @@ from typing import Iterator, List, Tuple
 import numpy as np
 
 from ardee_models.errors import GeneratorError
-from ardee_world.config import FAR_M, MAX_PLANTS, Plots, RowShape
+from ardee_world.config import MAX_PLANTS, Plots, RowShape
 from ardee_world.curves import Line, left_of
 
 _VERTEX_SPACING_M = 0.25  # of the polylines of bent rows
@@ -124,14 +124,8 @@ def plan_centres(plots: Plots, shape: RowShape = RowShape()) -> Plan:
             raise GeneratorError(f"planned plants: found more than {MAX_PLANTS}, expected fewer")
         made.append(piece)
     counts = [len(centres) for _, centres, _ in made]
-    centres_m = np.concatenate([centres for _, centres, _ in made])
-    farthest = float(np.abs(centres_m).max())
-    if not farthest <= FAR_M:
-        raise GeneratorError(
-            f"planned plants: found one {farthest:g} m from the field's origin, expected at most {FAR_M:g} m"
-        )
     return Plan(
-        centres_m=centres_m,
+        centres_m=np.concatenate([centres for _, centres, _ in made]),
         plot=np.repeat([row.plot for row, _, _ in made], counts),
         row=np.repeat([row.row for row, _, _ in made], counts),
         place=np.concatenate([np.arange(count) for count in counts]),
