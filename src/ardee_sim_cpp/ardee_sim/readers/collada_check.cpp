@@ -148,13 +148,17 @@ class ColladaCheck {
       node.each(collect_named);
     };
     collect_named(effect);
+    Names followed;  // those whose chain is known to end
     for (const auto& [first, target] : named) {
-      std::string sid = target;
-      for (std::size_t steps = 0; named.count(sid) != 0; sid = named[sid]) {
-        if (++steps > named.size()) {
+      std::vector<std::string> chain;
+      for (std::string sid = first; named.count(sid) != 0 && followed.count(sid) == 0;
+           sid = named[sid]) {
+        if (chain.size() == named.size()) {
           throw effect.error("found parameter '" + first + "' in a ring, expected none");
         }
+        chain.push_back(sid);
       }
+      followed.insert(chain.begin(), chain.end());
     }
   }
 

@@ -24,8 +24,8 @@ void refuse_xacro(const Node& robot) {
 }
 
 /// Nothing can move what has no mass: the joint of a link that has none, nor anything fixed to it
-/// further out, is held. Gazebo leaves such a link out with all that hangs on it; here
-/// it keeps its place. A robot without any mass is as it is: a drawing, or an error of the physics.
+/// further out, is held. Gazebo leaves such a link out with all that hangs on it; here it keeps its
+/// place. A robot without any mass is as it is: a drawing, or an error of the physics.
 void hold_massless_links(const std::vector<Link>& links, const std::vector<std::size_t>& order,
                          std::vector<UrdfJoint>& joints, Log& log) {
   const auto has_mass = [](const Link& link) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <ctime>
+
 #include "ardee_sim/readers/mesh_reader.h"
 #include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
@@ -201,6 +203,22 @@ TEST(MeshPolygons, ListsThatAreMissingAreRefused) {
     const std::string path = folder.write("l.dae", collada(each));
     EXPECT_THROW(Reading{path}, Error) << each;
   }
+}
+
+TEST(MeshReader, FollowsALongChainOfColladaParametersOnce) {
+  const TempFolder folder;
+  std::string chain;
+  for (int i = 0; i < 20'000; ++i) {
+    chain += "<newparam sid='" + std::to_string(i) + "'><sampler2D><source>" +
+             std::to_string(i + 1) + "</source></sampler2D></newparam>";
+  }
+  const std::string effect = "<library_effects><effect id='e'><profile_COMMON>" + chain +
+                             "</profile_COMMON></effect></library_effects>";
+  const std::string part = primitive("triangles", 1, "<p>0 1 2</p>");
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(triangles(Reading(folder.write("l.dae", collada(part, effect))).file), 1u);
+  // Ten times what a slow machine needs; what grows with the square takes far longer.
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
 }
 
 TEST(MeshReader, RefusesColladaThatTheLibraryWouldNotOutlive) {

@@ -12,6 +12,7 @@ from ardee_world.curves import Line, left_of
 
 _VERTEX_SPACING_M = 0.25  # of the polylines of bent rows
 _ARC_STEP_M = 0.02
+_SHORTEST_STEP_M = 1e-9  # that tells a direction
 
 
 @dataclass(frozen=True)
@@ -61,8 +62,7 @@ def _bent_row(line: Line, start_m: float, d: float, plots: Plots) -> Tuple[np.nd
     at = np.minimum(np.arange(stalks) * plots.stalk_spacing_m, arc[-1])
     tangents = np.gradient(points, axis=0)
     lengths = np.linalg.norm(tangents, axis=1)[:, None]
-    # the line's own where steps are too short to tell one
-    tangents = np.divide(tangents, lengths, out=line.tangents(s), where=lengths > 1e-9)
+    tangents = np.divide(tangents, lengths, out=line.tangents(s), where=lengths > _SHORTEST_STEP_M)
 
     def sample(where: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.column_stack([np.interp(where, arc, column) for column in values.T])
