@@ -15,7 +15,7 @@ std::string get_world(Stage& stage, gazebo_msgs::GetWorldPropertiesResponse& res
   for (const auto& entity : stage.simulation.entities()) {
     response.model_names.push_back(entity->name());
   }
-  response.rendering_enabled = false;
+  response.rendering_enabled = true;  // as gazebo_ros says at all times
   return "GetWorldProperties: got properties";
 }
 

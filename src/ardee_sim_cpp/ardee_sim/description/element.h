@@ -4,12 +4,17 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/description/key_log.h"
 
 namespace ardee {
+
+/// Whether that name of an element or attribute is another program's: it has a prefix that is not
+/// ours ("ignition:config"), or declares one.
+bool is_foreign(std::string_view name);
 
 /// A piece of XML kept as plain data: what a sensor's or plugin's own parser reads once its kind is
 /// known.

@@ -141,7 +141,7 @@ const Element* Parameters::block(const std::string& key) { return find(key); }
 
 void Parameters::finish(Log& log) const {
   for (const Element& child : element_.children) {
-    if (known_.count(child.name) == 0) {
+    if (known_.count(child.name) == 0 && !is_foreign(child.name)) {
       log.warn(child.source, "unknown key, ignored");
     }
   }

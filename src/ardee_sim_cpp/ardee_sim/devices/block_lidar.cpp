@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/names.h"
 
 namespace ardee {
 
@@ -11,7 +12,9 @@ std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor,
                                          const PluginDescription& plugin, std::size_t link,
                                          DeviceContext& context) {
   Parameters keys(plugin.element);
-  const LidarParams params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
+  LidarParams params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
+  params.frame = resolve_frame(keys.text("frameName", "/world"), plugin_namespace(keys, context),
+                               context);  // of the lasers this one alone has no namespace there
   const double coordinate_std = read_gaussian_noise(keys);
   const double rate_hz = read_rate_hz(sensor, keys, 0.0);
   keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads it and does nothing with it

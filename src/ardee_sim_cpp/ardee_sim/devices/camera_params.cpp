@@ -160,7 +160,8 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
   camera.lens = read_camera_lens(parameters, camera.lens.taken, of_sdf, context.log);
   if (!has_baseline) camera.lens.baseline_m = 0.0;
   read_zoom(parameters, camera);
-  camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context);
+  camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context,
+                               WithoutPrefix::kNamespace);
   camera.development.exposure = read_exposure(parameters);
   read_image_encoding(parameters, camera);
   all.triggered = parameters.boolean("triggered", all.triggered);

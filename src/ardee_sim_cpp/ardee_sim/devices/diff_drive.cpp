@@ -10,6 +10,7 @@
 namespace ardee {
 namespace {
 
+constexpr WithoutPrefix kBelowNamespace = WithoutPrefix::kNamespace;
 constexpr double kFastest = 1e6;  // m/s: what a command can ask of a wheel
 // Of the pose, as the stock plugin says them: x, y, z, roll, pitch, yaw. It says none of the twist.
 constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
@@ -25,8 +26,9 @@ void read_wheels(Parameters& parameters, const std::string& space, const DeviceC
     params.joints[wheel] = turning_joint(context, given ? given->text : kDefaults[wheel],
                                          given ? given->source : parameters.source());
     const Joint& joint = context.robot.model().joints[params.joints[wheel]];
-    params.wheel_frames[wheel] = resolve_frame(joint.child, space, context);
-    params.wheel_parent_frames[wheel] = resolve_frame(joint.parent, space, context);
+    params.wheel_frames[wheel] = resolve_frame(joint.child, space, context, kBelowNamespace);
+    params.wheel_parent_frames[wheel] =
+        resolve_frame(joint.parent, space, context, kBelowNamespace);
   }
 }
 
@@ -62,8 +64,10 @@ DiffDrive::Params read(const PluginDescription& plugin, DeviceContext& context) 
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
   params.joints_topic = resolve_topic("joint_states", space);
-  params.odometry_frame = plugin_frame(parameters, "odometryFrame", "odom", space, context);
-  params.base_frame = plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
+  params.odometry_frame =
+      plugin_frame(parameters, "odometryFrame", "odom", space, context, kBelowNamespace);
+  params.base_frame =
+      plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context, kBelowNamespace);
   parameters.ignore({"alwaysOn", "rosDebugLevel"});
   parameters.finish(context.log);
   return params;
@@ -136,7 +140,7 @@ OdometryReading DiffDrive::odometry(TimeNs now_ns) const {
   reading.pose_covariance = kCovariance;
   if (params_.source == OdometrySource::kWorld) {
     reading.pose = robot_.pose();
-    reading.twist = robot_.own_twist();
+    reading.twist = robot_.planar_twist();
     return reading;
   }
   const auto rim_speed = [&](Wheel wheel) {

@@ -16,7 +16,8 @@ LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugi
   params.scene = scene;
   const std::string space = plugin_namespace(plugin, context);
   params.topic = resolve_topic(plugin.text("topicName", default_topic), space);
-  params.frame = resolve_frame(plugin.text("frameName", "/world"), space, context);
+  params.frame =
+      resolve_frame(plugin.text("frameName", "/world"), space, context, WithoutPrefix::kNamespace);
   params.look_through_near = plugin.boolean("lookThroughNear", false);
   plugin.ignore({"alwaysOn"});
   return params;

@@ -25,17 +25,22 @@ std::string resolve_topic(const std::string& topic, const std::string& robot_nam
 }
 
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
-                          const DeviceContext& context) {
-  const std::string prefix =
+                          const DeviceContext& context, WithoutPrefix without_prefix) {
+  std::string prefix =
       context.tf_prefix ? without_slashes(context.tf_prefix(robot_namespace)) : std::string();
+  if (prefix.empty() && without_prefix == WithoutPrefix::kNamespace) {
+    prefix = without_slashes(robot_namespace);
+  }
   // An absolute frame is taken as it stands, as tf::resolve does.
   if (prefix.empty() || (!frame.empty() && frame.front() == '/')) return without_slashes(frame);
   return prefix + "/" + without_slashes(frame);
 }
 
 std::string plugin_frame(Parameters& parameters, const char* key, const char* fallback,
-                         const std::string& robot_namespace, const DeviceContext& context) {
-  return resolve_frame(without_slashes(parameters.text(key, fallback)), robot_namespace, context);
+                         const std::string& robot_namespace, const DeviceContext& context,
+                         WithoutPrefix without_prefix) {
+  return resolve_frame(without_slashes(parameters.text(key, fallback)), robot_namespace, context,
+                       without_prefix);
 }
 
 std::size_t plugin_link(Parameters& parameters, const DeviceContext& context) {

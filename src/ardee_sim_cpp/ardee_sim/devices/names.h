@@ -19,15 +19,21 @@ std::string without_slashes(const std::string& text);
 /// the namespace. Throws Error if there is no name.
 std::string resolve_topic(const std::string& topic, const std::string& robot_namespace);
 
+/// What stands before a frame where its namespace has no tf_prefix. Of the stock plugins the diff
+/// drive, lasers and cameras put the namespace there, the others nothing.
+enum class WithoutPrefix { kNothing, kNamespace };
+
 /// A frame as tf2 wants it: no leading slash, the namespace's tf_prefix in front (as tf::resolve
 /// does).
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
-                          const DeviceContext& context);
+                          const DeviceContext& context,
+                          WithoutPrefix without_prefix = WithoutPrefix::kNothing);
 
 /// The frame that a drive's key names, below the namespace's tf_prefix with a leading slash too, as
 /// the stock plugins have it: an absolute "/odom" would be lost in tf2.
 std::string plugin_frame(Parameters& parameters, const char* key, const char* fallback,
-                         const std::string& robot_namespace, const DeviceContext& context);
+                         const std::string& robot_namespace, const DeviceContext& context,
+                         WithoutPrefix without_prefix = WithoutPrefix::kNothing);
 
 /// The link that a model plugin's <bodyName> names, of its own robot; the first where there is
 /// none. Throws Error if the robot has no such link.

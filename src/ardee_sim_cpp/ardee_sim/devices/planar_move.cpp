@@ -71,7 +71,7 @@ void PlanarMove::after_step(TimeNs now_ns, ReadingSink& sink) {
   reading.child_frame_id = params_.base_frame;
   reading.pose_covariance = kCovariance;
   reading.pose = robot_.pose();
-  reading.twist = robot_.own_twist();
+  reading.twist = robot_.planar_twist();
   sink.on_reading(*tf_output_,
                   TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
   if (odometry_output_->demanded) sink.on_reading(*odometry_output_, reading);

@@ -47,10 +47,12 @@ Twist Robot::twist() const {
   return twist_W;
 }
 
-Twist Robot::own_twist() const {
-  const Eigen::Quaterniond q_MW = pose().q.conjugate();
+Twist Robot::planar_twist() const {
   const Twist twist_W = twist();
-  return {q_MW * twist_W.linear, q_MW * twist_W.angular};
+  const double yaw = rpy_from_quaternion(pose().q).z();
+  const Eigen::AngleAxisd to_heading(-yaw, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d level(twist_W.linear.x(), twist_W.linear.y(), 0.0);
+  return {to_heading * level, {0.0, 0.0, twist_W.angular.z()}};
 }
 
 std::size_t Robot::link_index(const std::string& link_name, const Source& source,

@@ -35,8 +35,9 @@ class Robot {
   Twist link_twist(std::size_t link) const;
   /// Velocity of the model's frame, which moves with the canonical link; axes of the world.
   Twist twist() const;
-  /// The same in the model's own axes.
-  Twist own_twist() const;
+  /// The part of it that odometry in a plane has, as the stock drives give it: forwards, to the
+  /// left, and the turn, all seen from above.
+  Twist planar_twist() const;
   /// Of the link scope + link_name ("arm::" + "hand"), or where there is none of link_name. Throws
   /// Error at `source` if there is neither.
   std::size_t link_index(const std::string& link_name, const Source& source,

@@ -145,7 +145,7 @@ OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
   reading.child_frame_id = params_.base_frame;
   if (params_.source == OdometrySource::kWorld) {
     reading.pose = robot_.pose();
-    reading.twist = robot_.own_twist();
+    reading.twist = robot_.planar_twist();
   } else {
     const double radius = params_.wheel_diameter_m / 2.0;
     const auto side = [&](Wheel front, Wheel rear) {

@@ -8,11 +8,6 @@
 namespace ardee {
 namespace {
 
-bool is_foreign(std::string_view name) {
-  const std::size_t colon = name.find(':');
-  return name == "xmlns" || (colon != std::string_view::npos && name.substr(0, colon) != "ardee");
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(text);

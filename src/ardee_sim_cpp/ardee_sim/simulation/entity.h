@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Entity {
   std::vector<Placement>
       placements;  // static: what stands where; the k-th has the ray entity robot->entity() + k
   PhysicsWorld::SceneryId scenery = 0;
+  std::optional<TimeNs> told_put_back_ns = std::nullopt;  // when the log last said so
 
   const std::string& name() const { return instance.name; }
   bool is_static() const { return instance.is_static; }

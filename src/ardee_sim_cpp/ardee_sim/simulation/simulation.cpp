@@ -11,6 +11,8 @@
 namespace ardee {
 namespace {
 
+constexpr TimeNs kPutBackSilence_ns = 1000000000;
+
 /// Forwards to nobody while no sink is set.
 class NoSink : public ReadingSink {
  public:
@@ -247,10 +249,14 @@ void Simulation::step_physics() {
 }
 
 void Simulation::put_back(Entity& entity, const std::string& why) {
-  std::ostringstream text;
-  text << "at " << seconds(now_ns_) << " s: " << why << "; model '" << entity.name()
-       << "' is put back to where it was spawned";
-  log_.error(text.str());
+  std::optional<TimeNs>& told_ns = entity.told_put_back_ns;
+  if (!told_ns || now_ns_ < *told_ns || now_ns_ - *told_ns >= kPutBackSilence_ns) {
+    std::ostringstream text;
+    text << "at " << seconds(now_ns_) << " s: " << why << "; model '" << entity.name()
+         << "' is put back to where it was spawned (said at most once a second)";
+    log_.error(text.str());
+    told_ns = now_ns_;
+  }
   clear_commands(*entity.robot);
   physics_.remove_model(entity.robot->dynamics());
   restore(entity);

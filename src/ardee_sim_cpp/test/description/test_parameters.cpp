@@ -86,7 +86,7 @@ TEST(Parameters, AMissingRequiredKeyIsNamed) {
 }
 
 TEST(Parameters, AMisspeltKeyIsReportedOnce) {
-  const Element element = block({{"rate", "1"}, {"updateRat", "5"}});
+  const Element element = block({{"rate", "1"}, {"updateRat", "5"}, {"gz:system", "of another"}});
   std::vector<std::string> warnings;
   Log log([&](LogLevel, const std::string& text) { warnings.push_back(text); });
   Parameters parameters(element);

@@ -23,6 +23,11 @@ bool is_said(const TestWorld& world, const std::string& part) {
       [&part](const std::string& text) { return text.find(part) != std::string::npos; });
 }
 
+constexpr const char* kLight =
+    "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>1"
+    "</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz>"
+    "</inertia></inertial></link></model></sdf>";
+
 Wrench wrench_on(Entity& entity, const Vector3d& force_W, const Vector3d& torque_W) {
   Wrench wrench;
   wrench.robot = entity.robot.get();
@@ -63,13 +68,9 @@ TEST(ValidState, IsOneNormForAll) {
 
 TEST(ValidState, IsRestoredToWhatLeavesItAndTheRestGoesOn) {
   TestWorld world("", 0.001);
-  const std::string light =
-      "<sdf version='1.6'><model name='m'><link name='l'><inertial><mass>1"
-      "</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz>"
-      "</inertia></inertial></link></model></sdf>";
-  Entity& spun = world.spawn(light, "spun", at(1, 2, 3));
-  Entity& thrown = world.spawn(light, "thrown", at(999990, 5, 6));
-  world.spawn(light, "kept", at(0, 0, 100));
+  Entity& spun = world.spawn(kLight, "spun", at(1, 2, 3));
+  Entity& thrown = world.spawn(kLight, "thrown", at(999990, 5, 6));
+  world.spawn(kLight, "kept", at(0, 0, 100));
   world->wrenches().add(wrench_on(spun, {0, 0, 0}, {0, 0, 1e9}));
   world->wrenches().add(wrench_on(thrown, {1e9, 0, 0}, {0, 0, 0}));
   world.run(0.02);
@@ -82,6 +83,21 @@ TEST(ValidState, IsRestoredToWhatLeavesItAndTheRestGoesOn) {
   EXPECT_LT((world->state("spun", "").pose.p - Vector3d(1, 2, 3)).norm(), 0.1);
   EXPECT_LT(world->state("spun", "").twist.angular.norm(), 1e-9);
   EXPECT_LT((world->state("thrown", "").pose.p - Vector3d(999990, 5, 6)).norm(), 0.1);
+}
+
+TEST(ValidState, IsSaidToBeRestoredOnceASecondHoweverOftenItIs) {
+  TestWorld world("", 0.001);
+  Entity& spun = world.spawn(kLight, "spun", at(1, 2, 3));
+  for (int i = 0; i < 1500; ++i) {
+    Wrench wrench = wrench_on(spun, {0, 0, 0}, {0, 0, 1e9});
+    wrench.start_ns = world->now_ns();
+    world->wrenches().add(wrench);
+    world->step();
+  }
+  const auto said = [](const std::string& message) {
+    return message.find("model 'spun' is put back") != std::string::npos;
+  };
+  EXPECT_EQ(std::count_if(world.messages().begin(), world.messages().end(), said), 2);
 }
 
 TEST(ValidState, OfAModelWhoseControllerAsksTooMuch) {
