@@ -4,7 +4,6 @@
 #include <hector_gazebo_plugins/SetBias.h>
 #include <hector_gazebo_plugins/SetReferenceGeoPose.h>
 #include <ros/service_manager.h>
-#include <std_msgs/Empty.h>
 #include <std_srvs/Empty.h>
 
 #include "ros/conversions.h"
@@ -22,14 +21,10 @@ GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
 }  // namespace
 
 void DeviceServices::add(const Device& device) {
-  for (const Service& service : device.services()) {
+  for (const Service& service : device.ports().services) {
     if (is_free(service.name)) add(service);
   }
-  for (const Trigger& trigger : device.triggers()) {
-    servers_.listen<std_msgs::Empty>(trigger.topic, trigger.topic,
-                                     [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
-  }
-  for (const Tuning& tuning : device.tunings()) {
+  for (const Tuning& tuning : device.ports().tunings) {
     if (is_free(TuningServer::service_of(tuning))) {
       tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
     }

@@ -13,7 +13,7 @@
 
 namespace ardee::node {
 
-/// What the devices of one robot do on request: services, triggers and tunings.
+/// What the devices of one robot do on request: services and tunings.
 class DeviceServices {
  public:
   explicit DeviceServices(const ros::NodeHandle& node) : node_(node), servers_(node) {}

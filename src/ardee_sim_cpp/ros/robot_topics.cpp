@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "ros/robot_topics.h"
 
-#include <ros/console.h>
-#include <ros/names.h>
-#include <std_msgs/Float64.h>
-
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/devices/sensor.h"
-#include "ros/conversions.h"
+#include "ros/command_subscription.h"
 #include "ros/reading_to_message.h"
 
 namespace ardee::node {
@@ -21,8 +16,6 @@ namespace {
 
 constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
 constexpr std::uint32_t kImageQueue = 5;     // a picture is large
-constexpr std::uint32_t kCommandQueue = 10;
-constexpr double kWarningPeriod_s = 5.0;
 
 template <std::size_t kKind>
 using MessageOf = decltype(to_message(std::declval<std::variant_alternative_t<kKind, Reading>>()));
@@ -48,28 +41,6 @@ bool always_demanded(const Output& output) {
 
 bool is_picture(const Output& output) { return output.kind == reading_kind<ImageReading>(); }
 
-void require_valid(const std::string& topic) {
-  std::string why;
-  if (!ros::names::validate(topic, why)) {
-    throw Error("found '" + topic + "' as a topic or service, expected a valid name: " + why);
-  }
-}
-
-/// Warns at once, and then not again for a while of wall time. ROS's own throttle counts simulated
-/// time, and says nothing in its first seconds.
-class Complaint {
- public:
-  void say(const std::string& text) {
-    const ros::WallTime now = ros::WallTime::now();
-    if (!last_.isZero() && (now - last_).toSec() < kWarningPeriod_s) return;
-    last_ = now;
-    ROS_WARN_STREAM(text);
-  }
-
- private:
-  ros::WallTime last_;
-};
-
 /// "model::link::sensor", or nothing for a device that is no sensor.
 std::string sensor_name(const Device& device, const Robot& robot) {
   const auto* sensor = dynamic_cast<const Sensor*>(&device);
@@ -85,16 +56,6 @@ void warn_of_taken(const std::vector<std::string>& services, const Robot& robot,
            (others > 0 ? " and " + std::to_string(others) + " more are" : " is") +
            " there already and " + (others > 0 ? "stay what they were" : "stays what it was") +
            "; a namespace of its own gives a robot its own");
-}
-
-template <typename Message, typename OnMessage>
-ros::Subscriber subscribe_to(ros::NodeHandle& node, const std::string& topic,
-                             const OnMessage& on_message) {
-  require_valid(topic);
-  ros::Subscriber subscriber = node.subscribe<Message>(
-      topic, kCommandQueue, on_message, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
-  if (!subscriber) throw Error("topic " + topic + " is already subscribed to with another type");
-  return subscriber;
 }
 
 }  // namespace
@@ -119,48 +80,18 @@ RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
   return route;
 }
 
-ros::Subscriber RobotTopics::subscribe(const Input& input) {
-  const auto on_message =
-      [input, complaint = Complaint()](const geometry_msgs::Twist::ConstPtr& message) mutable {
-        const Twist command = from_ros(*message);
-        if (is_finite(command)) {
-          input.on_command(command);
-        } else {
-          complaint.say(input.topic + ": found a command that is not finite; it is ignored");
-        }
-      };
-  return subscribe_to<geometry_msgs::Twist>(node_, input.topic, on_message);
-}
-
-ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
-  const auto on_message =
-      [input, complaint = Complaint()](const std_msgs::Float64::ConstPtr& message) mutable {
-        if (message->data >= input.low && message->data <= input.high) {
-          input.on_number(message->data);
-        } else {
-          std::ostringstream text;
-          text << input.topic << ": found " << message->data << ", expected a number in ["
-               << input.low << ", " << input.high << "]; it is ignored";
-          complaint.say(text.str());
-        }
-      };
-  return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
-}
-
 void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
-  for (const Service& service : device.services()) require_valid(service.name);
-  for (const Trigger& trigger : device.triggers()) require_valid(trigger.topic);
+  for (const Service& service : device.ports().services) require_valid(service.name);
   std::vector<Route> routes;
   std::vector<ros::Subscriber> subscribers;
-  const auto& outputs = device.outputs();
+  const auto& outputs = device.ports().outputs;
   const bool is_camera = std::any_of(outputs.begin(), outputs.end(), is_picture);
-  for (Output& output : device.outputs()) {
+  for (Output& output : device.ports().outputs) {
     routes.push_back(advertise(output, robot));
     routes.back().sensor = sensor_name(device, robot);
     routes.back().is_camera = is_camera;
   }
-  for (const Input& input : device.inputs()) subscribers.push_back(subscribe(input));
-  for (const NumberInput& input : device.number_inputs()) subscribers.push_back(subscribe(input));
+  for (const Input& input : device.ports().inputs) subscribers.push_back(subscribe(node_, input));
   topics.services->add(device);
   std::move(routes.begin(), routes.end(), std::back_inserter(topics.routes));
   std::move(subscribers.begin(), subscribers.end(), std::back_inserter(topics.subscribers));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <geometry_msgs/Twist.h>
 #include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
@@ -55,8 +54,6 @@ class RobotTopics : public ReadingSink {
   void add(Device& device, const Robot& robot, Topics& topics);
   Route advertise(Output& output, const Robot& robot);
   void count(const Route& route, TimeNs now_ns);
-  ros::Subscriber subscribe(const Input& input);
-  ros::Subscriber subscribe(const NumberInput& input);
 
   OdometryFrames& frames_;
   PerformanceMetrics& metrics_;

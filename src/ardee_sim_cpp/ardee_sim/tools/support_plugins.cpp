@@ -19,6 +19,17 @@ constexpr const char* kMessages[] = {
     "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
 
+constexpr const char* kCommandMessages[] = {  // in the order of Command
+    "std_msgs/Empty",
+    "geometry_msgs/Twist",
+    "std_msgs/Float64",
+    "std_msgs/Bool",
+    "std_msgs/Float64MultiArray",
+    "four_wheel_steering_msgs/FourWheelSteering",
+    "trajectory_msgs/JointTrajectory"};
+static_assert(std::size(kCommandMessages) == std::variant_size_v<Command>,
+              "a message a kind of command");
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string all;
   for (const std::string& part : parts) all += (all.empty() ? "" : ", ") + part;
@@ -27,20 +38,14 @@ std::string joined(const std::vector<std::string>& parts) {
 
 void write_ports(Device& device, std::ostringstream& page) {
   std::vector<std::string> out, in, calls;
-  for (const Output& output : device.outputs()) {
+  for (const Output& output : device.ports().outputs) {
     out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
   }
-  for (const Input& input : device.inputs()) {
-    in.push_back("`" + input.topic + "` (geometry_msgs/Twist)");
+  for (const Input& input : device.ports().inputs) {
+    in.push_back("`" + input.topic + "` (" + kCommandMessages[input.kind] + ")");
   }
-  for (const NumberInput& input : device.number_inputs()) {
-    in.push_back("`" + input.topic + "` (std_msgs/Float64)");
-  }
-  for (const Trigger& trigger : device.triggers()) {
-    in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
-  }
-  for (const Service& service : device.services()) calls.push_back("`" + service.name + "`");
-  for (const Tuning& tuning : device.tunings()) {
+  for (const Service& service : device.ports().services) calls.push_back("`" + service.name + "`");
+  for (const Tuning& tuning : device.ports().tunings) {
     calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
   }
   if (!out.empty()) page << " Publishes " << joined(out) << ".";
