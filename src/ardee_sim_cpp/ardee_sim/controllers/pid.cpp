@@ -36,7 +36,7 @@ double Pid::update(double error, double error_rate, double dt_s) {
   integral_ += error * dt_s;
   if (gains_.antiwindup && gains_.i != 0.0) {
     const auto [low, high] =
-        std::minmax(gains_.i_clamp_min / gains_.i, gains_.i_clamp_max / gains_.i);
+        std::minmax({gains_.i_clamp_min / gains_.i, gains_.i_clamp_max / gains_.i});
     integral_ = std::clamp(integral_, low, high);
   }
   const double i_term = std::clamp(gains_.i * integral_, gains_.i_clamp_min, gains_.i_clamp_max);
