@@ -18,6 +18,8 @@ std::string interface_name(JointInterface interface) {
   return "";
 }
 
+std::string ControllerContext::own_name() const { return resolve_topic(name, robot_namespace); }
+
 std::string ControllerContext::topic(const std::string& relative_topic) const {
   return resolve_topic(name + "/" + relative_topic, robot_namespace);
 }

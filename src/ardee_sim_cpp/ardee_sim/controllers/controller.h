@@ -22,6 +22,8 @@ struct ControllerContext {
   Hardware& hardware;
   Log& log;
 
+  /// Its name in full: "<robot_namespace>/<name>".
+  std::string own_name() const;
   /// A topic of the controller: "<robot_namespace>/<name>/<topic>".
   std::string topic(const std::string& relative_topic) const;
   /// The handle of a joint with commands of that kind. Throws Error that names the joint, what the
@@ -73,6 +75,8 @@ class PublishTimer {
  public:
   explicit PublishTimer(double rate_hz) : rate_hz_(rate_hz) {}
   void start(TimeNs now_ns) { last_ns_ = now_ns; }
+  double rate_hz() const { return rate_hz_; }
+  void set_rate(double rate_hz) { rate_hz_ = rate_hz; }
   bool due(TimeNs now_ns);
 
  private:

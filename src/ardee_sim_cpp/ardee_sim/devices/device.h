@@ -9,6 +9,7 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/description/setting.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/pictures.h"
 #include "ardee_sim/devices/ports.h"
@@ -50,6 +51,8 @@ struct Surroundings {
   std::function<std::uint64_t()> scenery_changes;
 };
 
+inline Setting no_parameter(const std::string& name) { return {name, {}}; }
+
 /// What a device is given when it is made. All references outlive the device.
 struct DeviceContext {
   Robot& robot;
@@ -63,6 +66,8 @@ struct DeviceContext {
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   Surroundings surroundings;
   std::string scope = "";  // of the plugin (PluginDescription)
+  /// A parameter by its full name ("/robot/base"); nothing is there without ROS's parameter server.
+  std::function<Setting(const std::string& name)> parameter = no_parameter;
 
   /// Of the link or joint that the plugin names. Throws Error at `source` if there is none.
   std::size_t link_index(const std::string& name, const Source& source) const {

@@ -160,7 +160,9 @@ void Simulation::build_devices(Entity& entity) {
                         entity.robot_namespace,
                         step_ns_,
                         options_.tf_prefix,
-                        surroundings()};
+                        surroundings(),
+                        "",
+                        options_.parameter};
   entity.devices = registry_.make_devices(context);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }

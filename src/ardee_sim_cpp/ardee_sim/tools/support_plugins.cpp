@@ -10,13 +10,28 @@
 namespace ardee {
 namespace {
 
-constexpr const char* kMessages[] = {
-    "sensor_msgs/LaserScan",        "nav_msgs/Odometry",         "tf2_msgs/TFMessage",
-    "sensor_msgs/JointState",       "sensor_msgs/Imu",           "sensor_msgs/NavSatFix",
-    "geometry_msgs/Vector3Stamped", "sensor_msgs/MagneticField", "ardee_msgs/Encoder",
-    "ardee_msgs/Battery",           "sensor_msgs/BatteryState",  "sensor_msgs/Range",
-    "sensor_msgs/PointCloud2",      "sensor_msgs/PointCloud",    "sensor_msgs/Image",
-    "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
+constexpr const char* kMessages[] = {"sensor_msgs/LaserScan",
+                                     "nav_msgs/Odometry",
+                                     "tf2_msgs/TFMessage",
+                                     "sensor_msgs/JointState",
+                                     "sensor_msgs/Imu",
+                                     "sensor_msgs/NavSatFix",
+                                     "geometry_msgs/Vector3Stamped",
+                                     "sensor_msgs/MagneticField",
+                                     "ardee_msgs/Encoder",
+                                     "ardee_msgs/Battery",
+                                     "sensor_msgs/BatteryState",
+                                     "sensor_msgs/Range",
+                                     "sensor_msgs/PointCloud2",
+                                     "sensor_msgs/PointCloud",
+                                     "sensor_msgs/Image",
+                                     "sensor_msgs/CameraInfo",
+                                     "ardee_msgs/GpsQuality",
+                                     "visualization_msgs/MarkerArray",
+                                     "geometry_msgs/TwistStamped",
+                                     "control_msgs/JointControllerState",
+                                     "control_msgs/JointTrajectoryControllerState",
+                                     "four_wheel_steering_msgs/FourWheelSteeringStamped"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
 
 constexpr const char* kCommandMessages[] = {  // in the order of Command
