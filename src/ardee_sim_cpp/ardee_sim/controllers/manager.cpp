@@ -68,11 +68,14 @@ Controller& Manager::load(const std::string& name) {
   return *loaded_.back()->controller;
 }
 
+void Manager::check_unload(const std::string& name) const {
+  if (!require(name, "could not unload").controller->is_running()) return;
+  throw Error("could not unload controller '" + name + "': it is running, expected it stopped");
+}
+
 void Manager::unload(const std::string& name) {
-  const Loaded& loaded = require(name, "could not unload");
-  if (loaded.controller->is_running()) {
-    throw Error("could not unload controller '" + name + "': it is running, expected it stopped");
-  }
+  check_unload(name);
+  const Loaded& loaded = *find_loaded(name);
   loaded_.erase(std::find_if(loaded_.begin(), loaded_.end(),
                              [&loaded](const auto& each) { return each.get() == &loaded; }));
 }
@@ -176,11 +179,6 @@ std::vector<std::string> Manager::type_names() const {
   std::vector<std::string> names;
   for (const auto& [name, maker] : types_) names.push_back(name);
   return names;
-}
-
-bool Manager::has_running() const {
-  return std::any_of(loaded_.begin(), loaded_.end(),
-                     [](const auto& each) { return each->controller->is_running(); });
 }
 
 void Manager::update(TimeNs now_ns, double period_s, ReadingSink& sink) {

@@ -56,6 +56,8 @@ class Manager {
   /// Makes the controller whose parameters are at <robot_namespace>/<name>.
   Controller& load(const std::string& name);
   void unload(const std::string& name);
+  /// Throws what unload would.
+  void check_unload(const std::string& name) const;
   void switch_controllers(const SwitchRequest& request);
   /// Stops and unloads all that there are.
   void unload_all();
@@ -65,7 +67,6 @@ class Manager {
   std::vector<std::string> type_names() const;
   /// The controller of that name, or nullptr.
   Controller* find(const std::string& name) const;
-  bool has_running() const;
 
   /// Lets those that run act.
   void update(TimeNs now_ns, double period_s, ReadingSink& sink);
