@@ -119,7 +119,7 @@ class Bench {
 
   void demand(bool lidars, bool rest) {
     for (const auto& device : robot_->devices) {
-      for (Output& output : device->outputs()) {
+      for (Output& output : device->ports().outputs) {
         const bool scan = output.kind == reading_kind<LidarReading>();
         const bool picture = output.kind == reading_kind<ImageReading>() ||
                              output.kind == reading_kind<PointCloudReading>();
@@ -177,7 +177,7 @@ class Bench {
 
   void command(const Twist& twist) {
     for (const auto& device : robot_->devices) {
-      for (Input& input : device->inputs()) input.on_command(twist);
+      for (Input& input : device->ports().inputs) input.on_command(twist);
     }
   }
 

@@ -98,10 +98,14 @@ std::vector<Pose> run(Simulation& simulation) {
 }
 
 void command(Device& device) {
-  for (Input& input : device.inputs()) input.on_command({{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
-  for (const NumberInput& input : device.number_inputs()) input.on_number(input.high);
-  for (const Trigger& trigger : device.triggers()) trigger.on_trigger();
-  for (const Tuning& tuning : device.tunings()) {
+  for (const Input& input : device.ports().inputs) {
+    if (input.kind == command_kind<Twist>()) {
+      input.on_command(Twist{{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
+    }
+    if (input.kind == command_kind<double>()) input.on_command(input.high);
+    if (input.kind == command_kind<Trigger>()) input.on_command(Trigger{});
+  }
+  for (const Tuning& tuning : device.ports().tunings) {
     for (const Tunable& tunable : tuning.parameters) tunable.set(tunable.high);
   }
 }

@@ -4,7 +4,6 @@
 #include <hector_gazebo_plugins/SetBias.h>
 #include <hector_gazebo_plugins/SetReferenceGeoPose.h>
 #include <ros/service_manager.h>
-#include <std_msgs/Empty.h>
 #include <std_srvs/Empty.h>
 
 #include "ros/conversions.h"
@@ -21,15 +20,15 @@ GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
 
 }  // namespace
 
-void DeviceServices::add(const Device& device) {
-  for (const Service& service : device.services()) {
+bool is_free_service(const std::string& name) {
+  return !ros::ServiceManager::instance()->lookupServicePublication(name);
+}
+
+void DeviceServices::add(const Ports& ports) {
+  for (const Service& service : ports.services) {
     if (is_free(service.name)) add(service);
   }
-  for (const Trigger& trigger : device.triggers()) {
-    servers_.listen<std_msgs::Empty>(trigger.topic, trigger.topic,
-                                     [act = trigger.on_trigger](const std_msgs::Empty&) { act(); });
-  }
-  for (const Tuning& tuning : device.tunings()) {
+  for (const Tuning& tuning : ports.tunings) {
     if (is_free(TuningServer::service_of(tuning))) {
       tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
     }
@@ -37,7 +36,7 @@ void DeviceServices::add(const Device& device) {
 }
 
 bool DeviceServices::is_free(const std::string& name) {
-  if (!ros::ServiceManager::instance()->lookupServicePublication(name)) return true;
+  if (is_free_service(name)) return true;
   taken_.push_back(name);
   return false;
 }

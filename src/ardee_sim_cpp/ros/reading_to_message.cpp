@@ -66,6 +66,7 @@ sensor_msgs::JointState to_message(const JointStateReading& reading) {
   message.name = reading.names;
   message.position = reading.positions;
   message.velocity = reading.velocities;
+  message.effort = reading.efforts;
   return message;
 }
 

@@ -130,6 +130,16 @@ struct JointAxis {
   double spring_reference = 0.0;
 };
 
+/// What ros_control keeps a joint within, short of its limits (URDF <safety_controller>): the
+/// velocity is at most k_position (1/s) times the way to the soft limit, and the effort at most
+/// k_velocity (N m s/rad or N s/m) times what the velocity is short of that.
+struct SafetyLimits {
+  double soft_lower = 0.0;
+  double soft_upper = 0.0;
+  double k_position = 0.0;
+  double k_velocity = 0.0;
+};
+
 struct Joint {
   std::string name;
   JointType type = JointType::kFixed;
@@ -143,6 +153,15 @@ struct Joint {
   // world's).
   double stop_cfm = -1.0;
   double stop_erp = -1.0;
+  std::optional<SafetyLimits> safety;
+  Source source;
+};
+
+/// Which commands ros_control gives a joint (URDF <transmission>).
+struct Transmission {
+  std::string name;
+  std::string joint;
+  std::vector<std::string> interfaces;  // as written: "hardware_interface/EffortJointInterface"
   Source source;
 };
 
@@ -184,6 +203,7 @@ struct Model {
   std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;
+  std::vector<Transmission> transmissions;
   std::vector<PluginDescription> plugins;
   std::vector<Instance> instances;  // static models included by this one; non-static ones are
                                     // merged into links and joints

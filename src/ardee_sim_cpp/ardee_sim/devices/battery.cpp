@@ -78,7 +78,8 @@ Battery::Battery(const std::string& name, const Params& params)
       output_(add_output(params.topic, reading_kind<BatteryReading>())),
       state_output_(add_output(params.state_topic, reading_kind<BatteryStateReading>())) {
   if (params_.current_driven) {
-    add_input(params_.command_topic, [this](const Twist& command) { command_.set(command); });
+    ports().add_velocity_input(params_.command_topic,
+                               [this](const Twist& command) { command_.set(command); });
   }
   reset(0);
 }

@@ -58,7 +58,9 @@ CameraSensor::CameraSensor(const std::string& name, const Mount& mount, const Ca
                            DeviceContext& context)
     : Sensor(name, mount), pictures_(context.pictures), triggered_(params.triggered) {
   for (const CameraParams& camera : params.cameras) add_eye(camera, context);
-  if (triggered_) add_trigger(params.trigger_topic, [this] { asked_ = true; });
+  if (triggered_) {
+    ports().add_input<Trigger>(params.trigger_topic, [this](const Trigger&) { asked_ = true; });
+  }
 }
 
 void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
@@ -87,11 +89,12 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.labels = output(topics.labels, image);
   eye.instances = output(topics.instances, image);
   const std::size_t number = eyes_.size();
-  add_number_input({topics.fov, params.fov_min_rad, params.fov_max_rad, [this, number](double fov) {
-                      Eye& zoomed = eyes_[number];
-                      zoomed.params.lens.set_horizontal_fov(zoomed.params.width, fov);
-                      set_lens(zoomed);
-                    }});
+  ports().add_number_input(topics.fov, params.fov_min_rad, params.fov_max_rad,
+                           [this, number](double fov) {
+                             Eye& zoomed = eyes_[number];
+                             zoomed.params.lens.set_horizontal_fov(zoomed.params.width, fov);
+                             set_lens(zoomed);
+                           });
   eyes_.push_back(std::move(eye));
 }
 

@@ -1,90 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/description/setting.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/pictures.h"
-#include "ardee_sim/devices/reading.h"
+#include "ardee_sim/devices/ports.h"
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
 namespace ardee {
-
-/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading
-/// variant.
-struct Output {
-  std::string topic;
-  std::size_t kind = 0;
-  bool demanded = true;  // false: nobody listens, the device need not measure
-  bool latched = false;  // whoever comes later still gets the last reading
-};
-
-/// Something a device takes: velocity commands on a topic. One that is not finite is an Error and
-/// changes nothing.
-struct Input {
-  std::string topic;
-  std::function<void(const Twist&)> on_command;
-};
-
-/// A number that a device takes on a topic: one within [low, high]; others are an Error and change
-/// nothing.
-struct NumberInput {
-  std::string topic;
-  double low = 0.0;
-  double high = 0.0;
-  std::function<void(double)> on_number;
-};
-
-/// A request to act now, without content, on a topic.
-struct Trigger {
-  std::string topic;
-  std::function<void()> on_trigger;
-};
-
-/// Where a satellite receiver's local frame lies: WGS-84, orientation in east-north-up.
-struct GeoPose {
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-  double altitude_m = 0.0;
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-};
-
-/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose.
-/// What it throws is the caller's answer.
-struct Service {
-  using Act = std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
-                           std::function<void(const GeoPose&)>>;
-  std::string name;
-  Act act;
-};
-
-/// A number of a device that may be changed while it runs.
-struct Tunable {
-  enum class Type { kDouble, kInt, kBool };
-  std::string name;
-  std::string description;
-  Type type = Type::kDouble;
-  double low = 0.0;
-  double high = 0.0;
-  double initial = 0.0;
-  std::function<double()> get;
-  std::function<void(double)> set;  // called with a number within the bounds
-};
-
-/// A group of tunables under one name, as dynamic_reconfigure has them.
-struct Tuning {
-  std::string name;
-  std::vector<Tunable> parameters;
-};
 
 /// The ray scenes, made when first asked for and brought up to the present state of the world when
 /// used.
@@ -119,6 +51,8 @@ struct Surroundings {
   std::function<std::uint64_t()> scenery_changes;
 };
 
+inline Setting no_parameter(const std::string& name) { return {name, {}}; }
+
 /// What a device is given when it is made. All references outlive the device.
 struct DeviceContext {
   Robot& robot;
@@ -132,6 +66,8 @@ struct DeviceContext {
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   Surroundings surroundings;
   std::string scope = "";  // of the plugin (PluginDescription)
+  /// A parameter by its full name ("/robot/base"); nothing is there without ROS's parameter server.
+  std::function<Setting(const std::string& name)> parameter = no_parameter;
 
   /// Of the link or joint that the plugin names. Throws Error at `source` if there is none.
   std::size_t link_index(const std::string& name, const Source& source) const {
@@ -154,12 +90,8 @@ class Device {
   /// Whether the robot does without it where it cannot be, as it does without a sensor.
   bool is_dispensable() const { return is_dispensable_; }
   void set_dispensable(bool is_dispensable) { is_dispensable_ = is_dispensable; }
-  std::deque<Output>& outputs() { return outputs_; }
-  std::deque<Input>& inputs() { return inputs_; }
-  const std::vector<NumberInput>& number_inputs() const { return number_inputs_; }
-  const std::vector<Trigger>& triggers() const { return triggers_; }
-  const std::vector<Service>& services() const { return services_; }
-  const std::vector<Tuning>& tunings() const { return tunings_; }
+  Ports& ports() { return ports_; }
+  const Ports& ports() const { return ports_; }
 
   /// Before physics: controllers act.
   virtual void before_step(TimeNs /*now_ns*/) {}
@@ -175,33 +107,18 @@ class Device {
   virtual void reset(TimeNs now_ns) = 0;
 
  protected:
-  /// Addresses of outputs stay valid as more are added.
-  Output& add_output(const std::string& topic, std::size_t kind);
-  void add_input(const std::string& topic, std::function<void(const Twist&)> on_command);
-  void add_number_input(NumberInput input);
-  void add_trigger(const std::string& topic, std::function<void()> on_trigger);
-  void add_service(const std::string& name, Service::Act act);
-  void add_tuning(Tuning tuning);
+  Output& add_output(const std::string& topic, std::size_t kind) {
+    return ports_.add_output(topic, kind);
+  }
+  void add_service(const std::string& name, Service::Act act) {
+    ports_.services.push_back({name, std::move(act)});
+  }
+  void add_tuning(Tuning tuning) { ports_.tunings.push_back(std::move(tuning)); }
 
  private:
   std::string name_;
   bool is_dispensable_ = false;
-  std::deque<Output> outputs_;
-  std::deque<Input> inputs_;
-  std::vector<NumberInput> number_inputs_;
-  std::vector<Trigger> triggers_;
-  std::vector<Service> services_;
-  std::vector<Tuning> tunings_;
+  Ports ports_;
 };
-
-/// Position of type T in the Reading variant.
-template <typename T, std::size_t kIndex = 0>
-constexpr std::size_t reading_kind() {
-  if constexpr (std::is_same_v<std::variant_alternative_t<kIndex, Reading>, T>) {
-    return kIndex;
-  } else {
-    return reading_kind<T, kIndex + 1>();
-  }
-}
 
 }  // namespace ardee

@@ -95,7 +95,8 @@ DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot
   if (params_.publish_wheel_joints) {
     joints_output_ = &add_output(params_.joints_topic, reading_kind<JointStateReading>());
   }
-  add_input(params_.command_topic, [this](const Twist& command) { command_.set(command); });
+  ports().add_velocity_input(params_.command_topic,
+                             [this](const Twist& command) { command_.set(command); });
   reset(0);
 }
 

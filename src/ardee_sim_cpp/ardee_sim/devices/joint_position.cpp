@@ -55,9 +55,9 @@ std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin,
 JointPosition::JointPosition(const std::string& name, const Params& params, Robot& robot)
     : Device(name), params_(params), robot_(robot) {
   constexpr double kFarthest = std::numeric_limits<double>::max();
-  add_number_input({params.topic, -kFarthest, kFarthest, [this](double position) {
-                      goal_ = std::clamp(position, params_.lower, params_.upper);
-                    }});
+  ports().add_number_input(params.topic, -kFarthest, kFarthest, [this](double position) {
+    goal_ = std::clamp(position, params_.lower, params_.upper);
+  });
   reset(0);
 }
 

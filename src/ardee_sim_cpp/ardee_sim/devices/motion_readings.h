@@ -33,12 +33,14 @@ struct TransformReading {
   bool places_frame = false;  // true: of odometry, whose frame in header has no place without it
 };
 
-/// Positions in rad (m), velocities in rad/s (m/s), joint by joint.
+/// Positions in rad (m), velocities in rad/s (m/s), efforts in N m (N), joint by joint; no efforts
+/// where nobody knows them.
 struct JointStateReading {
   Header header;
   std::vector<std::string> names;
   std::vector<double> positions;
   std::vector<double> velocities;
+  std::vector<double> efforts;
 };
 
 /// Orientation of the sensor in the world's east-north-up frame, angular velocity in rad/s and

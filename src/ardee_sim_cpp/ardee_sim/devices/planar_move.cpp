@@ -48,7 +48,8 @@ PlanarMove::PlanarMove(const std::string& name, const Params& params, Robot& rob
     odometry_output_ = &add_output(params_.odometry_topic, reading_kind<OdometryReading>());
     tf_output_ = &add_output("/tf", reading_kind<TransformReading>());
   }
-  add_input(params_.command_topic, [this](const Twist& command) { command_.set(command); });
+  ports().add_velocity_input(params_.command_topic,
+                             [this](const Twist& command) { command_.set(command); });
   reset(0);
 }
 

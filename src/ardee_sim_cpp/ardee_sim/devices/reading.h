@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "ardee_sim/devices/control_readings.h"
 #include "ardee_sim/devices/image_readings.h"
 #include "ardee_sim/devices/motion_readings.h"
 #include "ardee_sim/devices/power_readings.h"
@@ -15,6 +16,7 @@ using Reading =
     std::variant<LidarReading, OdometryReading, TransformReading, JointStateReading, ImuReading,
                  FixReading, VectorReading, MagneticFieldReading, EncoderReading, BatteryReading,
                  BatteryStateReading, RangeReading, PointCloudReading, LegacyCloudReading,
-                 ImageReading, CameraInfoReading, GpsQualityReading, RegionsReading>;
+                 ImageReading, CameraInfoReading, GpsQualityReading, RegionsReading, TwistReading,
+                 JointControllerReading, TrajectoryControllerReading, FourWheelSteeringReading>;
 
 }  // namespace ardee

@@ -103,7 +103,8 @@ SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Ro
     encoder_outputs_.push_back(
         &add_output(params_.encoder_topics[wheel], reading_kind<EncoderReading>()));
   }
-  add_input(params_.command_topic, [this](const Twist& command) { command_.set(command); });
+  ports().add_velocity_input(params_.command_topic,
+                             [this](const Twist& command) { command_.set(command); });
   reset(0);
 }
 

@@ -56,8 +56,8 @@ TorsionalSpring::TorsionalSpring(const std::string& name, const Params& params, 
     : Device(name), params_(params), joint_(joint), robot_(context.robot), log_(context.log) {
   constexpr double kFarthest = std::numeric_limits<double>::max();
   if (!params_.reference_topic.empty()) {
-    add_number_input({params_.reference_topic, -kFarthest, kFarthest,
-                      [this](double reference_rad) { set_reference(reference_rad); }});
+    ports().add_number_input(params_.reference_topic, -kFarthest, kFarthest,
+                             [this](double reference_rad) { set_reference(reference_rad); });
   }
   reset(0);
 }

@@ -45,6 +45,10 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
     joint.child = scoped(joint.child);
     made.joints.push_back(std::move(joint));
   }
+  for (Transmission transmission : nested.transmissions) {
+    transmission.joint = prefix + transmission.joint;
+    made.transmissions.push_back(std::move(transmission));
+  }
   for (NamedFrame frame : nested.frames) {
     frame.link = scoped(frame.link.empty() ? nested.canonical_link : frame.link);
     made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link});

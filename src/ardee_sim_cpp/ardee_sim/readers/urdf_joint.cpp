@@ -78,6 +78,21 @@ void read_dynamics(const Node& node, JointAxis& axis) {
   axis.spring_reference = read("spring_reference", bounds::kJointReference);
 }
 
+/// One without the gain that it needs is left out.
+std::optional<SafetyLimits> read_safety(const Node& joint, Log& log) {
+  const auto node = joint.child("safety_controller");
+  if (!node) return std::nullopt;
+  try {
+    node->required_attribute("k_velocity");
+    const auto read = [&node](const char* name) { return node->attribute_number(name, 0.0); };
+    return SafetyLimits{read("soft_lower_limit"), read("soft_upper_limit"), read("k_position"),
+                        read("k_velocity")};
+  } catch (const Error& error) {
+    log.error(std::string(error.what()) + "; the <safety_controller> is left out");
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 UrdfJoint read_urdf_joint(const Node& node, Log& log) {
@@ -98,6 +113,7 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
   made.joint.axis.axis = read_axis(node);
   read_limit(node, type_name, made.joint, log);
   read_dynamics(node, made.joint.axis);
+  made.joint.safety = read_safety(node, log);
   return made;
 }
 

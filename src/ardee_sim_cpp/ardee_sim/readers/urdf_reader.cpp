@@ -9,6 +9,7 @@
 #include "ardee_sim/readers/urdf_gazebo.h"
 #include "ardee_sim/readers/urdf_joint.h"
 #include "ardee_sim/readers/urdf_link.h"
+#include "ardee_sim/readers/urdf_transmission.h"
 #include "ardee_sim/readers/urdf_tree.h"
 #include "ardee_sim/readers/validate.h"
 
@@ -89,6 +90,10 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   for (UrdfJoint& each : joints) {
     if (!each.is_free) made->joints.push_back(std::move(each.joint));
   }
+  robot.each("transmission", [&](const Node& transmission) {
+    auto read = read_transmission(transmission, assets.log());
+    if (read) made->transmissions.push_back(std::move(*read));
+  });
   take_out_world(tree.order, *made, assets.log());
   apply_gazebo_blocks(robot, *made, assets);
   adopt_gz_systems(*made, assets.log());

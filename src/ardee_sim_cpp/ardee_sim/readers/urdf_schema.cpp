@@ -14,8 +14,8 @@ constexpr Treatment elsewhere = Treatment::kElsewhere;
 const std::vector<SchemaRow>& urdf_rows() {
   static const std::vector<SchemaRow> rows{
       {"robot", acts, "@name link joint material gazebo"},
+      {"robot", acts, "transmission", "for libgazebo_ros_control.so"},
       {"robot", settled, "@version", "there is one URDF"},
-      {"robot", no_effect, "transmission", "there is no ros_control to read it"},
       {"robot", no_effect, "sensor", "a <sensor> in a <gazebo> block measures"},
       {"gazebo", elsewhere, "@reference", "see the <gazebo> blocks"},
       {"link", acts, "@name inertial visual collision"},
@@ -41,13 +41,25 @@ const std::vector<SchemaRow>& urdf_rows() {
       {"joint", acts, "@name @type origin parent child axis dynamics limit"},
       {"joint", no_effect, "mimic", "not supported, the joint moves freely"},
       {"joint", no_effect, "calibration", "encoders need none"},
-      {"joint", no_effect, "safety_controller", "<limit> counts"},
-      {"joint", no_effect, "hardwareInterface", "there is no ros_control to read it"},
+      {"joint", acts, "safety_controller", "of libgazebo_ros_control.so's commands"},
+      {"joint", no_effect, "hardwareInterface", "one in a <transmission> counts"},
       {"parent", acts, "@link"},
       {"child", acts, "@link"},
       {"axis", acts, "@xyz"},
       {"limit", acts, "@lower @upper @effort @velocity"},
       {"dynamics", acts, "@damping @friction @spring_stiffness @spring_reference"},
+      {"safety_controller", acts, "@soft_lower_limit @soft_upper_limit @k_position @k_velocity"},
+      {"transmission", acts, "@name type joint actuator", "one without them is left out"},
+      {"transmission", settled, "@type", "the element <type> counts, as in ROS"},
+      {"transmission", settled, "mechanicalReduction", "commands are those of the joint"},
+      {"transmission/joint", acts, "@name"},
+      {"transmission/joint", acts, "hardwareInterface",
+       "the first: EffortJointInterface, VelocityJointInterface or PositionJointInterface"},
+      {"transmission/joint", settled, "role offset mechanicalReduction",
+       "commands are those of the joint"},
+      {"actuator", acts, "@name"},
+      {"actuator", settled, "hardwareInterface role mechanicalReduction motorTorqueConstant",
+       "commands are those of the joint"},
   };
   return rows;
 }

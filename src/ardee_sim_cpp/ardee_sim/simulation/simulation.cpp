@@ -7,6 +7,7 @@
 
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/simulation/plugins.h"
 
 namespace ardee {
 namespace {
@@ -44,7 +45,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
     : world_(world),
       options_(options),
       log_(std::move(log_sink)),
-      registry_(builtin_registry()),
+      registry_(known_plugins()),
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),
@@ -162,7 +163,9 @@ void Simulation::build_devices(Entity& entity) {
                         entity.robot_namespace,
                         step_ns_,
                         options_.tf_prefix,
-                        surroundings()};
+                        surroundings(),
+                        "",
+                        options_.parameter};
   entity.devices = registry_.make_devices(context);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }

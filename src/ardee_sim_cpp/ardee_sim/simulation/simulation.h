@@ -24,6 +24,7 @@ struct SimulationOptions {
   RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+  std::function<Setting(const std::string& name)> parameter = no_parameter;  // of DeviceContext
 };
 
 struct SpawnRequest {

@@ -3,21 +3,49 @@
 #include <iterator>
 #include <sstream>
 
+#include "ardee_sim/controllers/controller_types.h"
 #include "ardee_sim/readers/gz_systems.h"
+#include "ardee_sim/simulation/plugins.h"
 #include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
 namespace ardee {
 namespace {
 
-constexpr const char* kMessages[] = {
-    "sensor_msgs/LaserScan",        "nav_msgs/Odometry",         "tf2_msgs/TFMessage",
-    "sensor_msgs/JointState",       "sensor_msgs/Imu",           "sensor_msgs/NavSatFix",
-    "geometry_msgs/Vector3Stamped", "sensor_msgs/MagneticField", "ardee_msgs/Encoder",
-    "ardee_msgs/Battery",           "sensor_msgs/BatteryState",  "sensor_msgs/Range",
-    "sensor_msgs/PointCloud2",      "sensor_msgs/PointCloud",    "sensor_msgs/Image",
-    "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
+constexpr const char* kMessages[] = {"sensor_msgs/LaserScan",
+                                     "nav_msgs/Odometry",
+                                     "tf2_msgs/TFMessage",
+                                     "sensor_msgs/JointState",
+                                     "sensor_msgs/Imu",
+                                     "sensor_msgs/NavSatFix",
+                                     "geometry_msgs/Vector3Stamped",
+                                     "sensor_msgs/MagneticField",
+                                     "ardee_msgs/Encoder",
+                                     "ardee_msgs/Battery",
+                                     "sensor_msgs/BatteryState",
+                                     "sensor_msgs/Range",
+                                     "sensor_msgs/PointCloud2",
+                                     "sensor_msgs/PointCloud",
+                                     "sensor_msgs/Image",
+                                     "sensor_msgs/CameraInfo",
+                                     "ardee_msgs/GpsQuality",
+                                     "visualization_msgs/MarkerArray",
+                                     "geometry_msgs/TwistStamped",
+                                     "control_msgs/JointControllerState",
+                                     "control_msgs/JointTrajectoryControllerState",
+                                     "four_wheel_steering_msgs/FourWheelSteeringStamped"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
+
+constexpr const char* kCommandMessages[] = {  // in the order of Command
+    "std_msgs/Empty",
+    "geometry_msgs/Twist",
+    "std_msgs/Float64",
+    "std_msgs/Bool",
+    "std_msgs/Float64MultiArray",
+    "four_wheel_steering_msgs/FourWheelSteering",
+    "trajectory_msgs/JointTrajectory"};
+static_assert(std::size(kCommandMessages) == std::variant_size_v<Command>,
+              "a message a kind of command");
 
 std::string joined(const std::vector<std::string>& parts) {
   std::string all;
@@ -27,20 +55,14 @@ std::string joined(const std::vector<std::string>& parts) {
 
 void write_ports(Device& device, std::ostringstream& page) {
   std::vector<std::string> out, in, calls;
-  for (const Output& output : device.outputs()) {
+  for (const Output& output : device.ports().outputs) {
     out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
   }
-  for (const Input& input : device.inputs()) {
-    in.push_back("`" + input.topic + "` (geometry_msgs/Twist)");
+  for (const Input& input : device.ports().inputs) {
+    in.push_back("`" + input.topic + "` (" + kCommandMessages[input.kind] + ")");
   }
-  for (const NumberInput& input : device.number_inputs()) {
-    in.push_back("`" + input.topic + "` (std_msgs/Float64)");
-  }
-  for (const Trigger& trigger : device.triggers()) {
-    in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
-  }
-  for (const Service& service : device.services()) calls.push_back("`" + service.name + "`");
-  for (const Tuning& tuning : device.tunings()) {
+  for (const Service& service : device.ports().services) calls.push_back("`" + service.name + "`");
+  for (const Tuning& tuning : device.ports().tunings) {
     calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
   }
   if (!out.empty()) page << " Publishes " << joined(out) << ".";
@@ -87,6 +109,13 @@ void write_systems(std::ostringstream& page) {
   page << "\nNothing to do: " << joined(settled) << ".\n\n";
 }
 
+void write_controllers(std::ostringstream& page) {
+  page << "### Controllers of `libgazebo_ros_control.so`\n\nBy the `type` among a controller's "
+          "parameters.\n\n";
+  for (const auto& [type, make] : control::controller_types()) page << "- `" << type << "`\n";
+  page << "\n";
+}
+
 }  // namespace
 
 std::string plugins_in_markdown() {
@@ -101,9 +130,10 @@ std::string plugins_in_markdown() {
           "in a plugin that publishes leaves that plugin out, with one error; in a drive, a servo\n"
           "or a spring it refuses the robot. Plugins of worlds are left out with a warning "
           "each.\n\n";
-  const Registry registry = builtin_registry();
+  const Registry registry = known_plugins();
   for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
   for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
+  write_controllers(page);
   write_systems(page);
   return page.str();
 }

@@ -276,9 +276,9 @@ TEST_F(Accepted, AMaterialThatIsNotDefinedIsOneWarning) {
 TEST_F(Accepted, PartsOfAUrdfWithoutEffectAreOneWarningEach) {
   robot(
       "<link name='a'/><link name='b'/><joint name='j' type='continuous'><parent link='a'/>"
-      "<child link='b'/><calibration rising='0'/><safety_controller k_velocity='1'/></joint>");
+      "<child link='b'/><calibration rising='0'/><hardwareInterface>x</hardwareInterface></joint>");
   EXPECT_EQ(warnings_->size(), 2u);
-  EXPECT_TRUE(warned("<calibration>:") && warned("<safety_controller>:"));
+  EXPECT_TRUE(warned("<calibration>:") && warned("<hardwareInterface>:"));
 }
 
 }  // namespace

@@ -124,12 +124,14 @@ TEST_F(SchemaTest, KnowsUrdf) {
   robot(
       "<link name='a'><inertial><mass value='1' unit='kg'/><inertia ixx='1' ixy='0' ixz='0'"
       " iyy='1' iyz='0' izz='1'/></inertial></link><link name='b'/><joint name='j' type='fixed'>"
-      "<parent link='a'/><child link='b'/><safety_controller k_velocity='1'/></joint>"
-      "<transmission name='t'/>");
+      "<parent link='a'/><child link='b'/><mimic joint='k'/></joint>"
+      "<transmission name='t'><type>T</type><joint name='j'><hardwareInterface>H"
+      "</hardwareInterface></joint><actuator name='m'><mechanicalReduction>2"
+      "</mechanicalReduction></actuator><gear/></transmission>");
   ASSERT_EQ(warnings_->size(), 3u);
   EXPECT_TRUE(warned("<mass>: 'unit' is no attribute of <mass> in URDF, ignored"));
-  EXPECT_TRUE(warned("<safety_controller>: has no effect: <limit> counts"));
-  EXPECT_TRUE(warned("<transmission>: has no effect: there is no ros_control to read it"));
+  EXPECT_TRUE(warned("<mimic>: has no effect: not supported, the joint moves freely"));
+  EXPECT_TRUE(warned("<gear>: not an element of <transmission> in URDF, ignored"));
 }
 
 }  // namespace

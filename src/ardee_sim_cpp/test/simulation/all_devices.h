@@ -163,11 +163,13 @@ inline std::string rover_with(const std::vector<std::string>& devices) {
 /// Whatever a robot takes on a topic, once.
 inline void command_all(Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (Input& input : device->inputs()) input.on_command({{0.4, 0, 0}, {0, 0, 0.3}});
-    for (const NumberInput& input : device->number_inputs()) {
-      input.on_number(std::clamp(0.7, input.low, input.high));
+    for (const Input& input : device->ports().inputs) {
+      if (input.kind == command_kind<Twist>()) input.on_command(Twist{{0.4, 0, 0}, {0, 0, 0.3}});
+      if (input.kind == command_kind<double>()) {
+        input.on_command(std::clamp(0.7, input.low, input.high));
+      }
+      if (input.kind == command_kind<Trigger>()) input.on_command(Trigger{});
     }
-    for (const Trigger& trigger : device->triggers()) trigger.on_trigger();
   }
 }
 

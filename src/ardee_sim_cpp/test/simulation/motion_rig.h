@@ -43,7 +43,7 @@ inline std::string still(const std::string& plugin) {
 /// The service of that name of any of the robot's devices; throws if there is none.
 inline const Service& service(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
-    for (const Service& each : device->services()) {
+    for (const Service& each : device->ports().services) {
       if (each.name == name) return each;
     }
   }
@@ -52,7 +52,7 @@ inline const Service& service(const Entity& robot, const std::string& name) {
 
 inline const Tuning& tuning(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
-    for (const Tuning& each : device->tunings()) {
+    for (const Tuning& each : device->ports().tunings) {
       if (each.name == name) return each;
     }
   }

@@ -48,6 +48,10 @@ class ReadingBytes {
   void add(const RegionsReading::Region& region) {
     all(region.name, region.pose, region.size_m, region.rgba);
   }
+  void add(const JointTrajectoryPoint& point) {
+    all(point.positions, point.velocities, point.accelerations, point.efforts,
+        point.time_from_start_s);
+  }
   template <typename... Values>
   void all(const Values&... values) {
     (add(values), ...);
@@ -61,7 +65,9 @@ class ReadingBytes {
     all(r.child_frame_id, r.pose, r.twist, r.pose_covariance, r.twist_covariance, r.places_frame);
   }
   void add_reading(const TransformReading& r) { all(r.child_frame_id, r.pose); }
-  void add_reading(const JointStateReading& r) { all(r.names, r.positions, r.velocities); }
+  void add_reading(const JointStateReading& r) {
+    all(r.names, r.positions, r.velocities, r.efforts);
+  }
   void add_reading(const ImuReading& r) {
     all(r.orientation.coeffs(), r.angular_velocity, r.linear_acceleration, r.orientation_covariance,
         r.angular_velocity_covariance, r.linear_acceleration_covariance);
@@ -92,6 +98,18 @@ class ReadingBytes {
     all(r.region, r.position_std_m, r.has_fix, r.error_m);
   }
   void add_reading(const RegionsReading& r) { add(r.regions); }
+  void add_reading(const TwistReading& r) { add(r.twist); }
+  void add_reading(const JointControllerReading& r) {
+    all(r.set_point, r.process_value, r.process_value_dot, r.error, r.time_step_s, r.command, r.p,
+        r.i, r.d, r.i_clamp, r.antiwindup);
+  }
+  void add_reading(const TrajectoryControllerReading& r) {
+    all(r.names, r.desired, r.actual, r.error);
+  }
+  void add_reading(const FourWheelSteeringReading& r) {
+    all(r.front_angle_rad, r.rear_angle_rad, r.front_rate_rad_per_s, r.rear_rate_rad_per_s,
+        r.speed_m_per_s, r.acceleration_m_per_s2, r.jerk_m_per_s3);
+  }
 
   std::string bytes_;
 };

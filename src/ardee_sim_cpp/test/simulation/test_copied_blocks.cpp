@@ -103,7 +103,7 @@ TEST(CopiedBlocks, AnImuWithoutAServiceHasNone) {
       "</plugin></model></sdf>",
       "post");
   ASSERT_EQ(robot.devices.size(), 1u);
-  EXPECT_TRUE(robot.devices[0]->services().empty());
+  EXPECT_TRUE(robot.devices[0]->ports().services.empty());
 }
 
 TEST(CopiedBlocks, APluginInTheWrongPlaceIsToldTheRightOne) {

@@ -35,10 +35,11 @@ std::string servo(const std::string& keys = "") {
   return plugin("ardee_ros_joint_position", "<joint>neck</joint>" + keys);
 }
 
-const NumberInput& command(const Entity& robot) {
+const Input& command(const Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const NumberInput& input : device->number_inputs()) {
-      if (input.topic.find("set_hfov") == std::string::npos) return input;
+    for (const Input& input : device->ports().inputs) {
+      if (input.kind == command_kind<double>() && input.topic.find("set_hfov") == std::string::npos)
+        return input;
     }
   }
   throw std::runtime_error("no command");
@@ -56,7 +57,7 @@ TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
                           "<maxEffort>5</maxEffort>")),
       "head");
   ASSERT_EQ(command(robot).topic, "/neck_position_controller/command");
-  command(robot).on_number(1.2);
+  command(robot).on_command(1.2);
   // 0.2 s up to speed over 0.2 m, 0.4 s at speed, 0.2 s down: 1.2 / 2 + 2 / 10 = 0.8 s.
   world.run(0.2);
   EXPECT_NEAR(angle(robot), 0.2, 0.01);
@@ -69,7 +70,7 @@ TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
   world.run(0.5);
   EXPECT_NEAR(angle(robot), 1.2, 1e-6);
   // Back over a short way, on which it never gets up to speed: 2 sqrt(0.1 / 10) = 0.2 s.
-  command(robot).on_number(1.1);
+  command(robot).on_command(1.1);
   world.run(0.1);
   EXPECT_NEAR(angle(robot), 1.15, 0.005);
   world.run(0.11);
@@ -79,10 +80,10 @@ TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
 TEST(JointPosition, StopsAtTheJointsLimit) {
   TestWorld world(free_space(0.0), kStep_s);
   Entity& robot = world.spawn(head("0 0 1", servo("<maxVelocity>5</maxVelocity>")), "head");
-  command(robot).on_number(-40.0);
+  command(robot).on_command(-40.0);
   world.run(1.0);
   EXPECT_NEAR(angle(robot), -1.5, 1e-4);
-  command(robot).on_number(0.0);
+  command(robot).on_command(0.0);
   world.run(1.0);
   EXPECT_NEAR(angle(robot), 0.0, 1e-4);
 }
@@ -112,7 +113,7 @@ TEST(JointPosition, HoldsAgainstWhatItsEffortCan) {
 TEST(JointPosition, IsHeldWhereItIsAfterAReset) {
   TestWorld world(free_space(0.0), kStep_s);
   Entity& robot = world.spawn(head("0 0 1", servo("<maxVelocity>1</maxVelocity>")), "head");
-  command(robot).on_number(1.0);
+  command(robot).on_command(1.0);
   world.run(0.3);
   world->reset_world();
   world.run(1.0);
@@ -146,7 +147,7 @@ Eigen::Vector2d mark_after_turn(const std::string& axis, double turn_rad) {
       "<plugin name='eye' filename='libgazebo_ros_camera.so'><cameraName>cam</cameraName>"
       "<exposure>1</exposure></plugin></sensor>";
   Entity& robot = world.spawn(head(axis, servo("<maxVelocity>3</maxVelocity>"), camera), "head");
-  command(robot).on_number(turn_rad);
+  command(robot).on_command(turn_rad);
   world.run(1.0);
   return mark_in(world.recorder().on<ImageReading>("/cam/image_raw").back());
 }
@@ -191,10 +192,10 @@ TEST(TorsionalSpring, ItsReferenceCanBeMoved) {
                            "<upper_limit>1</upper_limit><referenceTopic>tilt</referenceTopic>")),
       "head");
   EXPECT_EQ(command(robot).topic, "/tilt");
-  command(robot).on_number(0.6);
+  command(robot).on_command(0.6);
   world.run(2.0);
   EXPECT_NEAR(angle(robot), 0.6, 1e-3);
-  command(robot).on_number(7.0);
+  command(robot).on_command(7.0);
   world.run(2.0);
   EXPECT_NEAR(angle(robot), 1.0, 1e-3);
   world->reset_world();

@@ -21,7 +21,8 @@ std::string mover(const std::string& keys, bool gravity = false) {
 
 void command(Entity& robot, const Eigen::Vector3d& linear, double turn_rad_per_s) {
   for (const auto& device : robot.devices) {
-    for (Input& input : device->inputs()) input.on_command({linear, {0, 0, turn_rad_per_s}});
+    for (Input& input : device->ports().inputs)
+      input.on_command(Twist{linear, {0, 0, turn_rad_per_s}});
   }
 }
 

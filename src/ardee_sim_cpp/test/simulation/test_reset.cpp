@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "all_devices.h"
+#include "ardee_sim/simulation/plugins.h"
 #include "reading_bytes.h"
 
 namespace ardee {
@@ -16,12 +17,12 @@ const std::string kScene = ground_plane() + static_box("wall", "3 0 1 0 0 0", "0
 /// Changes whatever can be changed of a running robot.
 void tune_all(Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const Tuning& tuning : device->tunings()) {
+    for (const Tuning& tuning : device->ports().tunings) {
       for (const Tunable& each : tuning.parameters) {
         each.set(each.get() == each.high ? each.low : each.high);
       }
     }
-    for (const Service& service : device->services()) {
+    for (const Service& service : device->ports().services) {
       if (const auto* act = std::get_if<0>(&service.act)) (*act)();
       if (const auto* act = std::get_if<1>(&service.act)) (*act)({1, 2, 3});
       if (const auto* act = std::get_if<2>(&service.act)) {
@@ -57,7 +58,7 @@ TEST(Reset, OfTheSimulationRepeatsTheBytesOfEachDeviceWhateverWasTuned) {
 
 TEST(Reset, TestsEachPluginThatThereIs) {
   const std::string robot = rover_with(all_devices());
-  const Registry registry = builtin_registry();
+  const Registry registry = known_plugins();
   for (const auto& files : {registry.model_plugin_files(), registry.sensor_plugin_files()}) {
     EXPECT_GT(files.size(), 10u);
     for (const std::string& file : files) {

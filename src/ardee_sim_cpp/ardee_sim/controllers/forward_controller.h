@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/controllers/controller.h"
+
+namespace ardee::control {
+
+/// Whether a controller commands the joint that "joint" names, by a number, or those that "joints"
+/// names, by a list of numbers.
+enum class JointCount { kOne, kGroup };
+
+/// The controllers that hand what comes on "command" on to joints: {position, velocity,
+/// effort}_controllers/{JointPosition, JointVelocity, JointEffort, JointGroup...}Controller.
+class ForwardController : public Controller {
+ public:
+  static std::unique_ptr<Controller> make_position(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_velocity(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_group_position(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_group_velocity(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_group_effort(const ControllerContext& context);
+
+  ForwardController(const ControllerContext& context, JointInterface interface, JointCount count);
+
+  /// Positions hold where they are; velocities and efforts are 0.
+  void start(TimeNs now_ns) override;
+  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override { start(now_ns); }
+
+ private:
+  JointInterface interface_;
+  std::vector<JointHandle*> joints_;
+  std::vector<double> commands_;
+};
+
+/// The joints that a controller's settings name.
+std::vector<std::string> commanded_joints(const Setting& settings, JointCount count);
+
+/// Takes what comes on "command" into `commands`, which has the right size and outlives the ports:
+/// a number, or as many as there are joints. Others, and those that are not finite, are an Error.
+void add_command_input(const ControllerContext& context, JointCount count,
+                       std::vector<double>& commands, Ports& ports);
+
+}  // namespace ardee::control

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/controllers/four_wheel_steering_controller.h"
+
+#include <cmath>
+
+#include "ardee_sim/controllers/wheel_geometry.h"
+#include "ardee_sim/core/error.h"
+
+namespace ardee::control {
+namespace {
+
+double distance(const ControllerContext& context, const std::string& one, const std::string& other,
+                const Setting& source) {
+  return (joint_origin(context.model, one, source) - joint_origin(context.model, other, source))
+      .head<2>()
+      .norm();
+}
+
+FourWheelGeometry read_geometry(const ControllerContext& context) {
+  const Setting& settings = context.settings;
+  const std::vector<std::string> front = joint_names(settings, "front_wheel");
+  const auto size = [&](const std::string& key, const auto& of_model) {
+    const Setting given = settings.at(key);
+    return positive(given ? settings.number(key) : of_model(given), given);
+  };
+  FourWheelGeometry geometry;
+  geometry.track_m = size("track", [&](const Setting& source) {
+    return distance(context, front[0], front[1], source);
+  });
+  geometry.radius_m = size("wheel_radius", [&](const Setting& source) {
+    return wheel_radius(context.model, front[0], WheelShape::kCylinder, source);
+  });
+  geometry.wheel_base_m = size("wheel_base", [&](const Setting& source) {
+    return distance(context, front[0], joint_names(settings, "rear_wheel")[0], source);
+  });
+  geometry.steering_offset_m = distance(context, joint_names(settings, "front_steering")[0],
+                                        front[0], settings.at("front_steering"));
+  return geometry;
+}
+
+}  // namespace
+
+std::unique_ptr<Controller> FourWheelSteeringController::make(const ControllerContext& context) {
+  return std::make_unique<FourWheelSteeringController>(context);
+}
+
+FourWheelSteeringController::FourWheelSteeringController(const ControllerContext& context)
+    : DriveController(context, "odom"),
+      front_(read_axle(context, "front")),
+      rear_(read_axle(context, "rear")),
+      geometry_(read_geometry(context)),
+      linear_(context.settings, "linear/x"),
+      angular_(context.settings, "angular/z"),
+      acceleration_(read_window(context.settings)),
+      jerk_(read_window(context.settings)),
+      steering_output_(ports().add_output(context.topic("odom_steer"),
+                                          reading_kind<FourWheelSteeringReading>())) {
+  ports().add_input<SteeringCommand>(
+      context.topic("cmd_four_wheel_steering"), [this](const SteeringCommand& command) {
+        if (!std::isfinite(command.front_angle_rad) || !std::isfinite(command.rear_angle_rad) ||
+            !std::isfinite(command.speed_m_per_s)) {
+          throw Error("found a command that is not finite");
+        }
+        take(command);
+      });
+}
+
+std::array<JointHandle*, 2> FourWheelSteeringController::read_joints(
+    const ControllerContext& context, const std::string& key, JointInterface interface) {
+  const std::vector<std::string> names = joint_names(context.settings, key);
+  const Setting source = context.settings.at(key);
+  if (names.size() != 2) {
+    throw Error(source.path() + ": found " + std::to_string(names.size()) +
+                " joints, expected 2, left and right");
+  }
+  return {&claim(context, names[0], interface, source),
+          &claim(context, names[1], interface, source)};
+}
+
+FourWheelSteeringController::Axle FourWheelSteeringController::read_axle(
+    const ControllerContext& context, const std::string& key) {
+  return {read_joints(context, key + "_wheel", JointInterface::kVelocity),
+          read_joints(context, key + "_steering", JointInterface::kPosition),
+          RollingMean(read_window(context.settings))};
+}
+
+AxleState FourWheelSteeringController::Axle::state() const {
+  return {FourWheelGeometry::virtual_angle(steering[0]->position, steering[1]->position),
+          {wheels[0]->velocity, wheels[1]->velocity}};
+}
+
+void FourWheelSteeringController::Axle::set(const AxleCommand& command) {
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    wheels[i]->command = command.speeds[i];
+    steering[i]->command = command.angles[i];
+  }
+}
+
+void FourWheelSteeringController::brake() {
+  front_.set({});
+  rear_.set({});
+}
+
+void FourWheelSteeringController::start(TimeNs now_ns) {
+  DriveController::start(now_ns);
+  for (RollingMean* mean :
+       {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
+    mean->clear();
+  }
+  last_ns_ = now_ns;
+}
+
+void FourWheelSteeringController::update_odometry(TimeNs now_ns) {
+  constexpr TimeNs kShortestNs = 100'000;
+  if (now_ns - last_ns_ < kShortestNs) return;
+  const double elapsed_s = seconds(now_ns - last_ns_);
+  last_ns_ = now_ns;
+  const PlanarMotion velocity = geometry_.velocity(front_.state(), rear_.state());
+  odometry().add_velocity(velocity, now_ns);
+  for (Axle* axle : {&front_, &rear_}) {
+    const double angle_rad = axle->state().angle_rad;
+    axle->rate_rad_per_s.add((angle_rad - axle->angle_rad) / elapsed_s);
+    axle->angle_rad = angle_rad;
+  }
+  const double speed = std::copysign(std::hypot(velocity.forward, velocity.left), velocity.forward);
+  const double last_acceleration = acceleration_.mean();
+  acceleration_.add((speed - speed_m_per_s_) / elapsed_s);
+  jerk_.add((acceleration_.mean() - last_acceleration) / elapsed_s);
+  speed_m_per_s_ = speed;
+}
+
+void FourWheelSteeringController::publish_steering(TimeNs now_ns, ReadingSink& sink) const {
+  if (!steering_output_.demanded) return;
+  sink.on_reading(steering_output_, FourWheelSteeringReading{{now_ns, ""},
+                                                             front_.angle_rad,
+                                                             rear_.angle_rad,
+                                                             front_.rate_rad_per_s.mean(),
+                                                             rear_.rate_rad_per_s.mean(),
+                                                             speed_m_per_s_,
+                                                             acceleration_.mean(),
+                                                             jerk_.mean()});
+}
+
+void FourWheelSteeringController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+  update_odometry(now_ns);
+  if (publish_odometry(now_ns, sink)) publish_steering(now_ns, sink);
+  const DriveCommand wanted = command_at(now_ns);
+  std::array<AxleCommand, 2> commands;
+  if (const auto* twist = std::get_if<Twist>(&wanted)) {
+    const double forward = linear_.limit(twist->linear.x(), period_s);
+    commands = geometry_.for_twist(forward, angular_.limit(twist->angular.z(), period_s));
+  } else {
+    SteeringCommand steering = std::get<SteeringCommand>(wanted);
+    steering.speed_m_per_s = linear_.limit(steering.speed_m_per_s, period_s);
+    commands = geometry_.for_steering(steering);
+  }
+  front_.set(commands[0]);
+  rear_.set(commands[1]);
+}
+
+void FourWheelSteeringController::reset(TimeNs now_ns) {
+  DriveController::reset(now_ns);
+  linear_.reset();
+  angular_.reset();
+  for (RollingMean* mean :
+       {&acceleration_, &jerk_, &front_.rate_rad_per_s, &rear_.rate_rad_per_s}) {
+    mean->clear();
+  }
+  front_.angle_rad = rear_.angle_rad = speed_m_per_s_ = 0.0;
+  last_ns_ = now_ns;
+}
+
+}  // namespace ardee::control

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/description/setting.h"
+#include "ardee_sim/devices/ports.h"
+
+namespace ardee::control {
+
+/// Gains of a Pid. The integral's share of the command lies within i_clamp_min and i_clamp_max, so
+/// that there is none as long as both are 0.
+struct PidGains {
+  double p = 0.0;
+  double i = 0.0;
+  double d = 0.0;
+  double i_clamp_min = 0.0;
+  double i_clamp_max = 0.0;
+  bool antiwindup = false;  // the integral itself stays within the bounds, not only its share
+};
+
+/// The gains in a group {p, i, d, i_clamp, i_clamp_min, i_clamp_max, antiwindup}. Throws Error if
+/// there is no p, or something there is no number.
+PidGains read_pid_gains(const Setting& group);
+
+/// A controller of one number as control_toolbox's Pid: p e + i integral(e) + d de/dt.
+class Pid {
+ public:
+  explicit Pid(const PidGains& gains) : gains_(gains), initial_gains_(gains) {}
+
+  /// The command for an error whose rate follows from the last one, 0 after a reset. It is 0 for a
+  /// dt of 0 or an error that is not finite, which then leave no trace.
+  double update(double error, double dt_s);
+  double update(double error, double error_rate, double dt_s);
+  /// Forgets what was; the gains stay.
+  void reset();
+
+  const PidGains& gains() const { return gains_; }
+  void set_gains(const PidGains& gains) { gains_ = gains; }
+  void restore_gains() { gains_ = initial_gains_; }
+  /// Its gains as dynamic_reconfigure has them. The Pid outlives it.
+  Tuning tuning(const std::string& name);
+
+ private:
+  PidGains gains_;
+  PidGains initial_gains_;
+  double last_error_ = 0.0;
+  double integral_ = 0.0;
+};
+
+}  // namespace ardee::control

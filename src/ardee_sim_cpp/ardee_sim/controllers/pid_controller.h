@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/controllers/forward_controller.h"
+#include "ardee_sim/controllers/pid.h"
+
+namespace ardee::control {
+
+/// The controllers that bring joints to what comes on "command" by a PID law:
+/// effort_controllers/{JointPosition, JointVelocity, JointGroupPosition}Controller and
+/// velocity_controllers/JointPositionController.
+class PidController : public Controller {
+ public:
+  enum class Quantity { kPosition, kVelocity };
+
+  static std::unique_ptr<Controller> make_effort_position(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_effort_velocity(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_effort_group_position(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_velocity_position(const ControllerContext& context);
+
+  PidController(const ControllerContext& context, JointInterface interface, Quantity quantity,
+                JointCount count);
+
+  /// Positions hold where they are; velocities are 0.
+  void start(TimeNs now_ns) override;
+  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override;
+
+ private:
+  struct Joint {
+    JointHandle& handle;
+    Pid pid;
+  };
+
+  /// The joint's command towards the set point, published if it is due.
+  double command(Joint& joint, double set_point, TimeNs now_ns, double period_s, ReadingSink& sink);
+
+  Quantity quantity_;
+  std::deque<Joint> joints_;  // tunings point to them
+  std::vector<double> set_points_;
+  Output* state_output_ = nullptr;  // of a single joint
+  int updates_ = 0;
+};
+
+}  // namespace ardee::control

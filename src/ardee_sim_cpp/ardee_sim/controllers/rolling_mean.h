@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <numeric>
+
+namespace ardee::control {
+
+/// The mean of the last values, of as many as there are until the window is full.
+class RollingMean {
+ public:
+  explicit RollingMean(std::size_t window) : window_(window) {}
+
+  void add(double value) {
+    values_.push_back(value);
+    if (values_.size() > window_) values_.pop_front();
+  }
+  /// 0 without values.
+  double mean() const {
+    if (values_.empty()) return 0.0;
+    return std::accumulate(values_.begin(), values_.end(), 0.0) /
+           static_cast<double>(values_.size());
+  }
+  void clear() { values_.clear(); }
+
+ private:
+  std::size_t window_;
+  std::deque<double> values_;
+};
+
+}  // namespace ardee::control

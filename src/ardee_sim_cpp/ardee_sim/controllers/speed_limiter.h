@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "ardee_sim/description/setting.h"
+
+namespace ardee::control {
+
+/// Bounds of a speed, its acceleration and its jerk, each only where it is set: what a drive's
+/// command along one axis is cut to, with the two commands before it.
+class SpeedLimiter {
+ public:
+  struct Bounds {
+    bool are_set = false;
+    double low = 0.0;
+    double high = 0.0;
+
+    double clamp(double value) const;
+  };
+
+  /// Reads "<axis>/has_velocity_limits", "max_velocity", "min_velocity" and so on; min_* are
+  /// -max_* where not given.
+  SpeedLimiter(const Setting& settings, const std::string& axis);
+
+  /// The command that follows the last one, nearest to the wanted one. The jerk is bounded first,
+  /// then the acceleration, then the speed.
+  double limit(double wanted, double period_s);
+  /// What limit() gave last.
+  double last() const { return last_; }
+  void reset() { last_ = before_last_ = 0.0; }
+
+ private:
+  Bounds velocity_;
+  Bounds acceleration_;
+  Bounds jerk_;
+  double last_ = 0.0;
+  double before_last_ = 0.0;
+};
+
+}  // namespace ardee::control

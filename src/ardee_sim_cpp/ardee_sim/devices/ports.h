@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "ardee_sim/core/pose.h"
+#include "ardee_sim/devices/actions.h"
+#include "ardee_sim/devices/command.h"
+#include "ardee_sim/devices/reading.h"
+
+namespace ardee {
+
+/// Position of type T in the variant.
+template <typename Variant, typename T, std::size_t kIndex = 0>
+constexpr std::size_t index_in() {
+  if constexpr (std::is_same_v<std::variant_alternative_t<kIndex, Variant>, T>) {
+    return kIndex;
+  } else {
+    return index_in<Variant, T, kIndex + 1>();
+  }
+}
+template <typename T>
+constexpr std::size_t reading_kind() {
+  return index_in<Reading, T>();
+}
+template <typename T>
+constexpr std::size_t command_kind() {
+  return index_in<Command, T>();
+}
+
+/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading
+/// variant.
+struct Output {
+  std::string topic;
+  std::size_t kind = 0;
+  bool demanded = true;  // false: nobody listens, the device need not measure
+  bool latched = false;  // whoever comes later still gets the last reading
+};
+
+/// Something a device takes: one topic with one kind of command, the index in the Command variant.
+/// What the device throws is an Error in the command, which has then changed nothing.
+struct Input {
+  std::string topic;
+  std::size_t kind = 0;
+  std::function<void(const Command&)> on_command;
+  double low = -std::numeric_limits<double>::max();  // of a number
+  double high = std::numeric_limits<double>::max();
+  bool needs_one_publisher = false;  // commands are refused while several publish them
+};
+
+/// Where a satellite receiver's local frame lies: WGS-84, orientation in east-north-up.
+struct GeoPose {
+  double latitude_deg = 0.0;
+  double longitude_deg = 0.0;
+  double altitude_m = 0.0;
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// Something a device does when asked: nothing to say, a vector (a bias), a geographic pose, or the
+/// time (s) at which the state of a trajectory is asked for. What it throws is the caller's answer.
+struct Service {
+  using Act =
+      std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
+                   std::function<void(const GeoPose&)>, std::function<TrajectoryState(double)>>;
+  std::string name;
+  Act act;
+};
+
+/// A number of a device that may be changed while it runs.
+struct Tunable {
+  enum class Type { kDouble, kInt, kBool };
+  std::string name;
+  std::string description;
+  Type type = Type::kDouble;
+  double low = 0.0;
+  double high = 0.0;
+  double initial = 0.0;
+  std::function<double()> get;
+  std::function<void(double)> set;  // called with a number within the bounds
+};
+
+/// A group of tunables under one name, as dynamic_reconfigure has them.
+struct Tuning {
+  std::string name;
+  std::vector<Tunable> parameters;
+};
+
+/// All that a device, or a controller that it has loaded, exchanges with the outside.
+struct Ports {
+  std::deque<Output> outputs;  // addresses stay valid as more are added
+  std::vector<Input> inputs;
+  std::vector<Service> services;
+  std::vector<Tuning> tunings;
+  std::vector<Action> actions;
+
+  Output& add_output(const std::string& topic, std::size_t kind);
+  /// Of commands that need no check.
+  template <typename T>
+  Input& add_input(const std::string& topic, std::function<void(const T&)> act) {
+    inputs.push_back({topic, command_kind<T>(), [act = std::move(act)](const Command& command) {
+                        act(std::get<T>(command));
+                      }});
+    return inputs.back();
+  }
+  /// Velocities: one that is not finite is an Error.
+  Input& add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act);
+  /// A number within [low, high]; another is an Error.
+  Input& add_number_input(const std::string& topic, double low, double high,
+                          std::function<void(double)> act);
+};
+
+}  // namespace ardee
