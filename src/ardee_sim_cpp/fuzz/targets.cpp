@@ -12,6 +12,7 @@ const std::vector<Target>& targets() {
       {"world", read_world}, {"model", read_model},         {"urdf", read_model},
       {"mesh", read_mesh},   {"image", read_image},         {"material", read_material},
       {"gps", read_gps},     {"instances", read_instances}, {"simulate", simulate},
+      {"controller", control_robot},
   };
   return all;
 }

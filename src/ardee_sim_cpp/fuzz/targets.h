@@ -33,5 +33,8 @@ void read_instances(const std::string& input);
 void read_gps(const std::string& input);
 /// A world, a model, or an <sdf> with both: loaded, spawned, stepped, commanded, reset.
 void simulate(const std::string& input);
+/// Settings of ros_control as XML (control_robot.cpp): a controller is loaded with them, started,
+/// stepped, commanded, reset, stopped, unloaded.
+void control_robot(const std::string& input);
 
 }  // namespace ardee::fuzz
