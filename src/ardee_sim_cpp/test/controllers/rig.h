@@ -25,10 +25,19 @@ inline Setting::List names(const std::vector<std::string>& texts) {
 
 /// Parameters of a controller "/base" by their paths below it: "linear/x/max_velocity".
 using Parameters = std::map<std::string, Setting::Value>;
-inline Setting settings_of(const Parameters& parameters) {
+inline Setting settings_of(const Parameters& parameters, const std::string& path = "/base") {
   Setting::Map map;
-  for (const auto& [key, value] : parameters) map[key] = Setting("/base/" + key, value);
-  return {"/base", map};
+  std::map<std::string, Parameters> groups;
+  for (const auto& [key, value] : parameters) {
+    const std::size_t slash = key.find('/');
+    if (slash == std::string::npos) {
+      map[key] = Setting(path + "/" + key, value);
+    } else {
+      groups[key.substr(0, slash)][key.substr(slash + 1)] = value;
+    }
+  }
+  for (const auto& [key, group] : groups) map[key] = settings_of(group, path + "/" + key);
+  return {path, map};
 }
 
 /// Those of a drive that are required.
