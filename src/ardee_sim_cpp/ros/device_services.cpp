@@ -20,11 +20,15 @@ GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
 
 }  // namespace
 
-void DeviceServices::add(const Device& device) {
-  for (const Service& service : device.ports().services) {
+bool is_free_service(const std::string& name) {
+  return !ros::ServiceManager::instance()->lookupServicePublication(name);
+}
+
+void DeviceServices::add(const Ports& ports) {
+  for (const Service& service : ports.services) {
     if (is_free(service.name)) add(service);
   }
-  for (const Tuning& tuning : device.ports().tunings) {
+  for (const Tuning& tuning : ports.tunings) {
     if (is_free(TuningServer::service_of(tuning))) {
       tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
     }
@@ -32,7 +36,7 @@ void DeviceServices::add(const Device& device) {
 }
 
 bool DeviceServices::is_free(const std::string& name) {
-  if (!ros::ServiceManager::instance()->lookupServicePublication(name)) return true;
+  if (is_free_service(name)) return true;
   taken_.push_back(name);
   return false;
 }

@@ -7,19 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/ports.h"
 #include "ros/service_servers.h"
 #include "ros/tuning_server.h"
 
 namespace ardee::node {
 
-/// What the devices of one robot do on request: services and tunings.
+/// Whether nobody in this node serves that name yet.
+bool is_free_service(const std::string& name);
+
+/// What a device or controller does on request: services and tunings.
 class DeviceServices {
  public:
   explicit DeviceServices(const ros::NodeHandle& node) : node_(node), servers_(node) {}
 
-  /// `device` outlives this object.
-  void add(const Device& device);
+  /// `ports` outlive this object.
+  void add(const Ports& ports);
   /// What was not added because the name is another's already.
   const std::vector<std::string>& taken() const { return taken_; }
 

@@ -4,6 +4,10 @@
 #include <ardee_msgs/Battery.h>
 #include <ardee_msgs/Encoder.h>
 #include <ardee_msgs/GpsQuality.h>
+#include <control_msgs/JointControllerState.h>
+#include <control_msgs/JointTrajectoryControllerState.h>
+#include <four_wheel_steering_msgs/FourWheelSteeringStamped.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/BatteryState.h>
@@ -45,5 +49,10 @@ sensor_msgs::PointCloud2 to_message(const PointCloudReading& reading);
 sensor_msgs::PointCloud to_message(const LegacyCloudReading& reading);
 sensor_msgs::Image to_message(const ImageReading& reading);
 sensor_msgs::CameraInfo to_message(const CameraInfoReading& reading);
+geometry_msgs::TwistStamped to_message(const TwistReading& reading);
+control_msgs::JointControllerState to_message(const JointControllerReading& reading);
+control_msgs::JointTrajectoryControllerState to_message(const TrajectoryControllerReading& reading);
+four_wheel_steering_msgs::FourWheelSteeringStamped to_message(
+    const FourWheelSteeringReading& reading);
 
 }  // namespace ardee::node

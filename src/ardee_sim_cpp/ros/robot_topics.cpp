@@ -2,44 +2,21 @@
 #include "ros/robot_topics.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/devices/sensor.h"
-#include "ros/command_subscription.h"
 #include "ros/reading_to_message.h"
 
 namespace ardee::node {
 namespace {
-
-constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
-constexpr std::uint32_t kImageQueue = 5;     // a picture is large
-
-template <std::size_t kKind>
-using MessageOf = decltype(to_message(std::declval<std::variant_alternative_t<kKind, Reading>>()));
-
-template <std::size_t... kKinds>
-ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
-                              std::index_sequence<kKinds...>) {
-  ros::Publisher publisher;
-  const auto try_kind = [&](auto kind) {
-    if (output.kind == kind) {
-      publisher = node.advertise<MessageOf<kind>>(output.topic, kOutputQueue, output.latched);
-    }
-  };
-  (try_kind(std::integral_constant<std::size_t, kKinds>()), ...);
-  return publisher;
-}
 
 /// Odometry is measured at all times: OdometryFrames reads it.
 bool always_demanded(const Output& output) {
   return output.kind == reading_kind<OdometryReading>() ||
          output.kind == reading_kind<TransformReading>();
 }
-
-bool is_picture(const Output& output) { return output.kind == reading_kind<ImageReading>(); }
 
 /// "model::link::sensor", or nothing for a device that is no sensor.
 std::string sensor_name(const Device& device, const Robot& robot) {
@@ -48,58 +25,25 @@ std::string sensor_name(const Device& device, const Robot& robot) {
   return robot.name() + "::" + robot.model().links[sensor->link()].name + "::" + device.name();
 }
 
-/// roscpp would say so of each, and not whose they are.
-void warn_of_taken(const std::vector<std::string>& services, const Robot& robot, Log& log) {
-  if (services.empty()) return;
-  const std::size_t others = services.size() - 1;
-  log.warn(robot.model().source.to_string() + ": service " + services.front() +
-           (others > 0 ? " and " + std::to_string(others) + " more are" : " is") +
-           " there already and " + (others > 0 ? "stay what they were" : "stays what it was") +
-           "; a namespace of its own gives a robot its own");
+void append(const std::vector<std::string>& more, std::vector<std::string>& all) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-bool RobotTopics::Route::has_listeners() const {
-  return publisher ? publisher.getNumSubscribers() > 0 : pictures->has_listeners();
-}
-
-RobotTopics::Route RobotTopics::advertise(Output& output, const Robot& robot) {
-  require_valid(output.topic);
-  Route route{&output, &robot, "", false, {}, nullptr};
-  if (is_picture(output)) {
-    const image_transport::Publisher pictures = images_.advertise(output.topic, kImageQueue);
-    if (pictures) route.pictures = std::make_unique<PictureSender>(pictures, kImageQueue);
-  } else {
-    route.publisher =
-        advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
-  }
-  if (!route.publisher && !route.pictures) {
-    throw Error("topic " + output.topic + " is already published with another type");
-  }
-  return route;
-}
-
 void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
-  for (const Service& service : device.ports().services) require_valid(service.name);
-  std::vector<Route> routes;
-  std::vector<ros::Subscriber> subscribers;
-  const auto& outputs = device.ports().outputs;
-  const bool is_camera = std::any_of(outputs.begin(), outputs.end(), is_picture);
-  for (Output& output : device.ports().outputs) {
-    routes.push_back(advertise(output, robot));
-    routes.back().sensor = sensor_name(device, robot);
-    routes.back().is_camera = is_camera;
+  topics.devices.push_back(std::make_unique<PortTopics>(node_, device.ports(), robot,
+                                                        sensor_name(device, robot), routes_));
+  append(topics.devices.back()->taken(), topics.taken);
+  if (auto* control = dynamic_cast<control::RosControl*>(&device)) {
+    topics.managers.push_back(
+        std::make_unique<ControllerServices>(node_, *control, robot, routes_, log_));
+    append(topics.managers.back()->taken(), topics.taken);
   }
-  for (const Input& input : device.ports().inputs) subscribers.push_back(subscribe(node_, input));
-  topics.services->add(device);
-  std::move(routes.begin(), routes.end(), std::back_inserter(topics.routes));
-  std::move(subscribers.begin(), subscribers.end(), std::back_inserter(topics.subscribers));
 }
 
 void RobotTopics::add(Entity& entity) {
   Topics topics;
-  topics.services = std::make_unique<DeviceServices>(node_);
   std::set<const Device*> left_out;
   for (const auto& device : entity.devices) {
     try {
@@ -116,25 +60,17 @@ void RobotTopics::add(Entity& entity) {
   devices.erase(std::remove_if(devices.begin(), devices.end(),
                                [&](const auto& device) { return left_out.count(device.get()); }),
                 devices.end());
-  warn_of_taken(topics.services->taken(), *entity.robot, log_);
-  const Topics& kept = topics_[entity.name()] = std::move(topics);
-  for (const Route& route : kept.routes) routes_[route.output] = &route;
+  warn_of_taken(topics.taken, *entity.robot, log_);
+  topics_[entity.name()] = std::move(topics);
 }
 
 void RobotTopics::remove(const std::string& entity_name) {
-  const auto found = topics_.find(entity_name);
-  if (found == topics_.end()) return;
-  for (const Route& route : found->second.routes) routes_.erase(route.output);
-  topics_.erase(found);
-  frames_.forget(entity_name);
+  if (topics_.erase(entity_name) > 0) frames_.forget(entity_name);
 }
 
 void RobotTopics::update_demand() {
-  for (const auto& [name, topics] : topics_) {
-    for (const Route& route : topics.routes) {
-      route.output->demanded =
-          always_demanded(*route.output) || route.output->latched || route.has_listeners();
-    }
+  for (const auto& [output, route] : routes_) {
+    route.output->demanded = always_demanded(*output) || output->latched || route.has_listeners();
   }
 }
 
@@ -146,7 +82,7 @@ void RobotTopics::count(const Route& route, TimeNs now_ns) {
 void RobotTopics::on_reading(const Output& output, const Reading& reading) {
   const auto found = routes_.find(&output);
   if (found == routes_.end()) return;
-  const Route& route = *found->second;
+  const Route& route = found->second;
   std::visit(
       [&](const auto& measured) {
         frames_.on_reading(*route.robot, measured);

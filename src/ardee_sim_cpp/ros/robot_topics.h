@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <image_transport/image_transport.h>
 #include <ros/node_handle.h>
 
 #include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/simulation/entity.h"
-#include "ros/device_services.h"
+#include "ros/controller_services.h"
 #include "ros/odometry_frames.h"
 #include "ros/performance_metrics.h"
-#include "ros/picture_sender.h"
+#include "ros/port_topics.h"
 
 namespace ardee::node {
 
@@ -36,32 +33,20 @@ class RobotTopics : public ReadingSink {
   void on_reading(const Output& output, const Reading& reading) override;
 
  private:
-  struct Route {
-    Output* output = nullptr;
-    const Robot* robot = nullptr;
-    std::string sensor;  // its scoped name where a sensor is what measures
-    bool is_camera = false;
-    ros::Publisher publisher;
-    std::unique_ptr<PictureSender> pictures;  // in its place, for pictures
-
-    bool has_listeners() const;
-  };
   struct Topics {
-    std::vector<Route> routes;
-    std::vector<ros::Subscriber> subscribers;
-    std::unique_ptr<DeviceServices> services;
+    std::vector<std::unique_ptr<PortTopics>> devices;
+    std::vector<std::unique_ptr<ControllerServices>> managers;
+    std::vector<std::string> taken;  // services
   };
   void add(Device& device, const Robot& robot, Topics& topics);
-  Route advertise(Output& output, const Robot& robot);
   void count(const Route& route, TimeNs now_ns);
 
   OdometryFrames& frames_;
   PerformanceMetrics& metrics_;
   Log log_;
   ros::NodeHandle node_;
-  image_transport::ImageTransport images_{node_};
+  Routes routes_;
   std::map<std::string, Topics> topics_;
-  std::unordered_map<const Output*, const Route*> routes_;
 };
 
 }  // namespace ardee::node

@@ -15,6 +15,7 @@
 #include <iostream>
 
 #include "ros/log_to_ros.h"
+#include "ros/setting_from_ros.h"
 
 namespace ardee::node {
 namespace {
@@ -74,6 +75,7 @@ SimulationOptions simulation_options(const Settings& settings) {
   options.rays.threads = settings.threads;
   options.bad_parts = bad_parts(settings.lenient);
   options.tf_prefix = tf_prefix;
+  options.parameter = setting_from_ros;
   return options;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/devices/actions.h"
 #include "ardee_sim/devices/command.h"
 #include "ardee_sim/devices/reading.h"
 
@@ -62,11 +63,12 @@ struct GeoPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Something a device does when asked: nothing to say, a vector (a bias), or a geographic pose.
-/// What it throws is the caller's answer.
+/// Something a device does when asked: nothing to say, a vector (a bias), a geographic pose, or the
+/// time (s) at which the state of a trajectory is asked for. What it throws is the caller's answer.
 struct Service {
-  using Act = std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
-                           std::function<void(const GeoPose&)>>;
+  using Act =
+      std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
+                   std::function<void(const GeoPose&)>, std::function<TrajectoryState(double)>>;
   std::string name;
   Act act;
 };
@@ -96,6 +98,7 @@ struct Ports {
   std::vector<Input> inputs;
   std::vector<Service> services;
   std::vector<Tuning> tunings;
+  std::vector<Action> actions;
 
   Output& add_output(const std::string& topic, std::size_t kind);
   /// Of commands that need no check.

@@ -55,7 +55,7 @@ class Registry {
   std::map<std::string, SensorPlugin> sensor_plugins_;
 };
 
-/// All that ARDEE has, a line each.
+/// All devices that ARDEE has, a line each.
 Registry builtin_registry();
 
 }  // namespace ardee

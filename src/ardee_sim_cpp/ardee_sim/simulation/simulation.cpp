@@ -7,6 +7,7 @@
 
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/simulation/plugins.h"
 
 namespace ardee {
 namespace {
@@ -42,7 +43,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
     : world_(world),
       options_(options),
       log_(std::move(log_sink)),
-      registry_(builtin_registry()),
+      registry_(known_plugins()),
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),

@@ -3,7 +3,9 @@
 #include <iterator>
 #include <sstream>
 
+#include "ardee_sim/controllers/controller_types.h"
 #include "ardee_sim/readers/gz_systems.h"
+#include "ardee_sim/simulation/plugins.h"
 #include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
@@ -107,6 +109,13 @@ void write_systems(std::ostringstream& page) {
   page << "\nNothing to do: " << joined(settled) << ".\n\n";
 }
 
+void write_controllers(std::ostringstream& page) {
+  page << "### Controllers of `libgazebo_ros_control.so`\n\nBy the `type` among a controller's "
+          "parameters.\n\n";
+  for (const auto& [type, make] : control::controller_types()) page << "- `" << type << "`\n";
+  page << "\n";
+}
+
 }  // namespace
 
 std::string plugins_in_markdown() {
@@ -121,9 +130,10 @@ std::string plugins_in_markdown() {
           "in a plugin that publishes leaves that plugin out, with one error; in a drive, a servo\n"
           "or a spring it refuses the robot. Plugins of worlds are left out with a warning "
           "each.\n\n";
-  const Registry registry = builtin_registry();
+  const Registry registry = known_plugins();
   for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
   for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
+  write_controllers(page);
   write_systems(page);
   return page.str();
 }

@@ -297,8 +297,8 @@ TEST(CameraPlugin, WaitsForItsTrigger) {
   TestWorld world("");
   Entity& post = world.spawn(
       camera_post("camera", camera_block(8, 8, 1.0), "<triggered>true</triggered>"), "post");
-  ASSERT_EQ(post.devices.at(0)->triggers().size(), 1u);
-  EXPECT_EQ(post.devices[0]->triggers()[0].topic, "/cam/image_trigger");
+  ASSERT_EQ(post.devices.at(0)->ports().inputs.size(), 2u);  // zoom, trigger
+  EXPECT_EQ(post.devices[0]->ports().inputs.back().topic, "/cam/image_trigger");
   world.run(0.5);
   EXPECT_TRUE(world.recorder().on<ImageReading>("/cam/image_raw").empty());
   post.devices[0]->ports().inputs.back().on_command(Trigger{});

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "all_devices.h"
+#include "ardee_sim/simulation/plugins.h"
 #include "reading_bytes.h"
 
 namespace ardee {
@@ -57,7 +58,7 @@ TEST(Reset, OfTheSimulationRepeatsTheBytesOfEachDeviceWhateverWasTuned) {
 
 TEST(Reset, TestsEachPluginThatThereIs) {
   const std::string robot = rover_with(all_devices());
-  const Registry registry = builtin_registry();
+  const Registry registry = known_plugins();
   for (const auto& files : {registry.model_plugin_files(), registry.sensor_plugin_files()}) {
     EXPECT_GT(files.size(), 10u);
     for (const std::string& file : files) {

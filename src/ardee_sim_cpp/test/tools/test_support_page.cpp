@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "ardee_sim/simulation/plugins.h"
 #include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
@@ -29,7 +30,7 @@ TEST(SupportPage, HasAPluginsKeysTopicsAndServices) {
 }
 
 TEST(SupportPage, EachPluginWarnsOfAKeyThatItDoesNotRead) {
-  const Registry registry = builtin_registry();
+  const Registry registry = known_plugins();
   const auto check = [](const std::string& file, bool in_sensor) {
     const MadePlugin made(file, in_sensor, "<noSuchKey>1</noSuchKey>");
     int said = 0;

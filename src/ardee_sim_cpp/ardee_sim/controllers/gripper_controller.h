@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "ardee_sim/controllers/controller.h"
+#include "ardee_sim/controllers/pid.h"
+
+namespace ardee::control {
+
+/// Brings a gripper's joint to the goals of "gripper_cmd", until it is there or stalls:
+/// {position, effort}_controllers/GripperActionController. Efforts come from a PID law and are
+/// limited to what the goal says.
+class GripperController : public Controller {
+ public:
+  static std::unique_ptr<Controller> make_position(const ControllerContext& context);
+  static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
+
+  GripperController(const ControllerContext& context, JointInterface interface);
+
+  void start(TimeNs now_ns) override;
+  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void stop(TimeNs now_ns) override;
+  void reset(TimeNs now_ns) override;
+
+ private:
+  void hold();
+  void on_goal(const GripperGoal& goal, const GripperAction::HandlePtr& handle);
+  void on_cancel(const GripperAction::HandlePtr& handle);
+  void preempt();
+  void check_goal(TimeNs now_ns, double error);
+
+  JointHandle& joint_;
+  std::optional<Pid> pid_;  // none: positions are commanded
+  GripperGoal default_;
+  double goal_tolerance_;
+  double stall_velocity_;
+  TimeNs stall_timeout_ns_;
+  PublishTimer feedback_timer_;
+
+  GripperGoal command_;
+  double effort_ = 0.0;  // of the last update, as results have it
+  TimeNs now_ns_ = 0;
+  TimeNs last_movement_ns_ = 0;
+  GripperAction::HandlePtr goal_;
+};
+
+}  // namespace ardee::control

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/controllers/ros_control.h"
+
+#include <map>
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee::control {
+namespace {
+
+constexpr char kHardware[] = "gazebo_ros_control/DefaultRobotHWSim";
+constexpr char kGains[] = "gazebo_ros_control/pid_gains/";
+
+void check_hardware(Parameters& parameters, Log& log) {
+  const std::string type = parameters.text("robotSimType", kHardware);
+  if (type == kHardware) return;
+  log.error(parameters
+                .error("robotSimType", "found '" + type + "', expected " + kHardware +
+                                           ", which is taken in its place")
+                .what());
+}
+
+/// 0: each step.
+TimeNs read_period(Parameters& parameters, const DeviceContext& context) {
+  constexpr double kLongest_s = 1e6;
+  const TimeNs period_ns = nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, kLongest_s));
+  if (period_ns > 0 && period_ns < context.step_ns) {
+    context.log.error(parameters
+                          .error("controlPeriod",
+                                 "found less than the step, expected as much at least; "
+                                 "controllers act each step")
+                          .what());
+  } else if (period_ns > context.step_ns) {
+    context.log.warn(parameters
+                         .error("controlPeriod",
+                                "found more than the step: controllers act less "
+                                "often than the physics")
+                         .what());
+  }
+  return period_ns;
+}
+
+RosControl::Params read(const PluginDescription& plugin, DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  RosControl::Params params;
+  params.robot_namespace = plugin_namespace(parameters, context);
+  check_hardware(parameters, context.log);
+  params.period_ns = read_period(parameters, context);
+  params.stop_topic = parameters.text("eStopTopic", "");
+  params.has_legacy_gains = parameters.boolean("legacyModeNS", false);
+  parameters.ignore({"robotParam"});  // the robot is its description
+  parameters.finish(context.log);
+  return params;
+}
+
+JointInterface read_interface(const Transmission& transmission) {
+  static const std::map<std::string, JointInterface> known{
+      {"EffortJointInterface", JointInterface::kEffort},
+      {"PositionJointInterface", JointInterface::kPosition},
+      {"VelocityJointInterface", JointInterface::kVelocity}};
+  const std::string& written = transmission.interfaces.front();
+  const std::string prefix = "hardware_interface/";
+  const bool has_prefix = written.rfind(prefix, 0) == 0;
+  const auto found = known.find(has_prefix ? written.substr(prefix.size()) : written);
+  if (found != known.end()) return found->second;
+  throw Error(transmission.source,
+              "transmission '" + transmission.name + "': found hardwareInterface '" + written +
+                  "', expected hardware_interface/EffortJointInterface, PositionJointInterface or "
+                  "VelocityJointInterface");
+}
+
+}  // namespace
+
+std::unique_ptr<Device> RosControl::make(const PluginDescription& plugin, DeviceContext& context) {
+  const Params params = read(plugin, context);
+  context.robot.dynamics();  // not of what stands still
+  try {
+    return std::make_unique<RosControl>(plugin, params, context);
+  } catch (const Error& error) {
+    context.log.error(std::string(error.what()) +
+                      "; there is no controller_manager for the robot '" + context.robot.name() +
+                      "'");
+    return nullptr;
+  }
+}
+
+RosControl::RosControl(const PluginDescription& plugin, const Params& params,
+                       DeviceContext& context)
+    : Device(plugin.name), params_(params), robot_(context.robot) {
+  for (const Transmission& each : robot_.model().transmissions) {
+    if (each.joint.rfind(context.scope, 0) == 0) add_joint(each, context.scope, context);
+  }
+  if (hardware_.empty()) {
+    context.log.warn(plugin.element.source,
+                     "found no joint in the <transmission>s of the robot, expected some: nothing "
+                     "is controlled");
+  }
+  manager_ = std::make_unique<Manager>(ManagerContext{params_.robot_namespace, robot_.model(),
+                                                      hardware_, context.log, context.parameter});
+  add_stop();
+}
+
+void RosControl::add_joint(const Transmission& transmission, const std::string& scope,
+                           DeviceContext& context) {
+  const std::size_t index = robot_.joint_index(transmission.joint, transmission.source);
+  const Joint& joint = robot_.model().joints[index];
+  const JointInterface interface = read_interface(transmission);
+  if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous &&
+      joint.type != JointType::kPrismatic) {
+    context.log.error(Error(transmission.source,
+                            "transmission '" + transmission.name + "': found joint '" + joint.name +
+                                "', which is held or has no one position; it is "
+                                "left out")
+                          .what());
+    return;
+  }
+  const std::string name = transmission.joint.substr(scope.size());
+  if (hardware_.count(name) > 0) {
+    context.log.warn(transmission.source, "found a second transmission of joint '" + name +
+                                              "', expected one; it is left out");
+    return;
+  }
+  JointHandle& handle = hardware_[name];
+  handle.name = name;
+  handle.interface = interface;
+  handle.type = joint.type;
+  handle.limits = joint.axis;
+  const Setting overrides =
+      context.parameter(resolve_topic("joint_limits/" + name, params_.robot_namespace));
+  const CommandLimits limits = read_command_limits(joint, overrides, context.log);
+  actuators_.emplace_back(
+      handle, index, limits,
+      interface == JointInterface::kEffort ? std::nullopt : read_gains(name, context));
+  add_gains(actuators_.back());
+}
+
+std::optional<PidGains> RosControl::read_gains(const std::string& joint,
+                                               DeviceContext& context) const {
+  Setting gains = context.parameter(resolve_topic(kGains + joint, params_.robot_namespace));
+  if (!gains.has("p") && params_.has_legacy_gains) {
+    gains = context.parameter(resolve_topic(kGains + joint, "/"));
+  }
+  if (gains.has("p")) return read_pid_gains(gains);
+  context.log.info("joint '" + joint + "': no gains at " + gains.path() +
+                   "; it follows its commands without a PID");
+  return std::nullopt;
+}
+
+void RosControl::add_gains(JointActuator& actuator) {
+  Pid* pid = actuator.pid();
+  if (!pid) return;
+  add_tuning(pid->tuning(resolve_topic(kGains + actuator.handle().name, params_.robot_namespace)));
+}
+
+void RosControl::add_stop() {
+  if (params_.stop_topic.empty()) return;
+  ports().add_input<bool>(resolve_topic(params_.stop_topic, params_.robot_namespace),
+                          [this](bool is_stopped) { is_stopped_ = is_stopped; });
+}
+
+void RosControl::before_step(TimeNs now_ns) {
+  const TimeNs passed_ns = now_ns - last_control_ns_;
+  if (passed_ns > 0 && passed_ns >= params_.period_ns) control(now_ns);
+  const double dt_s = seconds(now_ns - last_write_ns_);
+  last_write_ns_ = now_ns;
+  for (JointActuator& each : actuators_) each.write(robot_.dynamics(), dt_s, is_stopped_);
+}
+
+void RosControl::control(TimeNs now_ns) {
+  const double period_s = seconds(now_ns - last_control_ns_);
+  last_control_ns_ = now_ns;
+  for (JointActuator& each : actuators_) each.read(robot_.dynamics());
+  if (was_stopped_ && !is_stopped_) manager_->restart(now_ns);
+  was_stopped_ = is_stopped_;
+  manager_->update(now_ns, period_s, waiting_);
+}
+
+void RosControl::after_step(TimeNs /*now_ns*/, ReadingSink& sink) { waiting_.give(sink); }
+
+void RosControl::Waiting::give(ReadingSink& sink) {
+  for (const auto& [output, reading] : readings_) sink.on_reading(*output, reading);
+  readings_.clear();
+}
+
+void RosControl::reset(TimeNs now_ns) {
+  last_control_ns_ = now_ns;
+  last_write_ns_ = now_ns;
+  is_stopped_ = false;
+  was_stopped_ = false;
+  waiting_.clear();
+  for (JointActuator& each : actuators_) each.reset(robot_.dynamics());
+  manager_->reset(now_ns);
+}
+
+void add_ros_control(Registry& registry) {
+  registry.add_model_plugin("libgazebo_ros_control.so", RosControl::make);
+}
+
+}  // namespace ardee::control

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ardee_sim/controllers/joint_actuator.h"
+#include "ardee_sim/controllers/manager.h"
+#include "ardee_sim/devices/registry.h"
+
+namespace ardee::control {
+
+/// libgazebo_ros_control.so with its DefaultRobotHWSim: the joints that the robot's transmissions
+/// name, as a controller manager's controllers see them. Each control period they are read and the
+/// controllers act; each step their commands do.
+class RosControl : public Device {
+ public:
+  struct Params {
+    std::string robot_namespace;
+    TimeNs period_ns = 0;
+    std::string stop_topic;  // empty: none
+    bool has_legacy_gains = false;
+  };
+
+  /// Nothing, with an error in the log, if the robot's transmissions are not as the original needs
+  /// them: the robot is there, and nothing moves it.
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  /// Throws Error if a joint of the transmissions is not there, or its interface is not known.
+  RosControl(const PluginDescription& plugin, const Params& params, DeviceContext& context);
+
+  Manager& manager() { return *manager_; }
+  const std::string& robot_namespace() const { return params_.robot_namespace; }
+
+  void before_step(TimeNs now_ns) override;
+  /// What the controllers have given before the step.
+  void after_step(TimeNs now_ns, ReadingSink& sink) override;
+  /// Joints have the command 0; controllers that run start again.
+  void reset(TimeNs now_ns) override;
+
+ private:
+  /// Keeps readings until the step has been taken.
+  class Waiting : public ReadingSink {
+   public:
+    void on_reading(const Output& output, const Reading& reading) override {
+      readings_.emplace_back(&output, reading);
+    }
+    void give(ReadingSink& sink);
+    void clear() { readings_.clear(); }
+
+   private:
+    std::vector<std::pair<const Output*, Reading>> readings_;
+  };
+
+  void add_joint(const Transmission& transmission, const std::string& scope,
+                 DeviceContext& context);
+  std::optional<PidGains> read_gains(const std::string& joint, DeviceContext& context) const;
+  void add_gains(JointActuator& actuator);
+  void add_stop();
+  void control(TimeNs now_ns);
+
+  Params params_;
+  Robot& robot_;
+  Hardware hardware_;
+  std::deque<JointActuator> actuators_;
+  std::unique_ptr<Manager> manager_;
+  Waiting waiting_;
+  TimeNs last_control_ns_ = 0;
+  TimeNs last_write_ns_ = 0;
+  bool is_stopped_ = false;
+  bool was_stopped_ = false;  // in the last control period
+};
+
+/// The plugin libgazebo_ros_control.so.
+void add_ros_control(Registry& registry);
+
+}  // namespace ardee::control

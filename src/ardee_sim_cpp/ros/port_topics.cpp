@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "ros/port_topics.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ardee_sim/core/error.h"
+#include "ros/command_subscription.h"
+#include "ros/reading_to_message.h"
+
+namespace ardee::node {
+namespace {
+
+constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
+constexpr std::uint32_t kImageQueue = 5;     // a picture is large
+
+template <std::size_t kKind>
+using MessageOf = decltype(to_message(std::declval<std::variant_alternative_t<kKind, Reading>>()));
+
+template <std::size_t... kKinds>
+ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
+                              std::index_sequence<kKinds...>) {
+  ros::Publisher publisher;
+  const auto try_kind = [&](auto kind) {
+    if (output.kind == kind) {
+      publisher = node.advertise<MessageOf<kind>>(output.topic, kOutputQueue, output.latched);
+    }
+  };
+  (try_kind(std::integral_constant<std::size_t, kKinds>()), ...);
+  return publisher;
+}
+
+bool is_picture(const Output& output) { return output.kind == reading_kind<ImageReading>(); }
+
+}  // namespace
+
+bool Route::has_listeners() const {
+  return publisher ? publisher.getNumSubscribers() > 0 : pictures->has_listeners();
+}
+
+PortTopics::PortTopics(const ros::NodeHandle& node, Ports& ports, const Robot& robot,
+                       const std::string& sensor, Routes& routes)
+    : node_(node), ports_(ports), routes_(routes), services_(node) {
+  for (const Service& service : ports.services) require_valid(service.name);
+  std::vector<Route> made;
+  const bool is_camera = std::any_of(ports.outputs.begin(), ports.outputs.end(), is_picture);
+  for (Output& output : ports.outputs) {
+    made.push_back(advertise(output, robot));
+    made.back().sensor = sensor;
+    made.back().is_camera = is_camera;
+  }
+  for (const Input& input : ports.inputs) subscribers_.push_back(subscribe(node_, input));
+  services_.add(ports);
+  for (Route& route : made) {
+    const Output* output = route.output;
+    routes_.emplace(output, std::move(route));
+  }
+}
+
+PortTopics::~PortTopics() {
+  for (const Output& output : ports_.outputs) routes_.erase(&output);
+}
+
+Route PortTopics::advertise(Output& output, const Robot& robot) {
+  require_valid(output.topic);
+  Route route{&output, &robot, "", false, {}, nullptr};
+  if (is_picture(output)) {
+    const image_transport::Publisher pictures = images_.advertise(output.topic, kImageQueue);
+    if (pictures) route.pictures = std::make_unique<PictureSender>(pictures, kImageQueue);
+  } else {
+    route.publisher =
+        advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
+  }
+  if (!route.publisher && !route.pictures) {
+    throw Error("topic " + output.topic + " is already published with another type");
+  }
+  return route;
+}
+
+void warn_of_taken(const std::vector<std::string>& services, const Robot& robot, Log& log) {
+  if (services.empty()) return;
+  const std::size_t others = services.size() - 1;
+  log.warn(robot.model().source.to_string() + ": service " + services.front() +
+           (others > 0 ? " and " + std::to_string(others) + " more are" : " is") +
+           " there already and " + (others > 0 ? "stay what they were" : "stays what it was") +
+           "; a namespace of its own gives a robot its own");
+}
+
+}  // namespace ardee::node
