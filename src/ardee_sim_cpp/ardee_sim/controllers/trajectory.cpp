@@ -98,7 +98,7 @@ JointMotion Segment::at(double time_s) const {
   const double t = std::min(std::max(time_s - start_s_, 0.0), duration_s_);
   const auto& c = coefficients_;
   const double position = ((((c[5] * t + c[4]) * t + c[3]) * t + c[2]) * t + c[1]) * t + c[0];
-  if (time_s < start_s_ || time_s > end_s()) return {position, 0.0, 0.0};
+  if (time_s < start_s_ || time_s >= end_s()) return {position, 0.0, 0.0};
   return {position, (((5.0 * c[5] * t + 4.0 * c[4]) * t + 3.0 * c[3]) * t + 2.0 * c[2]) * t + c[1],
           ((20.0 * c[5] * t + 12.0 * c[4]) * t + 6.0 * c[3]) * t + 2.0 * c[2]};
 }

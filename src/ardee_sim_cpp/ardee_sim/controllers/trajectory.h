@@ -54,7 +54,7 @@ class Segment {
 
   double start_s() const { return start_s_; }
   double end_s() const { return start_s_ + duration_s_; }
-  /// Before it begins and after it ends: its end's position, at rest.
+  /// Before it begins and from its end on: at rest, at the nearer end's position.
   JointMotion at(double time_s) const;
 
   std::uint64_t goal = 0;  // of an action that it belongs to; 0: of none

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/controllers/controller.h"
+#include "ardee_sim/core/error.h"
+
+namespace ardee::control {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A list of names, of which each is a Setting.
+inline Setting::List names(const std::vector<std::string>& texts) {
+  Setting::List list;
+  for (const std::string& text : texts) list.push_back({"", text});
+  return list;
+}
+
+/// Parameters of a controller "/base" by their paths below it: "linear/x/max_velocity".
+using Parameters = std::map<std::string, Setting::Value>;
+inline Setting settings_of(const Parameters& parameters, const std::string& path = "/base") {
+  Setting::Map map;
+  std::map<std::string, Parameters> groups;
+  for (const auto& [key, value] : parameters) {
+    const std::size_t slash = key.find('/');
+    if (slash == std::string::npos) {
+      map[key] = Setting(path + "/" + key, value);
+    } else {
+      groups[key.substr(0, slash)][key.substr(slash + 1)] = value;
+    }
+  }
+  for (const auto& [key, group] : groups) map[key] = settings_of(group, path + "/" + key);
+  return {path, map};
+}
+
+/// Those of a drive that are required.
+inline Parameters drive_parameters() {
+  Setting::List zeros;
+  for (int i = 0; i < 6; ++i) zeros.push_back({"", 0.0});
+  return {{"pose_covariance_diagonal", zeros}, {"twist_covariance_diagonal", zeros}};
+}
+
+/// What an act throws.
+inline std::string message_of(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A controller over joints that are driven by hand, and what it publishes.
+class Rig : public ReadingSink {
+ public:
+  static constexpr TimeNs kStepNs = 10'000'000;
+  static constexpr double kStep_s = 0.01;
+
+  void add_joint(const std::string& name, JointInterface interface,
+                 JointType type = JointType::kContinuous) {
+    JointHandle joint;
+    joint.name = name;
+    joint.interface = interface;
+    joint.type = type;
+    hardware[name] = joint;
+  }
+  JointHandle& joint(const std::string& name) { return hardware.at(name); }
+  double command_of(const std::string& name) const { return hardware.at(name).command; }
+  /// A link that a joint of that name turns, at a place in the model, with a collision.
+  void add_wheel(const std::string& name, const Eigen::Vector3d& place, const Geometry& geometry) {
+    Link link;
+    link.name = name + "_link";
+    link.X_ML.p = place;
+    link.collisions.push_back({"collision", {}, geometry, {}});
+    model.links.push_back(link);
+    Joint turning;
+    turning.name = name;
+    turning.type = JointType::kContinuous;
+    turning.child = link.name;
+    model.joints.push_back(turning);
+  }
+
+  using Make = std::unique_ptr<Controller> (*)(const ControllerContext&);
+  void make(Make maker, const Parameters& parameters) {
+    settings = settings_of(parameters);
+    controller = maker({"base", "/", settings, model, hardware, log});
+  }
+  void start(Make maker, const Parameters& parameters) {
+    make(maker, parameters);
+    controller->start(now_ns);
+    controller->set_running(true);
+  }
+  /// What making one throws.
+  std::string refusal(Make maker, const Parameters& parameters) {
+    return message_of([&] { make(maker, parameters); });
+  }
+  void update() {
+    now_ns += kStepNs;
+    controller->update(now_ns, kStep_s, *this);
+  }
+  void update(int times) {
+    for (int i = 0; i < times; ++i) update();
+  }
+  /// The joints turn as commanded (rad/s), the controller follows.
+  void roll(int times) {
+    for (int i = 0; i < times; ++i) {
+      for (auto& [name, joint] : hardware) {
+        if (joint.interface != JointInterface::kVelocity) continue;
+        joint.velocity = joint.command;
+        joint.position += joint.command * kStep_s;
+      }
+      update();
+    }
+  }
+  void send(const std::string& topic, const Command& command) {
+    for (const Input& input : controller->ports().inputs) {
+      if (input.topic == topic) return input.on_command(command);
+    }
+    FAIL() << "no input " << topic;
+  }
+  void drive(double v_m_per_s, double w_rad_per_s) {
+    send("/base/cmd_vel", Twist{{v_m_per_s, 0, 0}, {0, 0, w_rad_per_s}});
+  }
+  Tunable& tunable(const std::string& name) {
+    for (Tuning& tuning : controller->ports().tunings) {
+      for (Tunable& each : tuning.parameters) {
+        if (each.name == name) return each;
+      }
+    }
+    throw Error("no tunable " + name);
+  }
+
+  void on_reading(const Output& output, const Reading& reading) override {
+    readings[output.topic].push_back(reading);
+  }
+  std::size_t count(const std::string& topic) { return readings[topic].size(); }
+  template <typename T>
+  const T& last(const std::string& topic) {
+    return std::get<T>(readings.at(topic).back());
+  }
+  bool publishes(const std::string& topic) {
+    for (const Output& output : controller->ports().outputs) {
+      if (output.topic == topic) return true;
+    }
+    return false;
+  }
+
+  Hardware hardware;
+  Model model;
+  std::vector<std::string> messages;
+  Log log{[this](LogLevel, const std::string& text) { messages.push_back(text); }};
+  Setting settings;
+  std::unique_ptr<Controller> controller;
+  TimeNs now_ns = 0;
+  std::map<std::string, std::vector<Reading>> readings;
+};
+
+}  // namespace ardee::control

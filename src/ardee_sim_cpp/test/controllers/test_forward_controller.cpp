@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/controllers/forward_controller.h"
+#include "ardee_sim/controllers/sensor_controllers.h"
+#include "rig.h"
+
+namespace ardee::control {
+namespace {
+
+TEST(ForwardController, HoldsAPositionAndBeginsOthersAtZero) {
+  struct Case {
+    JointInterface interface;
+    Rig::Make make;
+    double at_start;
+  };
+  for (const Case& each : {Case{JointInterface::kPosition, ForwardController::make_position, 0.7},
+                           Case{JointInterface::kVelocity, ForwardController::make_velocity, 0.0},
+                           Case{JointInterface::kEffort, ForwardController::make_effort, 0.0}}) {
+    Rig rig;
+    rig.add_joint("j", each.interface);
+    rig.joint("j").position = 0.7;
+    rig.joint("j").command = 9.0;
+    rig.start(each.make, {{"joint", std::string("j")}});
+    rig.update();
+    EXPECT_EQ(rig.command_of("j"), each.at_start);
+    rig.send("/base/command", -2.5);
+    rig.update(1000);  // no timeout
+    EXPECT_EQ(rig.command_of("j"), -2.5);
+    EXPECT_EQ(rig.controller->claims().at(each.interface), std::set<std::string>{"j"});
+  }
+}
+
+TEST(ForwardController, ForgetsACommandThatCameBeforeItsStart) {
+  Rig rig;
+  rig.add_joint("j", JointInterface::kVelocity);
+  rig.make(ForwardController::make_velocity, {{"joint", std::string("j")}});
+  rig.send("/base/command", 3.0);
+  rig.controller->start(0);
+  rig.update();
+  EXPECT_EQ(rig.command_of("j"), 0.0);
+}
+
+TEST(ForwardController, CommandsAGroupInItsOrder) {
+  struct Case {
+    JointInterface interface;
+    Rig::Make make;
+  };
+  for (const Case& each : {Case{JointInterface::kPosition, ForwardController::make_group_position},
+                           Case{JointInterface::kVelocity, ForwardController::make_group_velocity},
+                           Case{JointInterface::kEffort, ForwardController::make_group_effort}}) {
+    Rig rig;
+    rig.add_joint("a", each.interface);
+    rig.add_joint("b", each.interface);
+    rig.start(each.make, {{"joints", names({"b", "a"})}});
+    rig.send("/base/command", std::vector<double>{1.0, 2.0});
+    rig.update();
+    EXPECT_EQ(rig.command_of("b"), 1.0);
+    EXPECT_EQ(rig.command_of("a"), 2.0);
+    EXPECT_EQ(message_of([&] {
+                rig.send("/base/command", std::vector<double>{1.0, 2.0, 3.0});
+              }),
+              "found 3 numbers, expected 2, one a joint");
+    EXPECT_EQ(message_of([&] {
+                rig.send("/base/command", std::vector<double>{1.0, NAN});
+              }),
+              "found a command that is not finite");
+    rig.update();
+    EXPECT_EQ(rig.command_of("a"), 2.0);
+  }
+}
+
+TEST(ForwardController, SaysWhichParameterIsWrong) {
+  Rig rig;
+  rig.add_joint("j", JointInterface::kVelocity);
+  EXPECT_EQ(rig.refusal(ForwardController::make_velocity, {}),
+            "/base/joint: found nothing, expected a text");
+  EXPECT_EQ(rig.refusal(ForwardController::make_effort, {{"joint", std::string("j")}}),
+            "/base/joint: joint 'j' has the hardware_interface::VelocityJointInterface, expected "
+            "the hardware_interface::EffortJointInterface");
+  EXPECT_EQ(rig.refusal(ForwardController::make_group_velocity, {{"joints", std::string("j")}}),
+            "/base/joints: found 'j', expected a list of names");
+}
+
+TEST(SensorControllers, SayWhatToUseInstead) {
+  Rig rig;
+  EXPECT_EQ(rig.refusal(make_imu_sensor_controller, {}),
+            "/base/type: found a controller that needs the hardware_interface::ImuSensorInterface, "
+            "which the simulated hardware lacks, as gazebo_ros_control's DefaultRobotHWSim does, "
+            "expected an imu sensor with the plugin libgazebo_ros_imu_sensor.so instead");
+  EXPECT_EQ(rig.refusal(make_force_torque_sensor_controller, {}),
+            "/base/type: found a controller that needs the "
+            "hardware_interface::ForceTorqueSensorInterface, which the simulated hardware lacks, "
+            "as gazebo_ros_control's DefaultRobotHWSim does, expected the efforts in joint_states "
+            "of a joint_state_controller instead");
+}
+
+}  // namespace
+}  // namespace ardee::control
