@@ -188,3 +188,16 @@ def parents_in_tf(child: str, wall_time_s: float) -> Set[str]:
     time.sleep(wall_time_s)
     all_of_them = [transform for message in messages for transform in message.transforms]
     return {t.header.frame_id for t in all_of_them if t.child_frame_id == child}
+
+
+def command_joints(commands: Dict[str, float], sim_time_s: float) -> None:
+    """Tells joint controllers numbers by their topics, once they listen, and waits for a while of simulated time."""
+    from std_msgs.msg import Float64
+
+    _start()
+    publishers = {topic: rospy.Publisher(topic, Float64, queue_size=1) for topic in commands}
+    for topic, publisher in publishers.items():
+        wait_until(publisher.get_num_connections, f"a listener on {topic}")
+        publisher.publish(commands[topic])
+    end = rospy.get_rostime() + rospy.Duration.from_sec(sim_time_s)
+    wait_until(lambda: rospy.get_rostime() >= end, f"{sim_time_s} s of simulated time", 60.0)

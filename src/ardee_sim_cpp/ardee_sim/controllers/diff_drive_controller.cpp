@@ -16,7 +16,8 @@ double read_separation(const ControllerContext& context) {
   const auto origin = [&](const std::string& key) {
     return joint_origin(context.model, joint_names(settings, key).front(), given);
   };
-  return positive((origin("left_wheel") - origin("right_wheel")).norm(), given);
+  const Eigen::Vector3d left = origin("left_wheel");
+  return positive((left - origin("right_wheel")).norm(), given);
 }
 
 double read_radius(const ControllerContext& context) {

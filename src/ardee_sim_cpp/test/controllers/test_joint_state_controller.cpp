@@ -44,10 +44,12 @@ TEST_F(JointStateController, PublishesInTheFirstCycleThenAtItsRate) {
   start({{"publish_rate", 20}});
   rig.update();
   EXPECT_EQ(rig.count("/joint_states"), 1u);
-  rig.update(4);
+  rig.update(3);
   EXPECT_EQ(rig.count("/joint_states"), 1u);
+  rig.update();  // 50 ms
+  EXPECT_EQ(rig.count("/joint_states"), 2u);
   rig.update(95);
-  EXPECT_EQ(rig.count("/joint_states"), 20u);
+  EXPECT_EQ(rig.count("/joint_states"), 21u);
 }
 
 TEST_F(JointStateController, TakesSomeJointsAndAddsOthers) {

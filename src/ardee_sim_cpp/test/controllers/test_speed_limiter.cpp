@@ -24,6 +24,13 @@ TEST(SpeedLimiter, CutsSpeedsOfBothDirections) {
   EXPECT_EQ(uneven.limit(-5.0, 0.1), -0.5);
 }
 
+TEST(SpeedLimiter, ReadsKeysThatAreWrittenWithSlashes) {
+  const Setting flat("/base",
+                     Setting::Map{{"linear/x/has_velocity_limits", {"", true}},
+                                  {"linear/x", {"", Setting::Map{{"max_velocity", {"", 2.0}}}}}});
+  EXPECT_EQ(SpeedLimiter(flat, "linear/x").limit(5.0, 0.1), 2.0);
+}
+
 TEST(SpeedLimiter, RampsAtTheAcceleration) {
   SpeedLimiter ramp = limiter({{"linear/x/has_acceleration_limits", true},
                                {"linear/x/max_acceleration", 2.0},

@@ -61,6 +61,7 @@ inline std::vector<std::string> drive_devices() {
                    "<joint_handle>flag_joint</joint_handle><spring_stiffness>0.1"
                    "</spring_stiffness><spring_damping>0.001</spring_damping>"
                    "<referenceTopic>flag</referenceTopic>"),
+      model_device("gazebo_ros_control", ""),
       model_device("gazebo_ros_joint_state_publisher", "<jointName>fl_joint arm_joint</jointName>"),
       model_device("ardee_ros_encoder", "<joint>rr_joint</joint>"),
       model_device("ardee_ros_battery",
@@ -156,6 +157,10 @@ inline std::string rover_with(const std::vector<std::string>& devices) {
   xml += light_link("arm", "revolute",
                     "<limit lower='-1' upper='1' effort='5' velocity='1'/><origin xyz='0 0 0.1'/>");
   xml += light_link("flag", "continuous", "<origin xyz='-0.1 0 0.1'/>");
+  xml +=
+      "<transmission name='hand'><type>simple</type><joint name='flag_joint'>"
+      "<hardwareInterface>EffortJointInterface</hardwareInterface></joint>"
+      "<actuator name='hand'/></transmission>";
   for (const std::string& device : devices) xml += device;
   return xml + "</robot>";
 }
