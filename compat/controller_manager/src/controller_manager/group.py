@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""`controller_group`: groups of controllers that run together, in the parameter controller_groups: {GROUP: [NAME, ...]}."""
+"""`controller_group`: groups of controllers that run together, {GROUP: [NAME, ...]} in controller_groups."""
 import argparse
 from typing import Dict, List, Set
 
