@@ -48,16 +48,7 @@ Command to_command(const std_msgs::Float64MultiArray& message) {
 Command to_command(const four_wheel_steering_msgs::FourWheelSteering& message) {
   return SteeringCommand{message.front_steering_angle, message.rear_steering_angle, message.speed};
 }
-Command to_command(const trajectory_msgs::JointTrajectory& message) {
-  JointTrajectory trajectory;
-  if (!message.header.stamp.isZero()) trajectory.start_s = message.header.stamp.toSec();
-  trajectory.joints = message.joint_names;
-  for (const auto& point : message.points) {
-    trajectory.points.push_back({point.positions, point.velocities, point.accelerations,
-                                 point.effort, point.time_from_start.toSec()});
-  }
-  return trajectory;
-}
+Command to_command(const trajectory_msgs::JointTrajectory& message) { return from_ros(message); }
 
 void check_publishers(const Input& input) {
   if (!input.needs_one_publisher) return;

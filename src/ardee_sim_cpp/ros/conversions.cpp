@@ -92,4 +92,15 @@ Twist from_ros(const geometry_msgs::Twist& twist) {
 
 bool is_finite(const Twist& twist) { return twist.linear.allFinite() && twist.angular.allFinite(); }
 
+JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message) {
+  JointTrajectory trajectory;
+  if (!message.header.stamp.isZero()) trajectory.start_s = message.header.stamp.toSec();
+  trajectory.joints = message.joint_names;
+  for (const auto& point : message.points) {
+    trajectory.points.push_back({point.positions, point.velocities, point.accelerations,
+                                 point.effort, point.time_from_start.toSec()});
+  }
+  return trajectory;
+}
+
 }  // namespace ardee::node

@@ -8,9 +8,11 @@
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
 #include <std_msgs/Header.h>
+#include <trajectory_msgs/JointTrajectory.h>
 
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/devices/command.h"
 #include "ardee_sim/devices/reading_header.h"
 
 namespace ardee::node {
@@ -30,6 +32,8 @@ Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
 /// Error if anything is not finite.
 Pose from_ros(const geometry_msgs::Pose& pose);
 Twist from_ros(const geometry_msgs::Twist& twist);
+/// A stamp of zero is no start.
+JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message);
 bool is_finite(const Twist& twist);
 
 }  // namespace ardee::node

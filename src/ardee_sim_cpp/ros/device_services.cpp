@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "ros/device_services.h"
 
+#include <control_msgs/QueryTrajectoryState.h>
 #include <hector_gazebo_plugins/SetBias.h>
 #include <hector_gazebo_plugins/SetReferenceGeoPose.h>
 #include <ros/service_manager.h>
 #include <std_srvs/Empty.h>
+
+#include <utility>
 
 #include "ros/conversions.h"
 
@@ -42,6 +45,7 @@ bool DeviceServices::is_free(const std::string& name) {
 }
 
 void DeviceServices::add(const Service& service) {
+  using control_msgs::QueryTrajectoryState;
   using hector_gazebo_plugins::SetBias;
   using hector_gazebo_plugins::SetReferenceGeoPose;
   using std_srvs::Empty;
@@ -58,6 +62,19 @@ void DeviceServices::add(const Service& service) {
                             set(from_ros(request.bias));
                             return std::string();
                           });
+  } else if (const auto* state_at =
+                 std::get_if<std::function<TrajectoryState(double)>>(&service.act)) {
+    servers_.add<QueryTrajectoryState>(
+        service.name, service.name,
+        [state_at = *state_at](const QueryTrajectoryState::Request& request,
+                               QueryTrajectoryState::Response& response) {
+          TrajectoryState state = state_at(request.time.toSec());
+          response.name = std::move(state.names);
+          response.position = std::move(state.positions);
+          response.velocity = std::move(state.velocities);
+          response.acceleration = std::move(state.accelerations);
+          return std::string();
+        });
   } else {
     servers_.add<SetReferenceGeoPose>(
         service.name, service.name,

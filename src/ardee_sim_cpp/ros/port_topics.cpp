@@ -51,6 +51,7 @@ PortTopics::PortTopics(const ros::NodeHandle& node, Ports& ports, const Robot& r
   }
   for (const Input& input : ports.inputs) subscribers_.push_back(subscribe(node_, input));
   services_.add(ports);
+  actions_.add(node, ports);
   for (Route& route : made) {
     const Output* output = route.output;
     routes_.emplace(output, std::move(route));

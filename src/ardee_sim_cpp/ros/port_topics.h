@@ -11,6 +11,7 @@
 
 #include "ardee_sim/devices/ports.h"
 #include "ardee_sim/devices/robot.h"
+#include "ros/action_servers.h"
 #include "ros/device_services.h"
 #include "ros/picture_sender.h"
 
@@ -31,8 +32,8 @@ struct Route {
 /// All outputs that are published now.
 using Routes = std::unordered_map<const Output*, Route>;
 
-/// The topics, services and tunings of the ports of a device or of a controller; they are there as
-/// long as this is.
+/// The topics, services, tunings and actions of the ports of a device or of a controller; they are
+/// there as long as this is.
 class PortTopics {
  public:
   /// `sensor` is the scoped name of a sensor, or empty. Throws Error if a topic cannot be had, and
@@ -55,6 +56,7 @@ class PortTopics {
   Routes& routes_;
   std::vector<ros::Subscriber> subscribers_;
   DeviceServices services_;
+  ActionServers actions_;
 };
 
 /// Says once whose services are another's already, which roscpp would of each.

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/devices/ports.h"
+
+namespace ardee::node {
+
+/// Serves the actions of a device or controller by actionlib, on the queue of the node: goals come
+/// between two steps, as commands do.
+class ActionServers {
+ public:
+  /// `ports` outlive this object. Throws Error for a name that is none.
+  void add(const ros::NodeHandle& node, const Ports& ports);
+
+ private:
+  std::vector<std::shared_ptr<void>> servers_;
+};
+
+}  // namespace ardee::node
