@@ -23,24 +23,22 @@ Setting::Map to_map(const std::string& path, XmlRpc::XmlRpcValue& values) {
   return map;
 }
 
-}  // namespace
-
-Setting to_setting(const std::string& path, XmlRpc::XmlRpcValue& value) {
+Setting::Value to_value(const std::string& path, XmlRpc::XmlRpcValue& value) {
   switch (value.getType()) {
     case XmlRpc::XmlRpcValue::TypeInvalid:
-      return {path, {}};
+      return std::monostate();
     case XmlRpc::XmlRpcValue::TypeBoolean:
-      return {path, static_cast<bool>(value)};
+      return static_cast<bool>(value);
     case XmlRpc::XmlRpcValue::TypeInt:
-      return {path, static_cast<int>(value)};
+      return static_cast<int>(value);
     case XmlRpc::XmlRpcValue::TypeDouble:
-      return {path, static_cast<double>(value)};
+      return static_cast<double>(value);
     case XmlRpc::XmlRpcValue::TypeString:
-      return {path, static_cast<std::string>(value)};
+      return static_cast<std::string>(value);
     case XmlRpc::XmlRpcValue::TypeArray:
-      return {path, to_list(path, value)};
+      return to_list(path, value);
     case XmlRpc::XmlRpcValue::TypeStruct:
-      return {path, to_map(path, value)};
+      return to_map(path, value);
     case XmlRpc::XmlRpcValue::TypeDateTime:
     case XmlRpc::XmlRpcValue::TypeBase64:
       break;
@@ -48,6 +46,12 @@ Setting to_setting(const std::string& path, XmlRpc::XmlRpcValue& value) {
   throw Error(path +
               ": found a date or bytes, expected a number, a truth, a text, a list or a "
               "group");
+}
+
+}  // namespace
+
+Setting to_setting(const std::string& path, XmlRpc::XmlRpcValue& value) {
+  return {path, to_value(path, value)};
 }
 
 Setting setting_from_ros(const std::string& name) {

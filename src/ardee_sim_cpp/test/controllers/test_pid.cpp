@@ -9,7 +9,10 @@
 namespace ardee::control {
 namespace {
 
-Setting group(Setting::Map map) { return {"/robot/pid", std::move(map)}; }
+Setting group(const Setting::Map& map) {
+  const Setting::Value value(map);
+  return {"/robot/pid", value};
+}
 Setting number(double value) { return {"/robot/pid/x", value}; }
 
 PidGains gains(double p, double i, double d, double clamp = 0.0, bool antiwindup = false) {

@@ -23,7 +23,7 @@ TEST(SettingFromRos, KeepsTypesAndNamesPaths) {
   EXPECT_EQ(setting.text("wheel"), "left");
   EXPECT_EQ(setting.number("linear/x/max_velocity"), 1.5);
   EXPECT_EQ(setting.at("linear/x/max_velocity").path(), "/robot/base/linear/x/max_velocity");
-  const auto& covariance = std::get<Setting::List>(setting.at("covariance").value());
+  const auto covariance = std::get<Setting::List>(setting.at("covariance").value());
   EXPECT_EQ(std::get<double>(covariance.at(0).value()), 0.5);
   EXPECT_EQ(std::get<int>(covariance.at(1).value()), 2);
   EXPECT_EQ(covariance.at(1).path(), "/robot/base/covariance[1]");

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: MIT
+"""Arms of three joints with a gripper: goals of their actions, and the commands of controller_manager."""
+from typing import Any, Callable, Dict, Iterator, List
+
+import pytest
+from gazebo_calls import Call, call, empty, pose, simulate, spawn, step
+from ros_graph import RosGraph, wait_until
+
+JOINTS = ["shoulder", "elbow", "wrist"]
+KINDS = ["effort", "position"]
+PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4  # of actionlib_msgs/GoalStatus
+GOAL_TOLERANCE_VIOLATED = -5
+ACCURACY_RAD = 0.02
+
+LINK = """<link name="{child}"><inertial><origin xyz="0.15 0 0"/><mass value="1"/>
+<inertia ixx="0.001" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="{joint}" type="{type}"><parent link="{parent}"/><child link="{child}"/><origin xyz="0.3 0 0"/>
+<axis xyz="{axis}"/><limit lower="{lower}" upper="{upper}" effort="100" velocity="5"/></joint>
+<transmission name="{joint}_transmission"><type>transmission_interface/SimpleTransmission</type>
+<joint name="{joint}"><hardwareInterface>hardware_interface/{interface}JointInterface</hardwareInterface></joint>
+<actuator name="{joint}_motor"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>"""
+PARAMETERS = """
+joints: {{type: joint_state_controller/JointStateController, publish_rate: 50}}
+arm:
+  type: {kind}_controllers/JointTrajectoryController
+  joints: [shoulder, elbow, wrist]
+  constraints: {{goal_time: 0.5, stopped_velocity_tolerance: 0.1, shoulder: {{goal: 0.05}}, elbow: {{goal: 0.05}},
+    wrist: {{goal: 0.05}}}}
+  gains: {{shoulder: {{p: 400.0, d: 40.0}}, elbow: {{p: 200.0, d: 20.0}}, wrist: {{p: 100.0, d: 10.0}}}}
+gripper:
+  type: {kind}_controllers/GripperActionController
+  joint: finger
+  goal_tolerance: 0.002
+  stall_timeout: 0.3
+  gains: {{finger: {{p: 400.0, d: 40.0}}}}
+"""
+
+
+def robot(kind: str) -> str:
+    """An arm that turns about vertical axes, so that nothing pulls it down; the wrist turns to 1 rad only."""
+    links = ['<link name="world"/>', LINK_OF_BASE]
+    parent = "base_link"
+    for joint, type_, axis, lower, upper in (
+        ("shoulder", "revolute", "0 0 1", -3, 3),
+        ("elbow", "revolute", "0 0 1", -3, 3),
+        ("wrist", "revolute", "0 0 1", -1, 1),
+        ("finger", "prismatic", "1 0 0", 0, 0.05),
+    ):
+        child = joint + "_link"
+        links.append(
+            LINK.format(
+                joint=joint,
+                parent=parent,
+                child=child,
+                type=type_,
+                axis=axis,
+                lower=lower,
+                upper=upper,
+                interface=kind.capitalize(),
+            )
+        )
+        parent = child
+    plugin = f"""<gazebo><plugin name="control" filename="libgazebo_ros_control.so">
+<robotNamespace>/{kind}</robotNamespace></plugin></gazebo>"""
+    return f'<robot name="{kind}">{"".join(links)}{plugin}</robot>'
+
+
+LINK_OF_BASE = """<link name="base_link"><inertial><mass value="5"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="fixed" type="fixed"><parent link="world"/><child link="base_link"/></joint>"""
+
+
+def manage(kind: str, service: str, type_: str, **fields: Any) -> Call:
+    return f"/{kind}/controller_manager/{service}", f"controller_manager_msgs/{type_}", fields
+
+
+def states(graph: RosGraph, kind: str) -> Dict[str, str]:
+    listed = call(graph, manage(kind, "list_controllers", "ListControllers"))[0].controller
+    return {each.name: each.state for each in listed}
+
+
+@pytest.fixture(scope="module")
+def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
+    """The simulator, paused, with both arms and their controllers, which spawners have started."""
+    simulate(shared_graph)
+    call(shared_graph, empty("pause_physics"))
+    for i, kind in enumerate(KINDS):
+        answer = call(shared_graph, spawn(kind, robot(kind), pose(y=5.0 * i), "urdf"))[0]
+        assert answer.success, answer.status_message
+        file = shared_graph.folder / f"{kind}.yaml"
+        file.write_text(PARAMETERS.format(kind=kind))
+        shared_graph.spawn(
+            "rosrun", "controller_manager", "spawner", "--namespace", f"/{kind}", str(file)
+        )
+        wait_until(
+            lambda: list(states(shared_graph, kind).values()) == ["running"] * 3,
+            "running controllers",
+        )
+    yield shared_graph
+
+
+def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
+    """The state and the result of a goal; it is cancelled after the steps, if it shall be."""
+    import actionlib
+    import rospy
+
+    import control_msgs.msg
+    from ardee_msgs.srv import Step
+
+    rospy.init_node("client", anonymous=True, disable_signals=True)
+    client = actionlib.SimpleActionClient(name, getattr(control_msgs.msg, action + "Action"))
+    client.wait_for_server()
+    client.send_goal(goal)
+    wait_until(client.get_state, "an answer to the goal")  # 0: pending
+    advance = rospy.ServiceProxy("/ardee/step", Step)
+    advance(steps=steps)
+    if cancel:
+        client.cancel_goal()
+    wait_until(lambda: client.get_state() > 1, "the end of the goal")
+    return client.get_state(), client.get_result()
+
+
+def follow(
+    graph: RosGraph, kind: str, positions: List[float], steps: int, cancel: bool = False
+) -> Any:
+    """The end of a goal of the arm that is reached after 1 s."""
+    import rospy
+    from trajectory_msgs.msg import JointTrajectoryPoint
+
+    from control_msgs.msg import FollowJointTrajectoryGoal
+
+    goal = FollowJointTrajectoryGoal()
+    goal.trajectory.joint_names = JOINTS
+    still = [0.0] * len(JOINTS)
+    goal.trajectory.points = [
+        JointTrajectoryPoint(
+            positions=positions, velocities=still, time_from_start=rospy.Duration(1)
+        )
+    ]
+    name = f"/{kind}/arm/follow_joint_trajectory"
+    return graph.call(send, name, "FollowJointTrajectory", goal, steps, cancel)
+
+
+def positions(graph: RosGraph, kind: str) -> List[float]:
+    """Of the joints of the arm, as the trajectory's state has them."""
+    return list(graph.call(actual_positions, f"/{kind}/arm/state"))
+
+
+def actual_positions(topic: str) -> Any:
+    import rospy
+
+    from ardee_msgs.srv import Step
+    from control_msgs.msg import JointTrajectoryControllerState
+
+    rospy.init_node("listener", anonymous=True, disable_signals=True)
+    heard = []  # type: List[Any]
+    subscriber = rospy.Subscriber(topic, JointTrajectoryControllerState, heard.append)
+    wait_until(subscriber.get_num_connections, f"a publisher of {topic}")
+    rospy.ServiceProxy("/ardee/step", Step)(steps=50)
+    wait_until(lambda: heard, "a state")
+    assert heard[-1].joint_names == JOINTS
+    return heard[-1].actual.positions
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_goal_is_reached(arms: RosGraph, kind: str) -> None:
+    state, result = follow(arms, kind, [0.5, -0.4, 0.3], 1600)
+    assert (state, result.error_code, result.error_string) == (SUCCEEDED, 0, "")
+    assert positions(arms, kind) == pytest.approx([0.5, -0.4, 0.3], abs=ACCURACY_RAD)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_goal_beyond_a_limit_is_aborted(arms: RosGraph, kind: str) -> None:
+    state, result = follow(arms, kind, [0.0, 0.0, 1.5], 1600)
+    assert (state, result.error_code) == (ABORTED, GOAL_TOLERANCE_VIOLATED)
+    assert result.error_string.startswith("wrist goal error 0.")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_cancelled_arm_stays_where_it_is(arms: RosGraph, kind: str) -> None:
+    follow(arms, kind, [0.0, 0.0, 0.0], 1600)
+    state, _ = follow(arms, kind, [1.0, 0.0, 0.0], 500, cancel=True)
+    assert state == PREEMPTED
+    call(arms, step(1000))
+    assert 0.3 < positions(arms, kind)[0] < 0.7  # half way
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_gripper_reaches_its_goal_or_stalls(arms: RosGraph, kind: str) -> None:
+    from control_msgs.msg import GripperCommand, GripperCommandGoal
+
+    for position, end in ((0.03, SUCCEEDED), (0.08, ABORTED)):
+        goal = GripperCommandGoal(GripperCommand(position=position, max_effort=20.0))
+        state, result = arms.call(
+            send, f"/{kind}/gripper/gripper_cmd", "GripperCommand", goal, 3000, False
+        )
+        assert (state, result.reached_goal, result.stalled) == (
+            end,
+            end == SUCCEEDED,
+            end == ABORTED,
+        )
+        assert result.position == pytest.approx(min(position, 0.05), abs=0.003)
+
+
+def test_the_state_of_a_trajectory_is_told(arms: RosGraph) -> None:
+    follow(arms, "effort", [0.2, 0.1, 0.0], 1600)
+    answer = call(
+        arms,
+        ("/effort/arm/query_state", "control_msgs/QueryTrajectoryState", {"time": far_away()}),
+    )[0]
+    assert answer.name == JOINTS
+    assert list(answer.position) == pytest.approx([0.2, 0.1, 0.0], abs=1e-9)
+    assert list(answer.velocity) == [0.0, 0.0, 0.0]
+
+
+def far_away() -> Any:
+    import rospy
+
+    return rospy.Time(1000)
+
+
+def test_a_goal_of_other_joints_is_rejected(arms: RosGraph) -> None:
+    from control_msgs.msg import FollowJointTrajectoryGoal
+
+    goal = FollowJointTrajectoryGoal()
+    goal.trajectory.joint_names = ["shoulder", "elbow", "knee"]
+    name = "/effort/arm/follow_joint_trajectory"
+    state, result = arms.call(send, name, "FollowJointTrajectory", goal, 1, False)
+    assert (state, result.error_code) == (5, -2)
+    assert "'knee'" in result.error_string
+
+
+def command(graph: RosGraph, *words: str) -> str:
+    return graph.run("rosrun", "controller_manager", "controller_manager", *words, "__ns:=/effort")
+
+
+def test_the_commands_of_controller_manager(arms: RosGraph) -> None:
+    assert command(arms, "stop", "gripper") == "Stopped ['gripper'] successfully\n"
+    assert states(arms, "effort")["gripper"] == "stopped"
+    assert "'gripper' - 'hardware_interface::EffortJointInterface' ( stopped )" in command(
+        arms, "list"
+    )
+    assert command(arms, "start", "gripper") == "Started ['gripper'] successfully\n"
+    assert "effort_controllers/GripperActionController" in command(arms, "list-types").split()
+    with pytest.raises(RuntimeError, match="Error when loading 'ghost'"):
+        command(arms, "load", "ghost")
+
+
+def test_an_unspawner_and_a_spawner_put_back_what_they_found(arms: RosGraph) -> None:
+    def ended_by(process: Any, condition: Callable[[], bool], what: str) -> None:
+        wait_until(condition, what)
+        process.stop()
+
+    rosrun = ("rosrun", "controller_manager")
+    unspawner = arms.spawn(*rosrun, "unspawner", "gripper", "__ns:=/effort")
+    ended_by(unspawner, lambda: states(arms, "effort")["gripper"] == "stopped", "a stopped gripper")
+    wait_until(lambda: states(arms, "effort")["gripper"] == "running", "a gripper that runs again")
+
+    arms.run("rosparam", "set", "/effort/other/type", "joint_state_controller/JointStateController")
+    arms.run("rosparam", "set", "/effort/other/publish_rate", "10")
+    spawner = arms.spawn(*rosrun, "spawner", "--stopped", "other", "__ns:=/effort")
+    ended_by(
+        spawner, lambda: states(arms, "effort").get("other") == "initialized", "a loaded controller"
+    )
+    wait_until(lambda: "other" not in states(arms, "effort"), "a controller that is gone")
