@@ -100,6 +100,7 @@ std::vector<Pose> run(Simulation& simulation) {
 void command(Device& device) {
   for (Input& input : device.inputs()) input.on_command({{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
   for (const NumberInput& input : device.number_inputs()) input.on_number(input.high);
+  for (const WrenchInput& input : device.wrench_inputs()) input.on_wrench({{1, 2, 3}, {4, 5, 6}});
   for (const Trigger& trigger : device.triggers()) trigger.on_trigger();
   for (const Tuning& tuning : device.tunings()) {
     for (const Tunable& tunable : tuning.parameters) tunable.set(tunable.high);

@@ -4,7 +4,9 @@
 #include <ardee_msgs/Battery.h>
 #include <ardee_msgs/Encoder.h>
 #include <ardee_msgs/GpsQuality.h>
+#include <gazebo_msgs/ContactsState.h>
 #include <geometry_msgs/Vector3Stamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/BatteryState.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -45,5 +47,7 @@ sensor_msgs::PointCloud2 to_message(const PointCloudReading& reading);
 sensor_msgs::PointCloud to_message(const LegacyCloudReading& reading);
 sensor_msgs::Image to_message(const ImageReading& reading);
 sensor_msgs::CameraInfo to_message(const CameraInfoReading& reading);
+gazebo_msgs::ContactsState to_message(const ContactsReading& reading);
+geometry_msgs::WrenchStamped to_message(const WrenchReading& reading);
 
 }  // namespace ardee::node

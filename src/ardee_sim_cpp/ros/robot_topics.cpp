@@ -147,6 +147,18 @@ ros::Subscriber RobotTopics::subscribe(const NumberInput& input) {
   return subscribe_to<std_msgs::Float64>(node_, input.topic, on_message);
 }
 
+ros::Subscriber RobotTopics::subscribe(const WrenchInput& input) {
+  const auto on_message =
+      [input, complaint = Complaint()](const geometry_msgs::Wrench::ConstPtr& message) mutable {
+        try {
+          input.on_wrench(from_ros(*message));
+        } catch (const Error& error) {
+          complaint.say(std::string(error.what()) + "; it is ignored");
+        }
+      };
+  return subscribe_to<geometry_msgs::Wrench>(node_, input.topic, on_message);
+}
+
 void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
   for (const Service& service : device.services()) require_valid(service.name);
   for (const Trigger& trigger : device.triggers()) require_valid(trigger.topic);
@@ -161,6 +173,7 @@ void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
   }
   for (const Input& input : device.inputs()) subscribers.push_back(subscribe(input));
   for (const NumberInput& input : device.number_inputs()) subscribers.push_back(subscribe(input));
+  for (const WrenchInput& input : device.wrench_inputs()) subscribers.push_back(subscribe(input));
   topics.services->add(device);
   std::move(routes.begin(), routes.end(), std::back_inserter(topics.routes));
   std::move(subscribers.begin(), subscribers.end(), std::back_inserter(topics.subscribers));

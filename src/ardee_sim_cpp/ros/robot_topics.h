@@ -57,6 +57,7 @@ class RobotTopics : public ReadingSink {
   void count(const Route& route, TimeNs now_ns);
   ros::Subscriber subscribe(const Input& input);
   ros::Subscriber subscribe(const NumberInput& input);
+  ros::Subscriber subscribe(const WrenchInput& input);
 
   OdometryFrames& frames_;
   PerformanceMetrics& metrics_;

@@ -74,6 +74,7 @@ SimulationOptions simulation_options(const Settings& settings) {
   options.rays.threads = settings.threads;
   options.bad_parts = bad_parts(settings.lenient);
   options.tf_prefix = tf_prefix;
+  options.plugin_aliases = settings.plugin_aliases;
   return options;
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 
 namespace ardee {
 
@@ -33,6 +34,20 @@ void Device::add_number_input(NumberInput input) {
     act(number);
   };
   number_inputs_.push_back(std::move(input));
+}
+
+void Device::add_wrench_input(const std::string& topic,
+                              std::function<void(const ForceTorque&)> on_wrench) {
+  const auto checked = [topic, act = std::move(on_wrench)](const ForceTorque& wrench) {
+    using limits::is_within, limits::kStrongest;
+    if (!is_within(wrench.force, kStrongest) || !is_within(wrench.torque, kStrongest)) {
+      throw Error(topic +
+                  ": found a wrench with a number that is not finite or beyond 1e9, "
+                  "expected less");
+    }
+    act(wrench);
+  };
+  wrench_inputs_.push_back({topic, checked});
 }
 
 void Device::add_trigger(const std::string& topic, std::function<void()> on_trigger) {

@@ -15,6 +15,7 @@
 #include "ardee_sim/devices/pictures.h"
 #include "ardee_sim/devices/reading.h"
 #include "ardee_sim/devices/robot.h"
+#include "ardee_sim/physics/contact.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
 namespace ardee {
@@ -42,6 +43,13 @@ struct NumberInput {
   double low = 0.0;
   double high = 0.0;
   std::function<void(double)> on_number;
+};
+
+/// A wrench in the world's axes that a device takes on a topic. One beyond what the physics takes
+/// is an Error and changes nothing.
+struct WrenchInput {
+  std::string topic;
+  std::function<void(const ForceTorque&)> on_wrench;
 };
 
 /// A request to act now, without content, on a topic.
@@ -117,6 +125,10 @@ struct Surroundings {
   std::function<std::vector<std::string>()> scenery_files;
   /// How often static models have come or gone so far.
   std::function<std::uint64_t()> scenery_changes;
+  /// Asks, before a step, for its contacts.
+  std::function<void()> want_contacts;
+  /// Contacts of the last step, if they were asked for.
+  std::function<const std::vector<Contact>&()> contacts;
 };
 
 /// What a device is given when it is made. All references outlive the device.
@@ -157,6 +169,7 @@ class Device {
   std::deque<Output>& outputs() { return outputs_; }
   std::deque<Input>& inputs() { return inputs_; }
   const std::vector<NumberInput>& number_inputs() const { return number_inputs_; }
+  const std::vector<WrenchInput>& wrench_inputs() const { return wrench_inputs_; }
   const std::vector<Trigger>& triggers() const { return triggers_; }
   const std::vector<Service>& services() const { return services_; }
   const std::vector<Tuning>& tunings() const { return tunings_; }
@@ -179,6 +192,8 @@ class Device {
   Output& add_output(const std::string& topic, std::size_t kind);
   void add_input(const std::string& topic, std::function<void(const Twist&)> on_command);
   void add_number_input(NumberInput input);
+  void add_wrench_input(const std::string& topic,
+                        std::function<void(const ForceTorque&)> on_wrench);
   void add_trigger(const std::string& topic, std::function<void()> on_trigger);
   void add_service(const std::string& name, Service::Act act);
   void add_tuning(Tuning tuning);
@@ -189,6 +204,7 @@ class Device {
   std::deque<Output> outputs_;
   std::deque<Input> inputs_;
   std::vector<NumberInput> number_inputs_;
+  std::vector<WrenchInput> wrench_inputs_;
   std::vector<Trigger> triggers_;
   std::vector<Service> services_;
   std::vector<Tuning> tunings_;

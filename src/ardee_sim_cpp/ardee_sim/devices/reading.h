@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "ardee_sim/devices/force_readings.h"
 #include "ardee_sim/devices/image_readings.h"
 #include "ardee_sim/devices/motion_readings.h"
 #include "ardee_sim/devices/power_readings.h"
@@ -11,10 +12,10 @@
 namespace ardee {
 
 /// Whatever a device may give.
-using Reading =
-    std::variant<LidarReading, OdometryReading, TransformReading, JointStateReading, ImuReading,
-                 FixReading, VectorReading, MagneticFieldReading, EncoderReading, BatteryReading,
-                 BatteryStateReading, RangeReading, PointCloudReading, LegacyCloudReading,
-                 ImageReading, CameraInfoReading, GpsQualityReading, RegionsReading>;
+using Reading = std::variant<LidarReading, OdometryReading, TransformReading, JointStateReading,
+                             ImuReading, FixReading, VectorReading, MagneticFieldReading,
+                             EncoderReading, BatteryReading, BatteryStateReading, RangeReading,
+                             PointCloudReading, LegacyCloudReading, ImageReading, CameraInfoReading,
+                             GpsQualityReading, RegionsReading, ContactsReading, WrenchReading>;
 
 }  // namespace ardee

@@ -24,6 +24,7 @@ struct SimulationOptions {
   RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+  std::vector<PluginAlias> plugin_aliases;  // added to the built-in ones
 };
 
 struct SpawnRequest {
@@ -123,7 +124,7 @@ class Simulation {
   void add_world_models(const std::vector<Instance>& models);
   Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
-  Surroundings surroundings() const;
+  Surroundings surroundings();
   void restore(Entity& entity);
   void take_from_physics(const Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);

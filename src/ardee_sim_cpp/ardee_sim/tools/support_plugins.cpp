@@ -10,13 +10,26 @@
 namespace ardee {
 namespace {
 
-constexpr const char* kMessages[] = {
-    "sensor_msgs/LaserScan",        "nav_msgs/Odometry",         "tf2_msgs/TFMessage",
-    "sensor_msgs/JointState",       "sensor_msgs/Imu",           "sensor_msgs/NavSatFix",
-    "geometry_msgs/Vector3Stamped", "sensor_msgs/MagneticField", "ardee_msgs/Encoder",
-    "ardee_msgs/Battery",           "sensor_msgs/BatteryState",  "sensor_msgs/Range",
-    "sensor_msgs/PointCloud2",      "sensor_msgs/PointCloud",    "sensor_msgs/Image",
-    "sensor_msgs/CameraInfo",       "ardee_msgs/GpsQuality",     "visualization_msgs/MarkerArray"};
+constexpr const char* kMessages[] = {"sensor_msgs/LaserScan",
+                                     "nav_msgs/Odometry",
+                                     "tf2_msgs/TFMessage",
+                                     "sensor_msgs/JointState",
+                                     "sensor_msgs/Imu",
+                                     "sensor_msgs/NavSatFix",
+                                     "geometry_msgs/Vector3Stamped",
+                                     "sensor_msgs/MagneticField",
+                                     "ardee_msgs/Encoder",
+                                     "ardee_msgs/Battery",
+                                     "sensor_msgs/BatteryState",
+                                     "sensor_msgs/Range",
+                                     "sensor_msgs/PointCloud2",
+                                     "sensor_msgs/PointCloud",
+                                     "sensor_msgs/Image",
+                                     "sensor_msgs/CameraInfo",
+                                     "ardee_msgs/GpsQuality",
+                                     "visualization_msgs/MarkerArray",
+                                     "gazebo_msgs/ContactsState",
+                                     "geometry_msgs/WrenchStamped"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -35,6 +48,9 @@ void write_ports(Device& device, std::ostringstream& page) {
   }
   for (const NumberInput& input : device.number_inputs()) {
     in.push_back("`" + input.topic + "` (std_msgs/Float64)");
+  }
+  for (const WrenchInput& input : device.wrench_inputs()) {
+    in.push_back("`" + input.topic + "` (geometry_msgs/Wrench)");
   }
   for (const Trigger& trigger : device.triggers()) {
     in.push_back("`" + trigger.topic + "` (std_msgs/Empty)");
@@ -72,12 +88,25 @@ void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& p
   write_keys(made.keys(), page);
 }
 
+void write_aliases(std::ostringstream& page) {
+  page << "### Plugins of other names\n\nThese do the work of another plugin's name, with keys of "
+          "other names where any are listed. A list `~plugin_aliases` of the\nsimulator node adds "
+          "to them: `filename`, `plugin` (one of the above), `keys` (their name: ours).\n\n"
+          "| file | plugin | keys |\n|---|---|---|\n";
+  for (const PluginAlias& alias : builtin_aliases()) {
+    page << "| `" << alias.filename << "` | `" << alias.plugin << "` | ";
+    for (const auto& [theirs, ours] : alias.keys) page << "`" << theirs << "`: `" << ours << "` ";
+    page << "|\n";
+  }
+  page << "\n";
+}
+
 void write_systems(std::ostringstream& page) {
   page
       << "### Systems and sensors of newer Gazebo\n\n`gz-sim-NAME-system` and "
          "`ignition-gazebo-NAME-system` are read as the plugins that do their work; others are one "
          "warning\neach, and are left out. A sensor of type lidar, camera, rgbd_camera, "
-         "depth_camera, imu, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
+         "depth_camera, imu, contact, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
          "| system | plugin | warning |\n|---|---|---|\n";
   for (const GzCounterpart& each : gz_counterparts()) {
     page << "| `" << each.system << "` | `" << each.plugin << "` | " << each.warning << " |\n";
@@ -104,6 +133,7 @@ std::string plugins_in_markdown() {
   const Registry registry = builtin_registry();
   for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
   for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
+  write_aliases(page);
   write_systems(page);
   return page.str();
 }

@@ -48,6 +48,13 @@ class ReadingBytes {
   void add(const RegionsReading::Region& region) {
     all(region.name, region.pose, region.size_m, region.rgba);
   }
+  void add(const ForceTorque& wrench) { all(wrench.force, wrench.torque); }
+  void add(const Contact& contact) {
+    all(contact.position, contact.normal, contact.depth_m, contact.on1, contact.on2);
+  }
+  void add(const ContactsReading::Touch& touch) {
+    all(touch.time_ns, touch.collision1, touch.collision2, touch.points);
+  }
   template <typename... Values>
   void all(const Values&... values) {
     (add(values), ...);
@@ -92,6 +99,8 @@ class ReadingBytes {
     all(r.region, r.position_std_m, r.has_fix, r.error_m);
   }
   void add_reading(const RegionsReading& r) { add(r.regions); }
+  void add_reading(const ContactsReading& r) { add(r.touches); }
+  void add_reading(const WrenchReading& r) { add(r.wrench); }
 
   std::string bytes_;
 };

@@ -189,6 +189,10 @@ TEST(ValidState, CommandsThatAreNotFiniteAreRefusedAndChangeNothing) {
         for (const NumberInput& input : device->number_inputs()) {
           EXPECT_THROW(input.on_number(number), Error) << device->name();
         }
+        for (const WrenchInput& input : device->wrench_inputs()) {
+          EXPECT_THROW(input.on_wrench({{number, 0, 0}, {0, 0, 0}}), Error) << device->name();
+          EXPECT_THROW(input.on_wrench({{0, 0, 0}, {0, number, 0}}), Error) << device->name();
+        }
       }
     }
     world.run(0.2);
