@@ -103,6 +103,9 @@ void command(Device& device) {
       input.on_command(Twist{{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
     }
     if (input.kind == command_kind<double>()) input.on_command(input.high);
+    if (input.kind == command_kind<ForceTorque>()) {
+      input.on_command(ForceTorque{{1, 2, 3}, {4, 5, 6}});
+    }
     if (input.kind == command_kind<Trigger>()) input.on_command(Trigger{});
   }
   for (const Tuning& tuning : device.ports().tunings) {

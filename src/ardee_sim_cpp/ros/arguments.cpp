@@ -57,6 +57,48 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
   return static_cast<int>(value);
 }
 
+/// A member of an alias that is a word.
+std::string word_of(XmlRpc::XmlRpcValue& alias, const char* name, const std::string& place) {
+  if (alias.hasMember(name) && alias[name].getType() == XmlRpc::XmlRpcValue::TypeString) {
+    return alias[name];
+  }
+  throw Error(place + ": found no word '" + name + "', expected filename and plugin");
+}
+
+PluginAlias read_alias(XmlRpc::XmlRpcValue& given, const std::string& place) {
+  using Type = XmlRpc::XmlRpcValue::Type;
+  if (given.getType() != Type::TypeStruct) {
+    throw Error(place + ": expected a map of filename, plugin and keys");
+  }
+  PluginAlias alias{word_of(given, "filename", place), word_of(given, "plugin", place), {}};
+  for (auto& [name, value] : given) {
+    if (name == "filename" || name == "plugin") continue;
+    if (name != "keys" || value.getType() != Type::TypeStruct) {
+      throw Error(place + ": found '" + name + "', expected filename, plugin and a map keys");
+    }
+    for (auto& [theirs, ours] : value) {
+      if (ours.getType() != Type::TypeString) {
+        throw Error(place + ": key '" + theirs + "': expected a word");
+      }
+      alias.keys[theirs] = static_cast<std::string>(ours);
+    }
+  }
+  return alias;
+}
+
+/// ~plugin_aliases: a list, so that a name of a file need not be one of a parameter.
+std::vector<PluginAlias> read_aliases(const ros::NodeHandle& node) {
+  XmlRpc::XmlRpcValue list;
+  if (!node.getParam("plugin_aliases", list)) return {};
+  const std::string place = "parameter " + node.resolveName("plugin_aliases");
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) throw Error(place + ": expected a list");
+  std::vector<PluginAlias> aliases;
+  for (int i = 0; i < list.size(); ++i) {
+    aliases.push_back(read_alias(list[i], place + "[" + std::to_string(i) + "]"));
+  }
+  return aliases;
+}
+
 }  // namespace
 
 std::string usage() {
@@ -69,7 +111,8 @@ std::string usage() {
          "  --verbose     log at debug level\n"
          "  -h, --help    this text\n"
          "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
-         "            ~publish_world_tf ~lenient ~scenery_radius ~realtime_priority ~verbose\n";
+         "            ~publish_world_tf ~lenient ~scenery_radius ~realtime_priority ~verbose\n"
+         "            ~plugin_aliases (list of filename, plugin, keys: plugins of other names)\n";
 }
 
 CommandLine parse_command_line(int argc, char** argv) {
@@ -125,6 +168,7 @@ Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& n
   settings.lenient =
       command_line.lenient.value_or(parameter(node, "lenient", false, "true or false"));
   settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
+  settings.plugin_aliases = read_aliases(node);
   constexpr int kHighestPriority = 99;  // of SCHED_RR
   settings.realtime_priority = whole_number(node, "realtime_priority", 0, kHighestPriority);
   return settings;

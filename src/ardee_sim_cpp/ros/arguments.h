@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "ardee_sim/devices/registry.h"
 
 namespace ardee::node {
 
@@ -36,6 +39,7 @@ struct Settings {
   bool publish_world_tf = false;
   bool lenient = false;  // leave out what is missing, with an error; else refuse the whole
   double scenery_radius_m = 6.0;
+  std::vector<PluginAlias> plugin_aliases;
   int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none
 };
 

@@ -3,6 +3,7 @@
 
 #include <four_wheel_steering_msgs/FourWheelSteering.h>
 #include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Wrench.h>
 #include <ros/console.h>
 #include <ros/names.h>
 #include <ros/topic_manager.h>
@@ -50,6 +51,8 @@ Command to_command(const four_wheel_steering_msgs::FourWheelSteering& message) {
 }
 Command to_command(const trajectory_msgs::JointTrajectory& message) { return from_ros(message); }
 
+Command to_command(const geometry_msgs::Wrench& message) { return from_ros(message); }
+
 void check_publishers(const Input& input) {
   if (!input.needs_one_publisher) return;
   const std::size_t count = ros::TopicManager::instance()->getNumPublishers(input.topic);
@@ -94,7 +97,8 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const Input& input) {
                                       subscribe_to<std_msgs::Bool>,
                                       subscribe_to<std_msgs::Float64MultiArray>,
                                       subscribe_to<four_wheel_steering_msgs::FourWheelSteering>,
-                                      subscribe_to<trajectory_msgs::JointTrajectory>};
+                                      subscribe_to<trajectory_msgs::JointTrajectory>,
+                                      subscribe_to<geometry_msgs::Wrench>};
   static_assert(std::size(kSubscribe) == std::variant_size_v<Command>, "one a kind of command");
   return kSubscribe[input.kind](node, input);
 }

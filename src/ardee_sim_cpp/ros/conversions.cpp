@@ -55,6 +55,13 @@ geometry_msgs::Transform to_transform(const Pose& pose) {
   return message;
 }
 
+geometry_msgs::Wrench to_ros(const ForceTorque& wrench) {
+  geometry_msgs::Wrench message;
+  message.force = to_vector(wrench.force);
+  message.torque = to_vector(wrench.torque);
+  return message;
+}
+
 geometry_msgs::Twist to_ros(const Twist& twist) {
   geometry_msgs::Twist message;
   message.linear = to_vector(twist.linear);
@@ -84,6 +91,10 @@ Pose from_ros(const geometry_msgs::Pose& message) {
     pose.q.normalize();
   }
   return pose;
+}
+
+ForceTorque from_ros(const geometry_msgs::Wrench& wrench) {
+  return {from_ros(wrench.force), from_ros(wrench.torque)};
 }
 
 Twist from_ros(const geometry_msgs::Twist& twist) {

@@ -6,6 +6,7 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
+#include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
 #include <std_msgs/Header.h>
 #include <trajectory_msgs/JointTrajectory.h>
@@ -14,6 +15,7 @@
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/devices/command.h"
 #include "ardee_sim/devices/reading_header.h"
+#include "ardee_sim/physics/contact.h"
 
 namespace ardee::node {
 
@@ -25,6 +27,7 @@ geometry_msgs::Quaternion to_quaternion(const Eigen::Quaterniond& q);
 geometry_msgs::Pose to_ros(const Pose& pose);
 geometry_msgs::Transform to_transform(const Pose& pose);
 geometry_msgs::Twist to_ros(const Twist& twist);
+geometry_msgs::Wrench to_ros(const ForceTorque& wrench);
 
 Eigen::Vector3d from_ros(const geometry_msgs::Vector3& vector);
 Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
@@ -34,6 +37,7 @@ Pose from_ros(const geometry_msgs::Pose& pose);
 Twist from_ros(const geometry_msgs::Twist& twist);
 /// A stamp of zero is no start.
 JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message);
+ForceTorque from_ros(const geometry_msgs::Wrench& wrench);
 bool is_finite(const Twist& twist);
 
 }  // namespace ardee::node

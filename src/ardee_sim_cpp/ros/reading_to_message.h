@@ -7,8 +7,10 @@
 #include <control_msgs/JointControllerState.h>
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <four_wheel_steering_msgs/FourWheelSteeringStamped.h>
+#include <gazebo_msgs/ContactsState.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/Vector3Stamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/BatteryState.h>
 #include <sensor_msgs/CameraInfo.h>
@@ -54,5 +56,7 @@ control_msgs::JointControllerState to_message(const JointControllerReading& read
 control_msgs::JointTrajectoryControllerState to_message(const TrajectoryControllerReading& reading);
 four_wheel_steering_msgs::FourWheelSteeringStamped to_message(
     const FourWheelSteeringReading& reading);
+gazebo_msgs::ContactsState to_message(const ContactsReading& reading);
+geometry_msgs::WrenchStamped to_message(const WrenchReading& reading);
 
 }  // namespace ardee::node

@@ -149,6 +149,8 @@ struct Joint {
   JointAxis axis;
   JointAxis axis2;              // universal, revolute2
   double thread_pitch_m = 0.0;  // screw: metres a turn
+  /// A fixed joint that is to tell its wrench: its links stay two bodies.
+  bool is_measured = false;
   // ODE's own: softness and correction at the stops and of the joint itself (negative: the
   // world's).
   double stop_cfm = -1.0;

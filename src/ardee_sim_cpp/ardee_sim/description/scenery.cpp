@@ -16,12 +16,27 @@ void flatten_into(const Instance& instance, const Pose& X_WP, double parent_scal
   }
 }
 
+/// Counts `left` down to the placement; gives its name, or an empty one if it is not within.
+std::string name_within(const Instance& instance, const std::string& name, std::size_t& left) {
+  if (!instance.model->links.empty() && left-- == 0) return name;
+  for (const Instance& child : instance.model->instances) {
+    const std::string found = name_within(child, name + "::" + child.name, left);
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Placement> flatten_scenery(const Instance& instance) {
   std::vector<Placement> placements;
   flatten_into(instance, Pose{}, 1.0, 0, placements);
   return placements;
+}
+
+PlacementNames placement_names(const Instance& instance) {
+  return
+      [instance](std::size_t placement) { return name_within(instance, instance.name, placement); };
 }
 
 }  // namespace ardee

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "ardee_sim/description/model.h"
@@ -21,5 +23,10 @@ struct Placement {
 /// All that a static instance holds, itself and what it includes at any depth, in the order of the
 /// description. A model without links of its own gives no placement.
 std::vector<Placement> flatten_scenery(const Instance& instance);
+
+/// The scoped name of the model of each placement, by its place in flatten_scenery:
+/// "field::corn_7".
+using PlacementNames = std::function<std::string(std::size_t placement)>;
+PlacementNames placement_names(const Instance& instance);
 
 }  // namespace ardee

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/physics/contact.h"
 
 namespace ardee {
 
@@ -40,6 +41,6 @@ struct JointTrajectory {
 
 /// Whatever a device may be told on a topic.
 using Command = std::variant<Trigger, Twist, double, bool, std::vector<double>, SteeringCommand,
-                             JointTrajectory>;
+                             JointTrajectory, ForceTorque>;
 
 }  // namespace ardee

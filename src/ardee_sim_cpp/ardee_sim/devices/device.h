@@ -14,6 +14,7 @@
 #include "ardee_sim/devices/pictures.h"
 #include "ardee_sim/devices/ports.h"
 #include "ardee_sim/devices/robot.h"
+#include "ardee_sim/physics/contact.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
 namespace ardee {
@@ -49,6 +50,10 @@ struct Surroundings {
   std::function<std::vector<std::string>()> scenery_files;
   /// How often static models have come or gone so far.
   std::function<std::uint64_t()> scenery_changes;
+  /// Asks, before a step, for its contacts.
+  std::function<void()> want_contacts;
+  /// Contacts of the last step, if they were asked for.
+  std::function<const std::vector<Contact>&()> contacts;
 };
 
 inline Setting no_parameter(const std::string& name) { return {name, {}}; }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/limits.h"
 
 namespace ardee {
 
@@ -18,6 +19,17 @@ Input& Ports::add_velocity_input(const std::string& topic, std::function<void(co
       throw Error("found a command that is not finite");
     }
     act(command);
+  });
+}
+
+Input& Ports::add_wrench_input(const std::string& topic,
+                               std::function<void(const ForceTorque&)> act) {
+  return add_input<ForceTorque>(topic, [act = std::move(act)](const ForceTorque& wrench) {
+    using limits::is_within, limits::kStrongest;
+    if (!is_within(wrench.force, kStrongest) || !is_within(wrench.torque, kStrongest)) {
+      throw Error("found a wrench with a number that is not finite or beyond 1e9, expected less");
+    }
+    act(wrench);
   });
 }
 

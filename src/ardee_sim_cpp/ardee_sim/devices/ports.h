@@ -111,6 +111,8 @@ struct Ports {
   }
   /// Velocities: one that is not finite is an Error.
   Input& add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act);
+  /// Wrenches in the world's axes: one beyond what the physics takes is an Error.
+  Input& add_wrench_input(const std::string& topic, std::function<void(const ForceTorque&)> act);
   /// A number within [low, high]; another is an Error.
   Input& add_number_input(const std::string& topic, double low, double high,
                           std::function<void(double)> act);

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "ardee_sim/devices/control_readings.h"
+#include "ardee_sim/devices/force_readings.h"
 #include "ardee_sim/devices/image_readings.h"
 #include "ardee_sim/devices/motion_readings.h"
 #include "ardee_sim/devices/power_readings.h"
@@ -17,6 +18,7 @@ using Reading =
                  FixReading, VectorReading, MagneticFieldReading, EncoderReading, BatteryReading,
                  BatteryStateReading, RangeReading, PointCloudReading, LegacyCloudReading,
                  ImageReading, CameraInfoReading, GpsQualityReading, RegionsReading, TwistReading,
-                 JointControllerReading, TrajectoryControllerReading, FourWheelSteeringReading>;
+                 JointControllerReading, TrajectoryControllerReading, FourWheelSteeringReading,
+                 ContactsReading, WrenchReading>;
 
 }  // namespace ardee

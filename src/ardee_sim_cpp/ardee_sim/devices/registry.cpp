@@ -8,9 +8,11 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
+#include "ardee_sim/devices/bumper.h"
 #include "ardee_sim/devices/camera_sensor.h"
 #include "ardee_sim/devices/diff_drive.h"
 #include "ardee_sim/devices/encoder.h"
+#include "ardee_sim/devices/force_torque.h"
 #include "ardee_sim/devices/gazebo_imu.h"
 #include "ardee_sim/devices/gps.h"
 #include "ardee_sim/devices/gps_with_dropout.h"
@@ -19,11 +21,14 @@
 #include "ardee_sim/devices/joint_position.h"
 #include "ardee_sim/devices/joint_state_publisher.h"
 #include "ardee_sim/devices/lidar.h"
+#include "ardee_sim/devices/link_force.h"
+#include "ardee_sim/devices/link_push.h"
 #include "ardee_sim/devices/magnetometer.h"
 #include "ardee_sim/devices/planar_move.h"
 #include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
 #include "ardee_sim/devices/torsional_spring.h"
+#include "ardee_sim/devices/tricycle_drive.h"
 #include "ardee_sim/devices/velodyne_lidar.h"
 
 namespace ardee {
@@ -59,6 +64,16 @@ std::string text_of(const Element& element) {
   text += ">" + element.text;
   for (const Element& child : element.children) text += text_of(child);
   return text + "</" + element.name + ">";
+}
+
+/// The plugin as it is written under the registry's name.
+PluginDescription renamed(PluginDescription plugin, const PluginAlias& alias) {
+  plugin.filename = alias.plugin;
+  for (Element& key : plugin.element.children) {
+    const auto found = alias.keys.find(key.name);
+    if (found != alias.keys.end()) key.name = found->second;
+  }
+  return plugin;
 }
 
 /// As in Gazebo 0 is as fast as can be: each step.
@@ -105,6 +120,20 @@ std::vector<Registry::Candidate> Registry::candidates_of(const Model& model) {
   return found;
 }
 
+void Registry::add_alias(const PluginAlias& alias) {
+  const auto is_known = [this](const std::string& name) {
+    return model_plugins_.count(name) != 0 || sensor_plugins_.count(name) != 0;
+  };
+  const std::string name = stem(alias.filename);
+  const std::string problem = "plugin alias '" + alias.filename + "': found ";
+  if (!is_known(stem(alias.plugin))) {
+    throw Error(problem + "plugin '" + alias.plugin + "', expected one in docs/support.md");
+  }
+  if (name.empty() || is_known(name) || !aliases_.emplace(name, alias).second) {
+    throw Error(problem + "this file name, expected one that is not empty and not taken");
+  }
+}
+
 void Registry::add_model_plugin(const std::string& filename, ModelPlugin make) {
   add(model_plugins_, filename, ModelMaker{std::move(make), false});
 }
@@ -118,7 +147,9 @@ void Registry::add_sensor_plugin(const std::string& filename, SensorPlugin make)
 }
 
 std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext& context) const {
-  const PluginDescription& plugin = *candidate.plugin;
+  const auto alias = aliases_.find(stem(candidate.plugin->filename));
+  const PluginDescription plugin =
+      alias == aliases_.end() ? *candidate.plugin : renamed(*candidate.plugin, alias->second);
   const std::string name = stem(plugin.filename);
   const auto of_model = model_plugins_.find(name);
   const auto of_sensor = sensor_plugins_.find(name);
@@ -167,12 +198,16 @@ Registry builtin_registry() {
   registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
+  registry.add_model_plugin("libgazebo_ros_force.so", LinkPush::make);
   registry.add_model_plugin("libgazebo_ros_joint_state_publisher.so", JointStatePublisher::make);
   registry.add_model_plugin("libgazebo_ros_planar_move.so", PlanarMove::make);
   registry.add_model_plugin("libgazebo_ros_skid_steer_drive.so", SkidSteerDrive::make);
+  registry.add_model_plugin("libgazebo_ros_tricycle_drive.so", TricycleDrive::make);
   registry.add_model_plugin("libTorsionalSpringPlugin.so", TorsionalSpring::make);
   registry.add_model_sensor("libardee_ros_battery.so", Battery::make);
   registry.add_model_sensor("libardee_ros_encoder.so", Encoder::make);
+  registry.add_model_sensor("libgazebo_ros_f3d.so", LinkForce::make);
+  registry.add_model_sensor("libgazebo_ros_ft_sensor.so", ForceTorqueSensor::make);
   registry.add_model_sensor("libgazebo_ros_gps_with_dropout.so", GpsWithDropout::make);
   registry.add_model_sensor("libgazebo_ros_imu.so", GazeboImu::make_on_model);
   registry.add_model_sensor("libgazebo_ros_p3d.so", GroundTruth::make);
@@ -180,6 +215,7 @@ Registry builtin_registry() {
   registry.add_model_sensor("libhector_gazebo_ros_imu.so", HectorImu::make);
   registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
+  registry.add_sensor_plugin("libgazebo_ros_bumper.so", Bumper::make);
   registry.add_sensor_plugin("libgazebo_ros_camera.so", CameraSensor::make_color);
   registry.add_sensor_plugin("libgazebo_ros_depth_camera.so", CameraSensor::make_depth);
   registry.add_sensor_plugin("libgazebo_ros_multicamera.so", CameraSensor::make_several);
@@ -194,7 +230,12 @@ Registry builtin_registry() {
   registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so", VelodyneLidar::make_on_visuals);
   registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so", VelodyneLidar::make_on_collisions);
   registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
+  for (const PluginAlias& alias : builtin_aliases()) registry.add_alias(alias);
   return registry;
+}
+
+std::vector<PluginAlias> builtin_aliases() {
+  return {{"libgazebo_ros_gps.so", "libhector_gazebo_ros_gps.so", {}}};  // thesis A.1, A.2
 }
 
 }  // namespace ardee

@@ -11,6 +11,13 @@
 
 namespace ardee {
 
+/// A plugin file of another name whose work one of the registry's does.
+struct PluginAlias {
+  std::string filename;
+  std::string plugin;                       // of the registry
+  std::map<std::string, std::string> keys;  // name of a key in the other plugin: in ours
+};
+
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
  public:
@@ -24,6 +31,9 @@ class Registry {
   /// A sensor that Gazebo attaches to the model (GPS, IMU, encoder, battery, ...).
   void add_model_sensor(const std::string& filename, ModelPlugin make);
   void add_sensor_plugin(const std::string& filename, SensorPlugin make);
+
+  /// Throws Error for a plugin that there is not, or a name that is taken.
+  void add_alias(const PluginAlias& alias);
 
   /// A device for each plugin of the robot and of its links' sensors, in the order of their names,
   /// whatever the order of the description: that in which they act. A plugin of unknown file name
@@ -53,7 +63,11 @@ class Registry {
   };
   std::map<std::string, ModelMaker> model_plugins_;
   std::map<std::string, SensorPlugin> sensor_plugins_;
+  std::map<std::string, PluginAlias> aliases_;
 };
+
+/// Names under which plugins of builtin_registry are published elsewhere.
+std::vector<PluginAlias> builtin_aliases();
 
 /// All devices that ARDEE has, a line each.
 Registry builtin_registry();

@@ -41,7 +41,7 @@ std::vector<std::size_t> unite_fixed(const Model& model) {
     const std::size_t child = index_of(joint.child, joint);
     const std::size_t parent =
         joint.parent == kWorldName ? model.links.size() : index_of(joint.parent, joint);
-    if (joint.type != JointType::kFixed) continue;
+    if (!is_lumped(model, joint)) continue;
     const std::size_t a = find_root(parents, child);
     const std::size_t b = find_root(parents, parent);
     parents[std::max(a, b)] = std::min(a, b);
@@ -152,6 +152,15 @@ Eigen::Matrix3d nearest_inertia(double mass_kg, const Eigen::Matrix3d& inertia_k
 }
 
 }  // namespace
+
+bool is_lumped(const Model& model, const Joint& joint) {
+  if (joint.type != JointType::kFixed) return false;
+  const auto has_mass = [&model](const std::string& name) {
+    const Link* link = model.find_link(name);
+    return name == kWorldName || (link && link->inertial && link->inertial->mass_kg >= kMinMass);
+  };
+  return !joint.is_measured || !has_mass(joint.child) || !has_mass(joint.parent);
+}
 
 LinkIndex index_links(const Model& model) {
   LinkIndex index;

@@ -41,6 +41,10 @@ struct BodyGroups {
 using LinkIndex = std::unordered_map<std::string, std::size_t>;
 LinkIndex index_links(const Model& model);
 
+/// Whether a joint makes one body of its links: a fixed one does, unless it is measured and has
+/// mass on both sides.
+bool is_lumped(const Model& model, const Joint& joint);
+
 /// Properties of the links as described.
 std::vector<LinkProperties> described_links(const Model& model);
 

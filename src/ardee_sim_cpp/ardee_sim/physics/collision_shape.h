@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/model.h"
@@ -22,6 +24,8 @@ struct CollisionShape {
   std::shared_ptr<const HeightField> field;
   Pose X_WS;                   // as made; a geom on a body moves on
   Eigen::AlignedBox3d bounds;  // at X_WS
+  /// "model::link::collision", put together when asked for.
+  std::function<std::string()> scoped_name;
 };
 
 /// Sizes positive, meshes and heights there: throws Error naming model, link and collision if not.

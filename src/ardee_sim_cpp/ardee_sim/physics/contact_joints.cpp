@@ -88,8 +88,16 @@ double spinning_lever(const ContactLaw& law, double depth_m) {
 }
 
 bool meet(const Surface& a, const Surface& b) {
-  if (a.collide_without_contact || b.collide_without_contact) return false;
   return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
+}
+
+/// The same forces on scenery, which has no body, about the frame of its collision.
+ForceTorque reaction(const ContactSide& a, const ContactSide& b, const ContactPoint& point,
+                     const ForceTorque& on_a) {
+  const Eigen::Vector3d arm = point.position - to_vector(dBodyGetPosition(a.body));
+  const Eigen::Vector3d spin = on_a.torque - arm.cross(on_a.force);
+  const Eigen::Vector3d force = -on_a.force;
+  return {force, (point.position - b.shape->X_WS.p).cross(force) - spin};
 }
 
 /// The axis that ODE itself takes for the first of its pyramid.
@@ -137,6 +145,24 @@ ContactJoints::ContactJoints(dWorldID world) : world_(world), group_(dJointGroup
 void ContactJoints::clear() {
   dJointGroupEmpty(group_.get());
   count_ = 0;
+  to_tell_.clear();
+}
+
+std::vector<Contact> ContactJoints::contacts() const {
+  std::vector<Contact> made;
+  for (const Told& each : to_tell_) {
+    const dJointFeedback& given = each.feedback;
+    Contact& contact = made.emplace_back();
+    contact.collision1 = each.a.shape->scoped_name();
+    contact.collision2 = each.b.shape->scoped_name();
+    contact.position = each.point.position;
+    contact.normal = each.point.normal;
+    contact.depth_m = each.point.depth_m;
+    contact.on1 = {to_vector(given.f1), to_vector(given.t1)};
+    contact.on2 = each.b.body ? ForceTorque{to_vector(given.f2), to_vector(given.t2)}
+                              : reaction(each.a, each.b, each.point, contact.on1);
+  }
+  return made;
 }
 
 void ContactJoints::join(const ContactSide& a, const ContactSide& b, const ContactLaw& law,
@@ -173,8 +199,12 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
     const Eigen::Vector3d& p = point.position;
     narrow_to_cone(velocity_at(a.body, p) - velocity_at(b.body, p), point.normal, contact);
   }
-  dJointAttach(dJointCreateContact(world_, group_.get(), &contact), a.body, b.body);
+  dJointID joint = dJointCreateContact(world_, group_.get(), &contact);
+  dJointAttach(joint, a.body, b.body);
   ++count_;
+  if (!told_) return;
+  to_tell_.push_back({a, b, point});
+  dJointSetFeedback(joint, &to_tell_.back().feedback);
 }
 
 void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
@@ -182,10 +212,16 @@ void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
   const Surface& surface_a = a.shape->collision->surface;
   const Surface& surface_b = b.shape->collision->surface;
   if (!meet(surface_a, surface_b)) return;
+  const bool forceless = surface_a.collide_without_contact || surface_b.collide_without_contact;
+  if (forceless && !told_) return;
   points_.clear();
   const int most = std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});
   collide_shapes(*a.shape, *b.shape, most, points_);
   if (points_.empty()) return;
+  if (forceless) {
+    for (const ContactPoint& point : points_) to_tell_.push_back({a, b, point});
+    return;
+  }
   const ContactLaw law = combine_surfaces(a, b, params);
   for (const ContactPoint& point : points_) join(a, b, law, params.step_s, point);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/physics/collision_shape.h"
+#include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/narrow_phase.h"
 #include "ardee_sim/physics/ode_types.h"
 
@@ -52,8 +54,20 @@ class ContactJoints {
   void collide(const ContactSide& a, const ContactSide& b, const PhysicsParams& params);
   void clear();
   std::size_t count() const { return count_; }
+  /// Whether the contacts that are found from now on are to be told.
+  void set_told(bool told) { told_ = told; }
+  /// Those told, once the solver has taken its step, in the order in which they were found.
+  std::vector<Contact> contacts() const;
 
  private:
+  /// A contact to tell, and what the solver says of it.
+  struct Told {
+    ContactSide a;
+    ContactSide b;
+    ContactPoint point;
+    dJointFeedback feedback{};
+  };
+
   void join(const ContactSide& a, const ContactSide& b, const ContactLaw& law, double step_s,
             const ContactPoint& point);
 
@@ -61,6 +75,8 @@ class ContactJoints {
   JointGroupHandle group_;
   std::size_t count_ = 0;
   std::vector<ContactPoint> points_;
+  bool told_ = false;
+  std::deque<Told> to_tell_;  // the engine keeps addresses in it
 };
 
 }  // namespace ardee::physics

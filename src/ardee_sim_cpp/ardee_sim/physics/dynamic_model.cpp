@@ -29,8 +29,8 @@ bool pulls_all_or_nothing(const BodyGroup& group) {
 }  // namespace
 
 DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, const Pose& X_WM,
-                           ShapeFactory& factory)
-    : model_(std::move(model)) {
+                           ShapeFactory& factory, const std::string& name)
+    : model_(std::move(model)), name_(name) {
   if (model_->links.empty()) {
     throw Error(model_->source,
                 "model '" + model_->name + "': found no link, expected one or more");
@@ -100,6 +100,9 @@ void DynamicModel::make_shapes(ShapeFactory& factory) {
       }
       const std::size_t group = groups_.of_link[i];
       shapes_.push_back({factory.make(collision, Pose{}, 1.0), group, i});
+      shapes_.back().shape.scoped_name = [this, &link, &collision] {
+        return name_ + "::" + link.name + "::" + collision.name;
+      };
       dGeomID geom = shapes_.back().shape.geom.get();
       const Pose X_BC = X_BL_[i] * collision.X_LC;
       const dQuaternion q = {X_BC.q.w(), X_BC.q.x(), X_BC.q.y(), X_BC.q.z()};
@@ -122,7 +125,7 @@ std::size_t DynamicModel::parent_group(const Joint& joint) const {
 void DynamicModel::make_joints(dWorldID world, const Pose& X_WM) {
   for (const Joint& joint : model_->joints) {
     joints_.emplace_back();
-    if (joint.type == JointType::kFixed) continue;
+    if (is_lumped(*model_, joint)) continue;
     const std::size_t child = child_group(joint), parent = parent_group(joint);
     if (child == parent) {
       throw Error(joint.source, "joint '" + joint.name + "' of model '" + model_->name +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,7 @@ class DynamicModel : public PhysicsModel {
 
   /// Throws Error and leaves nothing in the world if the description cannot be simulated.
   DynamicModel(dWorldID world, std::shared_ptr<const Model> model, const Pose& X_WM,
-               ShapeFactory& factory);
+               ShapeFactory& factory, const std::string& name = "");
 
   const Model& description() const override { return *model_; }
   Pose pose() const override;
@@ -50,6 +51,8 @@ class DynamicModel : public PhysicsModel {
                             const JointProperties& properties) override;
   const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const override;
   void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) override;
+  void want_joint_wrench(std::size_t joint) override;
+  ForceTorque joint_wrench(std::size_t joint) const override;
   void apply_wrench(std::size_t link, const Eigen::Vector3d& force_W,
                     const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) override;
   void apply_joint_effort(std::size_t joint, double effort) override;
@@ -99,6 +102,7 @@ class DynamicModel : public PhysicsModel {
   void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
 
   std::shared_ptr<const Model> model_;
+  std::string name_;
   std::vector<LinkProperties> links_;
   BodyGroups groups_;
   std::size_t canonical_ = 0;

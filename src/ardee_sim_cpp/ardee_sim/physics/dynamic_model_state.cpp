@@ -134,7 +134,8 @@ std::vector<std::size_t> DynamicModel::hanging_on(std::size_t joint) const {
 void DynamicModel::set_joint_position(std::size_t joint, double position) {
   ModelJoint* moved = moving_joint(joint);
   require(is_valid(position), *model_, "a joint position");
-  if (!moved || model_->joints[joint].type == JointType::kBall) return;
+  const JointType type = model_->joints[joint].type;
+  if (!moved || type == JointType::kBall || type == JointType::kFixed) return;
   const Pose motion = moved->motion_to(position);
   const std::vector<std::size_t> hanging = hanging_on(joint);
   for (const std::size_t group : hanging) check_motion(group, motion);
@@ -154,6 +155,21 @@ void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const
 void DynamicModel::apply_joint_effort(std::size_t joint, double effort) {
   require(is_valid(effort), *model_, "a joint effort");
   if (ModelJoint* driven = moving_joint(joint)) driven->add_effort(effort);
+}
+
+void DynamicModel::want_joint_wrench(std::size_t joint) {
+  if (moving_joint(joint)) {
+    moving_joint(joint)->keep_wrench();
+    return;
+  }
+  throw Error(model_->joints[joint].source,
+              "joint '" + model_->joints[joint].name + "' of model '" + model_->name +
+                  "': found it fixed, expected one that moves, or one that is not lumped, with "
+                  "<provide_feedback> and mass on both sides");
+}
+
+ForceTorque DynamicModel::joint_wrench(std::size_t joint) const {
+  return moving_joint(joint) ? moving_joint(joint)->wrench() : ForceTorque{};
 }
 
 }  // namespace ardee::physics

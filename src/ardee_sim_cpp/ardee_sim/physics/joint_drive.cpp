@@ -84,6 +84,12 @@ void JointDrive::aim(const Eigen::Vector3d& direction_W, double gain) {
   }
 }
 
+std::vector<dJointID> JointDrive::joints() const {
+  std::vector<dJointID> made{rows_.get()};
+  if (stops_) made.push_back(stops_.get());
+  return made;
+}
+
 void JointDrive::set_row(int row, double velocity, double max_effort, double cfm) {
   const int group = dParamGroup * row;
   const auto set = [&](int parameter, double value) {

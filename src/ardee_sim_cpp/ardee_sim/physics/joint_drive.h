@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/ode_types.h"
 #include "ardee_sim/physics/properties.h"
@@ -39,6 +41,9 @@ class JointDrive {
   /// Turns the rows to a direction of length `gain`: what the axis does is `gain` times as fast
   /// along it.
   void aim(const Eigen::Vector3d& direction_W, double gain);
+
+  /// The engine's joints behind the rows; none of a slider's own.
+  std::vector<dJointID> joints() const;
 
   /// Sets the rows for a step from the state before it: ERP and CFM depend on the step.
   void prepare(double position, double velocity, const StepSettings& step);

@@ -122,6 +122,10 @@ void ModelJoint::make_joint(dWorldID world, const Vector3d& anchor, const Vector
     joint_.reset(dJointCreateBall(world, nullptr));
     dJointAttach(joint_.get(), child_, parent_);
     dJointSetBallAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else if (type_ == JointType::kFixed) {
+    joint_.reset(dJointCreateFixed(world, nullptr));
+    dJointAttach(joint_.get(), child_, parent_);
+    dJointSetFixed(joint_.get());
   } else if (type_ == JointType::kRevolute2) {
     // The first axis is fixed in the parent, the second in the child, here and in a universal
     // joint.
@@ -145,6 +149,7 @@ void ModelJoint::make_joint(dWorldID world, const Vector3d& anchor, const Vector
 
 void ModelJoint::make_drives(dWorldID world, const Joint& joint, const Vector3d& axis_W,
                              const Vector3d& axis2_W) {
+  if (type_ == JointType::kFixed) return;
   if (type_ == JointType::kPrismatic) {
     drive_ = JointDrive::linear(world, child_, parent_, joint_.get(), axis_W,
                                 properties_of(joint.axis, joint));
@@ -203,7 +208,7 @@ Vector3d ModelJoint::relative_rate() const {
 
 double ModelJoint::measured() const {
   const Pose X_WC = body_pose(child_), X_WP = body_pose(parent_);
-  if (type_ == JointType::kBall) return 0.0;
+  if (type_ == JointType::kBall || type_ == JointType::kFixed) return 0.0;
   if (type_ == JointType::kPrismatic) {
     return (X_WP.inverse() * (X_WC * anchor_C_) - anchor_P_).dot(axis_P_);
   }
@@ -225,7 +230,7 @@ double ModelJoint::angle2() const {
 }
 
 double ModelJoint::velocity() const {
-  if (type_ == JointType::kBall) return 0.0;
+  if (type_ == JointType::kBall || type_ == JointType::kFixed) return 0.0;
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
     dVector3 v_child, v_parent;
@@ -260,6 +265,8 @@ void ModelJoint::shift_frames(const Vector3d& child_C, const Vector3d& parent_P)
     set_body_pose(child_, X_WC);
   } else if (type_ == JointType::kBall) {
     dJointSetBallAnchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
+  } else if (type_ == JointType::kFixed) {
+    dJointSetFixed(joint_.get());
   } else if (type_ == JointType::kRevolute2) {
     dJointSetHinge2Anchor(joint_.get(), anchor.x(), anchor.y(), anchor.z());
   } else if (type_ == JointType::kUniversal) {
@@ -269,20 +276,46 @@ void ModelJoint::shift_frames(const Vector3d& child_C, const Vector3d& parent_P)
   }
 }
 
+void ModelJoint::keep_wrench() {
+  if (!feedback_.empty()) return;
+  std::vector<dJointID> all{joint_.get()};
+  if (ball_damper_) all.push_back(ball_damper_.get());
+  for (const auto* drive : {&drive_, &drive2_}) {
+    if (!*drive) continue;
+    for (dJointID joint : (*drive)->joints()) all.push_back(joint);
+  }
+  for (dJointID joint : all) feedback_.emplace_back(joint, dJointFeedback{});
+  for (auto& [joint, feedback] : feedback_) dJointSetFeedback(joint, &feedback);
+}
+
+ForceTorque ModelJoint::wrench() const {
+  ForceTorque on_child = applied_;
+  for (const auto& [joint, feedback] : feedback_) {
+    const bool is_first = dJointGetBody(joint, 0) == child_;
+    const Vector3d force = to_vector(is_first ? feedback.f1 : feedback.f2);
+    on_child.force += force;
+    on_child.torque += to_vector(is_first ? feedback.t1 : feedback.t2) + arm_W_.cross(force);
+  }
+  return {-on_child.force, -on_child.torque};
+}
+
 void ModelJoint::add_effort(double effort) { effort_ += effort; }
 
 void ModelJoint::apply_effort() {
+  applied_ = {};
   if (effort_ == 0.0 || !drive_) return;
   const Vector3d effort = drive_->clamp_effort(effort_, velocity()) * direction(0);
   effort_ = 0.0;
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
+    applied_.force = effort;
     dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(),
                        anchor.z());
     dBodyAddForceAtPos(parent_, -effort.x(), -effort.y(), -effort.z(), anchor.x(), anchor.y(),
                        anchor.z());
     return;
   }
+  applied_.torque = effort;
   dBodyAddTorque(child_, effort.x(), effort.y(), effort.z());
   dBodyAddTorque(parent_, -effort.x(), -effort.y(), -effort.z());
 }
@@ -292,6 +325,9 @@ void ModelJoint::prepare(const StepSettings& step) {
   if (drive_) drive_->prepare(position_, velocity(), step);
   if (drive2_) drive2_->prepare(position2_, relative_rate().dot(direction(1)), step);
   apply_effort();
+  if (feedback_.empty()) return;
+  const Pose X_WC = body_pose(child_);
+  arm_W_ = X_WC.p - X_WC * anchor_C_;
 }
 
 void ModelJoint::take_position() {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "ardee_sim/description/model.h"
+#include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/joint_drive.h"
 #include "ardee_sim/physics/ode_types.h"
 
@@ -33,6 +36,10 @@ class ModelJoint {
   JointDrive& drive(std::size_t axis) { return axis == 0 ? drive_.value() : drive2_.value(); }
   /// The frames of the bodies have moved within them by so much, in their own axes.
   void shift_frames(const Eigen::Vector3d& child_C, const Eigen::Vector3d& parent_P);
+  /// From now on each step's wrench is kept.
+  void keep_wrench();
+  /// What the child applied to the joint in the last step, about the joint's origin, world axes.
+  ForceTorque wrench() const;
   /// Kept for the next step.
   void add_effort(double effort);
 
@@ -73,6 +80,9 @@ class ModelJoint {
   double position_ = 0.0;
   double position2_ = 0.0;
   double effort_ = 0.0;
+  std::vector<std::pair<dJointID, dJointFeedback>> feedback_;  // the engine keeps addresses in it
+  Eigen::Vector3d arm_W_{0, 0, 0};                             // anchor to child's centre of mass
+  ForceTorque applied_;                                        // efforts of the last step
 };
 
 /// Throws Error naming the joint if it cannot be simulated.

@@ -73,6 +73,8 @@ struct PhysicsWorld::Impl {
   std::vector<std::unique_ptr<DynamicModel>> models;  // in the order of their names
   std::vector<std::string> names;
   std::size_t contact_count = 0;
+  bool wants_contacts = false;
+  std::vector<Contact> told;  // contacts of the last step
 };
 
 void PhysicsWorld::Impl::set_params(const PhysicsParams& wanted) {
@@ -104,9 +106,12 @@ void PhysicsWorld::Impl::step() {
                         params.gravity_m_per_s2);
   }
   contacts.clear();  // what a step that threw may have left
+  contacts.set_told(wants_contacts);
+  wants_contacts = false;
   finder.find(models, params);
   contact_count = contacts.count();
   solver.step(params, finder.islands());
+  told = contacts.contacts();
   contacts.clear();
   for (const auto& model : models) model->finish_step(params.step_s);
 }
@@ -122,8 +127,8 @@ void PhysicsWorld::set_params(const PhysicsParams& params) { impl_->set_params(p
 
 PhysicsModel& PhysicsWorld::add_model(std::shared_ptr<const Model> model, const Pose& X_WM,
                                       const std::string& name) {
-  auto added =
-      std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM, impl_->factory);
+  auto added = std::make_unique<DynamicModel>(impl_->world.get(), std::move(model), X_WM,
+                                              impl_->factory, name);
   std::vector<std::string>& names = impl_->names;
   const auto place = std::upper_bound(names.begin(), names.end(), name);
   const auto model_place = impl_->models.begin() + (place - names.begin());
@@ -140,13 +145,15 @@ void PhysicsWorld::remove_model(PhysicsModel& model) {
 }
 
 PhysicsWorld::SceneryId PhysicsWorld::add_scenery(const std::vector<Placement>& placements,
-                                                  const std::string& name) {
-  return impl_->scenery.add(placements, name);
+                                                  const std::string& name,
+                                                  const PlacementNames& placement_names) {
+  return impl_->scenery.add(placements, name, placement_names);
 }
 
 void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
 
 std::vector<LostModel> PhysicsWorld::step() {
+  impl_->told.clear();
   if (std::vector<LostModel> before = impl_->lost(); !before.empty()) return before;
   try {
     impl_->step();
@@ -155,6 +162,10 @@ std::vector<LostModel> PhysicsWorld::step() {
   }
   return impl_->lost();
 }
+
+void PhysicsWorld::want_contacts() { impl_->wants_contacts = true; }
+
+const std::vector<Contact>& PhysicsWorld::contacts() const { return impl_->told; }
 
 void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
 

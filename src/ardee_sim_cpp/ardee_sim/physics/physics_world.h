@@ -10,6 +10,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/properties.h"
 
 namespace ardee {
@@ -46,6 +47,14 @@ class PhysicsModel {
   /// Replaces the spring, damper of the description. Holds until changed.
   virtual void set_joint_spring(std::size_t joint, const JointSpring& spring) = 0;
   virtual void set_joint_limits(std::size_t joint, double lower, double upper) = 0;
+
+  /// Asks, before a step, for the wrench of a joint. Throws Error naming a fixed joint that is not
+  /// measured: its links are one body.
+  virtual void want_joint_wrench(std::size_t joint) = 0;
+  /// What the child applied to the joint in the last step, if it was asked for: about the joint's
+  /// origin, in the world's axes, with all that acts along its axes (stops, motor, spring,
+  /// efforts).
+  virtual ForceTorque joint_wrench(std::size_t joint) const = 0;
 
   // Properties hold until changed; those of a model that is added are its description's. The
   // setters throw Error and change nothing if a number has no meaning or the body could not be
@@ -93,12 +102,18 @@ class PhysicsWorld {
   void remove_model(PhysicsModel& model);
 
   using SceneryId = std::uint32_t;
-  SceneryId add_scenery(const std::vector<Placement>& placements, const std::string& name = "");
+  /// `placement_names` gives the scoped name of the model at each place; without it that is `name`.
+  SceneryId add_scenery(const std::vector<Placement>& placements, const std::string& name = "",
+                        const PlacementNames& placement_names = nullptr);
   void remove_scenery(SceneryId id);
 
   /// One step of params().step_s. Returns the models that have left the contract of a valid state:
   /// while one of them is there, no further step is taken. Throws Error if memory runs out.
   std::vector<LostModel> step();
+  /// Asks for the contacts of the next step; without it they are not kept, at no cost.
+  void want_contacts();
+  /// Those of the last step, if they were asked for. Their order depends on no order of adding.
+  const std::vector<Contact>& contacts() const;
   /// What the last step dealt with.
   struct Stats {
     std::size_t contacts = 0;        // points of contact

@@ -72,7 +72,7 @@ std::uint32_t SceneryIndex::prototype_of(const std::shared_ptr<const Model>& mod
       check_collision(*model, link, collision);
       // Reads the mesh or the heights once, so that what is wrong with them is said now.
       shape_bounds(collision.geometry, 1.0, Pose{});
-      prototype.shapes.push_back({&collision, link.X_ML * collision.X_LC});
+      prototype.shapes.push_back({&link, &collision, link.X_ML * collision.X_LC});
     }
   }
   set.prototypes.push_back(std::move(prototype));
@@ -98,9 +98,11 @@ void SceneryIndex::add_instance(const Placement& placement, std::uint32_t protot
   }
 }
 
-std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements, const std::string& name) {
+std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements, const std::string& name,
+                                const PlacementNames& placement_names) {
   Set set;
   set.name = name;
+  set.placement_names = placement_names;
   std::map<const Model*, std::uint32_t> known;
   set.instances.reserve(placements.size());
   set.entries.reserve(placements.size());
@@ -163,6 +165,15 @@ const SceneryIndex::Entry& SceneryIndex::entry(Reference reference) const {
   return set_of(reference).entries[static_cast<std::uint32_t>(reference)];
 }
 
+std::string SceneryIndex::scoped_name(Reference reference) const {
+  const Set& set = set_of(reference);
+  const Entry& item = entry(reference);
+  const PrototypeShape& shape =
+      set.prototypes[set.instances[item.instance].prototype].shapes[item.shape];
+  const std::string model = set.placement_names ? set.placement_names(item.instance) : set.name;
+  return model + "::" + shape.link->name + "::" + shape.collision->name;
+}
+
 bool SceneryIndex::comes_before(Reference one, Reference other) const {
   if (one >> 32 == other >> 32) return one < other;
   const int order = set_of(one).name.compare(set_of(other).name);
@@ -189,6 +200,10 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
   const PrototypeShape& shape = set.prototypes[instance.prototype].shapes[item.shape];
   const Pose X_WC = instance.X_WM * Pose{instance.scale * shape.X_MC.p, shape.X_MC.q};
   Active active{factory_.make(*shape.collision, X_WC, instance.scale), step_};
+  active.shape.scoped_name = [this, reference, name = std::string()]() mutable {
+    if (name.empty()) name = scoped_name(reference);
+    return name;
+  };
   return active_.emplace(reference, std::move(active)).first->second.shape;
 }
 

@@ -22,7 +22,8 @@ class SceneryIndex {
   explicit SceneryIndex(ShapeFactory& factory) : factory_(factory) {}
 
   /// Throws Error and adds nothing if a shape cannot be built.
-  std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "");
+  std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "",
+                    const PlacementNames& placement_names = nullptr);
   void remove(std::uint32_t id);
 
   /// Begins a step: shapes that were long not asked for may be dropped.
@@ -40,6 +41,7 @@ class SceneryIndex {
 
  private:
   struct PrototypeShape {
+    const Link* link;
     const Collision* collision;
     Pose X_MC;
   };
@@ -60,6 +62,7 @@ class SceneryIndex {
   };
   struct Set {
     std::string name;
+    PlacementNames placement_names;
     std::vector<Prototype> prototypes;
     std::vector<Instance> instances;
     std::vector<Entry> entries;
@@ -76,6 +79,7 @@ class SceneryIndex {
   static void add_instance(const Placement& placement, std::uint32_t prototype, Set& set);
   const Set& set_of(Reference reference) const;
   const Entry& entry(Reference reference) const;
+  std::string scoped_name(Reference reference) const;
   bool comes_before(Reference one, Reference other) const;
   void gather(const std::vector<Reference>& references, const Eigen::AlignedBox3f& box);
   const CollisionShape& activate(Reference reference);

@@ -159,12 +159,30 @@ PluginDescription make_magnetometer(const SensorDescription& sensor, const std::
   return made;
 }
 
+/// What newer Gazebo's contact system measures.
+PluginDescription make_bumper(const SensorDescription& sensor, const std::string& topic,
+                              const std::string& frame) {
+  PluginDescription made = make_plugin(sensor, "libgazebo_ros_bumper.so");
+  add_key(made, "bumperTopicName", topic);
+  add_key(made, "frameName", frame);
+  return made;
+}
+
+/// The topic of a sensor, within its own block for a contact sensor; empty if it says none.
+std::string topic_of(const SensorDescription& sensor) {
+  std::string topic = text_at(sensor.element, {"topic"});
+  if (topic.empty() && sensor.type == "contact") {
+    topic = text_at(sensor.element, {"contact", "topic"});
+  }
+  return topic == "__default_topic__" || topic == "__default__" ? "" : topic;
+}
+
 /// Whether the sensor stays, or a plugin of the model takes its place.
 bool adopt_sensor(SensorDescription& sensor, const Link& link,
                   std::vector<PluginDescription>& model_plugins, Log& log) {
   static const std::set<std::string> newer{"gpu_lidar", "lidar", "navsat", "rgbd_camera"};
-  const std::string named = text_at(sensor.element, {"topic"});
-  const bool has_topic = !named.empty() && named != "__default_topic__";
+  const std::string named = topic_of(sensor);
+  const bool has_topic = !named.empty();
   if (!sensor.plugins.empty()) return true;
   if (!has_topic && newer.count(sensor.type) == 0) {
     log.warn(sensor.element.source, "found no <plugin> in it, expected one; it publishes nothing");
@@ -186,6 +204,8 @@ bool adopt_sensor(SensorDescription& sensor, const Link& link,
   } else if (type == "camera" || type == "rgbd_camera" || type == "depth_camera" ||
              type == "depth") {
     sensor.plugins.push_back(make_camera(sensor, topic, frame));
+  } else if (type == "contact") {
+    sensor.plugins.push_back(make_bumper(sensor, topic, frame));
   } else if (type == "imu") {
     sensor.plugins.push_back(make_imu(sensor, topic, frame));
   } else {

@@ -141,6 +141,8 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   constexpr bounds::Range kSoftness = bounds::kJointSoftness;
   joint.stop_cfm = node.number("physics/ode/limit/cfm", -1.0, kSoftness.low, kSoftness.high);
   joint.stop_erp = node.number("physics/ode/limit/erp", -1.0, kSoftness.low, kSoftness.high);
+  joint.is_measured = node.boolean("physics/provide_feedback", false) ||
+                      node.boolean("physics/ode/provide_feedback", false);
   const Eigen::Quaterniond q_MJ = place(node, child, scope, joint);
   const auto turn = [&](const Node& written, Eigen::Vector3d& direction) {
     const std::string frame = frame_of_axis(written, scope.sdf_version);

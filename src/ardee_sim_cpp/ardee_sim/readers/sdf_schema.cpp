@@ -12,6 +12,8 @@ constexpr Treatment elsewhere = Treatment::kElsewhere;
 
 constexpr char kFrames[] = "frames are known in worlds and models alone";
 constexpr char kOneEngine[] = "ode is the one engine";
+constexpr char kFeedback[] =
+    "on a fixed joint: its links stay two bodies, between which a sensor measures";
 constexpr char kNoHighlights[] = "surfaces are matt, without highlights";
 constexpr char kNoWindow[] = "the simulator has no window; rviz is the view";
 
@@ -218,11 +220,10 @@ const std::vector<SchemaRow>& model_rows() {
       {"limit", no_effect, "stiffness", "<physics><ode><limit> says how hard a stop is", "1e8"},
       {"limit", no_effect, "dissipation", "<physics><ode><limit> says how hard a stop is", "1"},
       {"joint/physics", acts, "ode"},
-      {"joint/physics", settled, "provide_feedback", "nobody asks for it, and it costs nothing"},
+      {"joint/physics", acts, "provide_feedback", kFeedback},
       {"joint/physics", no_effect, "simbody", kOneEngine},
       {"joint/physics/ode", acts, "limit"},
-      {"joint/physics/ode", settled, "provide_feedback",
-       "nobody asks for it, and it costs nothing"},
+      {"joint/physics/ode", acts, "provide_feedback", kFeedback},
       {"joint/physics/ode", settled, "implicit_spring_damper cfm_damping",
        "springs and dampers are implicit"},
       {"joint/physics/ode", no_effect, "fudge_factor", "motors are exact at the stops", "0"},
@@ -238,7 +239,7 @@ const std::vector<SchemaRow>& model_rows() {
 
 const std::vector<SchemaRow>& sensor_rows() {
   static const std::vector<SchemaRow> rows{
-      {"sensor", acts, "@name @type update_rate pose ray lidar camera imu plugin"},
+      {"sensor", acts, "@name @type update_rate pose ray lidar camera imu contact plugin"},
       {"sensor", acts, "topic", "where it has no plugin; else the plugin says what the topic is"},
       {"sensor", acts, "gz_frame_id ignition_frame_id frame_id navsat magnetometer",
        "where it has no plugin"},
@@ -246,11 +247,12 @@ const std::vector<SchemaRow>& sensor_rows() {
       {"sensor", no_effect, "visualize", kNoWindow, "false"},
       {"sensor", no_effect, "enable_metrics", "metrics are those of all sensors", "false"},
       {"sensor", no_effect,
-       "contact force_torque altimeter air_pressure air_speed gps logical_camera rfid rfidtag "
-       "sonar "
+       "force_torque altimeter air_pressure air_speed gps logical_camera rfid rfidtag sonar "
        "transceiver",
        "no plugin reads it"},
       {"sensor", no_effect, "frame", kFrames},
+      {"sensor/contact", acts, "collision"},
+      {"sensor/contact", acts, "topic", "where the sensor has no plugin"},
       {"ray", acts, "scan range noise"},
       {"ray", no_effect, "visibility_mask", "rays meet all", "4294967295"},
       {"lidar", acts, "scan range noise"},

@@ -132,6 +132,8 @@ void apply_to_joint(const Node& node, Joint& joint) {
     joint.axis.spring_stiffness = read(node, bounds::kJointCoefficient);
   } else if (name == "springReference" || name == "spring_reference") {
     joint.axis.spring_reference = read(node, bounds::kJointReference);
+  } else if (name == "provideFeedback" || name == "provide_feedback") {
+    joint.is_measured = node.to_boolean();
   } else if (name == "physics") {
     constexpr bounds::Range kSoftness = bounds::kJointSoftness;
     joint.stop_cfm = node.number("ode/limit/cfm", joint.stop_cfm, kSoftness.low, kSoftness.high);

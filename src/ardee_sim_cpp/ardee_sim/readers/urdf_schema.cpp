@@ -87,8 +87,8 @@ const std::vector<SchemaRow>& gazebo_rows() {
        "@reference stopCfm stop_cfm stopErp stop_erp springStiffness spring_stiffness "
        "springReference spring_reference",
        "two names each"},
-      {"gazebo joint", settled, "provideFeedback provide_feedback",
-       "nobody asks for it, and it costs nothing"},
+      {"gazebo joint", acts, "provideFeedback provide_feedback",
+       "on a fixed joint: its links stay two bodies, between which a sensor measures"},
       {"gazebo joint", acts, "physics", "its <ode><limit>"},
       {"gazebo joint", no_effect,
        "implicitSpringDamper implicit_spring_damper cfmDamping cfm_damping",

@@ -52,6 +52,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       now_ns_(world.start_ns),
       step_ns_(nanoseconds(world.physics.step_s)) {
   const LogGroup group(log_);
+  for (const PluginAlias& alias : options.plugin_aliases) registry_.add_alias(alias);
   physics_.reset_random(options_.seed);
   world_.models.clear();  // from here on they live in entities_
   for (const PluginDescription& plugin : world.plugins) {
@@ -132,7 +133,8 @@ Entity& Simulation::add(std::unique_ptr<Entity> entity) {
 void Simulation::restore(Entity& entity) {
   if (entity.is_static()) {
     entity.robot->place(entity.instance.pose);
-    entity.scenery = physics_.add_scenery(entity.placements, entity.name());
+    entity.scenery =
+        physics_.add_scenery(entity.placements, entity.name(), placement_names(entity.instance));
     return;
   }
   PhysicsModel& dynamics =
@@ -170,7 +172,7 @@ void Simulation::build_devices(Entity& entity) {
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }
 
-Surroundings Simulation::surroundings() const {
+Surroundings Simulation::surroundings() {
   Surroundings made;
   made.gravity_m_per_s2 = [this] { return physics_.params().gravity_m_per_s2; };
   made.spherical_coordinates = world_.spherical_coordinates;
@@ -182,6 +184,8 @@ Surroundings Simulation::surroundings() const {
     return std::vector<std::string>(files.begin(), files.end());
   };
   made.scenery_changes = [this] { return scenery_changes_; };
+  made.want_contacts = [this] { physics_.want_contacts(); };
+  made.contacts = [this]() -> const std::vector<Contact>& { return physics_.contacts(); };
   return made;
 }
 
@@ -311,7 +315,8 @@ void Simulation::place_static(Entity& entity, const Pose& X_WM) {
   scenes_.remove(entity);
   physics_.remove_scenery(entity.scenery);
   entity.placements = std::move(placements);
-  entity.scenery = physics_.add_scenery(entity.placements, entity.name());
+  entity.scenery =
+      physics_.add_scenery(entity.placements, entity.name(), placement_names(entity.instance));
   entity.robot->place(X_WM);
   scenes_.add(entity);
 }

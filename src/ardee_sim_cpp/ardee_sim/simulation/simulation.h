@@ -25,6 +25,7 @@ struct SimulationOptions {
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   std::function<Setting(const std::string& name)> parameter = no_parameter;  // of DeviceContext
+  std::vector<PluginAlias> plugin_aliases;  // added to the built-in ones
 };
 
 struct SpawnRequest {
@@ -124,7 +125,7 @@ class Simulation {
   void add_world_models(const std::vector<Instance>& models);
   Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
-  Surroundings surroundings() const;
+  Surroundings surroundings();
   void restore(Entity& entity);
   void take_from_physics(const Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);

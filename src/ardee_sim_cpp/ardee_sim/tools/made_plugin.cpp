@@ -25,17 +25,23 @@ std::string wheel(const std::string& joint) {
 /// A robot with all joints that drives expect, and one plugin, in a <sensor> of all kinds or not.
 std::string robot_with(const std::string& plugin, bool in_sensor) {
   std::string joints;
-  for (const char* name : {"left_joint", "right_joint", "left_front_joint", "right_front_joint",
-                           "left_rear_joint", "right_rear_joint"}) {
+  for (const char* name :
+       {"left_joint", "right_joint", "left_front_joint", "right_front_joint", "left_rear_joint",
+        "right_rear_joint", "front_steering_joint", "front_wheel_joint", "left_rear_wheel_joint",
+        "right_rear_wheel_joint"}) {
     joints += wheel(name);
   }
   const std::string sensor =
       "<sensor name='sensor' type='ray'><ray><scan><horizontal><samples>4</samples></horizontal>"
       "</scan><range><min>0.1</min><max>10</max></range></ray><camera name='left'><image>"
-      "<width>4</width><height>4</height></image></camera>" +
+      "<width>4</width><height>4</height></image></camera><contact><collision>skin</collision>"
+      "</contact>" +
       plugin + "</sensor>";
-  return "<sdf version='1.6'><model name='robot'><link name='base'>" + (in_sensor ? sensor : "") +
-         "</link>" + joints + (in_sensor ? "" : plugin) + "</model></sdf>";
+  return "<sdf version='1.6'><model name='robot'><link name='base'>"
+         "<collision name='skin'><geometry><sphere><radius>0.1</radius></sphere></geometry>"
+         "</collision>" +
+         (in_sensor ? sensor : "") + "</link>" + joints + (in_sensor ? "" : plugin) +
+         "</model></sdf>";
 }
 
 }  // namespace

@@ -33,7 +33,9 @@ constexpr const char* kMessages[] = {"sensor_msgs/LaserScan",
                                      "geometry_msgs/TwistStamped",
                                      "control_msgs/JointControllerState",
                                      "control_msgs/JointTrajectoryControllerState",
-                                     "four_wheel_steering_msgs/FourWheelSteeringStamped"};
+                                     "four_wheel_steering_msgs/FourWheelSteeringStamped",
+                                     "gazebo_msgs/ContactsState",
+                                     "geometry_msgs/WrenchStamped"};
 static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
 
 constexpr const char* kCommandMessages[] = {  // in the order of Command
@@ -43,7 +45,8 @@ constexpr const char* kCommandMessages[] = {  // in the order of Command
     "std_msgs/Bool",
     "std_msgs/Float64MultiArray",
     "four_wheel_steering_msgs/FourWheelSteering",
-    "trajectory_msgs/JointTrajectory"};
+    "trajectory_msgs/JointTrajectory",
+    "geometry_msgs/Wrench"};
 static_assert(std::size(kCommandMessages) == std::variant_size_v<Command>,
               "a message a kind of command");
 
@@ -94,12 +97,25 @@ void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& p
   write_keys(made.keys(), page);
 }
 
+void write_aliases(std::ostringstream& page) {
+  page << "### Plugins of other names\n\nThese do the work of another plugin's name, with keys of "
+          "other names where any are listed. A list `~plugin_aliases` of the\nsimulator node adds "
+          "to them: `filename`, `plugin` (one of the above), `keys` (their name: ours).\n\n"
+          "| file | plugin | keys |\n|---|---|---|\n";
+  for (const PluginAlias& alias : builtin_aliases()) {
+    page << "| `" << alias.filename << "` | `" << alias.plugin << "` | ";
+    for (const auto& [theirs, ours] : alias.keys) page << "`" << theirs << "`: `" << ours << "` ";
+    page << "|\n";
+  }
+  page << "\n";
+}
+
 void write_systems(std::ostringstream& page) {
   page
       << "### Systems and sensors of newer Gazebo\n\n`gz-sim-NAME-system` and "
          "`ignition-gazebo-NAME-system` are read as the plugins that do their work; others are one "
          "warning\neach, and are left out. A sensor of type lidar, camera, rgbd_camera, "
-         "depth_camera, imu, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
+         "depth_camera, imu, contact, navsat or magnetometer with a `<topic>`\nneeds no plugin.\n\n"
          "| system | plugin | warning |\n|---|---|---|\n";
   for (const GzCounterpart& each : gz_counterparts()) {
     page << "| `" << each.system << "` | `" << each.plugin << "` | " << each.warning << " |\n";
@@ -134,6 +150,7 @@ std::string plugins_in_markdown() {
   for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
   for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
   write_controllers(page);
+  write_aliases(page);
   write_systems(page);
   return page.str();
 }

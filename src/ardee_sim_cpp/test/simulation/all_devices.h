@@ -63,6 +63,13 @@ inline std::vector<std::string> drive_devices() {
                    "<referenceTopic>flag</referenceTopic>"),
       model_device("gazebo_ros_control", ""),
       model_device("gazebo_ros_joint_state_publisher", "<jointName>fl_joint arm_joint</jointName>"),
+      model_device("gazebo_ros_tricycle_drive",
+                   "<steeringJoint>arm_joint</steeringJoint><actuatedWheelJoint>fl_joint"
+                   "</actuatedWheelJoint><encoderWheelLeftJoint>rl_joint</encoderWheelLeftJoint>"
+                   "<encoderWheelRightJoint>rr_joint</encoderWheelRightJoint><odometryTopic>"
+                   "odom_tricycle</odometryTopic><odometrySource>encoder</odometrySource>"
+                   "<publishWheelTF>true</publishWheelTF>"),
+      model_device("gazebo_ros_force", "<bodyName>base</bodyName><topicName>push</topicName>"),
       model_device("ardee_ros_encoder", "<joint>rr_joint</joint>"),
       model_device("ardee_ros_battery",
                    "<constantCoef>12</constantCoef><currentPerSpeed>3</currentPerSpeed>"),
@@ -100,6 +107,18 @@ inline std::vector<std::string> motion_devices() {
   };
 }
 
+inline std::vector<std::string> force_devices() {
+  return {
+      model_device("gazebo_ros_f3d", "<bodyName>fl</bodyName><topicName>wheel_load</topicName>"),
+      model_device("gazebo_ros_ft_sensor",
+                   "<jointName>fl_joint</jointName><topicName>axle_load</topicName>"
+                   "<gaussianNoise>0.1</gaussianNoise>"),
+      mast_sensor("gazebo_ros_bumper", "contact",
+                  "<contact><collision>fl_collision</collision></contact>",
+                  "<bumperTopicName>wheel_touches</bumperTopicName>"),
+  };
+}
+
 inline std::vector<std::string> ray_devices() {
   const std::string sonar =
       "<offset>0.1</offset><drift>0.2</drift><gaussianNoise>0.05</gaussianNoise>";
@@ -134,7 +153,8 @@ inline std::vector<std::string> camera_devices() {
 /// One of each plugin that there is, as elements of a robot.
 inline std::vector<std::string> all_devices() {
   std::vector<std::string> all;
-  for (const auto& some : {drive_devices(), motion_devices(), ray_devices(), camera_devices()}) {
+  for (const auto& some :
+       {drive_devices(), motion_devices(), force_devices(), ray_devices(), camera_devices()}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;
@@ -172,6 +192,9 @@ inline void command_all(Entity& robot) {
       if (input.kind == command_kind<Twist>()) input.on_command(Twist{{0.4, 0, 0}, {0, 0, 0.3}});
       if (input.kind == command_kind<double>()) {
         input.on_command(std::clamp(0.7, input.low, input.high));
+      }
+      if (input.kind == command_kind<ForceTorque>()) {
+        input.on_command(ForceTorque{{2, 1, 0}, {0, 0, 0.1}});
       }
       if (input.kind == command_kind<Trigger>()) input.on_command(Trigger{});
     }

@@ -52,6 +52,13 @@ class ReadingBytes {
     all(point.positions, point.velocities, point.accelerations, point.efforts,
         point.time_from_start_s);
   }
+  void add(const ForceTorque& wrench) { all(wrench.force, wrench.torque); }
+  void add(const Contact& contact) {
+    all(contact.position, contact.normal, contact.depth_m, contact.on1, contact.on2);
+  }
+  void add(const ContactsReading::Touch& touch) {
+    all(touch.time_ns, touch.collision1, touch.collision2, touch.points);
+  }
   template <typename... Values>
   void all(const Values&... values) {
     (add(values), ...);
@@ -110,6 +117,8 @@ class ReadingBytes {
     all(r.front_angle_rad, r.rear_angle_rad, r.front_rate_rad_per_s, r.rear_rate_rad_per_s,
         r.speed_m_per_s, r.acceleration_m_per_s2, r.jerk_m_per_s3);
   }
+  void add_reading(const ContactsReading& r) { add(r.touches); }
+  void add_reading(const WrenchReading& r) { add(r.wrench); }
 
   std::string bytes_;
 };

@@ -26,6 +26,10 @@ constexpr OtherTest kTestedElsewhere[] = {
     {"gui/camera/pose", "readers/test_sdf_world.cpp", "ReadsListingA15sSettings"},
     {"limit/effort", "physics/test_joints.cpp", "EffortOfTheDescriptionBoundsAppliedEfforts"},
     {"limit/velocity", "physics/test_joints.cpp", "BeyondTheLimitOfVelocity"},
+    {"joint/physics/provide_feedback", "simulation/test_force_torque.cpp",
+     "OfAnOffsetMassHasTheMomentOfItsArm"},
+    {"joint/physics/ode/provide_feedback", "simulation/test_force_torque.cpp",
+     "OfAnOffsetMassHasTheMomentOfItsArm"},
     {"distortion/center", "simulation/test_effects.cpp", "TheMiddleOfADistortionIsThePictures"},
 };
 

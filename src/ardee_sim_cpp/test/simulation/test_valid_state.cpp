@@ -204,6 +204,10 @@ TEST(ValidState, CommandsThatAreNotFiniteAreRefusedAndChangeNothing) {
             EXPECT_THROW(input.on_command(Twist{{0.9, 0, 0}, {0, 0, number}}), Error)
                 << input.topic;
           }
+          if (input.kind == command_kind<ForceTorque>()) {
+            EXPECT_THROW(input.on_command(ForceTorque{{number, 0, 0}, {0, 0, 0}}), Error);
+            EXPECT_THROW(input.on_command(ForceTorque{{0, 0, 0}, {0, number, 0}}), Error);
+          }
           if (input.kind == command_kind<double>()) {
             EXPECT_THROW(input.on_command(number), Error) << input.topic;
           }

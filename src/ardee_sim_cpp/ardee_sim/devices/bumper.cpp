@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/bumper.h"
+
+#include <utility>
+
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+/// The name that a collision had before Gazebo lumped its link into the one that it is fixed to:
+/// "deck_fixed_joint_lump__guard_collision_1" was "guard_collision".
+std::vector<std::string> names_before_lumping(const std::string& name) {
+  const std::string mark = "_fixed_joint_lump__";
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string::npos) return {};
+  std::vector<std::string> names{name.substr(at + mark.size())};
+  const std::string& last = names.back();
+  const std::size_t number = last.find_last_not_of("0123456789");
+  if (number != std::string::npos && number + 1 < last.size() && last[number] == '_') {
+    names.push_back(last.substr(0, number));
+  }
+  return names;
+}
+
+bool has_collision(const Link& link, const std::string& name) {
+  for (const Collision& collision : link.collisions) {
+    if (collision.name == name) return true;
+  }
+  return false;
+}
+
+/// The scoped name of a collision of the sensor's link, or of another of the model's where there is
+/// none: fixed links are one in Gazebo. Throws Error if the model has none of that name.
+std::string scoped_collision(const Element& given, std::size_t link, const Robot& robot) {
+  std::vector<std::string> names{given.text};
+  for (const std::string& name : names_before_lumping(given.text)) names.push_back(name);
+  const std::vector<Link>& links = robot.model().links;
+  const auto scoped = [&robot](const Link& of, const std::string& name) {
+    return robot.name() + "::" + of.name + "::" + name;
+  };
+  for (const std::string& name : names) {
+    if (has_collision(links[link], name)) return scoped(links[link], name);
+  }
+  for (const std::string& name : names) {
+    for (const Link& other : links) {
+      if (has_collision(other, name)) return scoped(other, name);
+    }
+  }
+  std::string known;
+  for (const Link& each : links) {
+    for (const Collision& collision : each.collisions) {
+      known += (known.empty() ? "" : ", ") + collision.name;
+    }
+  }
+  throw Error(given.source, "found collision '" + given.text + "', expected one of: " +
+                                (known.empty() ? "none, as the model has none" : known));
+}
+
+std::set<std::string> read_collisions(const SensorDescription& sensor, std::size_t link,
+                                      const Robot& robot) {
+  std::set<std::string> found;
+  const Element* contact = sensor.element.child("contact");
+  for (const Element& child : contact ? contact->children : std::vector<Element>()) {
+    if (child.name == "collision") found.insert(scoped_collision(child, link, robot));
+  }
+  if (found.empty()) {
+    throw Error(sensor.element.source, "found no <contact> with a <collision>, expected one");
+  }
+  return found;
+}
+
+/// The contact as the second body feels it.
+Contact swapped(const Contact& contact) {
+  Contact made = contact;
+  std::swap(made.collision1, made.collision2);
+  std::swap(made.on1, made.on2);
+  made.normal = -contact.normal;
+  return made;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor,
+                                     const PluginDescription& plugin, std::size_t link,
+                                     DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  Params params{{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed}};
+  params.collisions = read_collisions(sensor, link, context.robot);
+  params.topic = resolve_topic(parameters.text("bumperTopicName", "bumper_states"), space);
+  params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
+  params.surroundings = context.surroundings;
+  parameters.ignore({"alwaysOn", "updateRate"});
+  parameters.finish(context.log);
+  return std::make_unique<Bumper>(sensor.name, params);
+}
+
+Bumper::Bumper(const std::string& name, const Params& params)
+    : Sensor(name, params.mount),
+      params_(params),
+      output_(add_output(params.topic, reading_kind<ContactsReading>())) {}
+
+void Bumper::observe(TimeNs /*now_ns*/) {
+  if (output_.demanded) params_.surroundings.want_contacts();
+}
+
+void Bumper::follow(TimeNs now_ns) {
+  if (!output_.demanded) {
+    touches_.clear();
+    return;
+  }
+  for (const Contact& found : params_.surroundings.contacts()) {
+    const bool is_first = params_.collisions.count(found.collision1) != 0;
+    if (!is_first && params_.collisions.count(found.collision2) == 0) continue;
+    const Contact contact = is_first ? found : swapped(found);
+    const auto belongs = [&](const ContactsReading::Touch& touch) {
+      return touch.time_ns == now_ns && touch.collision1 == contact.collision1 &&
+             touch.collision2 == contact.collision2;
+    };
+    if (touches_.empty() || !belongs(touches_.back())) {
+      touches_.push_back({now_ns, contact.collision1, contact.collision2, {}});
+    }
+    touches_.back().points.push_back(contact);
+  }
+}
+
+void Bumper::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {
+  sink.on_reading(output_, ContactsReading{{now_ns, params_.frame}, std::move(touches_)});
+  touches_.clear();
+}
+
+void Bumper::reset(TimeNs now_ns) {
+  Sensor::reset(now_ns);
+  touches_.clear();
+}
+
+}  // namespace ardee

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/sensor.h"
+
+namespace ardee {
+
+/// libgazebo_ros_bumper.so in a sensor of type contact: whatever touches the collisions that the
+/// sensor's <contact> names. A message holds each step since the last one, as the stock plugin's
+/// does; what it holds is in the world's axes whatever <frameName> says.
+class Bumper : public Sensor {
+ public:
+  struct Params {
+    Mount mount;
+    std::set<std::string> collisions{};  // scoped names
+    std::string topic{};
+    std::string frame{};
+    Surroundings surroundings{};
+  };
+
+  static std::unique_ptr<Device> make(const SensorDescription& sensor,
+                                      const PluginDescription& plugin, std::size_t link,
+                                      DeviceContext& context);
+  Bumper(const std::string& name, const Params& params);
+
+  void observe(TimeNs now_ns) override;
+  void reset(TimeNs now_ns) override;
+
+ protected:
+  void follow(TimeNs now_ns) override;
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+  bool wanted() const override { return output_.demanded; }
+
+ private:
+  Params params_;
+  Output& output_;
+  std::vector<ContactsReading::Touch> touches_;  // since the last sample
+};
+
+}  // namespace ardee

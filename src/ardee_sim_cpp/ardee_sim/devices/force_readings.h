@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/reading_header.h"
+#include "ardee_sim/physics/contact.h"
+
+namespace ardee {
+
+/// What touched the collisions of a sensor since the reading before. Vectors have the world's axes,
+/// positions are in the world, torques are about the first body's centre of mass.
+struct ContactsReading {
+  /// Two collisions that touched in a step; the first is the sensor's.
+  struct Touch {
+    TimeNs time_ns = 0;
+    std::string collision1;
+    std::string collision2;
+    std::vector<Contact> points;
+  };
+  Header header;
+  std::vector<Touch> touches;
+};
+
+/// A force and a torque about the origin of header.frame_id (geometry_msgs/WrenchStamped).
+struct WrenchReading {
+  Header header;
+  ForceTorque wrench;
+};
+
+}  // namespace ardee

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/force_torque.h"
+
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+
+std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
+                                                DeviceContext& context) {
+  constexpr double kMostHz = 1e6;
+  Parameters parameters(plugin.element);
+  const std::string space = plugin_namespace(parameters, context);
+  const std::string joint = parameters.required_text("jointName");
+  Params params{{context.robot, 0, {}, 0.0, context.seed}};
+  params.joint = context.joint_index(joint, parameters.block("jointName")->source);
+  const std::string& child = context.robot.model().joints[params.joint].child;
+  params.mount.link = context.robot.link_index(child, parameters.source());
+  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
+  params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
+  params.topic = resolve_topic(parameters.required_text("topicName"), space);
+  params.frame = resolve_frame(child, space, context);
+  parameters.ignore({"alwaysOn"});
+  parameters.finish(context.log);
+  context.robot.dynamics().want_joint_wrench(params.joint);  // throws for a joint that has none
+  return std::make_unique<ForceTorqueSensor>(plugin.name, params);
+}
+
+ForceTorqueSensor::ForceTorqueSensor(const std::string& name, const Params& params)
+    : Sensor(name, params.mount),
+      params_(params),
+      output_(add_output(params.topic, reading_kind<WrenchReading>())) {}
+
+void ForceTorqueSensor::observe(TimeNs /*now_ns*/) {
+  if (output_.demanded) mount().robot.dynamics().want_joint_wrench(params_.joint);
+}
+
+void ForceTorqueSensor::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
+  const ForceTorque wrench_W = mount().robot.dynamics().joint_wrench(params_.joint);
+  const Eigen::Quaterniond q_CW = pose().q.conjugate();
+  WrenchReading reading{{now_ns, params_.frame}, {q_CW * wrench_W.force, q_CW * wrench_W.torque}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto counter = static_cast<std::uint64_t>(axis);
+    reading.wrench.force[axis] += params_.gaussian_noise * noise.normal(counter);
+    reading.wrench.torque[axis] += params_.gaussian_noise * noise.normal(counter + 3);
+  }
+  sink.on_reading(output_, reading);
+}
+
+}  // namespace ardee

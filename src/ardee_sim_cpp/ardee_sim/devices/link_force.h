@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/sensor.h"
+
+namespace ardee {
+
+/// libgazebo_ros_f3d.so: the force with which whatever touches a link presses on it, and the torque
+/// about the centre of mass of what moves with it as one body, in the world's axes whatever
+/// <frameName> says, after each step. (The stock plugin reads the engine's sum of applied forces,
+/// which the step has set to zero.)
+class LinkForce : public Sensor {
+ public:
+  struct Params {
+    Mount mount;
+    std::string topic{};
+    std::string frame{};
+    Surroundings surroundings{};
+  };
+
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  LinkForce(const std::string& name, const Params& params);
+
+  void observe(TimeNs now_ns) override;
+
+ protected:
+  void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
+  bool wanted() const override { return output_.demanded; }
+
+ private:
+  Params params_;
+  std::string scope_;  // of the link's collisions
+  Output& output_;
+};
+
+}  // namespace ardee

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// libgazebo_ros_force.so: pushes a link at its centre of mass with the last wrench that came on a
+/// topic, in the world's axes, at each step until another comes.
+class LinkPush : public Device {
+ public:
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  LinkPush(const std::string& name, const std::string& topic, std::size_t link, Robot& robot);
+
+  void before_step(TimeNs now_ns) override;
+  void reset(TimeNs now_ns) override;
+
+ private:
+  Robot& robot_;
+  std::size_t link_;
+  ForceTorque wrench_;
+};
+
+}  // namespace ardee

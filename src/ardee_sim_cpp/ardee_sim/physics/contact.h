@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+namespace ardee {
+
+/// A force (N) and a torque (N m) about a point that its owner names.
+struct ForceTorque {
+  Eigen::Vector3d force{0, 0, 0};
+  Eigen::Vector3d torque{0, 0, 0};
+};
+
+/// A point at which two collisions touched in a step. All vectors have the world's axes.
+struct Contact {
+  std::string collision1;  // "model::link::collision", as Gazebo scopes names
+  std::string collision2;
+  Eigen::Vector3d position{0, 0, 0};
+  Eigen::Vector3d normal{0, 0, 0};  // from the second into the first
+  double depth_m = 0.0;
+  /// What acted on each over the step: about the centre of mass of the links that move as one body,
+  /// or of scenery, which has none, about the collision's frame.
+  ForceTorque on1;
+  ForceTorque on2;
+};
+
+}  // namespace ardee

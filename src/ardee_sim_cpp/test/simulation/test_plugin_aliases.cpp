@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "fixture.h"
+
+namespace ardee {
+namespace {
+
+std::string receiver(const std::string& file, const std::string& keys) {
+  return "<robot name='r'><link name='l'><inertial><mass value='1'/><inertia ixx='1' ixy='0' "
+         "ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link><gazebo><plugin name='p' filename='" +
+         file + "'>" + keys + "</plugin></gazebo></robot>";
+}
+
+const std::string kGravityFree = "<gravity>0 0 0</gravity>";
+
+TEST(PluginAliases, OfTheThesisReceiverIsHectors) {
+  // Listings A.1 and A.2.
+  TestWorld world(kGravityFree);
+  world.spawn(receiver("libgazebo_ros_gps.so",
+                       "<bodyName>l</bodyName><topicName>gps</topicName>"
+                       "<velocityTopicName>gps/fix_velocity</velocityTopicName><updateRate>5"
+                       "</updateRate><referenceLatitude>40.1105875</referenceLatitude>"
+                       "<referenceLongitude>-88.2072697</referenceLongitude>"),
+              "r");
+  world.run(1.0);
+  const auto fixes = world.recorder().on<FixReading>("/gps");
+  ASSERT_EQ(fixes.size(), 5u);
+  EXPECT_NEAR(fixes[0].latitude_deg, 40.1105875, 1e-9);
+  EXPECT_TRUE(world.messages().empty());
+}
+
+TEST(PluginAliases, OfTheUsersRenameTheirKeys) {
+  SimulationOptions options;
+  options.plugin_aliases = {{"liblab_receiver.so",
+                             "libhector_gazebo_ros_gps.so",
+                             {{"lat0", "referenceLatitude"}, {"out", "topicName"}}}};
+  TestWorld world(kGravityFree, 0.001, options);
+  world.spawn(receiver("/opt/lab/liblab_receiver.so", "<lat0>12.5</lat0><out>where</out>"), "r");
+  world.run(0.5);
+  const auto fixes = world.recorder().on<FixReading>("/where");
+  ASSERT_FALSE(fixes.empty());
+  EXPECT_NEAR(fixes[0].latitude_deg, 12.5, 1e-9);
+}
+
+std::string refusal(const PluginAlias& alias) {
+  Registry registry = builtin_registry();
+  try {
+    registry.add_alias(alias);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PluginAliases, AreRefusedWithoutAPluginOrAName) {
+  EXPECT_EQ(refusal({"liba.so", "libnone.so", {}}),
+            "plugin alias 'liba.so': found plugin 'libnone.so', expected one in docs/support.md");
+  EXPECT_NE(refusal({"libgazebo_ros_camera.so", "libgazebo_ros_imu.so", {}}).find("not taken"),
+            std::string::npos);
+  EXPECT_NE(refusal({"libgazebo_ros_gps.so", "libgazebo_ros_imu.so", {}}).find("not taken"),
+            std::string::npos);
+  EXPECT_EQ(refusal({"liba.so", "gazebo_ros_imu", {}}), "");
+}
+
+}  // namespace
+}  // namespace ardee
