@@ -269,12 +269,21 @@ void ModelJoint::shift_frames(const Vector3d& child_C, const Vector3d& parent_P)
   }
 }
 
+bool ModelJoint::is_driven() const {
+  return (drive_ && drive_->motor().max_effort > 0.0) ||
+         (drive2_ && drive2_->motor().max_effort > 0.0);
+}
+
 void ModelJoint::add_effort(double effort) { effort_ += effort; }
 
 void ModelJoint::apply_effort() {
   if (effort_ == 0.0 || !drive_) return;
-  const Vector3d effort = drive_->clamp_effort(effort_, velocity()) * direction(0);
+  push(drive_->clamp_effort(effort_, velocity()));
   effort_ = 0.0;
+}
+
+void ModelJoint::push(double along) const {
+  const Vector3d effort = along * direction(0);
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
     dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(),

@@ -24,6 +24,8 @@ class SceneryIndex {
   /// Throws Error and adds nothing if a shape cannot be built.
   std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "");
   void remove(std::uint32_t id);
+  /// About all of one addition.
+  Eigen::AlignedBox3d bounds(std::uint32_t id) const;
 
   /// Begins a step: shapes that were long not asked for may be dropped.
   void begin_step();
