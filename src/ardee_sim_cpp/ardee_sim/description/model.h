@@ -167,6 +167,17 @@ struct Transmission {
   Source source;
 };
 
+/// One joint follows another: its position is multiplier * that of the leader + offset, of their
+/// first axes (rad or m), whatever loads either of them.
+struct Coupling {
+  std::string leader;
+  std::string follower;
+  double multiplier = 1.0;
+  double offset = 0.0;
+  double max_effort = std::numeric_limits<double>::infinity();  // of the follower
+  Source source;
+};
+
 /// A frame of a model that others may refer to, and the link that it moves with.
 struct NamedFrame {
   std::string name;
@@ -201,11 +212,13 @@ struct Model {
   Source source;
   bool is_static = false;
   bool self_collide = false;
+  bool allow_auto_disable = true;  // physics may leave it out of steps while it is at rest
   Pose own_pose;             // <pose> of its own file, which includes replace and spawns add to
   std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Transmission> transmissions;
+  std::vector<Coupling> couplings;
   std::vector<PluginDescription> plugins;
   std::vector<Instance> instances;  // static models included by this one; non-static ones are
                                     // merged into links and joints

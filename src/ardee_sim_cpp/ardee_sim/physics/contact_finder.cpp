@@ -2,17 +2,12 @@
 #include "ardee_sim/physics/contact_finder.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace ardee::physics {
 namespace {
 
 constexpr std::size_t kRowsPerContact = 3;
-
-Eigen::AlignedBox3d geom_bounds(dGeomID geom) {
-  dReal aabb[6];
-  dGeomGetAABB(geom, aabb);
-  return {Eigen::Vector3d(aabb[0], aabb[2], aabb[4]), Eigen::Vector3d(aabb[1], aabb[3], aabb[5])};
-}
 
 ContactSide side(const DynamicModel& model, std::size_t shape, const PhysicsParams& params) {
   const DynamicModel::Shape& item = model.shapes()[shape];
@@ -25,14 +20,15 @@ bool moves(const DynamicModel& model, std::size_t shape) {
 
 }  // namespace
 
-void ContactFinder::gather(const std::vector<std::unique_ptr<DynamicModel>>& models) {
+void ContactFinder::gather(const std::vector<DynamicModel*>& models) {
   moving_.resize(models.size());
   for (std::size_t i = 0; i < models.size(); ++i) {
     Moving& item = moving_[i];
-    item.model = models[i].get();
+    item.model = models[i];
     item.bounds.clear();
     item.all.setEmpty();
     item.rows = item.model->rows();
+    item.on_scenery = false;
     item.island = i;
     for (const DynamicModel::Shape& shape : item.model->shapes()) {
       item.bounds.push_back(geom_bounds(shape.shape.geom.get()));
@@ -61,6 +57,7 @@ void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
     }
   }
   item.rows += kRowsPerContact * (contacts_.count() - before);
+  item.on_scenery = contacts_.count() > before;
 }
 
 void ContactFinder::touch_self(Moving& item, const PhysicsParams& params) {
@@ -75,7 +72,6 @@ void ContactFinder::touch_self(Moving& item, const PhysicsParams& params) {
 void ContactFinder::touch(std::size_t first, std::size_t second, const PhysicsParams& params) {
   Moving& a = moving_[first];
   const Moving& b = moving_[second];
-  if (!a.all.intersects(b.all)) return;
   const std::size_t before = contacts_.count();
   for (std::size_t i = 0; i < a.bounds.size(); ++i) {
     if (!a.bounds[i].intersects(b.all)) continue;
@@ -94,14 +90,32 @@ void ContactFinder::touch(std::size_t first, std::size_t second, const PhysicsPa
   moving_[island_of(second)].island = island_of(first);
 }
 
-void ContactFinder::find(const std::vector<std::unique_ptr<DynamicModel>>& models,
-                         const PhysicsParams& params) {
+void ContactFinder::pair_up() {
+  by_x_.resize(moving_.size());
+  std::iota(by_x_.begin(), by_x_.end(), std::size_t{0});
+  std::sort(by_x_.begin(), by_x_.end(), [this](std::size_t one, std::size_t other) {
+    return moving_[one].all.min().x() < moving_[other].all.min().x();
+  });
+  pairs_.clear();
+  for (auto one = by_x_.begin(); one != by_x_.end(); ++one) {
+    const Eigen::AlignedBox3d& box = moving_[*one].all;
+    for (auto other = one + 1; other != by_x_.end(); ++other) {
+      if (moving_[*other].all.min().x() > box.max().x()) break;
+      if (moving_[*other].all.intersects(box)) pairs_.push_back(std::minmax(*one, *other));
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+}
+
+void ContactFinder::find(const std::vector<DynamicModel*>& models, const PhysicsParams& params) {
   scenery_.begin_step();
   gather(models);
+  pair_up();
+  auto pair = pairs_.begin();
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     touch_scenery(moving_[i], params);
     touch_self(moving_[i], params);
-    for (std::size_t j = i + 1; j < moving_.size(); ++j) touch(i, j, params);
+    for (; pair != pairs_.end() && pair->first == i; ++pair) touch(i, pair->second, params);
   }
 }
 
@@ -123,7 +137,25 @@ std::vector<Island> ContactFinder::islands() {
     Island& island = found[at_root];
     island.rows += moving_[i].rows;
     ++island.models;
+    for (auto& [name, coupling] : moving_[i].model->couplings()) {
+      island.couplings.push_back(&coupling);
+    }
     for (const BodyHandle& body : moving_[i].model->bodies()) island.bodies.push_back(body.get());
+  }
+  return found;
+}
+
+std::vector<DynamicModel*> ContactFinder::at_rest() {
+  std::vector<bool> rests(moving_.size(), true), stands(moving_.size(), false);  // at the root
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const std::size_t root = island_of(i);
+    if (!moving_[i].model->is_at_rest()) rests[root] = false;
+    if (moving_[i].on_scenery) stands[root] = true;
+  }
+  std::vector<DynamicModel*> found;
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const std::size_t root = island_of(i);
+    if (rests[root] && stands[root]) found.push_back(moving_[i].model);
   }
   return found;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "ardee_sim/physics/contact_joints.h"
@@ -18,22 +18,27 @@ class ContactFinder {
   ContactFinder(SceneryIndex& scenery, ContactJoints& contacts)
       : scenery_(scenery), contacts_(contacts) {}
 
-  void find(const std::vector<std::unique_ptr<DynamicModel>>& models, const PhysicsParams& params);
+  /// In a step of the awake models.
+  void find(const std::vector<DynamicModel*>& models, const PhysicsParams& params);
 
   /// Models that touch one another, which are solved together, in the order of the models.
   std::vector<Island> islands();
+  /// Models of islands that stand on scenery and are wholly at rest.
+  std::vector<DynamicModel*> at_rest();
 
  private:
   /// A model's shapes as they stand before the step.
   struct Moving {
-    const DynamicModel* model;
+    DynamicModel* model;
     std::vector<Eigen::AlignedBox3d> bounds;
     Eigen::AlignedBox3d all;
     std::size_t rows;
+    bool on_scenery;
     std::size_t island;  // index of a model of the same island, its own at the root
   };
 
-  void gather(const std::vector<std::unique_ptr<DynamicModel>>& models);
+  void gather(const std::vector<DynamicModel*>& models);
+  void pair_up();
   void touch_scenery(Moving& item, const PhysicsParams& params);
   void touch_self(Moving& item, const PhysicsParams& params);
   void touch(std::size_t first, std::size_t second, const PhysicsParams& params);
@@ -42,6 +47,8 @@ class ContactFinder {
   SceneryIndex& scenery_;
   ContactJoints& contacts_;
   std::vector<Moving> moving_;
+  std::vector<std::size_t> by_x_;                           // of moving_, by lower bound
+  std::vector<std::pair<std::size_t, std::size_t>> pairs_;  // whose bounds meet, in order
   std::vector<const CollisionShape*> near_;
 };
 

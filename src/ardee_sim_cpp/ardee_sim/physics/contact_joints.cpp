@@ -87,10 +87,6 @@ double spinning_lever(const ContactLaw& law, double depth_m) {
   return radius_m > 0.0 ? 3.0 * M_PI / 16.0 * radius_m * law.torsional_mu : 0.0;
 }
 
-bool meet(const Surface& a, const Surface& b) {
-  return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
-}
-
 /// The same forces on scenery, which has no body, about the frame of its collision.
 ForceTorque reaction(const ContactSide& a, const ContactSide& b, const ContactPoint& point,
                      const ForceTorque& on_a) {
@@ -109,6 +105,11 @@ Eigen::Vector3d default_direction(const Eigen::Vector3d& normal) {
 }
 
 }  // namespace
+
+bool meet(const Surface& a, const Surface& b) {
+  if (a.collide_without_contact || b.collide_without_contact) return false;
+  return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
+}
 
 ContactLaw combine_surfaces(const ContactSide& side_a, const ContactSide& side_b,
                             const PhysicsParams& params) {

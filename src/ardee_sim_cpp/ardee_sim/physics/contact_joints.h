@@ -40,6 +40,9 @@ struct ContactLaw {
   double bounce_threshold_m_per_s = 0.0;
 };
 
+/// Whether two surfaces act on each other where they touch.
+bool meet(const Surface& a, const Surface& b);
+
 /// A soft contact may always push with twice the weight of the lighter model, else it would sink
 /// for ever.
 ContactLaw combine_surfaces(const ContactSide& a, const ContactSide& b,

@@ -47,9 +47,13 @@ DynamicModel::DynamicModel(dWorldID world, std::shared_ptr<const Model> model, c
   for (std::size_t i = 0; i < model_->links.size(); ++i) {
     if (model_->links[i].name == model_->canonical_link) canonical_ = i;
   }
+  may_rest_ = model_->allow_auto_disable && model_->plugins.empty() &&
+              std::all_of(model_->links.begin(), model_->links.end(),
+                          [](const Link& link) { return link.sensors.empty(); });
   make_bodies(world, X_WM);
   make_shapes(factory);
   make_joints(world, X_WM);
+  for (const Coupling& coupling : model_->couplings) couple_joints(coupling);
   find_self_pairs();
   order_carriers();
 }
@@ -224,6 +228,7 @@ void DynamicModel::finish_step(double step_s) {
   for (const auto& joint : joints_) {
     if (joint) joint->measure();
   }
+  if (may_rest_) watch_rest(step_s);
 }
 
 std::string DynamicModel::state_fault() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "ardee_sim/physics/body_groups.h"
 #include "ardee_sim/physics/collision_shape.h"
+#include "ardee_sim/physics/joint_coupling.h"
 #include "ardee_sim/physics/model_joint.h"
 #include "ardee_sim/physics/ode_types.h"
 #include "ardee_sim/physics/physics_world.h"
@@ -49,6 +51,7 @@ class DynamicModel : public PhysicsModel {
   const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const override;
   void set_joint_properties(std::size_t joint, std::size_t axis,
                             const JointProperties& properties) override;
+  void couple_joints(const Coupling& coupling) override;
   const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const override;
   void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) override;
   void want_joint_wrench(std::size_t joint) override;
@@ -57,18 +60,27 @@ class DynamicModel : public PhysicsModel {
                     const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) override;
   void apply_joint_effort(std::size_t joint, double effort) override;
 
+  std::uint64_t rest() const override { return rest_; }
+
   const std::vector<Shape>& shapes() const { return shapes_; }
   /// Pairs of this model's own shapes that may touch.
   const std::vector<ShapePair>& self_pairs() const { return self_pairs_; }
   dBodyID body(std::size_t group) const { return bodies_[group].get(); }
   bool is_kinematic(std::size_t group) const { return groups_.groups[group].kinematic; }
   double mass_kg() const { return mass_kg_; }
+  std::map<std::string, JointCoupling>& couplings() { return couplings_; }
   const std::vector<BodyHandle>& bodies() const { return bodies_; }
   /// An upper bound of the constraint rows of its joints.
   std::size_t rows() const { return rows_; }
 
   void prepare_step(const StepSettings& step, const Eigen::Vector3d& gravity_m_per_s2);
   void finish_step(double step_s);
+  /// Whether the model has hardly moved for so long that it may be left out of steps.
+  bool is_at_rest() const;
+  /// Stops the model until it is woken.
+  void fall_asleep(std::uint64_t rest);
+  void wake();
+  Eigen::AlignedBox3d bounds() const;
   /// Model, link and how it has left the contract of a valid state; empty if it has not.
   std::string state_fault() const;
 
@@ -98,6 +110,8 @@ class DynamicModel : public PhysicsModel {
   /// Throws Error naming the joint if it has no such axis.
   JointDrive& drive(std::size_t joint, std::size_t axis) const;
   void set_mass(std::size_t group);
+  /// Follows how long the bodies have stayed where they are.
+  void watch_rest(double step_s);
   /// Moves the frame of a body, not what it carries, by so much in its own axes.
   void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
 
@@ -112,6 +126,7 @@ class DynamicModel : public PhysicsModel {
   std::vector<Pose> X_BL_;                           // each link in its body
   std::vector<Shape> shapes_;                        // after the bodies that carry them
   std::vector<std::unique_ptr<ModelJoint>> joints_;  // null: fixed
+  std::map<std::string, JointCoupling> couplings_;   // by follower
   std::vector<ShapePair> self_pairs_;
   LinkIndex link_index_;
   struct Carried {
@@ -120,6 +135,10 @@ class DynamicModel : public PhysicsModel {
   };
   std::vector<Carried> carried_;  // a carrier that is carried itself comes before what it carries
   std::vector<Eigen::Quaterniond> turns_;  // of each body in the last step
+  bool may_rest_ = false;
+  double still_s_ = 0.0;           // since a body last left its place in still_poses_
+  std::vector<Pose> still_poses_;  // of each body
+  std::uint64_t rest_ = 0;
 };
 
 }  // namespace ardee::physics

@@ -53,6 +53,7 @@ void DynamicModel::set_link_properties(std::size_t link, const LinkProperties& p
   // A description's impossible inertia has been mended with a warning; a new one is refused.
   sum_masses(*model_, links, group,
              same_inertia(properties, links_[link]) ? OnImpossible::kMend : OnImpossible::kRefuse);
+  wake();
   links_ = std::move(links);
   mass_kg_ += group.mass_kg - groups_.groups[index].mass_kg;
   const Vector3d shift = group.com_M - groups_.groups[index].com_M;
@@ -109,6 +110,7 @@ void DynamicModel::set_joint_properties(std::size_t joint, std::size_t axis,
                 "': " + fault);
   }
   drive(joint, axis).set_properties(properties);
+  wake();
 }
 
 void DynamicModel::set_joint_spring(std::size_t joint, const JointSpring& spring) {
@@ -126,6 +128,25 @@ void DynamicModel::set_joint_limits(std::size_t joint, double lower, double uppe
   set_joint_properties(joint, 0, properties);
 }
 
+void DynamicModel::couple_joints(const Coupling& coupling) {
+  const auto named = [&](const std::string& name) -> ModelJoint& {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      if (model_->joints[i].name == name && joint_axes(i) > 0) return *joints_[i];
+    }
+    throw Error(coupling.source, "model '" + model_->name + "': found coupled joint '" + name +
+                                     "', expected a joint of the model that has an axis");
+  };
+  ModelJoint& leader = named(coupling.leader);
+  ModelJoint& follower = named(coupling.follower);
+  if (&leader == &follower || !std::isfinite(coupling.multiplier) ||
+      !std::isfinite(coupling.offset) || !(coupling.max_effort >= 0.0)) {
+    throw Error(coupling.source, "model '" + model_->name + "': found joint '" + coupling.follower +
+                                     "' coupled to itself or by a number that is not finite");
+  }
+  wake();
+  couplings_.insert_or_assign(coupling.follower, JointCoupling(coupling, leader, follower));
+}
+
 const JointMotor& DynamicModel::joint_motor(std::size_t joint, std::size_t axis) const {
   return drive(joint, axis).motor();
 }
@@ -137,6 +158,7 @@ void DynamicModel::set_joint_motor(std::size_t joint, std::size_t axis, const Jo
                 "zero");
   }
   drive(joint, axis).set_motor(motor);
+  wake();
 }
 
 void DynamicModel::set_joint_motor(std::size_t joint, double velocity, double max_effort) {

@@ -39,6 +39,7 @@ void DynamicModel::check_motion(std::size_t group, const Pose& motion) const {
 
 void DynamicModel::set_twist(const Twist& twist_W) {
   check_twist(twist_W, Quaterniond::Identity());
+  wake();
   set_velocities(twist_W);
 }
 
@@ -50,6 +51,7 @@ void DynamicModel::set_velocities(const Twist& twist_W) {
 }
 
 void DynamicModel::set_link_states(const LinkStates& states) {
+  wake();
   // Of links that are one body the first counts.
   for (std::size_t i = model_->links.size(); i-- > 0;) {
     const auto found = states.find(model_->links[i].name);
@@ -85,6 +87,7 @@ void DynamicModel::set_state(const Pose& X_WM, const Twist& twist_W) {
   const Pose motion = X_WM * pose().inverse();
   for (std::size_t i = 0; i < bodies_.size(); ++i) check_motion(i, motion);
   check_twist(twist_W, motion.q);
+  wake();
   for (std::size_t i = 0; i < bodies_.size(); ++i) move_body(i, motion);
   set_velocities(twist_W);
 }
@@ -139,6 +142,7 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
   const Pose motion = moved->motion_to(position);
   const std::vector<std::size_t> hanging = hanging_on(joint);
   for (const std::size_t group : hanging) check_motion(group, motion);
+  wake();
   for (const std::size_t group : hanging) move_body(group, motion);
   moved->set_position(moved->clamp(position));
 }
@@ -146,6 +150,7 @@ void DynamicModel::set_joint_position(std::size_t joint, double position) {
 void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const Vector3d& point_W,
                                 const Vector3d& torque_W) {
   require(is_valid(force_W) && is_valid(point_W) && is_valid(torque_W), *model_, "a wrench");
+  wake();
   dBodyID pushed = body(groups_.of_link.at(link));
   dBodyAddForceAtPos(pushed, force_W.x(), force_W.y(), force_W.z(), point_W.x(), point_W.y(),
                      point_W.z());
@@ -154,6 +159,7 @@ void DynamicModel::apply_wrench(std::size_t link, const Vector3d& force_W, const
 
 void DynamicModel::apply_joint_effort(std::size_t joint, double effort) {
   require(is_valid(effort), *model_, "a joint effort");
+  wake();
   if (ModelJoint* driven = moving_joint(joint)) driven->add_effort(effort);
 }
 

@@ -243,11 +243,23 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
 }
 
 void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
-                      const std::vector<Eigen::Vector3f>& vertices, GroundContacts& contacts) {
-  for (const Eigen::Vector3f& vertex : vertices) {
-    const Vector3d point = X_FV * (scale * vertex.cast<double>());
-    if (point.z() < field.bounds().max().z()) add_point(field, point, contacts);
-  }
+                      const VertexTree& vertices, GroundContacts& contacts) {
+  const Eigen::Matrix3d turn = X_FV.q.toRotationMatrix();
+  const Eigen::Matrix3d spread = turn.cwiseAbs();
+  const auto may_touch = [&](const Eigen::AlignedBox3f& box) {
+    const Vector3d center = scale * (turn * box.center().cast<double>()) + X_FV.p;
+    const Vector3d reach = 0.5 * scale * (spread * box.sizes().cast<double>());
+    const Vector3d low = center - reach, high = center + reach;
+    if (low.z() >= field.bounds().max().z()) return false;
+    const CellRange range = field.cells(low.x(), low.y(), high.x(), high.y());
+    return !range.empty() && low.z() < field.highest(range);
+  };
+  vertices.visit(may_touch, [&](const Eigen::Vector3f& vertex) {
+    const Vector3d point = scale * (turn * vertex.cast<double>()) + X_FV.p;
+    Vector3d normal;
+    const double below_m = depth_below(field, point, normal);
+    if (below_m > 0.0) contacts.push_back({point, normal, below_m * normal.z()});
+  });
 }
 
 void reduce_contacts(GroundContacts& contacts, std::size_t max_contacts) {

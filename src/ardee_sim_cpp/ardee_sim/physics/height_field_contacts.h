@@ -7,6 +7,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/geometry.h"
 #include "ardee_sim/physics/height_field.h"
+#include "ardee_sim/physics/vertex_tree.h"
 
 namespace ardee::physics {
 
@@ -47,7 +48,7 @@ void collide_box(const HeightField& field, const Pose& X_FB, const Box& box,
 
 /// Vertices, each times `scale`, below the ground.
 void collide_vertices(const HeightField& field, const Pose& X_FV, double scale,
-                      const std::vector<Eigen::Vector3f>& vertices, GroundContacts& contacts);
+                      const VertexTree& vertices, GroundContacts& contacts);
 
 /// Keeps at most `max_contacts`: the deepest, then each time the one farthest from those kept.
 void reduce_contacts(GroundContacts& contacts, std::size_t max_contacts);

@@ -299,23 +299,32 @@ ForceTorque ModelJoint::wrench() const {
   return {-on_child.force, -on_child.torque};
 }
 
+bool ModelJoint::is_driven() const {
+  return (drive_ && drive_->motor().max_effort > 0.0) ||
+         (drive2_ && drive2_->motor().max_effort > 0.0);
+}
+
 void ModelJoint::add_effort(double effort) { effort_ += effort; }
 
 void ModelJoint::apply_effort() {
   applied_ = {};
   if (effort_ == 0.0 || !drive_) return;
-  const Vector3d effort = drive_->clamp_effort(effort_, velocity()) * direction(0);
+  const double along = drive_->clamp_effort(effort_, velocity());
+  (type_ == JointType::kPrismatic ? applied_.force : applied_.torque) = along * direction(0);
+  push(along);
   effort_ = 0.0;
+}
+
+void ModelJoint::push(double along) const {
+  const Vector3d effort = along * direction(0);
   if (type_ == JointType::kPrismatic) {
     const Vector3d anchor = body_pose(child_) * anchor_C_;
-    applied_.force = effort;
     dBodyAddForceAtPos(child_, effort.x(), effort.y(), effort.z(), anchor.x(), anchor.y(),
                        anchor.z());
     dBodyAddForceAtPos(parent_, -effort.x(), -effort.y(), -effort.z(), anchor.x(), anchor.y(),
                        anchor.z());
     return;
   }
-  applied_.torque = effort;
   dBodyAddTorque(child_, effort.x(), effort.y(), effort.z());
   dBodyAddTorque(parent_, -effort.x(), -effort.y(), -effort.z());
 }

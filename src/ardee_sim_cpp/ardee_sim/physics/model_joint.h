@@ -33,6 +33,8 @@ class ModelJoint {
 
   /// Axes that can be driven; none of a ball joint, or between bodies that nothing moves.
   std::size_t axes() const { return drive2_ ? 2 : drive_ ? 1 : 0; }
+  /// Whether a motor acts on one of them.
+  bool is_driven() const;
   JointDrive& drive(std::size_t axis) { return axis == 0 ? drive_.value() : drive2_.value(); }
   /// The frames of the bodies have moved within them by so much, in their own axes.
   void shift_frames(const Eigen::Vector3d& child_C, const Eigen::Vector3d& parent_P);
@@ -42,6 +44,8 @@ class ModelJoint {
   ForceTorque wrench() const;
   /// Kept for the next step.
   void add_effort(double effort);
+  /// Acts on the bodies at once, whatever the limits.
+  void push(double effort) const;
 
   /// Before a step: rows, efforts.
   void prepare(const StepSettings& step);

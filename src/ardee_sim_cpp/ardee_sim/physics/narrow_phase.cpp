@@ -55,13 +55,42 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
     collide_box(field, X_FS, {scale * box->size_m}, contacts);
   } else if (shape.mesh) {
     // The mesh's vertices carry the shape's own scale already.
-    collide_vertices(field, X_FS, shrink, shape.mesh->vertices, contacts);
+    collide_vertices(field, X_FS, shrink, *shape.mesh->tree, contacts);
   }
   reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
   for (const GroundContact& contact : contacts) {
     points.push_back({ground.X_WS * (ground.scale * contact.position),
                       ground.X_WS.q * contact.normal, ground.scale * contact.depth_m,
                       contact.share});
+  }
+}
+
+/// The deepest vertices of a mesh below a plane, spread out: of too many the engine takes those
+/// that it meets first.
+void collide_plane(const CollisionShape& shape, dGeomID plane, int max_contacts,
+                   std::vector<ContactPoint>& points) {
+  dVector4 equation;
+  dGeomPlaneGetParams(plane, equation);
+  const Eigen::Vector3d normal = to_vector(equation);
+  const Pose X_WS = geom_pose(shape.geom.get());
+  const Eigen::Vector3d normal_S = X_WS.q.conjugate() * normal;
+  const double height_m = equation[3] - normal.dot(X_WS.p);
+  const Eigen::Vector3d spread = normal_S.cwiseAbs();
+  GroundContacts contacts;
+  shape.mesh->tree->visit(
+      [&](const Eigen::AlignedBox3f& box) {
+        return normal_S.dot(box.center().cast<double>()) -
+                   0.5 * spread.dot(box.sizes().cast<double>()) <
+               height_m;
+      },
+      [&](const Eigen::Vector3f& vertex) {
+        const Eigen::Vector3d point = vertex.cast<double>();
+        const double depth_m = height_m - normal_S.dot(point);
+        if (depth_m > 0.0) contacts.push_back({X_WS * point, normal, depth_m});
+      });
+  reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
+  for (const GroundContact& contact : contacts) {
+    points.push_back({contact.position, contact.normal, contact.depth_m});
   }
 }
 
@@ -126,6 +155,8 @@ void collide_shapes(const CollisionShape& a, const CollisionShape& b, int max_co
   if (max_contacts < 1) return;
   if (b.field) {
     collide_field(a, b, max_contacts, points);
+  } else if (a.mesh && std::holds_alternative<Plane>(b.collision->geometry)) {
+    collide_plane(a, b.geom.get(), max_contacts, points);
   } else if (a.geom && b.geom) {
     const CollisionShape* cylinder = is_cylinder(a) ? &a : is_cylinder(b) ? &b : nullptr;
     if (cylinder) {

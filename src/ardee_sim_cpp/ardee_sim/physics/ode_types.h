@@ -3,6 +3,7 @@
 
 #include <ode/ode.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 
 #include "ardee_sim/core/pose.h"
@@ -39,6 +40,12 @@ inline void set_body_pose(dBodyID body, const Pose& X_WB) {
   const dQuaternion q = {X_WB.q.w(), X_WB.q.x(), X_WB.q.y(), X_WB.q.z()};
   dBodySetPosition(body, X_WB.p.x(), X_WB.p.y(), X_WB.p.z());
   dBodySetQuaternion(body, q);
+}
+
+inline Eigen::AlignedBox3d geom_bounds(dGeomID geom) {
+  dReal aabb[6];
+  dGeomGetAABB(geom, aabb);
+  return {Eigen::Vector3d(aabb[0], aabb[2], aabb[4]), Eigen::Vector3d(aabb[1], aabb[3], aabb[5])};
 }
 
 /// A row-major 3 x 4 rotation as ODE keeps it.

@@ -11,6 +11,7 @@
 #include "ardee_sim/physics/dynamic_model.h"
 #include "ardee_sim/physics/ode_library.h"
 #include "ardee_sim/physics/scenery_index.h"
+#include "ardee_sim/physics/sleepers.h"
 #include "ardee_sim/physics/solver.h"
 
 namespace ardee {
@@ -59,6 +60,7 @@ struct PhysicsWorld::Impl {
 
   void set_params(const PhysicsParams& wanted);
   void step();
+  void gather_awake();
   std::vector<LostModel> lost() const;
 
   physics::OdeLibrary library;
@@ -72,6 +74,8 @@ struct PhysicsWorld::Impl {
   physics::ContactFinder finder;
   std::vector<std::unique_ptr<DynamicModel>> models;  // in the order of their names
   std::vector<std::string> names;
+  std::vector<DynamicModel*> awake;  // of them, in the last step
+  physics::Sleepers sleepers;
   std::size_t contact_count = 0;
   bool wants_contacts = false;
   std::vector<Contact> told;  // contacts of the last step
@@ -88,32 +92,45 @@ void PhysicsWorld::Impl::set_params(const PhysicsParams& wanted) {
   dWorldSetContactSurfaceLayer(world.get(), 0.0);
   dWorldSetContactMaxCorrectingVel(world.get(), dInfinity);
   dWorldSetAutoDisableFlag(world.get(), 0);
+  sleepers.wake_all();
 }
 
 std::vector<LostModel> PhysicsWorld::Impl::lost() const {
   std::vector<LostModel> found;
   for (const auto& model : models) {
+    if (model->rest() != 0) continue;
     std::string fault = model->state_fault();
     if (!fault.empty()) found.push_back({model.get(), std::move(fault)});
   }
   return found;
 }
 
+void PhysicsWorld::Impl::gather_awake() {
+  awake.clear();
+  for (const auto& model : models) {
+    if (model->rest() == 0) awake.push_back(model.get());
+  }
+}
+
 void PhysicsWorld::Impl::step() {
   physics::OdeLibrary::prepare_thread();
-  for (const auto& model : models) {
+  sleepers.wake_beside_woken();
+  gather_awake();
+  if (sleepers.wake_touched(awake)) gather_awake();
+  for (DynamicModel* model : awake) {
     model->prepare_step({params.step_s, params.erp, std::max(params.cfm, physics::kLeastCfm)},
                         params.gravity_m_per_s2);
   }
   contacts.clear();  // what a step that threw may have left
   contacts.set_told(wants_contacts);
   wants_contacts = false;
-  finder.find(models, params);
+  finder.find(awake, params);
   contact_count = contacts.count();
   solver.step(params, finder.islands());
   told = contacts.contacts();
   contacts.clear();
-  for (const auto& model : models) model->finish_step(params.step_s);
+  for (DynamicModel* model : awake) model->finish_step(params.step_s);
+  sleepers.add(finder.at_rest());
 }
 
 PhysicsWorld::PhysicsWorld(const PhysicsParams& params, Log log)
@@ -140,6 +157,9 @@ void PhysicsWorld::remove_model(PhysicsModel& model) {
   const auto found = std::find_if(impl_->models.begin(), impl_->models.end(),
                                   [&](const auto& item) { return item.get() == &model; });
   if (found == impl_->models.end()) throw Error("physics: found no such model to remove");
+  impl_->sleepers.wake_beside_woken();
+  impl_->sleepers.remove(**found);
+  impl_->sleepers.wake_near((*found)->bounds());
   impl_->names.erase(impl_->names.begin() + (found - impl_->models.begin()));
   impl_->models.erase(found);
 }
@@ -147,10 +167,16 @@ void PhysicsWorld::remove_model(PhysicsModel& model) {
 PhysicsWorld::SceneryId PhysicsWorld::add_scenery(const std::vector<Placement>& placements,
                                                   const std::string& name,
                                                   const PlacementNames& placement_names) {
-  return impl_->scenery.add(placements, name, placement_names);
+  const SceneryId id = impl_->scenery.add(placements, name, placement_names);
+  impl_->sleepers.wake_near(impl_->scenery.bounds(id));
+  return id;
 }
 
-void PhysicsWorld::remove_scenery(SceneryId id) { impl_->scenery.remove(id); }
+void PhysicsWorld::remove_scenery(SceneryId id) {
+  const Eigen::AlignedBox3d bounds = impl_->scenery.bounds(id);
+  impl_->scenery.remove(id);
+  impl_->sleepers.wake_near(bounds);
+}
 
 std::vector<LostModel> PhysicsWorld::step() {
   impl_->told.clear();
@@ -170,8 +196,8 @@ const std::vector<Contact>& PhysicsWorld::contacts() const { return impl_->told;
 void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
 
 PhysicsWorld::Stats PhysicsWorld::stats() const {
-  return {impl_->contact_count, impl_->scenery.tested(), impl_->scenery.built(),
-          impl_->solver.was_direct()};
+  return {impl_->awake.size(), impl_->contact_count, impl_->scenery.tested(),
+          impl_->scenery.built(), impl_->solver.was_direct()};
 }
 
 }  // namespace ardee

@@ -67,6 +67,9 @@ class PhysicsModel {
   virtual const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const = 0;
   virtual void set_joint_properties(std::size_t joint, std::size_t axis,
                                     const JointProperties& properties) = 0;
+  /// Has a joint follow another from now on; replaces what it followed. Throws Error and changes
+  /// nothing if one of them is not there or has no axis.
+  virtual void couple_joints(const Coupling& coupling) = 0;
   virtual const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const = 0;
   virtual void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) = 0;
 
@@ -75,6 +78,11 @@ class PhysicsModel {
                             const Eigen::Vector3d& point_W, const Eigen::Vector3d& torque_W) = 0;
   /// Adds an effort along the joint's axis for the next step only.
   virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
+
+  /// Number of the model's present rest, which no other rest of the world has; 0 while it is awake.
+  /// A model at rest is left out of steps until something touches it or one of the calls above
+  /// changes it. One with sensors, plugins or a running motor stays awake.
+  virtual std::uint64_t rest() const = 0;
 };
 
 /// A model that has left the contract of a valid state (core/limits.h), and how.
@@ -116,6 +124,7 @@ class PhysicsWorld {
   const std::vector<Contact>& contacts() const;
   /// What the last step dealt with.
   struct Stats {
+    std::size_t models = 0;          // awake
     std::size_t contacts = 0;        // points of contact
     std::size_t scenery_tested = 0;  // bounds of scenery compared with a robot's
     std::size_t scenery_built = 0;   // static shapes alive near robots

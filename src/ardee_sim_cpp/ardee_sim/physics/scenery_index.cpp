@@ -148,6 +148,14 @@ void SceneryIndex::remove(std::uint32_t id) {
   sets_.erase(found);
 }
 
+Eigen::AlignedBox3d SceneryIndex::bounds(std::uint32_t id) const {
+  Eigen::AlignedBox3f all;
+  const auto found = sets_.find(id);
+  if (found == sets_.end()) return {};
+  for (const Entry& entry : found->second.entries) all.extend(entry.bounds);
+  return all.isEmpty() ? Eigen::AlignedBox3d() : all.cast<double>();
+}
+
 void SceneryIndex::begin_step() {
   ++step_;
   tested_ = 0;

@@ -25,6 +25,8 @@ class SceneryIndex {
   std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "",
                     const PlacementNames& placement_names = nullptr);
   void remove(std::uint32_t id);
+  /// About all of one addition.
+  Eigen::AlignedBox3d bounds(std::uint32_t id) const;
 
   /// Begins a step: shapes that were long not asked for may be dropped.
   void begin_step();

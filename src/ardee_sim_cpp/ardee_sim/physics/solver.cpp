@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t kDirectRows = 160;
 
-void copy(const dReal* from, int count, dReal* to) { std::copy(from, from + count, to); }
-
 void disable(const Island& island) {
   for (dBodyID body : island.bodies) dBodyDisable(body);
 }
@@ -80,40 +78,15 @@ void Solver::renew_threads() {
   if (fresh) keep_for_ever(std::move(fresh));
 }
 
-void Solver::save(const std::vector<dBodyID>& bodies) {
-  saved_.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    BodyState& state = saved_[i];
-    copy(dBodyGetPosition(bodies[i]), 3, state.position);
-    copy(dBodyGetQuaternion(bodies[i]), 4, state.rotation);
-    copy(dBodyGetLinearVel(bodies[i]), 3, state.linear);
-    copy(dBodyGetAngularVel(bodies[i]), 3, state.angular);
-    copy(dBodyGetForce(bodies[i]), 3, state.force);
-    copy(dBodyGetTorque(bodies[i]), 3, state.torque);
-  }
-}
-
-void Solver::restore(const std::vector<dBodyID>& bodies) const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const BodyState& state = saved_[i];
-    dBodySetPosition(bodies[i], state.position[0], state.position[1], state.position[2]);
-    dBodySetQuaternion(bodies[i], state.rotation);
-    dBodySetLinearVel(bodies[i], state.linear[0], state.linear[1], state.linear[2]);
-    dBodySetAngularVel(bodies[i], state.angular[0], state.angular[1], state.angular[2]);
-    dBodySetForce(bodies[i], state.force[0], state.force[1], state.force[2]);
-    dBodySetTorque(bodies[i], state.torque[0], state.torque[1], state.torque[2]);
-  }
-}
-
 bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies) {
-  save(bodies);
+  saved_.save(bodies);
   OdeLibrary::take_complaint();
   try {
     if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_complaint()) return true;
   } catch (const EngineFault&) {
     renew_threads();
   }
-  restore(bodies);
+  saved_.restore();
   return false;
 }
 
@@ -132,8 +105,25 @@ void Solver::iterate(const PhysicsParams& params, const Island& island) {
   disable(island);
 }
 
-void Solver::step(const PhysicsParams& params, const std::vector<Island>& islands) {
+void Solver::step(const PhysicsParams& params, std::vector<Island> islands) {
   dWorldSetCFM(world_, std::max(params.cfm, kLeastCfm));
+  const auto first_coupled =
+      std::stable_partition(islands.begin(), islands.end(),
+                            [](const Island& island) { return island.couplings.empty(); });
+  const std::vector<Island> coupled(first_coupled, islands.end());
+  islands.erase(first_coupled, islands.end());
+  for (const Island& island : coupled) disable(island);
+  step_plain(params, islands);
+  bool all_direct = was_direct_;
+  for (const Island& island : coupled) {
+    step_coupled(island.couplings, island.bodies, params.step_s,
+                 [&] { step_plain(params, {island}); });
+    all_direct = all_direct && was_direct_;
+  }
+  was_direct_ = all_direct;
+}
+
+void Solver::step_plain(const PhysicsParams& params, const std::vector<Island>& islands) {
   const bool all_direct = params.solver == PhysicsParams::Solver::kWorld;
   const auto is_direct = [all_direct](const Island& island) {
     return all_direct || island.rows <= kDirectRows;

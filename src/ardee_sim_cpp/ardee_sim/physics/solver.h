@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/physics/body_states.h"
+#include "ardee_sim/physics/joint_coupling.h"
 #include "ardee_sim/physics/ode_types.h"
 
 namespace ardee::physics {
@@ -17,6 +19,7 @@ constexpr double kLeastCfm = 1e-9;
 struct Island {
   std::size_t rows = 0;  // an upper bound of its constraint rows
   std::size_t models = 0;
+  std::vector<JointCoupling*> couplings;
   std::vector<dBodyID> bodies;  // in an order that does not depend on that of their creation
 };
 
@@ -37,29 +40,22 @@ class Solver {
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
 
   /// Throws Error if the engine runs out of memory, or what it is given cannot be solved at all.
-  void step(const PhysicsParams& params, const std::vector<Island>& islands);
+  void step(const PhysicsParams& params, std::vector<Island> islands);
   /// Whether all of the last step was solved directly.
   bool was_direct() const { return was_direct_; }
 
  private:
-  /// What a step changes of a body.
-  struct BodyState {
-    dVector3 position, linear, angular, force, torque;
-    dQuaternion rotation;
-  };
-
+  void step_plain(const PhysicsParams& params, const std::vector<Island>& islands);
   bool solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies);
   void iterate(const PhysicsParams& params, const Island& island);
   /// The engine's list of work, from now on empty: a fault leaves one half done.
   void renew_threads();
-  void save(const std::vector<dBodyID>& bodies);
-  void restore(const std::vector<dBodyID>& bodies) const;
 
   dWorldID world_;
   ThreadingHandle threads_;
   unsigned long seed_ = 0;
   bool was_direct_ = false;
-  std::vector<BodyState> saved_;
+  BodyStates saved_;
 };
 
 }  // namespace ardee::physics

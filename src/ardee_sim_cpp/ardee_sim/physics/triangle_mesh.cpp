@@ -60,6 +60,7 @@ std::shared_ptr<TriangleMesh> build(const Mesh& mesh, const Eigen::Vector3f& sca
   if (scale.prod() < 0.0f) {
     for (auto& triangle : result->triangles) std::swap(triangle[1], triangle[2]);
   }
+  result->tree.emplace(result->vertices);
   result->data.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildSingle(result->data.get(), result->vertices.data(), sizeof(Eigen::Vector3f),
                               static_cast<int>(result->vertices.size()), result->triangles.data(),

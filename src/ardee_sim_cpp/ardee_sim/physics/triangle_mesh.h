@@ -4,12 +4,14 @@
 #include <Eigen/Geometry>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "ardee_sim/description/geometry.h"
 #include "ardee_sim/physics/ode_types.h"
+#include "ardee_sim/physics/vertex_tree.h"
 
 namespace ardee::physics {
 
@@ -19,6 +21,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   Eigen::AlignedBox3d bounds;
   TriMeshDataHandle data;
+  std::optional<VertexTree> tree;  // of those vertices
 };
 
 /// Corner to corner bounds of a mesh as scaled and centred, without building it.

@@ -56,6 +56,7 @@ void SceneSet::remove(const Entity& entity) {
     } else {
       each.scene->remove_model(entity.robot->entity());
     }
+    each.rests.erase(entity.robot->entity());
     each.current = false;
   }
 }
@@ -76,13 +77,17 @@ const RayScene& SceneSet::now(SceneKind kind) {
   if (!wanted.scene) {
     auto made = std::make_unique<RayScene>(kind, options_, log_);
     for (const auto& entity : entities_) add_to(*made, *entity);
+    wanted.rests.clear();
     wanted.scene = std::move(made);  // whole or not at all
   }
   if (!wanted.current) {
     for (const auto& entity : entities_) {
-      if (!entity->is_static()) {
-        wanted.scene->set_link_poses(entity->robot->entity(), link_poses(*entity->robot));
-      }
+      if (entity->is_static()) continue;
+      const std::uint64_t rest = entity->robot->dynamics().rest();
+      std::uint64_t& placed = wanted.rests[entity->robot->entity()];
+      if (rest != 0 && rest == placed) continue;
+      placed = rest;
+      wanted.scene->set_link_poses(entity->robot->entity(), link_poses(*entity->robot));
     }
     std::vector<Eigen::Vector3d> eyes_W;
     auto& eyes = wanted.eyes;

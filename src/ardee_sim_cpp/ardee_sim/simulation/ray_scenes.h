@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -30,6 +31,7 @@ class SceneSet : public RayScenes {
     std::unique_ptr<RayScene> scene;
     std::vector<std::weak_ptr<Eye>> eyes;
     bool current = false;
+    std::map<std::uint32_t, std::uint64_t> rests;  // of models, by entity, when they were placed
     bool pictures = false;
   };
   static void add_to(RayScene& scene, const Entity& entity);
