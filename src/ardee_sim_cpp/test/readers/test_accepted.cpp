@@ -248,6 +248,8 @@ TEST_F(Accepted, AllThatGazeboKnowsInABlockActsIsWarnedOfOrRefused) {
     with("j", "<" + std::string(always) + ">true</" + always + ">");
     EXPECT_TRUE(warnings_->empty()) << always;
   }
+  EXPECT_TRUE(with("j", "<provideFeedback>1</provideFeedback>")->joints.at(0).is_measured);
+  EXPECT_FALSE(with("j", "<provideFeedback>0</provideFeedback>")->joints.at(0).is_measured);
   with("j", "<fudgeFactor>0.5</fudgeFactor>");
   EXPECT_EQ(warnings_->size(), 1u);
   with("j", "<initialJointPosition>0.5</initialJointPosition>");

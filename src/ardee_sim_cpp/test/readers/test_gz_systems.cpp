@@ -196,9 +196,13 @@ TEST_F(GzSystems, ReceiversAndMagnetometersArePluginsOfTheModel) {
 TEST_F(GzSystems, AUrdfsBlocksMayHoldThem) {
   const auto m = robot(
       "<link name='a'/><gazebo reference='a'><sensor name='imu' type='imu'><topic>imu</topic>"
-      "</sensor><sensor name='c' type='contact'><topic>touch</topic></sensor></gazebo>");
-  EXPECT_EQ(keys_of(m->links.at(0).sensors.at(0).plugins.at(0)).at("topicName"), "imu");
-  EXPECT_TRUE(warned("found sensor type 'contact', which publishes nothing here"));
+      "</sensor><sensor name='c' type='contact'><contact><collision>c</collision><topic>touch"
+      "</topic></contact></sensor><sensor name='h' type='altimeter'><topic>height</topic></sensor>"
+      "</gazebo>");
+  const auto& sensors = m->links.at(0).sensors;
+  EXPECT_EQ(keys_of(sensors.at(0).plugins.at(0)).at("topicName"), "imu");
+  EXPECT_EQ(keys_of(sensors.at(1).plugins.at(0)).at("bumperTopicName"), "touch");
+  EXPECT_TRUE(warned("found sensor type 'altimeter', which publishes nothing here"));
 }
 
 }  // namespace
