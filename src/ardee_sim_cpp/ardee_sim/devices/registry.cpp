@@ -24,6 +24,7 @@
 #include "ardee_sim/devices/link_force.h"
 #include "ardee_sim/devices/link_push.h"
 #include "ardee_sim/devices/magnetometer.h"
+#include "ardee_sim/devices/mimic_joint.h"
 #include "ardee_sim/devices/planar_move.h"
 #include "ardee_sim/devices/range_finder.h"
 #include "ardee_sim/devices/skid_steer_drive.h"
@@ -196,6 +197,8 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
 Registry builtin_registry() {
   Registry registry;
   registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
+  registry.add_model_plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", MimicJoint::make);
+  registry.add_model_plugin("libgazebo_mimic_joint_plugin.so", MimicJoint::make);
   registry.add_model_plugin("libardee_ros_skid_steer_drive.so", SkidSteerDrive::make_with_encoders);
   registry.add_model_plugin("libgazebo_ros_diff_drive.so", DiffDrive::make);
   registry.add_model_plugin("libgazebo_ros_force.so", LinkPush::make);

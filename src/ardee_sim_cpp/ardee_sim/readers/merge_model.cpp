@@ -49,6 +49,12 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
     transmission.joint = prefix + transmission.joint;
     made.transmissions.push_back(std::move(transmission));
   }
+  for (Coupling coupling : nested.couplings) {
+    coupling.leader = prefix + coupling.leader;
+    coupling.follower = prefix + coupling.follower;
+    made.couplings.push_back(coupling);
+  }
+  made.allow_auto_disable = made.allow_auto_disable && nested.allow_auto_disable;
   for (NamedFrame frame : nested.frames) {
     frame.link = scoped(frame.link.empty() ? nested.canonical_link : frame.link);
     made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link});

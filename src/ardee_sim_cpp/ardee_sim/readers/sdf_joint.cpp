@@ -25,9 +25,9 @@ JointType joint_type(const Node& joint) {
   const std::string type = joint.required_attribute("type");
   const auto found = types.find(type);
   if (found != types.end()) return found->second;
-  throw joint.error(
-      "found joint type '" + type +
-      "', expected fixed, revolute, continuous, prismatic, ball, universal, revolute2 or screw");
+  throw joint.error("found joint type '" + type +
+                    "', expected fixed, revolute, continuous, prismatic, ball, universal, "
+                    "revolute2, screw or gearbox");
 }
 
 /// The frame that an axis is given in: SDF 1.7 names it by expressed_in, older files say
@@ -152,6 +152,62 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   if (!free && axis) turn(*axis, joint.axis.axis);
   if (two) turn(node.required("axis2"), joint.axis2.axis);
   return joint;
+}
+
+namespace {
+
+/// A joint by which a link turns against the reference body, and how it counts about an axis.
+struct HeldBy {
+  const Joint* joint = nullptr;
+  double sign = 1.0;
+};
+
+HeldBy find_joint(const std::string& link, const std::string& reference,
+                  const Eigen::Vector3d& axis_M, const JointScope& scope, const Model& model) {
+  for (const Joint& joint : model.joints) {
+    if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous) continue;
+    const bool holds = joint.child == link && joint.parent == reference;
+    if (!holds && !(joint.child == reference && joint.parent == link)) continue;
+    const Eigen::Quaterniond q_MJ = scope.X_ML.at(joint.child).q * joint.X_CJ.q;
+    const double along = axis_M.dot(q_MJ * joint.axis.axis);
+    return {&joint, (along < 0.0) == holds ? -1.0 : 1.0};
+  }
+  return {};
+}
+
+}  // namespace
+
+void read_sdf_gearbox(const Node& node, const JointScope& scope, Log& log, Model& model) {
+  const auto link = [&](const char* name) {
+    return link_of(without_own_scope(node.required(name).required_text(), scope), scope);
+  };
+  const std::string parent = link("parent"), child = link("child");
+  const std::string reference = link("gearbox_reference_body");
+  for (const std::string& named : {parent, child, reference}) {
+    if (scope.X_ML.count(named) == 0) throw Error(node.source(), unknown_link(named, scope.model));
+  }
+  const auto axis_M = [&](const char* name) -> Eigen::Vector3d {
+    const auto axis = node.child(name);
+    if (!axis) return scope.X_ML.at(child).q * Eigen::Vector3d::UnitZ();
+    const std::string frame = frame_of_axis(*axis, scope.sdf_version);
+    const Eigen::Quaterniond q_MF =
+        frame.empty() ? scope.X_ML.at(child).q : scope.frames.find(frame, node).q;
+    return q_MF * read_axis(*axis).axis;
+  };
+  const HeldBy first = find_joint(parent, reference, axis_M("axis"), scope, model);
+  const HeldBy second = find_joint(child, reference, axis_M("axis2"), scope, model);
+  if (!first.joint || !second.joint) {
+    log.warn(node.source(),
+             "found a gearbox whose links are not held on its reference body by revolute joints, "
+             "expected two; they are not coupled");
+    return;
+  }
+  Coupling coupling;
+  coupling.leader = first.joint->name;
+  coupling.follower = second.joint->name;
+  coupling.multiplier = -node.number("gearbox_ratio", 1.0) * first.sign * second.sign;
+  coupling.source = node.source();
+  model.couplings.push_back(coupling);
 }
 
 }  // namespace ardee

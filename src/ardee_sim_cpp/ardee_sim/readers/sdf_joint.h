@@ -24,6 +24,9 @@ struct JointScope {
 /// An SDF <joint> between links, or frames that move with them; one whose child is the world
 /// becomes one whose parent is. An axis that is not written is z, with a warning if there is no
 /// <axis> at all. Throws Error if one of the links does not exist.
+/// Adds a joint of type gearbox to a model whose other joints have been read: as what couples the
+/// two joints that hold its links on the reference body. One warning if there are no such joints.
+void read_sdf_gearbox(const Node& node, const JointScope& scope, Log& log, Model& model);
 Joint read_sdf_joint(const Node& joint, const JointScope& scope, Log& log);
 
 }  // namespace ardee

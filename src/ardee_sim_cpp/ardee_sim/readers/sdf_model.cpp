@@ -89,6 +89,7 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   made->source = node.source();
   made->is_static = scope.make_static.value_or(node.boolean("static", false));
   made->self_collide = node.boolean("self_collide", false);
+  made->allow_auto_disable = node.boolean("allow_auto_disable", true);
   SdfFrames frames("__model__");
   frames.add_children(node);
   UniqueNames names;
@@ -108,7 +109,13 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
   }
   const JointScope joint_scope(scope.version, frames, *made);
   node.each("joint", [&](const Node& joint) {
+    if (joint.attribute("type") == "gearbox") return;
     made->joints.push_back(read_sdf_joint(joint, joint_scope, assets_.log()));
+  });
+  node.each("joint", [&](const Node& joint) {
+    if (joint.attribute("type") == "gearbox") {
+      read_sdf_gearbox(joint, joint_scope, assets_.log(), *made);
+    }
   });
   adopt_gz_systems(*made, assets_.log());
   validate_model(*made, assets_.log());

@@ -125,10 +125,9 @@ const std::vector<SchemaRow>& world_rows() {
 const std::vector<SchemaRow>& model_rows() {
   static const std::vector<SchemaRow> rows{
       {"model", acts,
-       "@name @canonical_link @placement_frame static self_collide include model link joint plugin "
-       "pose frame "
-       "ardee:instances"},
-      {"model", settled, "allow_auto_disable", "bodies at rest are simulated as others are"},
+       "@name @canonical_link @placement_frame static self_collide allow_auto_disable include "
+       "model "
+       "link joint plugin pose frame ardee:instances"},
       {"model", no_effect, "enable_wind", "no wind blows", "false"},
       {"model", no_effect, "gripper", "not supported, left out"},
       {"link", acts,
@@ -203,9 +202,8 @@ const std::vector<SchemaRow>& model_rows() {
       {"contact/ode", no_effect, "soft_erp", "<kp> and <kd> say how soft it is", "0.2"},
 
       {"joint", acts, "@name @type parent child axis axis2 physics pose"},
+      {"joint", acts, "gearbox_ratio gearbox_reference_body", "of gearboxes"},
       {"joint", settled, "thread_pitch screw_thread_pitch", "screw joints are refused"},
-      {"joint", no_effect, "gearbox_ratio", "there are no gearboxes", "1"},
-      {"joint", no_effect, "gearbox_reference_body", "there are no gearboxes", "__default__"},
       {"joint", no_effect, "sensor", "not supported in a joint, left out"},
       {"joint", no_effect, "frame", kFrames},
       {"axis", acts, "xyz use_parent_model_frame dynamics limit"},

@@ -187,10 +187,16 @@ class GazeboBlocks {
     } else if (name == "joint") {
       // An SDF joint, by which robots close kinematic loops that URDF's tree cannot have.
       if (!joint_scope_) joint_scope_.emplace(106, frames_, model_);
+      if (node.attribute("type") == "gearbox") {
+        read_sdf_gearbox(node, *joint_scope_, assets_.log(), model_);
+        return;
+      }
       model_.joints.push_back(read_sdf_joint(node, *joint_scope_, assets_.log()));
       joints_.emplace(model_.joints.back().name, model_.joints.size() - 1);
     } else if (is_empty(node)) {
       return;
+    } else if (name == "allow_auto_disable") {
+      model_.allow_auto_disable = node.to_boolean();
     } else if (name == "static") {
       model_.is_static = node.to_boolean();
     } else if (name == "selfCollide" || name == "self_collide") {

@@ -11,6 +11,7 @@
 namespace ardee {
 namespace {
 
+constexpr double kMostTurns = 1e6;  // multiplier, or rad
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// None if nothing holds the child.
@@ -114,6 +115,14 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
   read_limit(node, type_name, made.joint, log);
   read_dynamics(node, made.joint.axis);
   made.joint.safety = read_safety(node, log);
+  if (const auto mimic = node.child("mimic")) {
+    made.mimic.emplace();
+    made.mimic->leader = mimic->required_attribute("joint");
+    made.mimic->follower = made.joint.name;
+    made.mimic->multiplier = mimic->attribute_number("multiplier", 1.0, -kMostTurns, kMostTurns);
+    made.mimic->offset = mimic->attribute_number("offset", 0.0, -kMostTurns, kMostTurns);
+    made.mimic->source = mimic->source();
+  }
   return made;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/readers/xml.h"
@@ -10,6 +12,7 @@ namespace ardee {
 /// A URDF <joint>: how it moves, and where it hangs its child.
 struct UrdfJoint {
   Joint joint;
+  std::optional<Coupling> mimic;
   Pose X_PC;             // at zero, in the parent link's frame
   bool is_free = false;  // nothing holds the child of a floating or planar joint, as in Gazebo
 };

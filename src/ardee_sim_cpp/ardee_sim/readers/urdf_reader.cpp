@@ -69,6 +69,29 @@ void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log
   made.links.erase(made.links.begin() + static_cast<std::ptrdiff_t>(order.front()));
 }
 
+/// Couples each joint that mimics another; one that is fixed, or floats, leads and follows nothing.
+void couple_joints(const std::vector<UrdfJoint>& joints, Model& model, Log& log) {
+  const auto moves = [](const UrdfJoint& each) {
+    return !each.is_free && each.joint.type != JointType::kFixed;
+  };
+  for (const UrdfJoint& each : joints) {
+    if (!each.mimic) continue;
+    const auto leader = std::find_if(joints.begin(), joints.end(), [&](const UrdfJoint& other) {
+      return other.joint.name == each.mimic->leader;
+    });
+    if (leader == joints.end() || &*leader == &each) {
+      throw Error(each.mimic->source, "joint '" + each.joint.name + "': found <mimic> of joint '" +
+                                          each.mimic->leader +
+                                          "', expected another joint of the robot");
+    }
+    if (moves(each) && moves(*leader)) {
+      model.couplings.push_back(*each.mimic);
+    } else {
+      log.warn(each.mimic->source, "found <mimic> of a joint that does not move, or in one");
+    }
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
@@ -87,6 +110,7 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   const UrdfTree tree = make_urdf_tree(robot, made->links, joints);
   for (std::size_t i = 0; i < made->links.size(); ++i) made->links[i].X_ML = tree.X_ML[i];
   hold_massless_links(made->links, tree.order, joints, assets.log());
+  couple_joints(joints, *made, assets.log());
   for (UrdfJoint& each : joints) {
     if (!each.is_free) made->joints.push_back(std::move(each.joint));
   }

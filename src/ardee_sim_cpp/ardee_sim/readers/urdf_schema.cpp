@@ -38,8 +38,8 @@ const std::vector<SchemaRow>& urdf_rows() {
       {"material", acts, "@name color texture"},
       {"color", acts, "@rgba"},
       {"texture", acts, "@filename"},
-      {"joint", acts, "@name @type origin parent child axis dynamics limit"},
-      {"joint", no_effect, "mimic", "not supported, the joint moves freely"},
+      {"joint", acts, "@name @type origin parent child axis dynamics limit mimic"},
+      {"mimic", acts, "@joint @multiplier @offset"},
       {"joint", no_effect, "calibration", "encoders need none"},
       {"joint", acts, "safety_controller", "of libgazebo_ros_control.so's commands"},
       {"joint", no_effect, "hardwareInterface", "one in a <transmission> counts"},
@@ -66,9 +66,8 @@ const std::vector<SchemaRow>& urdf_rows() {
 
 const std::vector<SchemaRow>& gazebo_rows() {
   static const std::vector<SchemaRow> rows{
-      {"gazebo robot", acts, "@reference plugin joint static"},
+      {"gazebo robot", acts, "@reference plugin joint static allow_auto_disable"},
       {"gazebo robot", acts, "selfCollide self_collide", "two names of one thing"},
-      {"gazebo robot", settled, "allow_auto_disable", "bodies at rest are simulated as others are"},
       {"gazebo robot", no_effect, "enable_wind", "no wind blows", "false"},
       {"gazebo link", acts, "@reference sensor visual collision velocity_decay gravity kinematic"},
       {"gazebo link", acts, "mu mu1 mu2 fdir1 frictionCone slip1 slip2 kp kd",

@@ -11,8 +11,9 @@ namespace {
 /// What plugins that cannot do without a key are given.
 const std::map<std::string, std::string>& needed() {
   static const std::map<std::string, std::string> values{
-      {"joint", "left_joint"}, {"joint_handle", "left_joint"}, {"jointName", "left_joint"},
-      {"bodyName", "base"},    {"frameName", "base"},          {"topicName", "topic"}};
+      {"joint", "left_joint"},     {"mimicJoint", "right_joint"}, {"joint_handle", "left_joint"},
+      {"jointName", "left_joint"}, {"bodyName", "base"},          {"frameName", "base"},
+      {"topicName", "topic"}};
   return values;
 }
 

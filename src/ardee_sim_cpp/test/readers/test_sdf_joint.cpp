@@ -105,7 +105,39 @@ TEST_F(SdfJointTest, KnowsAllTypes) {
   EXPECT_NEAR(
       joint("screw", axis + "<thread_pitch>6.283185307179586</thread_pitch>").thread_pitch_m, -1.0,
       1e-12);
-  EXPECT_HAS(error_of([&] { joint("gearbox", axis); }), "found joint type 'gearbox', expected");
+  EXPECT_HAS(error_of([&] { joint("planar", axis); }), "found joint type 'planar', expected");
+}
+
+TEST_F(SdfJointTest, AGearboxCouplesTheJointsOnItsReferenceBody) {
+  const auto geared = [&](const std::string& second, const std::string& reference) {
+    return model(
+        "<link name='f'/><link name='a'/><link name='b'/>"
+        "<joint name='ja' type='revolute'><parent>f</parent><child>a</child>"
+        "<axis><xyz>0 0 1</xyz></axis></joint>" +
+        second +
+        "<joint name='g' type='gearbox'><parent>a</parent><child>b</child>"
+        "<gearbox_ratio>3</gearbox_ratio><gearbox_reference_body>" +
+        reference +
+        "</gearbox_reference_body><axis><xyz>0 0 1</xyz></axis>"
+        "<axis2><xyz>0 0 1</xyz></axis2></joint>");
+  };
+  const auto second = [](const std::string& parent, const std::string& child,
+                         const std::string& axis) {
+    return "<joint name='jb' type='revolute'><parent>" + parent + "</parent><child>" + child +
+           "</child><axis><xyz>" + axis + "</xyz></axis></joint>";
+  };
+  const auto m = geared(second("f", "b", "0 0 1"), "f");
+  EXPECT_EQ(m->joints.size(), 2u);
+  ASSERT_EQ(m->couplings.size(), 1u);
+  EXPECT_EQ(m->couplings[0].leader, "ja");
+  EXPECT_EQ(m->couplings[0].follower, "jb");
+  EXPECT_EQ(m->couplings[0].multiplier, -3.0);
+  EXPECT_EQ(m->couplings[0].offset, 0.0);
+  // A joint that counts the other way round, by its axis or by its links.
+  EXPECT_EQ(geared(second("f", "b", "0 0 -1"), "f")->couplings.at(0).multiplier, 3.0);
+  EXPECT_EQ(geared(second("b", "f", "0 0 1"), "f")->couplings.at(0).multiplier, 3.0);
+  EXPECT_TRUE(geared(second("a", "b", "0 0 1"), "f")->couplings.empty());
+  EXPECT_HAS(error_of([&] { geared(second("f", "b", "0 0 1"), "nobody"); }), "nobody");
 }
 
 TEST_F(SdfJointTest, AChildWorldChangesPlacesWithTheParent) {

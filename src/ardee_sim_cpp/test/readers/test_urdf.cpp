@@ -268,9 +268,32 @@ TEST_F(Urdf, WarnsOfWhatItDoesNotKnow) {
   EXPECT_TRUE(warned("<plugni>: not an element of <gazebo> in URDF, ignored"));
 }
 
-TEST_F(Urdf, WarnsOfMimicAndUndefinedMaterials) {
-  robot(kTwoLinks + joint("continuous", "<mimic joint='j'/>"));
-  EXPECT_TRUE(warned("<mimic>: has no effect: not supported"));
+TEST_F(Urdf, AMimicCouplesTwoJoints) {
+  const auto massive = [](const std::string& name) {
+    return "<link name='" + name +
+           "'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' "
+           "iyy='1' iyz='0' izz='1'/></inertial></link>";
+  };
+  const auto hand = [&](const std::string& type, const std::string& mimic) {
+    return robot("<link name='a'/>" + massive("b") + massive("c") + "<joint name='first' type='" +
+                 type +
+                 "'><parent link='a'/><child link='b'/></joint><joint name='second' "
+                 "type='continuous'><parent link='a'/><child link='c'/>" +
+                 mimic + "</joint>");
+  };
+  const auto m = hand("continuous", "<mimic joint='first' multiplier='-2' offset='0.5'/>");
+  ASSERT_EQ(m->couplings.size(), 1u);
+  EXPECT_EQ(m->couplings[0].leader, "first");
+  EXPECT_EQ(m->couplings[0].follower, "second");
+  EXPECT_EQ(m->couplings[0].multiplier, -2.0);
+  EXPECT_EQ(m->couplings[0].offset, 0.5);
+  EXPECT_EQ(hand("continuous", "<mimic joint='first'/>")->couplings.at(0).multiplier, 1.0);
+  EXPECT_TRUE(hand("fixed", "<mimic joint='first'/>")->couplings.empty());
+  EXPECT_TRUE(warned("found <mimic> of a joint that does not move"));
+  for (const char* other : {"third", "second"}) {
+    EXPECT_HAS(error_of([&] { hand("continuous", "<mimic joint='" + std::string(other) + "'/>"); }),
+               "found <mimic> of joint '" + std::string(other) + "', expected another joint");
+  }
 }
 
 TEST_F(Urdf, TheFirstLinkBelowTheWorldStandsForTheRobot) {

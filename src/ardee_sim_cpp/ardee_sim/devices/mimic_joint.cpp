@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/devices/mimic_joint.h"
+
+#include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/names.h"
+
+namespace ardee {
+namespace {
+
+constexpr double kMost = 1e6;  // multiplier, or rad or m
+
+Coupling read(const PluginDescription& plugin, DeviceContext& context) {
+  Parameters parameters(plugin.element);
+  plugin_namespace(parameters, context);
+  const auto joint = [&](const char* key) {
+    const std::string name = parameters.required_text(key);
+    const std::size_t index = context.joint_index(name, parameters.block(key)->source);
+    return context.robot.model().joints[index].name;
+  };
+  Coupling coupling;
+  coupling.leader = joint("joint");
+  coupling.follower = joint("mimicJoint");
+  coupling.multiplier = parameters.number("multiplier", 1.0, -kMost, kMost);
+  coupling.offset = parameters.number("offset", 0.0, -kMost, kMost);
+  coupling.source = plugin.element.source;
+  // Without a PID the plugin sets the position, whatever effort that takes.
+  const double max_effort = parameters.number("maxEffort", 1.0, 0.0);
+  const bool has_pid = parameters.has("hasPID");
+  parameters.text("hasPID", "");
+  if (has_pid) coupling.max_effort = max_effort;
+  if (parameters.number("sensitiveness", 0.0, 0.0) > 0.0) {
+    context.log.warn(plugin.element.source,
+                     "found <sensitiveness>, expected none or 0: the joint follows exactly");
+  }
+  parameters.finish(context.log);
+  return coupling;
+}
+
+}  // namespace
+
+std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, DeviceContext& context) {
+  return std::make_unique<MimicJoint>(plugin.name, read(plugin, context), context.robot);
+}
+
+MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)
+    : Device(name), coupling_(coupling), robot_(robot) {
+  reset(0);
+}
+
+void MimicJoint::reset(TimeNs /*now_ns*/) { robot_.dynamics().couple_joints(coupling_); }
+
+}  // namespace ardee

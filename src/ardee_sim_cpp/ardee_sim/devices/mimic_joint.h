@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "ardee_sim/devices/device.h"
+
+namespace ardee {
+
+/// libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another. Where the plugin
+/// puts the follower into place, here both feel what loads either of them.
+class MimicJoint : public Device {
+ public:
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot);
+
+  void reset(TimeNs now_ns) override;
+
+ private:
+  Coupling coupling_;
+  Robot& robot_;
+};
+
+}  // namespace ardee
