@@ -33,8 +33,9 @@ const Tunable& require(const Tuning& tuning, const std::string& name) {
 
 void warn_of_inert_physics() {
   ROS_WARN_ONCE(
-      "auto_disable_bodies, sor_pgs_precon_iters and sor_pgs_rms_error_tol have no effect: bodies "
-      "never sleep, and the solver takes all its iterations without preconditioning");
+      "auto_disable_bodies, sor_pgs_precon_iters and sor_pgs_rms_error_tol have no effect: each "
+      "model's <allow_auto_disable> says whether it sleeps, and the solver takes all its "
+      "iterations without preconditioning");
 }
 
 Tunable PhysicsTuning::number(const char* name, const char* unit, double high, double initial,

@@ -14,6 +14,7 @@ TEST_F(SdfLink, HasSdfDefaults) {
   EXPECT_TRUE(link.inertial->inertia_kg_m2.isIdentity());
   EXPECT_TRUE(link.gravity);
   EXPECT_FALSE(link.kinematic || link.self_collide || m->is_static);
+  EXPECT_TRUE(m->allow_auto_disable);
   EXPECT_EQ(m->canonical_link, "a");
   EXPECT_TRUE(warnings_->empty());
 }
@@ -21,6 +22,7 @@ TEST_F(SdfLink, HasSdfDefaults) {
 TEST_F(SdfLink, ReadsItsOwnValues) {
   const auto m = model(R"(
       <pose>1 2 3 0 0 0</pose><static>0</static><self_collide>1</self_collide>
+      <allow_auto_disable>0</allow_auto_disable>
       <link name='a'>
         <pose>0 0 0.5 0 0 1.5707963267948966</pose>
         <gravity>0</gravity><kinematic>true</kinematic>
@@ -34,6 +36,7 @@ TEST_F(SdfLink, ReadsItsOwnValues) {
   expect_near(link.X_ML * Eigen::Vector3d(1, 0, 0), {0, 1, 0.5});
   EXPECT_FALSE(link.gravity);
   EXPECT_TRUE(link.kinematic && link.self_collide && m->self_collide);
+  EXPECT_FALSE(m->allow_auto_disable);
   EXPECT_EQ(link.linear_decay, 0.1);
   EXPECT_EQ(link.angular_decay, 0.2);
   EXPECT_EQ(link.inertial->mass_kg, 2.5);
