@@ -136,7 +136,7 @@ OdometryReading TricycleDrive::odometry(TimeNs now_ns) const {
   reading.pose_covariance = kCovariance;
   if (params_.source == OdometrySource::kWorld) {
     reading.pose = robot_.pose();
-    reading.twist = robot_.own_twist();
+    reading.twist = robot_.planar_twist();
     return reading;
   }
   const auto rim_speed = [&](Joint wheel) {
