@@ -29,7 +29,7 @@ PluginAlias read_alias(const Setting& given) {
 
 /// A node of YAML, whose words are texts. Its path is its file and line and the keys above it.
 Setting to_setting(const YAML::Node& node, const std::string& file, const std::string& keys) {
-  const std::string path = file + ":" + std::to_string(node.Mark().line + 1) + ": " + keys;
+  const std::string path = Source{file, node.Mark().line + 1, ""}.to_string() + ": " + keys;
   if (node.IsSequence()) {
     Setting::List list;
     for (const YAML::Node& each : node) {
@@ -65,8 +65,8 @@ std::vector<PluginAlias> read_plugin_aliases(const std::string& yaml, const std:
   try {
     return read_plugin_aliases(to_setting(YAML::Load(yaml), file, "").at("plugin_aliases"));
   } catch (const YAML::Exception& problem) {
-    throw Error(file + ":" + std::to_string(problem.mark.line + 1) + ": found " + problem.msg +
-                ", expected YAML");
+    throw Error(Source{file, problem.mark.line + 1, ""},
+                "found " + problem.msg + ", expected YAML");
   }
 }
 

@@ -35,7 +35,7 @@ std::string refusal(const std::string& yaml) {
 
 TEST(PluginAliasFile, IsRefusedByLine) {
   EXPECT_EQ(refusal(""),
-            "lab.yaml:1: /plugin_aliases: found nothing, expected a list of plugin aliases");
+            "lab.yaml: /plugin_aliases: found nothing, expected a list of plugin aliases");
   EXPECT_EQ(refusal("plugin_aliases:\n  filename: a\n"),
             "lab.yaml:2: /plugin_aliases: found a group of 1, expected a list of plugin aliases");
   EXPECT_EQ(refusal("plugin_aliases:\n- a\n"),
