@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ardee_sim/core/error.h"
+#include "ros/setting_from_ros.h"
 
 namespace ardee::node {
 namespace {
@@ -57,46 +58,10 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
   return static_cast<int>(value);
 }
 
-/// A member of an alias that is a word.
-std::string word_of(XmlRpc::XmlRpcValue& alias, const char* name, const std::string& place) {
-  if (alias.hasMember(name) && alias[name].getType() == XmlRpc::XmlRpcValue::TypeString) {
-    return alias[name];
-  }
-  throw Error(place + ": found no word '" + name + "', expected filename and plugin");
-}
-
-PluginAlias read_alias(XmlRpc::XmlRpcValue& given, const std::string& place) {
-  using Type = XmlRpc::XmlRpcValue::Type;
-  if (given.getType() != Type::TypeStruct) {
-    throw Error(place + ": expected a map of filename, plugin and keys");
-  }
-  PluginAlias alias{word_of(given, "filename", place), word_of(given, "plugin", place), {}};
-  for (auto& [name, value] : given) {
-    if (name == "filename" || name == "plugin") continue;
-    if (name != "keys" || value.getType() != Type::TypeStruct) {
-      throw Error(place + ": found '" + name + "', expected filename, plugin and a map keys");
-    }
-    for (auto& [theirs, ours] : value) {
-      if (ours.getType() != Type::TypeString) {
-        throw Error(place + ": key '" + theirs + "': expected a word");
-      }
-      alias.keys[theirs] = static_cast<std::string>(ours);
-    }
-  }
-  return alias;
-}
-
 /// ~plugin_aliases: a list, so that a name of a file need not be one of a parameter.
 std::vector<PluginAlias> read_aliases(const ros::NodeHandle& node) {
-  XmlRpc::XmlRpcValue list;
-  if (!node.getParam("plugin_aliases", list)) return {};
-  const std::string place = "parameter " + node.resolveName("plugin_aliases");
-  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) throw Error(place + ": expected a list");
-  std::vector<PluginAlias> aliases;
-  for (int i = 0; i < list.size(); ++i) {
-    aliases.push_back(read_alias(list[i], place + "[" + std::to_string(i) + "]"));
-  }
-  return aliases;
+  const Setting list = setting_from_ros(node.resolveName("plugin_aliases"));
+  return list ? read_plugin_aliases(list) : std::vector<PluginAlias>();
 }
 
 }  // namespace

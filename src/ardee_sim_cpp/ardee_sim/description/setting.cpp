@@ -82,6 +82,14 @@ std::string Setting::text(const std::string& name, const std::string& fallback) 
   return has(name) ? text(name) : fallback;
 }
 
+const Setting::List& Setting::list(const std::string& expected) const {
+  return as<List>(*this, expected);
+}
+
+const Setting::Map& Setting::group(const std::string& expected) const {
+  return as<Map>(*this, expected);
+}
+
 std::vector<std::string> Setting::texts(const std::string& name) const {
   const Setting setting = at(name);
   std::vector<std::string> all;

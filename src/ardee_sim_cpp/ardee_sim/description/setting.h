@@ -36,6 +36,9 @@ class Setting {
   bool boolean(const std::string& name, bool fallback) const;
   std::string text(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;
+  /// This one itself, which is a list or a group of what `expected` says.
+  const List& list(const std::string& expected) const;
+  const Map& group(const std::string& expected) const;
   /// A list of names.
   std::vector<std::string> texts(const std::string& name) const;
   /// A list of `count` numbers that all have a point, as controllers read their covariances.

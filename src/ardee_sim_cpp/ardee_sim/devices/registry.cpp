@@ -237,8 +237,4 @@ Registry builtin_registry() {
   return registry;
 }
 
-std::vector<PluginAlias> builtin_aliases() {
-  return {{"libgazebo_ros_gps.so", "libhector_gazebo_ros_gps.so", {}}};  // thesis A.1, A.2
-}
-
 }  // namespace ardee

@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/plugin_aliases.h"
 
 namespace ardee {
-
-/// A plugin file of another name whose work one of the registry's does.
-struct PluginAlias {
-  std::string filename;
-  std::string plugin;                       // of the registry
-  std::map<std::string, std::string> keys;  // name of a key in the other plugin: in ours
-};
 
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
@@ -65,9 +59,6 @@ class Registry {
   std::map<std::string, SensorPlugin> sensor_plugins_;
   std::map<std::string, PluginAlias> aliases_;
 };
-
-/// Names under which plugins of builtin_registry are published elsewhere.
-std::vector<PluginAlias> builtin_aliases();
 
 /// All devices that ARDEE has, a line each.
 Registry builtin_registry();

@@ -4,6 +4,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/readers/gz_systems.h"
 #include "ardee_sim/readers/limits.h"
+#include "ardee_sim/readers/realsense.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_joint.h"
 #include "ardee_sim/readers/sdf_link.h"
@@ -117,6 +118,7 @@ std::shared_ptr<Model> SdfReader::read_model(const Node& node, const Scope& scop
       read_sdf_gearbox(joint, joint_scope, assets_.log(), *made);
     }
   });
+  adopt_realsense(*made, assets_.log());
   adopt_gz_systems(*made, assets_.log());
   validate_model(*made, assets_.log());
   count_placements(*made, made->source);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "ardee_sim/readers/gz_systems.h"
+#include "ardee_sim/readers/realsense.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/urdf_gazebo.h"
 #include "ardee_sim/readers/urdf_joint.h"
@@ -120,6 +121,7 @@ std::shared_ptr<const Model> read_urdf(const Node& robot, Assets& assets) {
   });
   take_out_world(tree.order, *made, assets.log());
   apply_gazebo_blocks(robot, *made, assets);
+  adopt_realsense(*made, assets.log());
   adopt_gz_systems(*made, assets.log());
   validate_model(*made, assets.log());
   return made;

@@ -98,9 +98,12 @@ void write_plugin(const std::string& file, bool in_sensor, std::ostringstream& p
 }
 
 void write_aliases(std::ostringstream& page) {
-  page << "### Plugins of other names\n\nThese do the work of another plugin's name, with keys of "
-          "other names where any are listed. A list `~plugin_aliases` of the\nsimulator node adds "
-          "to them: `filename`, `plugin` (one of the above), `keys` (their name: ours).\n\n"
+  page << "### Plugins of other names\n\nThese rows of "
+          "`src/ardee_sim_cpp/config/plugin_aliases.yaml` "
+          "do the work of another plugin's name, with keys of other names where any are\nlisted. A "
+          "list `~plugin_aliases` of the simulator node adds to them: `filename`, `plugin` (one of "
+          "the above), `keys` (their name: ours).\n`librealsense_gazebo_plugin.so` of a model is "
+          "read as a camera plugin in each of its four sensors.\n\n"
           "| file | plugin | keys |\n|---|---|---|\n";
   for (const PluginAlias& alias : builtin_aliases()) {
     page << "| `" << alias.filename << "` | `" << alias.plugin << "` | ";

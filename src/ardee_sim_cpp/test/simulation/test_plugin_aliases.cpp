@@ -30,6 +30,42 @@ TEST(PluginAliases, OfTheThesisReceiverIsHectors) {
   EXPECT_TRUE(world.messages().empty());
 }
 
+std::string shipped(const std::string& plugin, const std::string& keys) {
+  return "<gazebo><plugin name='" + plugin + "' filename='" + plugin + "'><robotNamespace>" +
+         plugin + "</robotNamespace>" + keys + "</plugin></gazebo>";
+}
+
+TEST(PluginAliases, OfTheLibraryPublishWhatTheirPluginsDo) {
+  // The topic, below a namespace of its own, on which each row of the file measures.
+  const std::map<std::string, std::pair<std::string, std::string>> topics{
+      {"libgazebo_ros_gps.so", {"fix", ""}},
+      {"libhector_gazebo_ros_gps_with_dropout.so", {"fix", ""}},
+      {"libgazebo_ros_imu_mod.so", {"imu", ""}},
+      {"libhector_gazebo_ros_imu_mod.so", {"imu", ""}},
+      {"libgazebo_ros_encoder.so", {"encoder", "<jointName>j</jointName>"}},
+      {"libgazebo_ros_encoders.so", {"encoder", "<jointName>j</jointName>"}},
+      {"libgazebo_ros_battery_simple.so", {"ardee/battery", ""}},
+      {"libbattery_simple.so", {"ardee/battery", ""}}};
+  const std::string inertial =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"
+      "</inertial>";
+  std::string robot = "<robot name='r'><link name='l'>" + inertial + "</link><link name='w'>" +
+                      inertial +
+                      "</link><joint name='j' type='continuous'><parent link='l'/><child link='w'/>"
+                      "<axis xyz='0 1 0'/></joint>";
+  ASSERT_EQ(builtin_aliases().size(), topics.size());
+  for (const PluginAlias& alias : builtin_aliases()) {
+    robot += shipped(alias.filename, topics.at(alias.filename).second);
+  }
+  TestWorld world(kGravityFree);
+  world.spawn(robot + "</robot>", "r");
+  world.run(0.5);
+  for (const auto& [plugin, topic] : topics) {
+    EXPECT_GT(world.recorder().count("/" + plugin + "/" + topic.first), 0u) << plugin;
+  }
+  EXPECT_TRUE(world.messages().empty());
+}
+
 TEST(PluginAliases, OfTheUsersRenameTheirKeys) {
   SimulationOptions options;
   options.plugin_aliases = {{"liblab_receiver.so",
