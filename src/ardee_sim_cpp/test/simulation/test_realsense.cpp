@@ -17,14 +17,26 @@ std::string eye(const std::string& name, const std::string& type, const std::str
          format + "</format></image><clip><near>0.05</near><far>50</far></clip></camera></sensor>";
 }
 
+std::string eyes(const std::string& depth) {
+  return eye("d435_color", "camera", "R8G8B8") + eye("d435_ired1", "camera", "L8") +
+         eye("d435_ired2", "camera", "L8") + eye("d435_" + depth, "depth", "R8G8B8");
+}
+
+std::string plugin(const std::string& keys) {
+  return "<plugin name='camera' filename='librealsense_gazebo_plugin.so'><prefix>d435_</prefix>" +
+         keys + "</plugin>";
+}
+
 /// A device on a mast that looks at a wall; `keys` go into its plugin.
 std::string device(const std::string& keys, const std::string& depth = "depth") {
   return "<sdf version='1.6'><model name='post'><static>true</static><link name='mast'>" +
-         eye("d435_color", "camera", "R8G8B8") + eye("d435_ired1", "camera", "L8") +
-         eye("d435_ired2", "camera", "L8") + eye("d435_" + depth, "depth", "R8G8B8") +
-         "</link><plugin name='camera' filename='librealsense_gazebo_plugin.so'><prefix>d435_"
-         "</prefix>" +
-         keys + "</plugin></model></sdf>";
+         eyes(depth) + "</link>" + plugin(keys) + "</model></sdf>";
+}
+
+std::string device_in_urdf() {
+  return "<robot name='post'><link name='mast'/><gazebo><static>true</static></gazebo>"
+         "<gazebo reference='mast'>" +
+         eyes("depth") + "</gazebo><gazebo>" + plugin("") + "</gazebo></robot>";
 }
 
 struct Realsense {
@@ -77,13 +89,17 @@ TEST(Realsense, ItsFourCamerasPublish) {
 }
 
 TEST(Realsense, WithoutKeysItHasItsDriversTopics) {
-  const Realsense d435(device(""));
-  for (const std::string name : {"color", "infra1", "infra2", "depth"}) {
-    EXPECT_EQ(d435.images("/camera/" + name + "/image_raw").size(), 30u) << name;
-    EXPECT_EQ(d435.world.recorder().count("/camera/" + name + "/camera_info"), 30u) << name;
+  for (const std::string& model : {device(""), device_in_urdf()}) {
+    const Realsense d435(model);
+    for (const std::string name : {"color", "infra1", "infra2", "depth"}) {
+      EXPECT_EQ(d435.images("/camera/" + name + "/image_raw").size(), 30u) << name;
+      EXPECT_EQ(d435.world.recorder().count("/camera/" + name + "/camera_info"), 30u) << name;
+    }
+    const auto infrared = d435.images("/camera/infra1/image_raw");
+    ASSERT_FALSE(infrared.empty());
+    EXPECT_EQ(infrared[0].header.frame_id, "d435_ired1");
+    EXPECT_TRUE(d435.world.messages().empty());
   }
-  EXPECT_EQ(d435.images("/camera/infra1/image_raw").at(0).header.frame_id, "d435_ired1");
-  EXPECT_TRUE(d435.world.messages().empty());
 }
 
 TEST(Realsense, ItsRangeBoundsItsDepth) {
