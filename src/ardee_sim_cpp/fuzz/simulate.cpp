@@ -143,7 +143,7 @@ void exercise(Simulation& simulation) {
     for (const auto& device : entity->devices) command(*device);
     if (entity->robot->is_dynamic()) {
       set_again(entity->robot->dynamics(), entity->robot->model());
-      simulation.wrenches().add({entity->robot.get(), 0, {10, 0, 0}, {0, 0, 1}, {}, 0, -1});
+      simulation.wrenches().add({entity->robot.get(), 0, {10, 0, 0}, {0, 0, 1}, {0, 0, 0}, 0, -1});
     }
   }
   run(simulation);

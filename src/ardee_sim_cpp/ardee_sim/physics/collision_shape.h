@@ -26,6 +26,7 @@ struct CollisionShape {
   Eigen::AlignedBox3d bounds;  // at X_WS
   /// "model::link::collision", put together when asked for.
   std::function<std::string()> scoped_name;
+  bool has_sensor = false;  // its link has, which may ask for its contacts at any time
 };
 
 /// Sizes positive, meshes and heights there: throws Error naming model, link and collision if not.

@@ -29,6 +29,7 @@ void ContactFinder::gather(const std::vector<DynamicModel*>& models) {
     item.all.setEmpty();
     item.rows = item.model->rows();
     item.on_scenery = false;
+    item.is_felt = false;
     item.island = i;
     for (const DynamicModel::Shape& shape : item.model->shapes()) {
       item.bounds.push_back(geom_bounds(shape.shape.geom.get()));
@@ -54,6 +55,7 @@ void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
     for (const CollisionShape* shape : near_) {
       if (!shape->bounds.intersects(item.bounds[i])) continue;
       contacts_.collide(mine, {shape, nullptr, 0.0}, params);
+      item.is_felt = item.is_felt || shape->has_sensor;
     }
   }
   item.rows += kRowsPerContact * (contacts_.count() - before);
@@ -149,7 +151,7 @@ std::vector<DynamicModel*> ContactFinder::at_rest() {
   std::vector<bool> rests(moving_.size(), true), stands(moving_.size(), false);  // at the root
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const std::size_t root = island_of(i);
-    if (!moving_[i].model->is_at_rest()) rests[root] = false;
+    if (moving_[i].is_felt || !moving_[i].model->is_at_rest()) rests[root] = false;
     if (moving_[i].on_scenery) stands[root] = true;
   }
   std::vector<DynamicModel*> found;

@@ -23,7 +23,7 @@ class ContactFinder {
 
   /// Models that touch one another, which are solved together, in the order of the models.
   std::vector<Island> islands();
-  /// Models of islands that stand on scenery and are wholly at rest.
+  /// Models of islands that stand on scenery, none of which has a sensor, and are wholly at rest.
   std::vector<DynamicModel*> at_rest();
 
  private:
@@ -34,6 +34,7 @@ class ContactFinder {
     Eigen::AlignedBox3d all;
     std::size_t rows;
     bool on_scenery;
+    bool is_felt;        // by scenery that has sensors
     std::size_t island;  // index of a model of the same island, its own at the root
   };
 

@@ -107,8 +107,11 @@ Eigen::Vector3d default_direction(const Eigen::Vector3d& normal) {
 }  // namespace
 
 bool meet(const Surface& a, const Surface& b) {
-  if (a.collide_without_contact || b.collide_without_contact) return false;
   return ((a.category_bitmask & b.collide_bitmask) | (b.category_bitmask & a.collide_bitmask)) != 0;
+}
+
+bool is_forceless(const Surface& a, const Surface& b) {
+  return a.collide_without_contact || b.collide_without_contact;
 }
 
 ContactLaw combine_surfaces(const ContactSide& side_a, const ContactSide& side_b,
@@ -213,7 +216,7 @@ void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
   const Surface& surface_a = a.shape->collision->surface;
   const Surface& surface_b = b.shape->collision->surface;
   if (!meet(surface_a, surface_b)) return;
-  const bool forceless = surface_a.collide_without_contact || surface_b.collide_without_contact;
+  const bool forceless = is_forceless(surface_a, surface_b);
   if (forceless && !told_) return;
   points_.clear();
   const int most = std::min({params.max_contacts, surface_a.max_contacts, surface_b.max_contacts});

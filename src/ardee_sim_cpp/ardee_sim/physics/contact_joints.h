@@ -40,8 +40,10 @@ struct ContactLaw {
   double bounce_threshold_m_per_s = 0.0;
 };
 
-/// Whether two surfaces act on each other where they touch.
+/// Whether two surfaces touch at all, by their bitmasks.
 bool meet(const Surface& a, const Surface& b);
+/// Whether they do not act on each other where they touch.
+bool is_forceless(const Surface& a, const Surface& b);
 
 /// A soft contact may always push with twice the weight of the lighter model, else it would sink
 /// for ever.

@@ -208,6 +208,7 @@ const CollisionShape& SceneryIndex::activate(Reference reference) {
   const PrototypeShape& shape = set.prototypes[instance.prototype].shapes[item.shape];
   const Pose X_WC = instance.X_WM * Pose{instance.scale * shape.X_MC.p, shape.X_MC.q};
   Active active{factory_.make(*shape.collision, X_WC, instance.scale), step_};
+  active.shape.has_sensor = !shape.link->sensors.empty();
   active.shape.scoped_name = [this, reference, name = std::string()]() mutable {
     if (name.empty()) name = scoped_name(reference);
     return name;

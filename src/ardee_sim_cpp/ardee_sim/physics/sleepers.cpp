@@ -12,7 +12,9 @@ constexpr double kReach_m =
     0.01;  // what is nearer to something that goes away may have leaned on it
 
 bool touch(const DynamicModel::Shape& a, const DynamicModel::Shape& b) {
-  if (!meet(a.shape.collision->surface, b.shape.collision->surface)) return false;
+  const Surface& one = a.shape.collision->surface;
+  const Surface& other = b.shape.collision->surface;
+  if (!meet(one, other) || is_forceless(one, other)) return false;
   if (!geom_bounds(a.shape.geom.get()).intersects(geom_bounds(b.shape.geom.get()))) return false;
   std::vector<ContactPoint> points;
   collide_shapes(a.shape, b.shape, 1, points);

@@ -9,11 +9,18 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// A cube that does not sleep, and is told of at rest too.
+std::shared_ptr<Model> sleepless_box(double mass_kg, double size_m) {
+  auto made = box_model(mass_kg, {size_m, size_m, size_m});
+  made->allow_auto_disable = false;
+  return made;
+}
+
 /// A cube of 2 kg and 0.2 m at rest on a plane.
 struct RestingCube {
   RestingCube() : world(params(0.001), silent()) {
     world.add_scenery({placement(static_model(Plane{}))}, "ground");
-    cube = &world.add_model(box_model(2.0, {0.2, 0.2, 0.2}), at(0.3, 0, 0.1), "cube");
+    cube = &world.add_model(sleepless_box(2.0, 0.2), at(0.3, 0, 0.1), "cube");
     run(world, 1.0);
   }
   void step() {
@@ -72,7 +79,7 @@ TEST(ToldContacts, ChangeNothingOfTheStep) {
 
 TEST(ToldContacts, BetweenTwoThatMoveAreEqualAndOpposite) {
   RestingCube resting;
-  resting.world.add_model(box_model(1.0, {0.1, 0.1, 0.1}), at(0.3, 0, 0.25), "small");
+  resting.world.add_model(sleepless_box(1.0, 0.1), at(0.3, 0, 0.25), "small");
   run(resting.world, 1.0);
   resting.step();
   Vector3d on_cube(0, 0, 0), on_small(0, 0, 0);

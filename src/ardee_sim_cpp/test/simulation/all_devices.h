@@ -62,6 +62,10 @@ inline std::vector<std::string> drive_devices() {
                    "</spring_stiffness><spring_damping>0.001</spring_damping>"
                    "<referenceTopic>flag</referenceTopic>"),
       model_device("gazebo_ros_control", ""),
+      model_device("gazebo_mimic_joint_plugin",
+                   "<joint>arm_joint</joint><mimicJoint>flag_joint</mimicJoint>"),
+      model_device("roboticsgroup_gazebo_mimic_joint_plugin",
+                   "<joint>arm_joint</joint><mimicJoint>flag_joint</mimicJoint>"),
       model_device("gazebo_ros_joint_state_publisher", "<jointName>fl_joint arm_joint</jointName>"),
       model_device("gazebo_ros_tricycle_drive",
                    "<steeringJoint>arm_joint</steeringJoint><actuatedWheelJoint>fl_joint"

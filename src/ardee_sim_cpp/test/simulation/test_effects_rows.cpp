@@ -124,6 +124,24 @@ void add_models(std::vector<Effect>& rows) {
   rows.insert(
       rows.end(),
       {{"model/static", in_model("m", "{}" + in_link("")), "0", "1"},
+       {"model/allow_auto_disable",
+        physics("<max_step_size>0.01</max_step_size>") + kFloor +
+            in_model("cube", "{}" + in_link(collision(kCube)), "0 0 0.499 0 0 0"),
+        "0", "1"},
+       {"joint/gearbox_ratio",
+        in_model("gears", in_link("", "post") + in_link("", "a") + in_link("", "b") +
+                              "<joint name='to_a' type='revolute'><parent>post</parent><child>a"
+                              "</child>" +
+                              axis("") +
+                              "</joint><joint name='to_b' type='revolute'><parent>post</parent>"
+                              "<child>b</child>" +
+                              axis("") +
+                              "</joint><joint name='gear' type='gearbox'><parent>a</parent><child>"
+                              "b</child><gearbox_reference_body>post</gearbox_reference_body>{}" +
+                              axis("") + axis("", "0 1 0", "axis2") + "</joint>") +
+            "<state world_name='w'><model name='gears'><link name='a'><pose>0 0 0 0 0 0</pose>"
+            "<velocity>0 0 0 0 1 0</velocity></link></model></state>",
+        "-1", "-2"},
        {"model/self_collide",
         in_model("m", "{}" + in_link(collision(kCube), "a") +
                           in_link("<pose>0.9 0 0 0 0 0</pose>" + collision(kCube), "b")),
