@@ -121,13 +121,16 @@ def test_a_switch_acts_at_once_while_paused(world: RosGraph) -> None:
 
 def test_strict_and_best_effort(world: RosGraph) -> None:
     assert oks(world, load("base"), load("left_alone"), switch(["base"], [])) == [True] * 3
-    assert oks(
-        world,
-        switch(["left_alone"], []),
-        switch(["left_alone"], [], BEST_EFFORT),  # both want the left wheel
-        switch(["ghost"], []),
-        switch(["base"], ["base"], BEST_EFFORT),
-    ) == [False] * 4
+    assert (
+        oks(
+            world,
+            switch(["left_alone"], []),
+            switch(["left_alone"], [], BEST_EFFORT),  # both want the left wheel
+            switch(["ghost"], []),
+            switch(["base"], ["base"], BEST_EFFORT),
+        )
+        == [False] * 4
+    )
     assert states(world) == {"base": "running", "left_alone": "initialized"}
     assert oks(world, switch(["left_alone", "ghost"], ["base"], 0)) == [True]
     assert states(world) == {"base": "stopped", "left_alone": "running"}
@@ -184,9 +187,7 @@ def step_and_hear() -> Any:
 def test_all_go_with_the_robot(world: RosGraph) -> None:
     other = ROBOT.replace("<robotNamespace>/<", "<robotNamespace>/other<")
     assert call(world, spawn("other", other, pose(y=5.0), "urdf"))[0].success
-    assert "/other/controller_manager/list_controllers" in world.call(
-        probes.services_of, "/gazebo"
-    )
+    assert "/other/controller_manager/list_controllers" in world.call(probes.services_of, "/gazebo")
     world.run("rosparam", "load", str(world.folder / "control.yaml"), "/other")
     name, kind, fields = load("base")
     assert oks(world, ("/other" + name, kind, fields)) == [True]

@@ -35,10 +35,14 @@ def test_another_receivers_name_and_keys_are_ours(graph: RosGraph) -> None:
     "old, new, message",
     [
         ("libhector_gazebo_ros_gps.so", "libnone.so", "found plugin 'libnone.so', expected one"),
-        ("plugin: ", "target: ", "plugin_aliases[0]: found no word 'plugin', expected"),
-        ("keys: {lat0: referenceLatitude}", "keys: lat0", "[0]: found 'keys', expected"),
-        ("referenceLatitude", "7", "plugin_aliases[0]: key 'lat0': expected a word"),
-        ("  - filename", "  first:\n  - filename", "plugin_aliases: expected a list"),
+        ("plugin: ", "target: ", "plugin_aliases[0]/target: found 'target', expected"),
+        ("keys: {lat0: referenceLatitude}", "keys: lat0", "[0]/keys: found 'lat0', expected"),
+        ("referenceLatitude", "7", "plugin_aliases[0]/keys/lat0: found the integer 7, e"),
+        (
+            "  - filename",
+            "  first:\n  - filename",
+            "plugin_aliases: found a group of 1, expected a list",
+        ),
     ],
 )
 def test_a_wrong_alias_is_refused(graph: RosGraph, old: str, new: str, message: str) -> None:

@@ -9,10 +9,11 @@ namespace ardee::fuzz {
 
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
-      {"world", read_world}, {"model", read_model},         {"urdf", read_model},
-      {"mesh", read_mesh},   {"image", read_image},         {"material", read_material},
-      {"gps", read_gps},     {"instances", read_instances}, {"simulate", simulate},
-      {"controller", control_robot},
+      {"world", read_world},  {"model", read_model},
+      {"urdf", read_model},   {"mesh", read_mesh},
+      {"image", read_image},  {"material", read_material},
+      {"gps", read_gps},      {"instances", read_instances},
+      {"simulate", simulate}, {"controller", control_robot},
   };
   return all;
 }

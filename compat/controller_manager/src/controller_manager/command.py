@@ -4,6 +4,7 @@ import argparse
 from typing import List
 
 import rospy
+
 from controller_manager import controller_manager_interface as manager
 
 SHORT = {"lc": "list", "lt": "list-types", "sp": "spawn", "kl": "kill"}
