@@ -78,7 +78,7 @@ def test_the_compressed_image_shows_what_the_raw_one_does(
 ) -> None:
     raw, compressed = shared_graph.call(both_forms, "/rig/color/image_raw")
     assert compressed.format == "rgb8; jpeg compressed bgr8"
-    assert compressed.header.frame_id == raw.header.frame_id == "color_optical"
+    assert compressed.header.frame_id == raw.header.frame_id == "rig/color_optical"
     truth = np.frombuffer(raw.data, np.uint8).reshape(HEIGHT, WIDTH, 3).astype(float)
     picture = Picture.open(io.BytesIO(compressed.data))
     assert picture.format == "JPEG" and picture.size == (WIDTH, HEIGHT)

@@ -110,7 +110,7 @@ def test_every_camera_publishes_what_its_plugin_promises(graph: RosGraph) -> Non
         image = found[topic]
         assert (image.encoding, image.width, image.height) == (encoding, WIDTH, HEIGHT), topic
     for topic, message in found.items():
-        assert message.header.frame_id == topic.split("/")[2] + "_optical", topic
+        assert message.header.frame_id == f"rig/{topic.split('/')[2]}_optical", topic
     focal_px = 0.5 * WIDTH / np.tan(0.5 * FOV_RAD)
     for topic in INFOS:
         info = found[topic]

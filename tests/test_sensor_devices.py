@@ -28,6 +28,13 @@ NAMESPACE = "/all"
 SPEED_WINDOW_S = 0.1  # over which an encoder counts pulses
 SETTLE_S = 2.0  # until the beam lies still on the ground
 LAMP, LAMP_WAY = 0.9, (0.6, 0.2, -0.8)
+# As in gazebo_ros, where there is no tf_prefix.
+FRAMES_BELOW_NAMESPACE = (
+    "sensor_msgs/LaserScan",
+    "sensor_msgs/PointCloud2",
+    "sensor_msgs/Image",
+    "sensor_msgs/CameraInfo",
+)
 INFRARED = {  # topic, encoding and bytes a pixel of the drivers: realsense2_camera, kinect2_bridge
     "realsense_d435": ("infra1/image_rect_raw", "mono8", 1),
     "kinectv2": ("ir/image_raw", "16UC1", 2),
@@ -165,10 +172,11 @@ def test_device(everything: RosGraph, heard: Dict[str, Any], device: str) -> Non
     """Frames and rates of every topic, then what a device of its kind has besides."""
     numbers = load(device)
     found = listen(everything, heard, device)
-    for topic, (_, frame) in expected_topics(device, device).items():
+    for topic, (kind, frame) in expected_topics(device, device).items():
         if topic not in found:
             continue
-        assert found[topic]["frame"] == frame, topic
+        below = f"{NAMESPACE[1:]}/" if kind in FRAMES_BELOW_NAMESPACE else ""
+        assert found[topic]["frame"] == below + frame, topic
         stamps = found[topic]["stamps"]
         periods = [b - a for a, b in zip(stamps, stamps[1:])]
         assert sum(periods) / len(periods) == pytest.approx(

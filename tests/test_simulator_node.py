@@ -154,7 +154,7 @@ def test_spawn_model_sets_pose_and_joints(
         (["-urdf", "-param", "no_such_param", "-model", "a"], "no_such_param"),
         (["-sdf", "-database", "no_such_model", "-model", "a"], "no_such_model"),
         (["-sdf", "-file", str(DATA / "ball.sdf"), "-model", "wall"], "already exists"),
-        (["-urdf", "-file", str(DATA / "ball.sdf"), "-model", "a"], str(DATA / "ball.sdf")),
+        (["-urdf", "-file", __file__, "-model", "a"], __file__),
         (["-sdf", "-file", str(DATA / "ball.sdf"), "-model", "a", "-x", "nan"], "nan"),
     ],
 )

@@ -84,8 +84,11 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
     if (!due.due(simulation.now_ns())) continue;
     scans.poses_W.push_back(simulation.state(lidar_link, "world").pose);
     for (const auto& device : robot.devices) {
-      for (Input& input : device->ports().inputs)
-        input.on_command(keeper.command(robot.robot->pose()));
+      for (const Input& input : device->ports().inputs) {
+        if (input.kind == command_kind<Twist>()) {
+          input.on_command(keeper.command(robot.robot->pose()));
+        }
+      }
     }
   }
   return scans;

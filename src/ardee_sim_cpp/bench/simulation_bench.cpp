@@ -177,7 +177,9 @@ class Bench {
 
   void command(const Twist& twist) {
     for (const auto& device : robot_->devices) {
-      for (Input& input : device->ports().inputs) input.on_command(twist);
+      for (const Input& input : device->ports().inputs) {
+        if (input.kind == command_kind<Twist>()) input.on_command(twist);
+      }
     }
   }
 
