@@ -117,7 +117,8 @@ def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
     advance(steps=steps)
     if cancel:
         client.cancel_goal()
-    wait_until(lambda: client.get_state() > 1, "the end of the goal")
+    # the state may come before the result
+    wait_until(lambda: client.get_state() > 1 and client.get_result(), "the end of the goal")
     return client.get_state(), client.get_result()
 
 
