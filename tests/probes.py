@@ -198,6 +198,7 @@ def command_joints(commands: Dict[str, float], sim_time_s: float) -> None:
     publishers = {topic: rospy.Publisher(topic, Float64, queue_size=1) for topic in commands}
     for topic, publisher in publishers.items():
         wait_until(publisher.get_num_connections, f"a listener on {topic}")
+    for topic, publisher in publishers.items():
         publisher.publish(commands[topic])
     end = rospy.get_rostime() + rospy.Duration.from_sec(sim_time_s)
     wait_until(lambda: rospy.get_rostime() >= end, f"{sim_time_s} s of simulated time", 60.0)

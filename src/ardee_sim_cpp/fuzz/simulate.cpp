@@ -41,17 +41,21 @@ std::string text_of(const tinyxml2::XMLElement& element) {
   return text;
 }
 
-/// A camera that says no size of its pictures takes large ones.
-void give_size(tinyxml2::XMLElement& camera) {
-  tinyxml2::XMLElement* image = camera.FirstChildElement("image");
-  if (!image) image = camera.InsertNewChildElement("image");
-  for (const char* size : {"width", "height"}) {
-    if (!image->FirstChildElement(size)) image->InsertNewChildElement(size)->SetText(8);
-  }
+/// A size that is not said: a camera takes large pictures then, a lidar 640 beams a row.
+void give_size(tinyxml2::XMLElement& parent, const char* size) {
+  if (!parent.FirstChildElement(size)) parent.InsertNewChildElement(size)->SetText(8);
+}
+
+void give_sizes(tinyxml2::XMLElement& element) {
+  if (std::strcmp(element.Name(), "horizontal") == 0) give_size(element, "samples");
+  if (std::strcmp(element.Name(), "camera") != 0) return;
+  tinyxml2::XMLElement* image = element.FirstChildElement("image");
+  if (!image) image = element.InsertNewChildElement("image");
+  for (const char* size : {"width", "height"}) give_size(*image, size);
 }
 
 void cut_sizes(tinyxml2::XMLElement& element) {
-  if (std::strcmp(element.Name(), "camera") == 0) give_size(element);
+  give_sizes(element);
   for (const Cut& cut : kCuts) {
     if (std::strcmp(element.Name(), cut.element) != 0) continue;
     if (std::atof(text_of(element).c_str()) <= cut.most) continue;
