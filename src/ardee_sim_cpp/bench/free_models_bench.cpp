@@ -45,6 +45,12 @@ std::shared_ptr<const Model> plant() {
   link.collisions[0].X_LC.p = {0, 0, 0.02};
   link.collisions[1].geometry = Cylinder{0.01, 0.4};
   link.collisions[1].X_LC.p = {0, 0, 0.22};
+  for (const Collision& collision : link.collisions) {
+    Visual visual;
+    visual.geometry = collision.geometry;
+    visual.X_LV = collision.X_LC;
+    link.visuals.push_back(visual);
+  }
   model->links.push_back(link);
   model->canonical_link = "link";
   return model;

@@ -71,7 +71,7 @@ void BareRegion::cast(const Pose& X_WS, const RayPattern& pattern, float max_ran
     if (impl_->region != nullptr) {
       impl_->region->meet(queries, t_high);
     } else {
-      impl_->store.meet_places(queries, t_low);
+      impl_->store.places().meet(queries, t_low);
     }
   }
 }

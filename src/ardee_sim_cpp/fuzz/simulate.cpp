@@ -30,7 +30,7 @@ struct Cut {
   double most;
 };
 constexpr std::array<Cut, 5> kCuts{
-    {{"width", 16}, {"height", 12}, {"samples", 32}, {"resolution", 2}, {"model_count", 5}}};
+    {{"width", 16}, {"height", 12}, {"samples", 16}, {"resolution", 2}, {"model_count", 5}}};
 
 /// As readers take it: all that stands directly inside.
 std::string text_of(const tinyxml2::XMLElement& element) {

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "ardee_sim/raycast/glance.h"
+#include "ardee_sim/raycast/place_tree.h"
 #include "ardee_sim/raycast/ray_bundle.h"
-#include "ardee_sim/raycast/ray_query.h"
 
 namespace ardee {
 
-/// Models whose links move. They are few: a box test a link beats any tree that would have to be
-/// rebuilt with each motion.
+/// Models whose links can move. Few do at a time: a box test a link beats any tree that would have
+/// to be rebuilt with each motion. Those that stay where they are, which may be hundreds of plants,
+/// are in a tree.
 class MovingModels {
  public:
   MovingModels(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
@@ -21,6 +22,9 @@ class MovingModels {
   void add(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
+  /// Takes those that have stayed where they are into the tree, once they are many. To be called
+  /// before rays are cast among poses that were set.
+  void prepare();
   bool empty() const { return entries_.empty(); }
   /// Whether one of the rays, close together, may touch the box about a link before what it has
   /// met.
@@ -30,13 +34,13 @@ class MovingModels {
                  float about_m) const;
   /// Whether the ray touches the box about one of them within its reach.
   bool touches_any(const Ray& ray_W, double reach_m) const;
-  void meet(RayQuery& query) const { meet(&query, 1); }
-  /// Neighbouring rays.
-  void meet(RayQuery* queries, int count) const;
+  /// The first `count` of the queries, neighbouring rays.
+  void meet(RayQuery queries[kPacketRays], int count) const;
   void meet(RayQuery& query, std::uint32_t entity) const;
 
  private:
   struct Entry {
+    std::uint32_t entity = 0;
     std::shared_ptr<const Model> model;
     std::vector<std::unique_ptr<Body>> bodies;  // of each link
     std::vector<PlacedBody> placed;             // links that have shapes
@@ -46,14 +50,23 @@ class MovingModels {
     Bounds box_W;
     Eigen::Vector3f center_W{0, 0, 0};  // of a ball about it
     float radius_m = 0.0f;
+    std::vector<Bounds> rooms_W;  // about each link, which has stayed there
+    std::uint64_t stays_since = 0;
+    bool in_tree = false;
   };
 
-  static void meet(RayQuery* queries, int count, std::uint32_t entity, const Entry& entry);
+  static void make_room(Entry& entry);
+  void loosen(Entry& entry);
+  static void meet(RayQuery* queries, int count, const Entry& entry);
 
   const EmbreeDevice& device_;
   AlphaMasks& masks_;
   SceneKind kind_;
   std::map<std::uint32_t, Entry> entries_;
+  std::vector<Entry*> loose_;  // have shapes and are not in the tree
+  PlaceTree tree_;             // of the others' links; what has left its room does no harm there
+  BoxTable tree_box_W_;        // about all of it
+  std::uint64_t time_ = 0;     // calls of prepare()
 };
 
 }  // namespace ardee

@@ -42,17 +42,17 @@ NearRegion::NearRegion(const EmbreeDevice& device, const SceneryStore& store,
     : center_W_(center_W), half_size_m_(half_size_m), for_pictures_(budget.draft > 0) {
   choose_size(store, budget);
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
-  const Bounds& all = store.bounds_W();
+  const Bounds& all = store.places().bounds_W();
   origin_W_ << center_W_, all.empty() ? 0.0 : all.center().z();
   std::size_t places = 0;
-  store.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
-    const PlacedBody& placed = *store.places()[index];
+  store.places().find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
+    const PlacedBody& placed = *store.places().places()[index];
     ++places;
     add(placed);
   });
   const bool inside = !all.empty() && (all.lower.head<2>() - center_W_ + half).minCoeff() >= 0.0 &&
                       (center_W_ + half - all.upper.head<2>()).minCoeff() >= 0.0;
-  holds_all_ = places == store.places().size() && inside;
+  holds_all_ = places == store.places().places().size() && inside;
   if (entries_.empty()) return;
   half_height_m_ = 0.5 * (all.upper - all.lower).z() + kEdge_m;
   extent_m_ = 2.0 * (half_size_m_ + half_height_m_);
@@ -73,8 +73,8 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
   };
   std::vector<Part> parts;
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
-  store.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
-    const PlacedBody& placed = *store.places()[index];
+  store.places().find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
+    const PlacedBody& placed = *store.places().places()[index];
     const Body& body = *placed.body;
     if (!is_wide(placed)) {
       std::size_t triangles = body.triangle_count();

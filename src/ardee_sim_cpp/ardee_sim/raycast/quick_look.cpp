@@ -41,7 +41,7 @@ bool QuickLook::meet_others(const SceneRay* rays, int count, const double reach_
     const Ray ray{rays[i].origin_W, rays[i].direction_W};
     // No way out is shorter than the one straight to the border.
     const double depth_m = region_->depth_m(ray.origin);
-    const double below_top_m = scenery_.bounds_W().upper.z() - ray.origin.z();
+    const double below_top_m = scenery_.places().bounds_W().upper.z() - ray.origin.z();
     const bool leaves_above = ray.direction.z() > 0.0 && ray.direction.z() * depth_m >= below_top_m;
     if (reach_m[i] > depth_m && !leaves_above) t_leave[i] = region_->exit_t(ray);
     t_high[i] = std::min(reach_m[i], t_leave[i]);
@@ -57,11 +57,11 @@ bool QuickLook::meet_others(const SceneRay* rays, int count, const double reach_
     queries[i].start({rays[i].origin_W, rays[i].direction_W}, reach_m[i], kNoEntity, 0, purpose);
     if (reach_m[i] < 0.0) continue;
     scenery_.meet_everywhere(queries[i]);
-    if (touched) moving_.meet(queries[i]);
-    t_high[i] = std::min(t_high[i], queries[i].reach());
   }
+  if (touched) moving_.meet(queries, count);
+  for (int i = 0; i < count; ++i) t_high[i] = std::min(t_high[i], queries[i].reach());
   region_->meet_rest(queries, t_high);
-  if (beyond) scenery_.meet_places(queries, t_leave);
+  if (beyond) scenery_.places().meet(queries, t_leave);
   return true;
 }
 
@@ -155,7 +155,7 @@ void QuickLook::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::s
   const Eigen::Vector3f eye = (eye_W - region_->origin_W()).cast<float>();
   const auto depth_m = static_cast<float>(region_->depth_m(eye_W));
   const auto below_top_m =
-      std::max(static_cast<float>(scenery_.bounds_W().upper.z() - eye_W.z()), 1e-6f);
+      std::max(static_cast<float>(scenery_.places().bounds_W().upper.z() - eye_W.z()), 1e-6f);
   const bool always = region_->has_rest() || scenery_.has_everywhere();
   for (std::size_t number = 0; number < count; ++number) {
     GlanceBlock& block = blocks[number];

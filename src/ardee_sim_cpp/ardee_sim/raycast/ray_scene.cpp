@@ -59,7 +59,7 @@ struct RayScene::Impl {
       t_low[i] = t_leave[i];
       onwards = true;
     }
-    if (onwards) scenery.meet_places(queries, t_low);
+    if (onwards) scenery.places().meet(queries, t_low);
   }
 
   /// Rays of any origins, up to kPacketRays.
@@ -171,6 +171,7 @@ void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures
     if (!eye.allFinite()) throw Error("ray scene: a sensor's position is not finite");
   }
   if (!impl_->scenery.committed()) impl_->scenery.commit();
+  impl_->moving.prepare();
   impl_->regions.prepare(eyes_W, pictures);
 }
 
@@ -334,7 +335,8 @@ bool RayScene::may_be_shaded(const Eigen::Vector3f& at_W, const Eigen::Vector3f&
 
 std::vector<Bounds> RayScene::scenery_boxes() const {
   std::vector<Bounds> boxes;
-  for (const PlacedBody* placed : impl_->scenery.places()) boxes.push_back(placed->bounds_W());
+  for (const PlacedBody* placed : impl_->scenery.places().places())
+    boxes.push_back(placed->bounds_W());
   return boxes;
 }
 

@@ -13,8 +13,6 @@ namespace {
 constexpr double kHugeRadius_m = 2000.0;
 /// Nobody has a field there; Embree's floats would be whole metres.
 constexpr double kFarthest_m = 1e7;
-/// Against rounding where a ray enters and leaves the bounds of all.
-constexpr double kEndMargin_m = 1e-3;
 
 }  // namespace
 
@@ -96,46 +94,23 @@ void SceneryStore::remove(std::uint32_t first_entity) {
   committed_ = false;
   places_.clear();
   everywhere_.clear();
-  boxes_.clear();
-  scene_.reset();
   release(group->second);
   groups_.erase(group);
 }
 
 void SceneryStore::commit() {
-  places_.clear();
   everywhere_.clear();
-  boxes_.clear();
-  scene_.reset();
-  bounds_W_ = Bounds{};
+  std::vector<const PlacedBody*> places;
   for (const auto& [first, group] : groups_) {
     for (const PlacedBody& placed : group.placed) {
       const Body& body = *placed.body;
       const bool huge = body.bounds.radius() * placed.scale > kHugeRadius_m;
       if (huge || !body.grounds.empty()) everywhere_.push_back(&placed);
-      if (huge || body.pieces.empty()) continue;
-      places_.push_back(&placed);
-      bounds_W_.add(placed.bounds_W());
+      if (!huge && !body.pieces.empty()) places.push_back(&placed);
     }
   }
+  places_.build(device_, std::move(places), BuildQuality::kMedium);
   committed_ = true;
-  if (places_.empty()) return;
-  origin_W_ = bounds_W_.center();
-  const double extent = bounds_W_.radius();
-  boxes_.resize(places_.size());
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    Bounds box = places_[i]->bounds_W();
-    box.lower -= origin_W_;
-    box.upper -= origin_W_;
-    round_outwards(box, extent, boxes_[i].lower, boxes_[i].upper);
-  }
-  scene_ = std::make_unique<EmbreeScene>(
-      device_, boxes_.size(),
-      [this](std::size_t place, float* lower, float* upper) {
-        std::copy_n(boxes_[place].lower, 3, lower);
-        std::copy_n(boxes_[place].upper, 3, upper);
-      },
-      &meet_place, this, BuildQuality::kMedium);
 }
 
 void SceneryStore::meet_everywhere(RayQuery& query) const {
@@ -148,34 +123,6 @@ void SceneryStore::meet_everywhere(RayQuery& query) const {
       query.meet_body(*placed, 0.0);
     }
   }
-}
-
-void SceneryStore::meet_places(RayQuery queries[kPacketRays],
-                               const double t_low[kPacketRays]) const {
-  if (scene_ == nullptr) return;
-  const Eigen::Vector3d half_size = 0.5 * (bounds_W_.upper - bounds_W_.lower);
-  Passage passages[kPacketRays];
-  for (int i = 0; i < kPacketRays; ++i) {
-    if (!(t_low[i] <= queries[i].reach())) continue;
-    // Only the part of the ray within the bounds: floats are of the scenery's size wherever the
-    // sensor is.
-    const Ray& ray_W = queries[i].ray_W();
-    passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
-    Chord chord;
-    if (!meet_box(passages[i].ray, half_size, chord)) continue;
-    passages[i].t_low = std::max(t_low[i], chord.t_in - kEndMargin_m);
-    passages[i].t_high = std::min(queries[i].reach(), chord.t_out + kEndMargin_m);
-  }
-  traverse_packet(scene_->get(), queries, passages);
-}
-
-void SceneryStore::meet_place(const RTCIntersectFunctionNArguments* args) {
-  const auto& store = *static_cast<const SceneryStore*>(args->geometryUserPtr);
-  const PlacedBody& placed = *store.places_[args->primID];
-  for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double t_shift) {
-    query.meet_body(placed, t_shift);
-    return true;
-  });
 }
 
 }  // namespace ardee

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "ardee_sim/raycast/ray_query.h"
+#include "ardee_sim/raycast/place_tree.h"
 
 namespace ardee {
 
@@ -26,28 +26,10 @@ class SceneryStore {
   bool has_everywhere() const { return !everywhere_.empty(); }
   /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
   void meet_everywhere(RayQuery& query) const;
-  /// The places, each query from its t_low on (infinity: not at all).
-  void meet_places(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
-
-  const std::vector<const PlacedBody*>& places() const { return places_; }
-  const Bounds& bounds_W() const { return bounds_W_; }
-  /// Calls `found(index in places)` for places whose box touches the rectangle.
-  template <typename Found>
-  void find(const Eigen::Vector2d& lower, const Eigen::Vector2d& upper, Found found) const {
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const FloatBox& box = boxes_[i];
-      const bool apart =
-          origin_W_.x() + box.lower[0] > upper.x() || origin_W_.y() + box.lower[1] > upper.y() ||
-          origin_W_.x() + box.upper[0] < lower.x() || origin_W_.y() + box.upper[1] < lower.y();
-      if (!apart) found(i);
-    }
-  }
+  /// The places: what has boxes.
+  const PlaceTree& places() const { return places_; }
 
  private:
-  struct FloatBox {
-    float lower[3];
-    float upper[3];
-  };
   struct Compiled {
     std::shared_ptr<const Model> model;
     std::unique_ptr<Body> body;
@@ -59,7 +41,6 @@ class SceneryStore {
     std::vector<const Model*> models;  // each once
   };
 
-  static void meet_place(const RTCIntersectFunctionNArguments* args);
   void check(std::uint32_t first_entity, const std::vector<Placement>& placements) const;
   void release(const Group& group);
   const Body* use_body(const std::shared_ptr<const Model>& model, Group& group);
@@ -70,12 +51,8 @@ class SceneryStore {
   std::map<const Model*, Compiled> bodies_;
   std::map<std::uint32_t, Group> groups_;
   bool committed_ = true;
-  std::vector<const PlacedBody*> places_;
+  PlaceTree places_;
   std::vector<const PlacedBody*> everywhere_;
-  std::vector<FloatBox> boxes_;  // of places_, relative to origin_W_
-  Eigen::Vector3d origin_W_ = Eigen::Vector3d::Zero();
-  Bounds bounds_W_;
-  std::unique_ptr<EmbreeScene> scene_;
 };
 
 }  // namespace ardee

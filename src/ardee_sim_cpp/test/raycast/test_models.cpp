@@ -83,6 +83,44 @@ TEST(Models, TwoModelsAndRemoval) {
   EXPECT_EQ(scene.one({0, 0, 0}, {1, 0, 0}).range_m, kInfinity);
 }
 
+/// Boxes of 1 m, 2 m apart along y, each seen from straight below x = 0.
+TEST(Models, ManyThatStayAreMetWhereTheyAre) {
+  constexpr std::uint32_t kCount = 40;
+  TestScene scene(SceneKind::kCollision);
+  const auto box = model_of(Box{{1, 1, 1}});
+  const auto y = [](std::uint32_t k) { return 2.0 * k; };
+  const auto range_m = [&](std::uint32_t k) { return scene.one({0, y(k), 0}, {1, 0, 0}).range_m; };
+  for (std::uint32_t k = 0; k < kCount; ++k) scene.scene.add_model(k, box);
+  for (int time = 0; time < 30; ++time) {
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+      const double settling_m = 1e-3 * (time % 2);
+      scene.scene.set_link_poses(k, {at(3 + settling_m, y(k), 0)});
+    }
+    for (std::uint32_t k = 0; k < kCount; ++k) {
+      ASSERT_FLOAT_EQ(range_m(k), time % 2 == 0 ? 2.5f : 2.501f) << k << " at " << time;
+    }
+  }
+  scene.scene.set_link_poses(7, {at(3.01, y(7), 0)});
+  scene.scene.set_link_poses(8, {at(5, y(8), 0)});
+  scene.scene.set_link_poses(9, {at(3, y(9), 50)});
+  scene.scene.set_link_poses(10, {at(1.5, y(11), 0)});
+  EXPECT_FLOAT_EQ(range_m(7), 2.51f);
+  EXPECT_FLOAT_EQ(range_m(8), 4.5f);
+  EXPECT_EQ(range_m(9), kInfinity);
+  EXPECT_EQ(range_m(10), kInfinity);
+  EXPECT_FLOAT_EQ(range_m(11), 1.0f);
+  scene.scene.remove_model(12);
+  scene.scene.remove_model(8);
+  EXPECT_EQ(range_m(12), kInfinity);
+  EXPECT_EQ(range_m(8), kInfinity);
+  EXPECT_FLOAT_EQ(range_m(7), 2.51f);
+  for (int time = 0; time < 30; ++time) EXPECT_FLOAT_EQ(range_m(20), 2.501f);
+  for (std::uint32_t k = 0; k < kCount; ++k) {
+    if (k != 8 && k != 12) scene.scene.remove_model(k);
+  }
+  EXPECT_EQ(range_m(20), kInfinity);
+}
+
 TEST(Models, SceneryIsRemovedWhole) {
   for (const bool flatten : {true, false}) {
     RayOptions options;
