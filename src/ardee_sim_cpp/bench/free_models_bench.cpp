@@ -13,7 +13,7 @@ namespace ardee::bench {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: free_models_bench --robot FILE [--plants 880] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
+    "usage: free_models_bench --robot FILE [--plant FILE] [--plants 880] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
     "         [--speed-m-s 0.5] [--settle-s 2] [--duration-s 10]\n"
     "Prints JSON: real-time factors while the plants come to rest, and of the drive after that.\n";
 
@@ -57,11 +57,10 @@ std::shared_ptr<const Model> plant() {
 }
 
 /// Rows 0.75 m apart along x, 0.2 m from plant to plant, with the origin between two of them.
-World field(int plants) {
+World field(int plants, const std::shared_ptr<const Model>& model) {
   constexpr int kRows = 20;
   World world;
   world.models.push_back({plane(), "ground", Pose{}});
-  const auto model = plant();
   for (int i = 0; i < plants; ++i) {
     const double x = 0.2 * static_cast<double>(i / kRows);
     const double y = 0.75 * (static_cast<double>(i % kRows - kRows / 2) + 0.5);
@@ -73,7 +72,9 @@ World field(int plants) {
 
 void run(const BenchArguments& arguments) {
   Loader loader(ResourceLocator::from_environment(), Log());
-  Simulation simulation(field(static_cast<int>(arguments.number("--plants"))), {}, nullptr);
+  const std::string file = arguments.text("--plant");
+  const auto model = file.empty() ? plant() : loader.load_model(file);
+  Simulation simulation(field(static_cast<int>(arguments.number("--plants")), model), {}, nullptr);
   SpawnRequest request;
   request.name = "robot";
   request.model = loader.load_model(arguments.text("--robot"));
@@ -117,6 +118,7 @@ int main(int argc, char** argv) {
     ardee::bench::run({argc,
                        argv,
                        {{"--robot", ""},
+                        {"--plant", ""},
                         {"--plants", "880"},
                         {"--pose", "-1 0 0.175 0"},
                         {"--lane-m", "6"},

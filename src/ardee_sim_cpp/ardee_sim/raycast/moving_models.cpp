@@ -17,7 +17,7 @@ constexpr double kRounding = 1.0 + 1e-4;
 
 /// How far the box about a link may move before its model counts as moved.
 constexpr double kRoom_m = 0.02;
-/// What has not moved for so many calls of prepare() stays where it is.
+/// What has not moved for so many calls of prepare(), or never, stays where it is.
 constexpr std::uint64_t kLong = 10;
 /// Fewer models than these are not worth a new tree.
 constexpr std::ptrdiff_t kMany = 16;
@@ -46,6 +46,19 @@ bool touches(const Bounds& box, const Eigen::Vector3d& origin, const Eigen::Vect
 
 }  // namespace
 
+/// Those of models that are the same description are the same.
+std::shared_ptr<const MovingModels::Bodies> MovingModels::bodies_of(
+    const std::shared_ptr<const Model>& model) {
+  std::weak_ptr<const Bodies>& known = compiled_[model.get()];
+  if (auto bodies = known.lock()) return bodies;
+  auto made = std::make_shared<Bodies>();
+  for (std::uint32_t link = 0; link < model->links.size(); ++link) {
+    made->push_back(compile_link(device_, masks_, *model, link, kind_));
+  }
+  known = made;
+  return made;
+}
+
 void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model) {
   if (model == nullptr) throw Error("a moving model needs a description");
   if (entries_.count(entity) != 0) {
@@ -53,9 +66,9 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
   }
   Entry entry;
   entry.entity = entity;
+  entry.bodies = bodies_of(model);
   for (std::uint32_t link = 0; link < model->links.size(); ++link) {
-    entry.bodies.push_back(compile_link(device_, masks_, *model, link, kind_));
-    const Body& body = *entry.bodies.back();
+    const Body& body = *(*entry.bodies)[link];
     if (body.pieces.empty() && body.grounds.empty()) continue;
     PlacedBody placed;
     placed.body = &body;
@@ -78,6 +91,9 @@ void MovingModels::remove(std::uint32_t entity) {
   for (auto& [other, entry] : entries_) loosen(entry);
   loose_.erase(std::remove(loose_.begin(), loose_.end(), &found->second), loose_.end());
   entries_.erase(found);
+  for (auto known = compiled_.begin(); known != compiled_.end();) {
+    known = known->second.expired() ? compiled_.erase(known) : std::next(known);
+  }
 }
 
 void MovingModels::loosen(Entry& entry) {
@@ -94,7 +110,7 @@ void MovingModels::make_room(Entry& entry) {
 void MovingModels::prepare() {
   ++time_;
   const auto stays = [this](const Entry* entry) {
-    return !entry->boxes_W.empty() && time_ - entry->stays_since >= kLong;
+    return !entry->boxes_W.empty() && (entry->left_at == 0 || time_ - entry->left_at >= kLong);
   };
   if (std::count_if(loose_.begin(), loose_.end(), stays) < kMany) return;
   std::vector<const PlacedBody*> places;
@@ -144,11 +160,13 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
     entry.box_table_W.add(entry.boxes_W[k]);
     entry.box_W.add(entry.boxes_W[k]);
   }
-  if (!std::equal(entry.rooms_W.begin(), entry.rooms_W.end(), entry.boxes_W.begin(),
-                  entry.boxes_W.end(), holds)) {
+  if (entry.rooms_W.empty()) {
+    make_room(entry);
+  } else if (!std::equal(entry.rooms_W.begin(), entry.rooms_W.end(), entry.boxes_W.begin(),
+                         entry.boxes_W.end(), holds)) {
     loosen(entry);
     make_room(entry);
-    entry.stays_since = time_;
+    entry.left_at = time_;
   }
   if (entry.placed.empty()) return;
   entry.center_W = entry.box_W.center().cast<float>();

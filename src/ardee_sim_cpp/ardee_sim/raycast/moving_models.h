@@ -39,22 +39,24 @@ class MovingModels {
   void meet(RayQuery& query, std::uint32_t entity) const;
 
  private:
+  using Bodies = std::vector<std::unique_ptr<Body>>;  // of each link
   struct Entry {
     std::uint32_t entity = 0;
     std::shared_ptr<const Model> model;
-    std::vector<std::unique_ptr<Body>> bodies;  // of each link
-    std::vector<PlacedBody> placed;             // links that have shapes
-    std::vector<std::uint32_t> links;           // their indices
-    std::vector<Bounds> boxes_W;                // empty until the first poses
-    BoxTable box_table_W;                       // the same
+    std::shared_ptr<const Bodies> bodies;
+    std::vector<PlacedBody> placed;    // links that have shapes
+    std::vector<std::uint32_t> links;  // their indices
+    std::vector<Bounds> boxes_W;       // empty until the first poses
+    BoxTable box_table_W;              // the same
     Bounds box_W;
     Eigen::Vector3f center_W{0, 0, 0};  // of a ball about it
     float radius_m = 0.0f;
     std::vector<Bounds> rooms_W;  // about each link, which has stayed there
-    std::uint64_t stays_since = 0;
+    std::uint64_t left_at = 0;    // time when it last left them; 0: never
     bool in_tree = false;
   };
 
+  std::shared_ptr<const Bodies> bodies_of(const std::shared_ptr<const Model>& model);
   static void make_room(Entry& entry);
   void loosen(Entry& entry);
   static void meet(RayQuery* queries, int count, const Entry& entry);
@@ -62,11 +64,12 @@ class MovingModels {
   const EmbreeDevice& device_;
   AlphaMasks& masks_;
   SceneKind kind_;
+  std::map<const Model*, std::weak_ptr<const Bodies>> compiled_;
   std::map<std::uint32_t, Entry> entries_;
   std::vector<Entry*> loose_;  // have shapes and are not in the tree
   PlaceTree tree_;             // of the others' links; what has left its room does no harm there
   BoxTable tree_box_W_;        // about all of it
-  std::uint64_t time_ = 0;     // calls of prepare()
+  std::uint64_t time_ = 1;     // calls of prepare()
 };
 
 }  // namespace ardee
