@@ -22,6 +22,7 @@ LINK = """<link name="{child}"><inertial><origin xyz="0.15 0 0"/><mass value="1"
 <actuator name="{joint}_motor"><mechanicalReduction>1</mechanicalReduction></actuator></transmission>"""
 PARAMETERS = """
 joints: {{type: joint_state_controller/JointStateController, publish_rate: 50}}
+wrenches: {{type: force_torque_sensor_controller/ForceTorqueSensorController, publish_rate: 50}}
 arm:
   type: {kind}_controllers/JointTrajectoryController
   joints: [shoulder, elbow, wrist]
@@ -94,7 +95,7 @@ def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
             "rosrun", "controller_manager", "spawner", "--namespace", f"/{kind}", str(file)
         )
         wait_until(
-            lambda: list(states(shared_graph, kind).values()) == ["running"] * 3,
+            lambda: list(states(shared_graph, kind).values()) == ["running"] * 4,
             "running controllers",
         )
     yield shared_graph
@@ -103,9 +104,9 @@ def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
 def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
     """The state and the result of a goal; it is cancelled after the steps, if it shall be."""
     import actionlib
+    import control_msgs.msg
     import rospy
 
-    import control_msgs.msg
     from ardee_msgs.srv import Step
 
     rospy.init_node("client", anonymous=True, disable_signals=True)
@@ -127,9 +128,8 @@ def follow(
 ) -> Any:
     """The end of a goal of the arm that is reached after 1 s."""
     import rospy
-    from trajectory_msgs.msg import JointTrajectoryPoint
-
     from control_msgs.msg import FollowJointTrajectoryGoal
+    from trajectory_msgs.msg import JointTrajectoryPoint
 
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = JOINTS
@@ -145,23 +145,28 @@ def follow(
 
 def positions(graph: RosGraph, kind: str) -> List[float]:
     """Of the joints of the arm, as the trajectory's state has them."""
-    return list(graph.call(actual_positions, f"/{kind}/arm/state"))
+    state = graph.call(
+        next_message, f"/{kind}/arm/state", "control_msgs/JointTrajectoryControllerState"
+    )
+    assert state.joint_names == JOINTS
+    return list(state.actual.positions)
 
 
-def actual_positions(topic: str) -> Any:
+def next_message(topic: str, kind: str) -> Any:
+    """What is published within the next 50 steps."""
+    import roslib.message
     import rospy
 
     from ardee_msgs.srv import Step
-    from control_msgs.msg import JointTrajectoryControllerState
 
     rospy.init_node("listener", anonymous=True, disable_signals=True)
     heard = []  # type: List[Any]
-    subscriber = rospy.Subscriber(topic, JointTrajectoryControllerState, heard.append)
+    message = roslib.message.get_message_class(kind)
+    subscriber = rospy.Subscriber(topic, message, heard.append)
     wait_until(subscriber.get_num_connections, f"a publisher of {topic}")
     rospy.ServiceProxy("/ardee/step", Step)(steps=50)
-    wait_until(lambda: heard, "a state")
-    assert heard[-1].joint_names == JOINTS
-    return heard[-1].actual.positions
+    wait_until(lambda: heard, "a message")
+    return heard[-1]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -202,10 +207,17 @@ def test_a_gripper_reaches_its_goal(arms: RosGraph, kind: str) -> None:
     assert result.position == pytest.approx(0.03, abs=0.003)
 
 
-def test_a_gripper_stalls_at_its_limit(arms: RosGraph) -> None:
-    state, result = grip(arms, "position", 0.08)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_gripper_stalls_at_its_limit(arms: RosGraph, kind: str) -> None:
+    state, result = grip(arms, kind, 0.08)
     assert (state, result.reached_goal, result.stalled) == (ABORTED, False, True)
     assert result.position == pytest.approx(0.05, abs=0.003)
+
+
+def test_a_joint_feels_what_it_carries(arms: RosGraph) -> None:
+    wrench = arms.call(next_message, "/effort/shoulder", "geometry_msgs/WrenchStamped")
+    assert wrench.header.frame_id == "shoulder_link"
+    assert wrench.wrench.force.z == pytest.approx(-4 * 9.8, abs=0.05)  # four links of 1 kg
 
 
 def test_the_state_of_a_trajectory_is_told(arms: RosGraph) -> None:

@@ -13,7 +13,8 @@ namespace ardee::bench {
 namespace {
 
 constexpr const char* kUsage =
-    "usage: free_models_bench --robot FILE [--plant FILE] [--plants 880] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
+    "usage: free_models_bench --robot FILE [--plant FILE] [--plants 880] [--pose 'X Y Z YAW'] "
+    "[--lane-m 6]\n"
     "         [--speed-m-s 0.5] [--settle-s 2] [--duration-s 10]\n"
     "Prints JSON: real-time factors while the plants come to rest, and of the drive after that.\n";
 

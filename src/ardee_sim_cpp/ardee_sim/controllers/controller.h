@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardee_sim/controllers/hardware.h"
+#include "ardee_sim/controllers/hardware_sensors.h"
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/setting.h"
@@ -20,6 +21,7 @@ struct ControllerContext {
   const Setting& settings;      // its own parameters, below <robot_namespace>/<name>
   const Model& model;           // the robot's description: sizes that no parameter says
   Hardware& hardware;
+  SensorHandles& sensors;
   Log& log;
 
   /// Its name in full: "<robot_namespace>/<name>".

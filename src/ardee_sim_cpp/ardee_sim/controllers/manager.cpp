@@ -12,7 +12,8 @@ namespace ardee::control {
 struct Manager::Loaded {
   Loaded(const ManagerContext& robot, const std::string& name, Setting own)
       : settings(std::move(own)), context{name,        robot.robot_namespace, settings,
-                                          robot.model, robot.hardware,        robot.log} {}
+                                          robot.model, robot.hardware,        robot.sensors,
+                                          robot.log} {}
 
   Setting settings;
   ControllerContext context;

@@ -39,6 +39,7 @@ struct ManagerContext {
   std::string robot_namespace;
   const Model& model;
   Hardware& hardware;
+  SensorHandles& sensors;
   Log& log;
   std::function<Setting(const std::string& name)> parameter;
 };

@@ -12,13 +12,15 @@ namespace {
 constexpr char kHardware[] = "gazebo_ros_control/DefaultRobotHWSim";
 constexpr char kGains[] = "gazebo_ros_control/pid_gains/";
 
-void check_hardware(Parameters& parameters, Log& log) {
+bool is_steer_bot(Parameters& parameters, Log& log) {
   const std::string type = parameters.text("robotSimType", kHardware);
-  if (type == kHardware) return;
+  if (type == SteerBot::kType) return true;
+  if (type == kHardware) return false;
   log.error(parameters
-                .error("robotSimType", "found '" + type + "', expected " + kHardware +
-                                           ", which is taken in its place")
+                .error("robotSimType", "found '" + type + "', expected " + SteerBot::kType +
+                                           " or " + kHardware + ", which is taken in its place")
                 .what());
+  return false;
 }
 
 /// 0: each step.
@@ -45,13 +47,18 @@ RosControl::Params read(const PluginDescription& plugin, DeviceContext& context)
   Parameters parameters(plugin.element);
   RosControl::Params params;
   params.robot_namespace = plugin_namespace(parameters, context);
-  check_hardware(parameters, context.log);
+  params.is_steer_bot = is_steer_bot(parameters, context.log);
   params.period_ns = read_period(parameters, context);
   params.stop_topic = parameters.text("eStopTopic", "");
   params.has_legacy_gains = parameters.boolean("legacyModeNS", false);
   parameters.ignore({"robotParam"});  // the robot is its description
   parameters.finish(context.log);
   return params;
+}
+
+bool has_one_position(const Joint& joint) {
+  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous ||
+         joint.type == JointType::kPrismatic;
 }
 
 JointInterface read_interface(const Transmission& transmission) {
@@ -87,8 +94,10 @@ std::unique_ptr<Device> RosControl::make(const PluginDescription& plugin, Device
 
 RosControl::RosControl(const PluginDescription& plugin, const Params& params,
                        DeviceContext& context)
-    : Device(plugin.name), params_(params), robot_(context.robot) {
+    : Device(plugin.name), params_(params), robot_(context.robot), sensors_(context) {
+  if (params_.is_steer_bot) add_steer_bot(context);
   for (const Transmission& each : robot_.model().transmissions) {
+    if (params_.is_steer_bot) break;  // which has no use for them
     if (each.joint.rfind(context.scope, 0) == 0) add_joint(each, context.scope, context);
   }
   if (hardware_.empty()) {
@@ -96,8 +105,9 @@ RosControl::RosControl(const PluginDescription& plugin, const Params& params,
                      "found no joint in the <transmission>s of the robot, expected some: nothing "
                      "is controlled");
   }
-  manager_ = std::make_unique<Manager>(ManagerContext{params_.robot_namespace, robot_.model(),
-                                                      hardware_, context.log, context.parameter});
+  manager_ =
+      std::make_unique<Manager>(ManagerContext{params_.robot_namespace, robot_.model(), hardware_,
+                                               sensors_.handles(), context.log, context.parameter});
   add_stop();
 }
 
@@ -106,8 +116,7 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
   const std::size_t index = robot_.joint_index(transmission.joint, transmission.source);
   const Joint& joint = robot_.model().joints[index];
   const JointInterface interface = read_interface(transmission);
-  if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous &&
-      joint.type != JointType::kPrismatic) {
+  if (!has_one_position(joint)) {
     context.log.error(Error(transmission.source,
                             "transmission '" + transmission.name + "': found joint '" + joint.name +
                                 "', which is held or has no one position; it is "
@@ -121,17 +130,45 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
                                               "', expected one; it is left out");
     return;
   }
+  add_actuator(add_handle(name, interface), index, context);
+}
+
+void RosControl::add_steer_bot(DeviceContext& context) {
+  const std::string path = resolve_topic("steer_bot_hardware_gazebo", params_.robot_namespace);
+  steer_bot_.emplace(context.parameter(path), robot_.model());
+  const std::vector<Joint>& joints = robot_.model().joints;
+  for (const auto& [name, interface] : steer_bot_->joints()) {
+    JointHandle& handle = add_handle(name, interface);
+    for (std::size_t index = 0; index < joints.size(); ++index) {
+      if (joints[index].name != name) continue;
+      if (!has_one_position(joints[index])) {
+        throw Error(joints[index].source, std::string(SteerBot::kType) + ": found joint '" + name +
+                                              "', which is held or has no one position");
+      }
+      add_actuator(handle, index, context);
+    }
+  }
+}
+
+JointHandle& RosControl::add_handle(const std::string& name, JointInterface interface) {
   JointHandle& handle = hardware_[name];
   handle.name = name;
   handle.interface = interface;
+  return handle;
+}
+
+void RosControl::add_actuator(JointHandle& handle, std::size_t index, DeviceContext& context) {
+  const Joint& joint = robot_.model().joints[index];
+  const std::string& name = handle.name;
   handle.type = joint.type;
   handle.limits = joint.axis;
   const Setting overrides =
       context.parameter(resolve_topic("joint_limits/" + name, params_.robot_namespace));
   const CommandLimits limits = read_command_limits(joint, overrides, context.log);
-  actuators_.emplace_back(
-      handle, index, limits,
-      interface == JointInterface::kEffort ? std::nullopt : read_gains(name, context));
+  actuators_.emplace_back(handle, index, limits,
+                          handle.interface == JointInterface::kEffort || steer_bot_
+                              ? std::nullopt
+                              : read_gains(name, context));
   add_gains(actuators_.back());
 }
 
@@ -168,6 +205,7 @@ void RosControl::before_step(TimeNs now_ns) {
   if (passed_ns > 0 && passed_ns >= params_.period_ns) control(now_ns);
   const double dt_s = seconds(now_ns - last_write_ns_);
   last_write_ns_ = now_ns;
+  if (steer_bot_) steer_bot_->follow(hardware_, dt_s);
   for (JointActuator& each : actuators_) each.write(robot_.dynamics(), dt_s, is_stopped_);
 }
 
@@ -175,12 +213,16 @@ void RosControl::control(TimeNs now_ns) {
   const double period_s = seconds(now_ns - last_control_ns_);
   last_control_ns_ = now_ns;
   for (JointActuator& each : actuators_) each.read(robot_.dynamics());
+  sensors_.read();
   if (was_stopped_ && !is_stopped_) manager_->restart(now_ns);
   was_stopped_ = is_stopped_;
   manager_->update(now_ns, period_s, waiting_);
 }
 
-void RosControl::after_step(TimeNs /*now_ns*/, ReadingSink& sink) { waiting_.give(sink); }
+void RosControl::after_step(TimeNs now_ns, ReadingSink& sink) {
+  sensors_.end_step(now_ns);
+  waiting_.give(sink);
+}
 
 void RosControl::Waiting::give(ReadingSink& sink) {
   for (const auto& [output, reading] : readings_) sink.on_reading(*output, reading);
@@ -194,6 +236,7 @@ void RosControl::reset(TimeNs now_ns) {
   was_stopped_ = false;
   waiting_.clear();
   for (JointActuator& each : actuators_) each.reset(robot_.dynamics());
+  sensors_.reset(now_ns);
   manager_->reset(now_ns);
 }
 

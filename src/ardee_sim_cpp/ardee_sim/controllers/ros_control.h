@@ -7,15 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "ardee_sim/controllers/hardware_sensors.h"
 #include "ardee_sim/controllers/joint_actuator.h"
 #include "ardee_sim/controllers/manager.h"
+#include "ardee_sim/controllers/steer_bot.h"
 #include "ardee_sim/devices/registry.h"
 
 namespace ardee::control {
 
-/// libgazebo_ros_control.so with its DefaultRobotHWSim: the joints that the robot's transmissions
-/// name, as a controller manager's controllers see them. Each control period they are read and the
-/// controllers act; each step their commands do.
+/// libgazebo_ros_control.so with its DefaultRobotHWSim, the joints that the robot's transmissions
+/// name, or with a SteerBot, as a controller manager's controllers see them. Each control period
+/// they are read and the controllers act; each step their commands do.
 class RosControl : public Device {
  public:
   struct Params {
@@ -23,6 +25,7 @@ class RosControl : public Device {
     TimeNs period_ns = 0;
     std::string stop_topic;  // empty: none
     bool has_legacy_gains = false;
+    bool is_steer_bot = false;
   };
 
   /// Nothing, with an error in the log, if the robot's transmissions are not as the original needs
@@ -35,6 +38,8 @@ class RosControl : public Device {
   const std::string& robot_namespace() const { return params_.robot_namespace; }
 
   void before_step(TimeNs now_ns) override;
+  void observe(TimeNs now_ns) override { sensors_.begin_step(now_ns); }
+  void on_set_state() override { sensors_.on_set_state(); }
   /// What the controllers have given before the step.
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   /// Joints have the command 0; controllers that run start again.
@@ -56,6 +61,9 @@ class RosControl : public Device {
 
   void add_joint(const Transmission& transmission, const std::string& scope,
                  DeviceContext& context);
+  void add_steer_bot(DeviceContext& context);
+  JointHandle& add_handle(const std::string& name, JointInterface interface);
+  void add_actuator(JointHandle& handle, std::size_t joint, DeviceContext& context);
   std::optional<PidGains> read_gains(const std::string& joint, DeviceContext& context) const;
   void add_gains(JointActuator& actuator);
   void add_stop();
@@ -65,6 +73,8 @@ class RosControl : public Device {
   Robot& robot_;
   Hardware hardware_;
   std::deque<JointActuator> actuators_;
+  HardwareSensors sensors_;
+  std::optional<SteerBot> steer_bot_;
   std::unique_ptr<Manager> manager_;
   Waiting waiting_;
   TimeNs last_control_ns_ = 0;

@@ -1,29 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/controllers/sensor_controllers.h"
 
-#include "ardee_sim/core/error.h"
+#include "ardee_sim/devices/names.h"
 
 namespace ardee::control {
-namespace {
 
-Error lacking(const ControllerContext& context, const std::string& interface,
-              const std::string& instead) {
-  return Error(context.settings.path() + "/type: found a controller that needs the " + interface +
-               ", which the simulated hardware lacks, as gazebo_ros_control's DefaultRobotHWSim "
-               "does, expected " +
-               instead);
+std::unique_ptr<Controller> ImuSensorController::make(const ControllerContext& context) {
+  return std::make_unique<ImuSensorController>(context);
 }
 
-}  // namespace
-
-std::unique_ptr<Controller> make_imu_sensor_controller(const ControllerContext& context) {
-  throw lacking(context, "hardware_interface::ImuSensorInterface",
-                "an imu sensor with the plugin libgazebo_ros_imu_sensor.so instead");
+ImuSensorController::ImuSensorController(const ControllerContext& context)
+    : timer_(context.settings.number("publish_rate")) {
+  if (context.sensors.imus.empty()) {
+    context.log.warn(context.own_name() +
+                     ": found no <sensor type='imu'> in the robot's description, expected some: "
+                     "nothing is published");
+  }
+  for (const auto& [name, handle] : context.sensors.imus) {
+    sensors_.emplace_back(&handle, &ports().add_output(resolve_topic(name, context.robot_namespace),
+                                                       reading_kind<ImuReading>()));
+  }
 }
 
-std::unique_ptr<Controller> make_force_torque_sensor_controller(const ControllerContext& context) {
-  throw lacking(context, "hardware_interface::ForceTorqueSensorInterface",
-                "the efforts in joint_states of a joint_state_controller instead");
+void ImuSensorController::update(TimeNs now_ns, double /*period_s*/, ReadingSink& sink) {
+  if (!timer_.due(now_ns)) return;
+  for (const auto& [handle, output] : sensors_) {
+    if (!output->demanded) continue;
+    ImuReading reading;
+    reading.header = {now_ns, handle->frame};
+    reading.orientation = handle->orientation;
+    reading.angular_velocity = handle->angular_velocity;
+    reading.linear_acceleration = handle->linear_acceleration;
+    sink.on_reading(*output, reading);
+  }
+}
+
+std::unique_ptr<Controller> ForceTorqueSensorController::make(const ControllerContext& context) {
+  return std::make_unique<ForceTorqueSensorController>(context);
+}
+
+ForceTorqueSensorController::ForceTorqueSensorController(const ControllerContext& context)
+    : timer_(context.settings.number("publish_rate")) {
+  for (auto& [name, handle] : context.sensors.force_torques) {
+    handle.is_wanted = true;
+    sensors_.emplace_back(&handle, &ports().add_output(resolve_topic(name, context.robot_namespace),
+                                                       reading_kind<WrenchReading>()));
+  }
+}
+
+void ForceTorqueSensorController::update(TimeNs now_ns, double /*period_s*/, ReadingSink& sink) {
+  if (!timer_.due(now_ns)) return;
+  for (const auto& [handle, output] : sensors_) {
+    if (output->demanded)
+      sink.on_reading(*output, WrenchReading{{now_ns, handle->frame}, handle->wrench});
+  }
 }
 
 }  // namespace ardee::control

@@ -2,15 +2,42 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "ardee_sim/controllers/controller.h"
 
 namespace ardee::control {
 
-/// imu_sensor_controller/ImuSensorController and
-/// force_torque_sensor_controller/ForceTorqueSensorController read interfaces that the simulated
-/// hardware lacks, here as in Gazebo: an Error, which says what to use instead.
-std::unique_ptr<Controller> make_imu_sensor_controller(const ControllerContext& context);
-std::unique_ptr<Controller> make_force_torque_sensor_controller(const ControllerContext& context);
+/// imu_sensor_controller/ImuSensorController: publishes each ImuHandle on the topic of its name, in
+/// the robot's namespace, at `publish_rate` (Hz).
+class ImuSensorController : public Controller {
+ public:
+  static std::unique_ptr<Controller> make(const ControllerContext& context);
+  explicit ImuSensorController(const ControllerContext& context);
+
+  void start(TimeNs now_ns) override { timer_.start(now_ns); }
+  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override { timer_.start(now_ns); }
+
+ private:
+  PublishTimer timer_;
+  std::vector<std::pair<const ImuHandle*, Output*>> sensors_;
+};
+
+/// force_torque_sensor_controller/ForceTorqueSensorController: the same of each ForceTorqueHandle.
+class ForceTorqueSensorController : public Controller {
+ public:
+  static std::unique_ptr<Controller> make(const ControllerContext& context);
+  explicit ForceTorqueSensorController(const ControllerContext& context);
+
+  void start(TimeNs now_ns) override { timer_.start(now_ns); }
+  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void reset(TimeNs now_ns) override { timer_.start(now_ns); }
+
+ private:
+  PublishTimer timer_;
+  std::vector<std::pair<const ForceTorqueHandle*, Output*>> sensors_;
+};
 
 }  // namespace ardee::control

@@ -90,7 +90,7 @@ class Rig : public ReadingSink {
   using Make = std::unique_ptr<Controller> (*)(const ControllerContext&);
   void make(Make maker, const Parameters& parameters) {
     settings = settings_of(parameters);
-    controller = maker({"base", "/", settings, model, hardware, log});
+    controller = maker({"base", "/", settings, model, hardware, sensors, log});
   }
   void start(Make maker, const Parameters& parameters) {
     make(maker, parameters);
@@ -153,6 +153,7 @@ class Rig : public ReadingSink {
   }
 
   Hardware hardware;
+  SensorHandles sensors;
   Model model;
   std::vector<std::string> messages;
   Log log{[this](LogLevel, const std::string& text) { messages.push_back(text); }};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/controllers/forward_controller.h"
-#include "ardee_sim/controllers/sensor_controllers.h"
 #include "rig.h"
 
 namespace ardee::control {
@@ -78,19 +77,6 @@ TEST(ForwardController, SaysWhichParameterIsWrong) {
             "the hardware_interface::EffortJointInterface");
   EXPECT_EQ(rig.refusal(ForwardController::make_group_velocity, {{"joints", std::string("j")}}),
             "/base/joints: found 'j', expected a list of names");
-}
-
-TEST(SensorControllers, SayWhatToUseInstead) {
-  Rig rig;
-  EXPECT_EQ(rig.refusal(make_imu_sensor_controller, {}),
-            "/base/type: found a controller that needs the hardware_interface::ImuSensorInterface, "
-            "which the simulated hardware lacks, as gazebo_ros_control's DefaultRobotHWSim does, "
-            "expected an imu sensor with the plugin libgazebo_ros_imu_sensor.so instead");
-  EXPECT_EQ(rig.refusal(make_force_torque_sensor_controller, {}),
-            "/base/type: found a controller that needs the "
-            "hardware_interface::ForceTorqueSensorInterface, which the simulated hardware lacks, "
-            "as gazebo_ros_control's DefaultRobotHWSim does, expected the efforts in joint_states "
-            "of a joint_state_controller instead");
 }
 
 }  // namespace

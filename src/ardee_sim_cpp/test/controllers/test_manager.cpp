@@ -99,12 +99,13 @@ class ManagerTest : public ::testing::Test {
   NoSink nobody_;
   Model model_;
   Hardware hardware_;
+  SensorHandles sensors_;
   Log log_{[](LogLevel, const std::string&) {}};
   std::map<std::string, Setting> parameters_;
   ControllerTypes types_{{"test/Noting", [this](const ControllerContext& context) {
                             return std::make_unique<Noting>(context, notes_);
                           }}};
-  Manager manager_{{"/robot", model_, hardware_, log_,
+  Manager manager_{{"/robot", model_, hardware_, sensors_, log_,
                     [this](const std::string& name) { return parameter(name); }},
                    types_};
 };

@@ -54,13 +54,13 @@ std::string flywheel(const std::string& interface, const std::string& keys = "",
 
 class RosControlTest : public ::testing::Test {
  protected:
-  Entity& spawn(const std::string& xml) {
+  Entity& spawn(const std::string& xml, double gravity_m_per_s2 = 0.0) {
     SimulationOptions options;
     options.parameter = [this](const std::string& name) {
       const auto found = parameters_.find(name);
       return found == parameters_.end() ? no_parameter(name) : found->second;
     };
-    world_.emplace(free_space(0.0), kStep_s, options);
+    world_.emplace(free_space(gravity_m_per_s2), kStep_s, options);
     robot_ = &world_->spawn(xml, "robot");
     return *robot_;
   }
@@ -240,6 +240,37 @@ TEST_F(RosControlTest, LimitsOfParametersCount) {
   EXPECT_NEAR(velocity(), 0.5, 1e-9);
 }
 
+TEST_F(RosControlTest, SensorControllersSayWhatTheWheelFeels) {
+  parameters_["/imus"] =
+      group("/imus", {{"type", text("imu_sensor_controller/ImuSensorController")},
+                      {"publish_rate", number(100.0)}});
+  parameters_["/wrenches"] = group(
+      "/wrenches", {{"type", text("force_torque_sensor_controller/ForceTorqueSensorController")},
+                    {"publish_rate", number(100.0)}});
+  std::string xml = flywheel("VelocityJointInterface");
+  xml.insert(xml.find("<transmission"),
+             "<gazebo reference='wheel'><sensor name='wheel_imu' type='imu'/></gazebo>");
+  spawn(xml, -9.8);
+  start("imus");
+  start("wrenches");
+  control::Controller& velocities = start("velocity");
+  world_->run(kStep_s);
+  command(velocities, 2.0);
+  world_->run(3.0);
+  const auto imu = world_->recorder().on<ImuReading>("/wheel_imu").back();
+  EXPECT_EQ(imu.header.frame_id, "wheel");
+  EXPECT_NEAR(imu.linear_acceleration.z(), 9.8, 1e-6);
+  EXPECT_NEAR(imu.angular_velocity.z(), 2.0, 1e-6);
+  EXPECT_NEAR(
+      std::remainder(2.0 * std::atan2(imu.orientation.z(), imu.orientation.w()) - position(),
+                     2.0 * 3.14159265358979),
+      0.0, 2.0 * kStep_s);
+  const auto axle = world_->recorder().on<WrenchReading>("/axle").back();  // carries 1 kg
+  EXPECT_EQ(axle.header.frame_id, "wheel");
+  EXPECT_NEAR(axle.wrench.force.z(), -9.8, 1e-6);
+  EXPECT_NEAR(axle.wrench.torque.norm(), 0.0, 1e-6);
+}
+
 TEST_F(RosControlTest, AnUnknownInterfaceLeavesTheRobotWithoutManager) {
   spawn(flywheel("ImuSensorInterface"));
   EXPECT_TRUE(robot_->devices.empty());
@@ -258,7 +289,9 @@ TEST_F(RosControlTest, SaysWhatIsNotAsTheOriginalNeedsIt) {
   EXPECT_TRUE(said("'knee'"));
   spawn(flywheel("EffortJointInterface", "<robotSimType>steer_bot/Hardware</robotSimType>"));
   EXPECT_EQ(robot_->devices.size(), 1u);
-  EXPECT_TRUE(said("found 'steer_bot/Hardware', expected gazebo_ros_control/DefaultRobotHWSim"));
+  EXPECT_TRUE(said(
+      "found 'steer_bot/Hardware', expected steer_bot_hardware_gazebo/SteerBotHardwareGazebo or "
+      "gazebo_ros_control/DefaultRobotHWSim, which is taken in its place"));
   spawn(flywheel("EffortJointInterface", "", "fixed"));
   EXPECT_TRUE(said("found joint 'axle', which is held"));
   EXPECT_TRUE(said("nothing is controlled"));

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/devices/inertial_motion.h"
+
+namespace ardee::control {
+
+/// An inertial sensor as controllers see it (hardware_interface::ImuSensorInterface): ideal, mean
+/// over the last control period, in its own axes.
+struct ImuHandle {
+  std::string frame;
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d angular_velocity{0, 0, 0};     // rad/s
+  Eigen::Vector3d linear_acceleration{0, 0, 0};  // m/s^2; 9.8 upwards at rest
+};
+
+/// What a joint's child applies to the joint, about its origin, in the child's axes
+/// (hardware_interface::ForceTorqueSensorInterface).
+struct ForceTorqueHandle {
+  std::string frame;
+  ForceTorque wrench;      // N, N m
+  bool is_wanted = false;  // else it stays 0
+};
+
+struct SensorHandles {
+  std::map<std::string, ImuHandle> imus;                   // by the sensor's name
+  std::map<std::string, ForceTorqueHandle> force_torques;  // by the joint's name
+};
+
+/// Measures what sensor controllers publish: at each `<sensor type="imu">` of a robot, and in each
+/// of its joints that moves or, by `<provide_feedback>`, is kept.
+class HardwareSensors {
+ public:
+  explicit HardwareSensors(DeviceContext& context);
+
+  SensorHandles& handles() { return handles_; }
+  void reset(TimeNs now_ns);
+  void on_set_state();
+  void begin_step(TimeNs now_ns);
+  void end_step(TimeNs now_ns);
+  /// Brings the handles up to date.
+  void read();
+
+ private:
+  struct Imu {
+    ImuHandle* handle;
+    std::size_t link;
+    Pose X_LS;
+    InertialMotion motion;
+  };
+  struct JointWrench {
+    ForceTorqueHandle* handle;
+    std::size_t joint;
+    std::size_t child;
+  };
+
+  Robot& robot_;
+  std::function<Eigen::Vector3d()> gravity_m_per_s2_;
+  SensorHandles handles_;
+  std::vector<Imu> imus_;
+  std::vector<JointWrench> wrenches_;
+};
+
+}  // namespace ardee::control

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/controllers/steer_bot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ardee_sim/controllers/wheel_geometry.h"
+#include "ardee_sim/core/error.h"
+
+namespace ardee::control {
+namespace {
+
+bool has_joint(const Model& model, const std::string& name) {
+  return std::any_of(model.joints.begin(), model.joints.end(),
+                     [&name](const Joint& joint) { return joint.name == name; });
+}
+
+/// Joints of the car that a parameter names, or none.
+std::vector<std::string> car_joints(const Setting& settings, const std::string& key,
+                                    const Model& model) {
+  if (!settings.has(key)) return {};
+  const std::vector<std::string> names = settings.texts(key);
+  for (const std::string& name : names) {
+    if (has_joint(model, name)) continue;
+    throw Error(settings.at(key).path() + ": found joint '" + name +
+                "', expected one of the robot's description");
+  }
+  return names;
+}
+
+/// Whether knuckles stand as Ackermann has it. What is no truth value, as 'true' in quotes, is not
+/// taken, here as there.
+bool is_linked(const Setting& settings) {
+  const Setting given = settings.at("enable_ackermann_link");
+  const bool* value = std::get_if<bool>(&given.value());
+  return value == nullptr || *value;
+}
+
+}  // namespace
+
+SteerBot::SteerBot(const Setting& settings, const Model& model)
+    : rear_wheel_(settings.text("rear_wheel")),
+      front_steer_(settings.text("front_steer")),
+      has_rear_wheel_(has_joint(model, rear_wheel_)),
+      has_front_steer_(has_joint(model, front_steer_)) {
+  joints_[rear_wheel_] = JointInterface::kVelocity;
+  joints_[front_steer_] = JointInterface::kPosition;
+  for (const char* key : {"virtual_rear_wheels", "virtual_front_wheels"}) {
+    for (const std::string& joint : car_joints(settings, key, model)) {
+      joints_[joint] = JointInterface::kVelocity;
+      wheels_.push_back(joint);
+    }
+  }
+  double half_track_m = 0.0;
+  if (is_linked(settings)) {
+    wheel_base_m_ =
+        positive(settings.number("wheel_separation_h"), settings.at("wheel_separation_h"));
+    half_track_m = 0.5 * settings.number("wheel_separation_w");
+  }
+  for (const std::string& joint : car_joints(settings, "virtual_front_steers", model)) {
+    const double y_m = joint_origin(model, joint, settings.at("virtual_front_steers")).y();
+    joints_[joint] = JointInterface::kPosition;
+    knuckles_.push_back({joint, std::copysign(half_track_m, y_m)});
+  }
+}
+
+void SteerBot::follow(Hardware& hardware, double dt_s) const {
+  JointHandle& wheel = hardware.at(rear_wheel_);
+  JointHandle& steer = hardware.at(front_steer_);
+  if (!has_rear_wheel_) {
+    wheel.velocity = wheel.command;
+    wheel.position += wheel.command * dt_s;
+  }
+  if (!has_front_steer_) steer.position = steer.command;
+  for (const std::string& each : wheels_) hardware.at(each).command = wheel.command;
+  const double rise = wheel_base_m_ * std::tan(steer.command);
+  for (const Knuckle& each : knuckles_) {
+    const double run_m = wheel_base_m_ - each.y_m * std::tan(steer.command);
+    hardware.at(each.joint).command = std::atan2(rise, run_m);
+  }
+}
+
+}  // namespace ardee::control
