@@ -28,7 +28,8 @@ arm:
   joints: [shoulder, elbow, wrist]
   constraints: {{goal_time: 0.5, stopped_velocity_tolerance: 0.0, shoulder: {{goal: 0.05}}, elbow: {{goal: 0.05}},
     wrist: {{goal: 0.05}}}}
-  gains: {{shoulder: {{p: 400.0, d: 40.0}}, elbow: {{p: 200.0, d: 20.0}}, wrist: {{p: 100.0, d: 10.0}}}}
+  gains:  # with twice these d a straight arm is unstable: a PID acts once in 1 ms
+    {{shoulder: {{p: 400.0, d: 20.0}}, elbow: {{p: 200.0, d: 10.0}}, wrist: {{p: 100.0, d: 5.0}}}}
 gripper:
   type: {kind}_controllers/GripperActionController
   joint: finger
@@ -281,3 +282,65 @@ def test_an_unspawner_and_a_spawner_put_back_what_they_found(arms: RosGraph) -> 
         spawner, lambda: states(arms, "effort").get("other") == "initialized", "a loaded controller"
     )
     wait_until(lambda: "other" not in states(arms, "effort"), "a controller that is gone")
+
+
+GROUPS = """
+controller_groups: {reach: [joints, arm], grip: [joints, gripper], all: [joints, arm, gripper]}
+late: {type: joint_state_controller/JointStateController, publish_rate: 10}
+"""
+
+
+def test_groups_of_controllers_and_a_reload_that_restores_them(arms: RosGraph) -> None:
+    def group(*words: str) -> str:
+        return arms.run("rosrun", "controller_manager", "controller_group", *words, "__ns:=/effort")
+
+    file = arms.folder / "groups.yaml"
+    file.write_text(GROUPS)
+    arms.run("rosparam", "load", str(file), "/effort")
+    assert group("switch", "grip") == "Started [], stopped ['arm']\n"
+    assert group("switch", "reach") == "Started ['arm'], stopped ['gripper']\n"
+    assert "grip: 1 of 2 running\n  joints ( running )\n  gripper ( stopped )" in group("list")
+
+    before = states(arms, "effort")
+    running = [name for name, state in before.items() if state == "running"]
+    restored = command(arms, "reload-libraries", "--restore").splitlines()
+    assert restored[0] == "Successfully reloaded libraries"
+    assert restored[-1] == f"Started {running} successfully"
+    assert states(arms, "effort") == {**before, "gripper": "initialized"}
+    assert group("spawn", "all") == "Started ['gripper'], stopped []\n"
+    assert set(states(arms, "effort").values()) == {"running"}
+
+
+def test_a_spawner_waits_for_what_it_is_told(arms: RosGraph) -> None:
+    file = arms.folder / "groups.yaml"
+    file.write_text(GROUPS)
+    arms.run("rosparam", "load", str(file), "/effort")
+    before = list(states(arms, "effort"))
+    spawner = arms.spawn(
+        "rosrun", "controller_manager", "spawner", "--wait-for", "go", "late", "__ns:=/effort"
+    )
+    assert arms.call(allow, "/effort/go", "late") == before
+    wait_until(lambda: states(arms, "effort")["late"] == "running", "a controller that runs")
+    spawner.stop()
+    assert "late" not in states(arms, "effort")
+
+
+def allow(topic: str, controller: str) -> List[str]:
+    """Says false on a topic, then true, until the controller is loaded; the controllers that were there after false."""
+    import time
+
+    import rospy
+    from std_msgs.msg import Bool
+
+    from controller_manager_msgs.srv import ListControllers
+
+    rospy.init_node("starter", anonymous=True, disable_signals=True)
+    publisher = rospy.Publisher(topic, Bool, queue_size=1, latch=True)
+    ask = rospy.ServiceProxy("/effort/controller_manager/list_controllers", ListControllers)
+    publisher.publish(False)
+    wait_until(publisher.get_num_connections, f"a listener on {topic}")
+    time.sleep(0.5)
+    before = [each.name for each in ask().controller]
+    publisher.publish(True)
+    wait_until(lambda: controller in [each.name for each in ask().controller], "a controller")
+    return before

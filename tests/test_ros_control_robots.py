@@ -1,27 +1,41 @@
 # SPDX-License-Identifier: MIT
-"""Robots on wheels whose drive is ros_control, described and configured as their makers do, drive on a plane: the
-wheels' odometry and the true pose agree, and a turn to the left turns left."""
+"""Robots on wheels whose drive is ros_control, described and configured as their makers do, drive on a plane as far
+as they are told: by their odometry and in truth. A turn to the left turns left."""
 import math
 import pathlib
-from typing import Any, Tuple
+from typing import Any, List, NamedTuple, Tuple
 
 import probes
 import pytest
-from ros_graph import RosGraph
+from ros_graph import RosGraph, wait_until
 
 ROBOTS = pathlib.Path(__file__).parent / "robots_with_ros_control"
 STATE = ("/gazebo/get_model_state", "gazebo_msgs/GetModelState")
-# the controller's name, speed [m/s], turn [rad/s; hunter: steering angle in rad]
+TIME_S = 4.0  # of each command
+IN_PLACE = (0.0, 0.5)
+
+
+class Drive(NamedTuple):
+    """How a robot drives straight on and turns, for TIME_S each."""
+
+    controller: str
+    yaw: Tuple[float, float] = (1.8, 2.2)  # by which it turns [rad], from and to; 2.0 is commanded
+    turn: Tuple[float, float] = IN_PLACE  # [m/s], [rad/s; hunter: steering angle in rad]
+    speed_m_s: float = 0.5
+
+
+SLIPS = (0.8, 2.6)  # the wheels of a long or wide robot skid
 DRIVES = {
-    "husky": ("/husky_velocity_controller", 0.5, 0.8),
-    "jackal": ("/jackal_velocity_controller", 0.5, 0.8),
-    "warthog": ("/warthog_velocity_controller", 0.5, 0.8),
-    "summit_xl": ("/summit_xl/robotnik_base_control", 0.5, 0.8),
-    "leo": ("/leo/controllers/diff_drive", 0.3, 0.8),
-    "mir100": ("/mobile_base_controller", 0.5, 0.8),
-    "rosbot": ("/rosbot_base_controller", 0.3, 0.8),
-    "thorvald": ("/four_wheel_steering_controller", 0.5, 0.4),
-    "hunter": ("/ackermann_steering_controller", 0.5, 0.3),
+    "husky": Drive("/husky_velocity_controller"),
+    "jackal": Drive("/jackal_velocity_controller"),
+    "warthog": Drive("/warthog_velocity_controller", SLIPS),
+    "summit_xl": Drive("/summit_xl/robotnik_base_control", SLIPS),
+    "leo": Drive("/leo/controllers/diff_drive", speed_m_s=0.4),  # its own limit
+    "mir100": Drive("/mobile_base_controller"),
+    "rosbot": Drive("/rosbot_base_controller", SLIPS),
+    "thorvald": Drive("/four_wheel_steering_controller", (1.44, 1.76), (0.3, 0.4)),
+    # 0.3 m/s tan(0.3) / 0.65 m for 4 s, less a ramp
+    "hunter": Drive("/ackermann_steering_controller", (0.48, 0.62), (0.3, 0.3)),
 }
 # the topic of each wheel's speed, its radius [m]
 MOTORS = {
@@ -43,22 +57,51 @@ def _truth(graph: RosGraph, robot: str) -> Tuple[float, float]:
     return math.hypot(state.pose.position.x, state.pose.position.y), _yaw(state.pose)
 
 
+def _drives(controller: str, robot: str, commands: List[Tuple[float, float]]) -> List[Any]:
+    """For each command (speed, turn): the odometry and the true pose at its end, and those after a stop. The simulation
+    is paused and takes the steps that it is told, so that the times are as commanded."""
+    import rospy
+    from gazebo_msgs.srv import GetModelState
+    from geometry_msgs.msg import Twist, Vector3
+    from nav_msgs.msg import Odometry
+    from std_srvs.srv import Empty
+
+    from ardee_msgs.srv import Step
+
+    rospy.init_node("probe", anonymous=True, disable_signals=True)
+    odometry = []  # type: List[Any]
+    rospy.Subscriber(controller + "/odom", Odometry, odometry.append, queue_size=1000)
+    publisher = rospy.Publisher(controller + "/cmd_vel", Twist, queue_size=10)
+    wait_until(lambda: odometry and publisher.get_num_connections(), "odometry and a listener")
+    advance = rospy.ServiceProxy("/ardee/step", Step)
+    state = rospy.ServiceProxy("/gazebo/get_model_state", GetModelState)
+    rospy.ServiceProxy("/gazebo/pause_physics", Empty)()
+
+    def keep(speed_m_s: float, turn: float, time_s: float) -> Any:
+        for _ in range(round(time_s / 0.1)):  # a command counts for 0.25 s at least
+            publisher.publish(Twist(Vector3(x=speed_m_s), Vector3(z=turn)))
+            now = advance(steps=100).sim_time
+        wait_until(lambda: (now - odometry[-1].header.stamp).to_sec() < 0.25, "the latest odometry")
+        return odometry[-1], state(robot, "").pose
+
+    return [keep(*command, TIME_S) + keep(0.0, 0.0, 1.0) for command in commands]
+
+
 @pytest.mark.parametrize("robot", DRIVES)
-def test_drives_as_its_odometry_says(graph: RosGraph, robot: str) -> None:
-    controller, speed_m_s, turn = DRIVES[robot]
-    topics = (controller + "/cmd_vel", controller + "/odom")
+def test_drives_as_commanded_and_as_its_odometry_says(graph: RosGraph, robot: str) -> None:
+    drive = DRIVES[robot]
     graph.spawn("roslaunch", str(ROBOTS / f"{robot}.launch"))
-    first, last = graph.call(probes.drive, *topics, speed_m_s, 0.0, 3.0)
-    assert first.pose.pose.position.x == pytest.approx(0.0, abs=0.05)
-    assert last.pose.pose.position.x > 0.7 * speed_m_s * 3.0  # less a ramp
-    assert last.twist.twist.linear.x == pytest.approx(speed_m_s, rel=0.1)
-    graph.call(probes.drive, *topics, 0.0, 0.0, 1.0)
-    distance_m, yaw = _truth(graph, robot)
-    _, last = graph.call(probes.drive, *topics, 0.0, 0.0, 0.2)
-    assert distance_m == pytest.approx(last.pose.pose.position.x, rel=0.05)
-    assert yaw == pytest.approx(0.0, abs=0.05)
-    graph.call(probes.drive, *topics, 0.3, turn, 2.0)
-    assert _truth(graph, robot)[1] > 0.1
+    ahead, turned = graph.call(
+        _drives, drive.controller, robot, [(drive.speed_m_s, 0.0), drive.turn]
+    )
+    driving, _, odometry, pose = ahead
+    distance_m = drive.speed_m_s * TIME_S
+    assert driving.twist.twist.linear.x == pytest.approx(drive.speed_m_s, rel=0.05)
+    assert odometry.pose.pose.position.x == pytest.approx(distance_m, rel=0.05)
+    assert pose.position.x == pytest.approx(distance_m, rel=0.05)
+    assert _yaw(pose) == pytest.approx(0.0, abs=0.05)
+    low, high = drive.yaw
+    assert low < _yaw(turned[3]) < high
 
 
 @pytest.mark.parametrize("robot", MOTORS)

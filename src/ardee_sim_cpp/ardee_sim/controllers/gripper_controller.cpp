@@ -26,7 +26,7 @@ GripperController::GripperController(const ControllerContext& context, JointInte
   default_.max_effort = std::abs(context.settings.number("max_effort", 0.0));
   if (interface == JointInterface::kEffort) {
     const std::string group = "gains/" + joint_.name;
-    pid_.emplace(read_pid_gains(context.settings.at(group)));
+    pid_.emplace(read_pid_gains(context.settings.at(group), context.log));
     ports().tunings.push_back(pid_->tuning(context.topic(group)));
   }
   GripperAction action;

@@ -8,7 +8,7 @@
 
 namespace ardee::control {
 
-PidGains read_pid_gains(const Setting& group) {
+PidGains read_pid_gains(const Setting& group, Log& log) {
   PidGains gains;
   gains.p = group.number("p");
   gains.i = group.number("i", 0.0);
@@ -21,6 +21,9 @@ PidGains read_pid_gains(const Setting& group) {
                 ": found more than i_clamp_max, expected at most it");
   }
   gains.antiwindup = group.boolean("antiwindup", false);
+  if (group.boolean("publish_state", false)) {
+    log.warn(group.at("publish_state").path() + " has no effect: a PID's state is not published");
+  }
   return gains;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/devices/ports.h"
 
@@ -17,9 +18,9 @@ struct PidGains {
   bool antiwindup = false;  // the integral itself stays within the bounds, not only its share
 };
 
-/// The gains in a group {p, i, d, i_clamp, i_clamp_min, i_clamp_max, antiwindup}. Throws Error if
-/// there is no p, or something there is no number.
-PidGains read_pid_gains(const Setting& group);
+/// The gains in a group {p, i, d, i_clamp, i_clamp_min, i_clamp_max, antiwindup}; a wish for
+/// `publish_state` is a warning. Throws Error if there is no p, or something there is no number.
+PidGains read_pid_gains(const Setting& group, Log& log);
 
 /// A controller of one number as control_toolbox's Pid: p e + i integral(e) + d de/dt.
 class Pid {

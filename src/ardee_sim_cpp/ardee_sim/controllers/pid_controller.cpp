@@ -32,7 +32,7 @@ PidController::PidController(const ControllerContext& context, JointInterface in
   for (const std::string& name : commanded_joints(context.settings, count)) {
     const std::string group = is_group ? name + "/pid" : "pid";
     JointHandle& handle = claim(context, name, interface, source);
-    joints_.push_back({handle, Pid(read_pid_gains(context.settings.at(group)))});
+    joints_.push_back({handle, Pid(read_pid_gains(context.settings.at(group), context.log))});
     ports().tunings.push_back(joints_.back().pid.tuning(context.topic(group)));
   }
   set_points_.resize(joints_.size());

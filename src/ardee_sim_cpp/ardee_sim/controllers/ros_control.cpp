@@ -178,11 +178,7 @@ std::optional<PidGains> RosControl::read_gains(const std::string& joint,
   if (!gains.has("p") && params_.has_legacy_gains) {
     gains = context.parameter(resolve_topic(kGains + joint, "/"));
   }
-  if (gains.boolean("publish_state", false)) {
-    context.log.warn(gains.at("publish_state").path() +
-                     " has no effect: the state of a joint's PID is not published");
-  }
-  if (gains.has("p")) return read_pid_gains(gains);
+  if (gains.has("p")) return read_pid_gains(gains, context.log);
   context.log.info("joint '" + joint + "': no gains at " + gains.path() +
                    "; it follows its commands without a PID");
   return std::nullopt;

@@ -109,7 +109,7 @@ void TrajectoryController::add_joint(const ControllerContext& context, const std
   joint.path = resting_path(0.0, handle.position);
   if (interface == JointInterface::kPosition) return;
   const std::string group = "gains/" + name;
-  joint.pid.emplace(read_pid_gains(settings.at(group)));
+  joint.pid.emplace(read_pid_gains(settings.at(group), context.log));
   joint.velocity_share = settings.number("velocity_ff/" + name, 0.0);
   ports().tunings.push_back(joint.pid->tuning(context.topic(group)));
 }

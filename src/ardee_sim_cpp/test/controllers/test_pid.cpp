@@ -13,6 +13,14 @@ Setting group(const Setting::Map& map) {
   const Setting::Value value(map);
   return {"/robot/pid", value};
 }
+/// What is read of a group, and the only message about it.
+PidGains read(const Setting::Map& map, std::string* message = nullptr) {
+  Log log([&](LogLevel, const std::string& text) {
+    ASSERT_NE(message, nullptr) << text;
+    *message = text;
+  });
+  return read_pid_gains(group(map), log);
+}
 Setting number(double value) { return {"/robot/pid/x", value}; }
 
 PidGains gains(double p, double i, double d, double clamp = 0.0, bool antiwindup = false) {
@@ -64,30 +72,37 @@ TEST(Pid, GivesNothingForNoTimeAndForNoNumber) {
 }
 
 TEST(Pid, ReadsItsGains) {
-  const PidGains read = read_pid_gains(group({{"p", {"", 100}},
-                                              {"i", number(0.5)},
-                                              {"d", number(10.0)},
-                                              {"i_clamp", number(-3.0)},
-                                              {"antiwindup", {"", true}}}));
-  EXPECT_EQ(read.p, 100.0);
-  EXPECT_EQ(read.i, 0.5);
-  EXPECT_EQ(read.d, 10.0);
-  EXPECT_EQ(read.i_clamp_min, -3.0);
-  EXPECT_EQ(read.i_clamp_max, 3.0);
-  EXPECT_TRUE(read.antiwindup);
-  const PidGains sides = read_pid_gains(group({{"p", number(1.0)},
-                                               {"i_clamp", number(3.0)},
-                                               {"i_clamp_min", number(-1.0)},
-                                               {"i_clamp_max", number(2.0)}}));
+  const PidGains found = read({{"p", {"", 100}},
+                               {"i", number(0.5)},
+                               {"d", number(10.0)},
+                               {"i_clamp", number(-3.0)},
+                               {"antiwindup", {"", true}}});
+  EXPECT_EQ(found.p, 100.0);
+  EXPECT_EQ(found.i, 0.5);
+  EXPECT_EQ(found.d, 10.0);
+  EXPECT_EQ(found.i_clamp_min, -3.0);
+  EXPECT_EQ(found.i_clamp_max, 3.0);
+  EXPECT_TRUE(found.antiwindup);
+  const PidGains sides = read({{"p", number(1.0)},
+                               {"i_clamp", number(3.0)},
+                               {"i_clamp_min", number(-1.0)},
+                               {"i_clamp_max", number(2.0)}});
   EXPECT_EQ(sides.i_clamp_min, -1.0);
   EXPECT_EQ(sides.i_clamp_max, 2.0);
   EXPECT_FALSE(sides.antiwindup);
 }
 
 TEST(Pid, NeedsAProportionalGain) {
-  EXPECT_THROW(read_pid_gains(group({{"i", number(1.0)}})), Error);
-  EXPECT_THROW(read_pid_gains(group({{"p", {"/robot/pid/p", std::string("much")}}})), Error);
-  EXPECT_THROW(read_pid_gains(group({{"p", number(1.0)}, {"i_clamp_min", number(1.0)}})), Error);
+  EXPECT_THROW(read({{"i", number(1.0)}}), Error);
+  EXPECT_THROW(read({{"p", {"/robot/pid/p", std::string("much")}}}), Error);
+  EXPECT_THROW(read({{"p", number(1.0)}, {"i_clamp_min", number(1.0)}}), Error);
+}
+
+TEST(Pid, WarnsThatItsStateIsNotPublished) {
+  std::string message;
+  read({{"p", number(1.0)}, {"publish_state", {"/robot/pid/publish_state", true}}}, &message);
+  EXPECT_EQ(message, "/robot/pid/publish_state has no effect: a PID's state is not published");
+  read({{"p", number(1.0)}, {"publish_state", {"/robot/pid/publish_state", false}}});
 }
 
 TEST(Pid, IsTuned) {
