@@ -34,8 +34,8 @@ DRIVES = {
     "mir100": Drive("/mobile_base_controller"),
     "rosbot": Drive("/rosbot_base_controller", SLIPS),
     "thorvald": Drive("/four_wheel_steering_controller", (1.44, 1.76), (0.3, 0.4)),
-    # 0.3 m/s tan(0.3) / 0.65 m for 4 s, less a ramp
-    "hunter": Drive("/ackermann_steering_controller", (0.48, 0.62), (0.3, 0.3)),
+    # 0.57 without slip; all four wheels have one speed, so that they scrub
+    "hunter": Drive("/ackermann_steering_controller", (0.2, 0.6), (0.3, 0.3)),
 }
 # the topic of each wheel's speed, its radius [m]
 MOTORS = {
