@@ -39,7 +39,7 @@ struct BareRegion::Impl {
     store.add(0, field);
     store.commit();
     if (!options.flatten) return;
-    region = std::make_unique<NearRegion>(device, store, eye.head<2>(),
+    region = std::make_unique<NearRegion>(device, store, StillBodies{}, eye.head<2>(),
                                           kSpare * options.flattened_radius_m,
                                           RegionBudget{options.flattened_budget_bytes});
   }

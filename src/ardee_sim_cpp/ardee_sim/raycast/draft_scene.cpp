@@ -45,10 +45,10 @@ Eigen::Vector3d normal_of(const BodySurface& surface, std::uint32_t vertex) {
 }  // namespace
 
 DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
-                       const Eigen::Vector3d& origin_W)
-    : number_(next_number()), origin_W_(origin_W), scene_(rtcNewScene(device.get())) {
+                       const Eigen::Vector3d& origin_W, std::uint64_t time)
+    : number_(next_number()), origin_W_(origin_W), time_(time), scene_(rtcNewScene(device.get())) {
   for (const DraftBody& body : bodies) {
-    add_triangles(*body.placed);
+    add_triangles(body);
     for (const std::uint32_t patch : body.patches) {
       add_patch(*body.placed, body.placed->body->patches[patch]);
     }
@@ -67,11 +67,12 @@ DraftScene::DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>&
 
 DraftScene::~DraftScene() { rtcReleaseScene(scene_); }
 
-void DraftScene::add_triangles(const PlacedBody& placed) {
+void DraftScene::add_triangles(const DraftBody& draft) {
+  const PlacedBody& placed = *draft.placed;
   const Body& body = *placed.body;
   const auto first_surface = static_cast<std::uint32_t>(surfaces_.size());
   for (const BodySurface& surface : body.surfaces) {
-    surfaces_.push_back({&placed, &surface, nullptr});
+    surfaces_.push_back({&placed, &surface, nullptr, draft.moved_at});
   }
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const Eigen::Vector3d shift = placed.p - origin_W_;
@@ -79,7 +80,7 @@ void DraftScene::add_triangles(const PlacedBody& placed) {
   for (auto& each : numbers) each.assign(body.vertices.size(), kNotUsed);
   for (const BodyTriangle& from : body.triangles) {
     const BodySurface& surface = body.surfaces[from.surface];
-    const std::size_t kind = is_careful(surface) ? 1 : 0;
+    const std::size_t kind = is_careful(surface) || draft.moved_at != nullptr ? 1 : 0;
     Part& part = parts_[kind];
     Triangle triangle{};
     triangle.surface = first_surface + from.surface;
@@ -120,7 +121,7 @@ void DraftScene::add_patch(const PlacedBody& placed, const TerrainPatch& patch) 
   // Patches of one terrain are one surface, and follow each other.
   if (surfaces_.empty() || surfaces_.back().terrain != &terrain ||
       surfaces_.back().placed != &placed) {
-    surfaces_.push_back({&placed, &ground, &terrain});
+    surfaces_.push_back({&placed, &ground, &terrain, nullptr});
   }
   const auto surface = static_cast<std::uint32_t>(surfaces_.size() - 1);
   Part& part = parts_[is_careful_ground(ground) ? 1 : 0];
@@ -194,8 +195,10 @@ void DraftScene::filter(const RTCFilterFunctionNArguments* args, const Keep& kee
   for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] == 0) continue;
     const Triangle& triangle = part.triangles[RTCHitN_primID(args->hit, n, i)];
-    const BodySurface& surface = *part.scene->surfaces_[triangle.surface].of_body;
-    bool kept = keep(part, surface, triangle, i);
+    const Surface& of_scene = part.scene->surfaces_[triangle.surface];
+    const BodySurface& surface = *of_scene.of_body;
+    const bool gone = of_scene.moved_at != nullptr && *of_scene.moved_at > part.scene->time_;
+    bool kept = !gone && keep(part, surface, triangle, i);
     if (kept && surface.mask != nullptr) {
       const float u = RTCHitN_u(args->hit, n, i);
       const float v = RTCHitN_v(args->hit, n, i);

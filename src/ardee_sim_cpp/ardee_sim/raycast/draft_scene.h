@@ -14,15 +14,17 @@ namespace ardee {
 struct DraftBody {
   const PlacedBody* placed = nullptr;
   std::vector<std::uint32_t> patches;
+  const std::uint64_t* moved_at = nullptr;  // not null: it may leave its place
 };
 
 /// The triangles of placed bodies as Embree takes them, in floats, with what a picture needs of
 /// them: several times as quick as exact tests.
 class DraftScene {
  public:
-  /// Coordinates are relative to `origin_W`. The bodies must outlive the scene.
+  /// Coordinates are relative to `origin_W`. The bodies must outlive the scene. Those that have
+  /// moved after `time` are not met.
   DraftScene(const EmbreeDevice& device, const std::vector<DraftBody>& bodies,
-             const Eigen::Vector3d& origin_W);
+             const Eigen::Vector3d& origin_W, std::uint64_t time);
   ~DraftScene();
 
   /// A ray in the scene's coordinates, and the triangle that it has met.
@@ -62,7 +64,8 @@ class DraftScene {
   struct Surface {
     const PlacedBody* placed;
     const BodySurface* of_body;
-    const Terrain* terrain;  // null: a mesh
+    const Terrain* terrain;         // null: a mesh
+    const std::uint64_t* moved_at;  // null: it does not move
   };
   struct Triangle {
     std::uint32_t corners[3];
@@ -75,7 +78,7 @@ class DraftScene {
     Eigen::Vector2f uv{0, 0};
   };
   /// Triangles that each ray meets, and those that must be looked at: with holes, without a back,
-  /// without a shadow.
+  /// without a shadow, of models that may leave.
   struct Part {
     const DraftScene* scene = nullptr;
     std::vector<Triangle> triangles;
@@ -90,7 +93,7 @@ class DraftScene {
     Eigen::Vector3f normal;  // not of length 1
   };
 
-  void add_triangles(const PlacedBody& placed);
+  void add_triangles(const DraftBody& draft);
   void add_patch(const PlacedBody& placed, const TerrainPatch& patch);
   static void measure(Part& part, Triangle& triangle);
   void attach(const EmbreeDevice& device, Part& part, bool careful);
@@ -108,6 +111,7 @@ class DraftScene {
 
   const std::uint64_t number_;
   const Eigen::Vector3d origin_W_;
+  const std::uint64_t time_;
   std::vector<Surface> surfaces_;
   Part parts_[2];  // met by all; to be looked at
   RTCSceneTy* scene_;

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "ardee_sim/raycast/glance.h"
+#include "ardee_sim/raycast/moving_model.h"
 #include "ardee_sim/raycast/place_tree.h"
-#include "ardee_sim/raycast/ray_bundle.h"
+#include "ardee_sim/raycast/still_body.h"
 
 namespace ardee {
 
@@ -25,51 +25,39 @@ class MovingModels {
   /// Takes those that have stayed where they are into the tree, once they are many. To be called
   /// before rays are cast among poses that were set.
   void prepare();
-  bool empty() const { return entries_.empty(); }
-  /// Whether one of the rays, close together, may touch the box about a link before what it has
-  /// met.
-  bool may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& rays) const;
-  /// Whether one of them may stand in the way from about a place (within `about_m`) to a lamp.
-  bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
-                 float about_m) const;
-  /// Whether the ray touches the box about one of them within its reach.
-  bool touches_any(const Ray& ray_W, double reach_m) const;
-  /// The first `count` of the queries, neighbouring rays.
+  bool empty() const { return models_.empty(); }
+
+  /// Those that are not in the tree.
+  const ModelList& loose() const { return loose_; }
+  const PlaceTree& tree() const { return tree_; }
+  /// The first `count` of the queries, neighbouring rays, by either way.
   void meet(RayQuery queries[kPacketRays], int count) const;
   void meet(RayQuery& query, std::uint32_t entity) const;
 
- private:
-  using Bodies = std::vector<std::unique_ptr<Body>>;  // of each link
-  struct Entry {
-    std::uint32_t entity = 0;
-    std::shared_ptr<const Model> model;
-    std::shared_ptr<const Bodies> bodies;
-    std::vector<PlacedBody> placed;    // links that have shapes
-    std::vector<std::uint32_t> links;  // their indices
-    std::vector<Bounds> boxes_W;       // empty until the first poses
-    BoxTable box_table_W;              // the same
-    Bounds box_W;
-    Eigen::Vector3f center_W{0, 0, 0};  // of a ball about it
-    float radius_m = 0.0f;
-    std::vector<Bounds> rooms_W;  // about each link, which has stayed there
-    std::uint64_t left_at = 0;    // time when it last left them; 0: never
-    bool in_tree = false;
-  };
+  /// Calls of prepare().
+  std::uint64_t time() const { return time_; }
+  /// The links in the tree, for others to be made of.
+  StillBodies still_bodies() const;
+  /// Whether still_bodies() had this model at that time, where it is now.
+  static bool was_still(const MovingModel& model, std::uint64_t at_time) {
+    return model.in_tree && model.stays_since <= at_time && *model.moved_at <= at_time;
+  }
+  /// Whether it has not moved at all for long.
+  bool is_at_rest(const MovingModel& model) const;
+  const std::map<std::uint32_t, MovingModel>& models() const { return models_; }
 
-  std::shared_ptr<const Bodies> bodies_of(const std::shared_ptr<const Model>& model);
-  static void make_room(Entry& entry);
-  void loosen(Entry& entry);
-  static void meet(RayQuery* queries, int count, const Entry& entry);
+ private:
+  std::shared_ptr<const MovingModel::Bodies> bodies_of(const std::shared_ptr<const Model>& model);
+  void loosen(MovingModel& model);
 
   const EmbreeDevice& device_;
   AlphaMasks& masks_;
   SceneKind kind_;
-  std::map<const Model*, std::weak_ptr<const Bodies>> compiled_;
-  std::map<std::uint32_t, Entry> entries_;
-  std::vector<Entry*> loose_;  // have shapes and are not in the tree
-  PlaceTree tree_;             // of the others' links; what has left its room does no harm there
-  BoxTable tree_box_W_;        // about all of it
-  std::uint64_t time_ = 1;     // calls of prepare()
+  std::map<const Model*, std::weak_ptr<const MovingModel::Bodies>> compiled_;
+  std::map<std::uint32_t, MovingModel> models_;
+  ModelList loose_;  // have shapes and are not in the tree
+  PlaceTree tree_;   // of the others' links; what has left its room does no harm there
+  std::uint64_t time_ = 1;
 };
 
 }  // namespace ardee

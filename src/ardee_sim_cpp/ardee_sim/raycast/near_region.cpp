@@ -13,6 +13,12 @@ constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
 constexpr double kSmallest_m = 0.5;
 constexpr double kFloatSlack = 2e-6;
+/// So many models at rest beside the draft, and not before so many calls of prepare(), are worth
+/// another region.
+constexpr std::size_t kManyAtRest = 16;
+constexpr std::uint64_t kShortest = 100;
+/// More models beside the draft than these are not asked one by one.
+constexpr std::size_t kManyBeside = 64;
 
 bool is_wide(const PlacedBody& placed) {
   return placed.body->bounds.radius() * placed.scale > kWide_m;
@@ -37,12 +43,17 @@ std::size_t triangles_of(const Body& body, const Piece& piece) {
 }  // namespace
 
 NearRegion::NearRegion(const EmbreeDevice& device, const SceneryStore& store,
-                       const Eigen::Vector2d& center_W, double half_size_m,
-                       const RegionBudget& budget)
-    : center_W_(center_W), half_size_m_(half_size_m), for_pictures_(budget.draft > 0) {
-  choose_size(store, budget);
+                       const StillBodies& still, const Eigen::Vector2d& center_W,
+                       double half_size_m, const RegionBudget& budget)
+    : center_W_(center_W),
+      half_size_m_(half_size_m),
+      for_pictures_(budget.draft > 0),
+      time_(still.time) {
+  choose_size(store, still, budget);
+  if (for_pictures_) take_still(still);
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
-  const Bounds& all = store.places().bounds_W();
+  Bounds all = store.places().bounds_W();
+  for (const StillBody& body : still_) all.add(body.placed.bounds_W());
   origin_W_ << center_W_, all.empty() ? 0.0 : all.center().z();
   std::size_t places = 0;
   store.places().find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
@@ -53,19 +64,39 @@ NearRegion::NearRegion(const EmbreeDevice& device, const SceneryStore& store,
   const bool inside = !all.empty() && (all.lower.head<2>() - center_W_ + half).minCoeff() >= 0.0 &&
                       (center_W_ + half - all.upper.head<2>()).minCoeff() >= 0.0;
   holds_all_ = places == store.places().places().size() && inside;
-  if (entries_.empty()) return;
   half_height_m_ = 0.5 * (all.upper - all.lower).z() + kEdge_m;
   extent_m_ = 2.0 * (half_size_m_ + half_height_m_);
   slack_m_ = static_cast<float>(kFloatSlack * extent_m_);
-  scene_ = std::make_unique<EmbreeScene>(
-      device, entries_.size(),
-      [this](std::size_t index, float* lower, float* upper) { entry_bounds(index, lower, upper); },
-      &meet_entry, this, BuildQuality::kMedium);
+  if (!entries_.empty()) {
+    scene_ = std::make_unique<EmbreeScene>(
+        device, entries_.size(),
+        [this](std::size_t index, float* lower, float* upper) {
+          entry_bounds(index, lower, upper);
+        },
+        &meet_entry, this, BuildQuality::kMedium);
+  }
+  for (const StillBody& body : still_) add(body.placed, body.moved_at.get());
   if (for_pictures_) add_draft(device, budget.draft);
 }
 
+void NearRegion::take_still(const StillBodies& still) {
+  for (const StillBody& body : still.bodies) {
+    if (touches(body.placed.bounds_W())) still_.push_back(body);
+  }
+}
+
+bool NearRegion::touches(const Bounds& box_W) const {
+  return reach_m(center_W_, box_W) <= half_size_m_ + kEdge_m;
+}
+
+bool NearRegion::holds(const Bounds& box_W) const {
+  return (box_W.lower.head<2>() - center_W_).minCoeff() >= -half_size_m_ &&
+         (box_W.upper.head<2>() - center_W_).maxCoeff() <= half_size_m_;
+}
+
 /// Takes what there is from the middle outwards, as long as it fits.
-void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budget) {
+void NearRegion::choose_size(const SceneryStore& store, const StillBodies& still,
+                             const RegionBudget& budget) {
   struct Part {
     double reach_m;
     std::size_t entries;
@@ -90,6 +121,11 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
       parts.push_back({reach, 1, triangles_of(body, body.pieces[k])});
     }
   });
+  for (const StillBody& body : still.bodies) {
+    if (!for_pictures_ || !touches(body.placed.bounds_W())) continue;
+    parts.push_back({reach_m(center_W_, body.placed.bounds_W()), body.placed.body->pieces.size(),
+                     body.placed.body->triangle_count()});
+  }
   std::sort(parts.begin(), parts.end(),
             [](const Part& a, const Part& b) { return a.reach_m < b.reach_m; });
   const auto largest_m = [&](std::size_t most_entries, std::size_t most_triangles) {
@@ -113,13 +149,14 @@ void NearRegion::choose_size(const SceneryStore& store, const RegionBudget& budg
   half_size_m_ = std::min(half_size_m_, std::max(largest, kSmallest_m));
 }
 
-void NearRegion::add(const PlacedBody& placed) {
+void NearRegion::add(const PlacedBody& placed, const std::uint64_t* moved_at) {
   const Body& body = *placed.body;
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const Eigen::Matrix3d m = R_WB.transpose() / placed.scale;
   Frame frame;
   frame.place.scale = static_cast<float>(placed.scale);
   frame.placed = &placed;
+  frame.moved_at = moved_at;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) frame.place.m[i][j] = static_cast<float>(m(i, j));
   }
@@ -168,7 +205,14 @@ void NearRegion::entry_bounds(std::size_t index, float* lower, float* upper) con
 }
 
 double NearRegion::exit_t(const Ray& ray_W) const {
-  if (holds_all_) return std::numeric_limits<double>::infinity();
+  return holds_all_ ? std::numeric_limits<double>::infinity() : border_t(ray_W);
+}
+
+double NearRegion::picture_exit_t(const Ray& ray_W) const {
+  return models_beyond_ ? border_t(ray_W) : exit_t(ray_W);
+}
+
+double NearRegion::border_t(const Ray& ray_W) const {
   double t = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 2; ++axis) {
     const double d = ray_W.direction[axis];
@@ -183,6 +227,7 @@ void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes)
   std::size_t triangles = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     bodies[k].placed = frames_[k].placed;
+    bodies[k].moved_at = frames_[k].moved_at;
     triangles += frames_[k].placed->body->triangle_count();
   }
   if (triangles * kBytesPerDraftTriangle > budget_bytes) return;
@@ -191,7 +236,7 @@ void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes)
     if (entries_[k].block != nullptr) continue;
     const Body& body = *bodies[entries_[k].frame].placed->body;
     const Piece& piece = body.pieces[entries_[k].piece];
-    if (piece.kind == Piece::Kind::kPatch) {
+    if (piece.kind == Piece::Kind::kPatch && frames_[entries_[k].frame].moved_at == nullptr) {
       const std::size_t more = triangles_of(body, piece);
       if ((triangles + more) * kBytesPerDraftTriangle <= budget_bytes) {
         triangles += more;
@@ -210,7 +255,38 @@ void NearRegion::add_draft(const EmbreeDevice& device, std::size_t budget_bytes)
         },
         &meet_rest_entry, &rest_, BuildQuality::kMedium);
   }
-  draft_ = std::make_unique<DraftScene>(device, bodies, origin_W_);
+  draft_ = std::make_unique<DraftScene>(device, bodies, origin_W_, time_);
+}
+
+void NearRegion::find_others(const MovingModels& moving) {
+  others_.clear();
+  gone_.clear();
+  models_beyond_ = false;
+  std::size_t at_rest = 0;
+  std::size_t in_tree = 0;
+  for (const auto& [entity, model] : moving.models()) {
+    if (model.placed.empty() || model.boxes_W.empty()) continue;
+    if (model.in_tree) {
+      models_beyond_ = models_beyond_ || !holds(model.box_W);
+      if (!touches(model.box_W) || MovingModels::was_still(model, time_)) continue;
+    }
+    others_.add(model);
+    in_tree += model.in_tree ? 1 : 0;
+    if (moving.is_at_rest(model)) ++at_rest;
+  }
+  for (const StillBody& body : still_) {
+    if (*body.moved_at > time_) gone_.emplace_back(body.placed.bounds_W());
+  }
+  asks_tree_ = in_tree > kManyBeside;
+  outdated_ = at_rest >= kManyAtRest && moving.time() >= time_ + kShortest;
+}
+
+bool NearRegion::may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                           float about_m) const {
+  return others_.may_shade(at_W, to_lamp_W, about_m) ||
+         std::any_of(gone_.begin(), gone_.end(), [&](const ShadowBall& ball) {
+           return ball.may_shade(at_W, to_lamp_W, about_m);
+         });
 }
 
 bool NearRegion::find_passages(const RayQuery queries[kPacketRays],
@@ -247,7 +323,9 @@ void NearRegion::meet_rest(RayQuery queries[kPacketRays], const double t_high[kP
 void NearRegion::meet_rest_entry(const RTCIntersectFunctionNArguments* args) {
   const auto& rest = *static_cast<const Rest*>(args->geometryUserPtr);
   const Entry& entry = rest.region->entries_[rest.entries[args->primID]];
-  const PlacedBody& placed = *rest.region->frames_[entry.frame].placed;
+  const Frame& frame = rest.region->frames_[entry.frame];
+  if (frame.moved_at != nullptr && *frame.moved_at > rest.region->time_) return;
+  const PlacedBody& placed = *frame.placed;
   for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double) {
     query.enter(placed);
     query.meet_piece(placed.body->pieces[entry.piece]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ardee_sim/raycast/draft_scene.h"
+#include "ardee_sim/raycast/moving_models.h"
 #include "ardee_sim/raycast/scenery_store.h"
 
 namespace ardee {
@@ -16,7 +17,8 @@ struct RegionBudget {
 };
 
 /// The pieces of all scenery in a square of ground, side by side in one Embree scene: a ray that
-/// starts in the square needs nothing else until it leaves it.
+/// starts in the square needs nothing else until it leaves it. For pictures, models that stay where
+/// they are count as scenery until they move.
 class NearRegion {
  public:
   /// Of one entry with its share of Embree's tree (measured: README).
@@ -25,8 +27,8 @@ class NearRegion {
   static constexpr std::size_t kBytesPerDraftTriangle = 140;
 
   /// The square is smaller than asked for where what is in it goes beyond the budget.
-  NearRegion(const EmbreeDevice& device, const SceneryStore& store, const Eigen::Vector2d& center_W,
-             double half_size_m, const RegionBudget& budget);
+  NearRegion(const EmbreeDevice& device, const SceneryStore& store, const StillBodies& still,
+             const Eigen::Vector2d& center_W, double half_size_m, const RegionBudget& budget);
 
   bool holds_all() const { return holds_all_; }
   const Eigen::Vector2d& center_W() const { return center_W_; }
@@ -47,6 +49,19 @@ class NearRegion {
   /// What the draft leaves out, as `meet` would.
   bool has_rest() const { return rest_scene_ != nullptr; }
   void meet_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
+  /// Finds the models that a picture must meet beside the draft and the rest.
+  void find_others(const MovingModels& moving);
+  const ModelList& others() const { return others_; }
+  /// Whether so many of them are in the tree of those that stay that it is the quicker way to them.
+  bool asks_tree() const { return asks_tree_; }
+  /// Whether so many of them have come to rest that another region is worth its making.
+  bool is_outdated() const { return outdated_; }
+  /// Whether one of them, or one that was taken into the draft and has left, may stand in the way
+  /// from about a place (within `about_m`) to a lamp.
+  bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                 float about_m) const;
+  /// Where a picture's ray from inside leaves the square; infinity if nothing is beyond.
+  double picture_exit_t(const Ray& ray_W) const;
 
   std::size_t bytes() const;
   std::size_t triangles() const { return triangles_; }
@@ -55,6 +70,7 @@ class NearRegion {
   struct alignas(64) Frame {
     BlockPlace place;
     const PlacedBody* placed;
+    const std::uint64_t* moved_at;  // null: it does not move
   };
   struct alignas(32) Entry {
     float center[3];  // of the piece, relative to origin_W_
@@ -74,9 +90,13 @@ class NearRegion {
                      Passage passages[kPacketRays]) const;
   static void meet_rest_entry(const RTCIntersectFunctionNArguments* args);
   static void meet_entry(const RTCIntersectFunctionNArguments* args);
-  void choose_size(const SceneryStore& store, const RegionBudget& budget);
+  void choose_size(const SceneryStore& store, const StillBodies& still, const RegionBudget& budget);
+  void take_still(const StillBodies& still);
   void add_draft(const EmbreeDevice& device, std::size_t budget_bytes);
-  void add(const PlacedBody& placed);
+  void add(const PlacedBody& placed, const std::uint64_t* moved_at = nullptr);
+  bool touches(const Bounds& box_W) const;
+  bool holds(const Bounds& box_W) const;
+  double border_t(const Ray& ray_W) const;
   void entry_bounds(std::size_t index, float* lower, float* upper) const;
 
   Eigen::Vector2d center_W_;
@@ -87,13 +107,20 @@ class NearRegion {
   double extent_m_ = 0.0;  // of coordinates relative to origin_W_
   float slack_m_ = 0.0f;
   std::size_t triangles_ = 0;
+  std::vector<StillBody> still_;
   std::vector<Frame> frames_;
-  std::vector<Entry> entries_;
+  std::vector<Entry> entries_;  // of scenery, then of what is still
   std::unique_ptr<EmbreeScene> scene_;
   bool for_pictures_;
   std::unique_ptr<DraftScene> draft_;
   Rest rest_;
   std::unique_ptr<EmbreeScene> rest_scene_;
+  const std::uint64_t time_;  // of what is still
+  ModelList others_;
+  std::vector<ShadowBall> gone_;  // where what was still is no more
+  bool models_beyond_ = false;
+  bool asks_tree_ = false;
+  bool outdated_ = false;
 };
 
 }  // namespace ardee

@@ -33,7 +33,8 @@ double reserve_m(const NearRegion& region) {
 
 double NearRegions::slack_m() const { return kSpareShare * options_.flattened_radius_m; }
 
-std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) const {
+std::unique_ptr<NearRegion> NearRegions::make(const StillBodies& still,
+                                              const Eigen::Vector2d& center_W) const {
   RegionBudget budget{options_.flattened_budget_bytes / kBudgetShare};
   double radius_m = options_.flattened_radius_m;
   if (drafts_) {
@@ -41,7 +42,18 @@ std::unique_ptr<NearRegion> NearRegions::make(const Eigen::Vector2d& center_W) c
     radius_m = std::max(radius_m, kPictureRadius_m);
     budget.draft = options_.flattened_budget_bytes / 2;
   }
-  return std::make_unique<NearRegion>(device_, store_, center_W, radius_m + slack_m(), budget);
+  return std::make_unique<NearRegion>(device_, store_, still, center_W, radius_m + slack_m(),
+                                      budget);
+}
+
+/// Pictures alone take them for scenery.
+StillBodies NearRegions::still_bodies() const {
+  return drafts_ ? moving_.still_bodies() : StillBodies{};
+}
+
+bool NearRegions::serves(const NearRegion& region, const Eigen::Vector3d& eye_W) const {
+  if (drafts_ && (!region.is_for_pictures() || region.is_outdated())) return false;
+  return region.holds_all() || way_from(region, eye_W).norm() <= reserve_m(region);
 }
 
 void NearRegions::clear() {
@@ -95,22 +107,20 @@ void NearRegions::collect() {
 void NearRegions::prepare(const Eigen::Vector3d& eye_W) {
   const NearRegion* region = find(eye_W);
   if (region == nullptr || (drafts_ && !region->is_for_pictures())) {
-    keep(make(eye_W.head<2>()));
+    keep(make(still_bodies(), eye_W.head<2>()));
     return;
   }
   for (Kept& kept : kept_) {
     if (kept.region.get() == region) kept.last_used = tick_;
   }
-  if (next_.valid() || std::any_of(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-        if (drafts_ && !kept.region->is_for_pictures()) return false;
-        return kept.region->holds_all() ||
-               way_from(*kept.region, eye_W).norm() <= reserve_m(*kept.region);
-      })) {
+  if (next_.valid() || std::any_of(kept_.begin(), kept_.end(),
+                                   [&](const Kept& kept) { return serves(*kept.region, eye_W); })) {
     return;
   }
   const Eigen::Vector2d way = way_from(*region, eye_W);
   const Eigen::Vector2d center = eye_W.head<2>() + kAhead * reserve_m(*region) * way.normalized();
-  next_ = std::async(std::launch::async, [this, center] { return make(center); });
+  next_ = std::async(std::launch::async,
+                     [this, still = still_bodies(), center] { return make(still, center); });
 }
 
 void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool drafts) {
@@ -120,8 +130,13 @@ void NearRegions::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool draft
     if (next_.valid()) keep(next_.get());  // it is being made without
     drafts_ = true;
   }
-  if (!options_.flatten || store_.places().empty()) return;
-  for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
+  const bool any = !store_.places().empty() || (drafts_ && !moving_.tree().empty());
+  if (options_.flatten && any) {
+    for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
+  }
+  for (const Kept& kept : kept_) {
+    if (kept.region->draft() != nullptr) kept.region->find_others(moving_);
+  }
 }
 
 std::size_t NearRegions::bytes() const {

@@ -14,8 +14,9 @@ namespace ardee {
 /// ready. Rays return the same with either, or none.
 class NearRegions {
  public:
-  NearRegions(const EmbreeDevice& device, const SceneryStore& store, const RayOptions& options)
-      : device_(device), store_(store), options_(options) {}
+  NearRegions(const EmbreeDevice& device, const SceneryStore& store, const MovingModels& moving,
+              const RayOptions& options)
+      : device_(device), store_(store), moving_(moving), options_(options) {}
   ~NearRegions() { clear(); }
 
   /// Waits for the background and forgets all regions: the scenery is about to change.
@@ -36,13 +37,16 @@ class NearRegions {
   };
 
   double slack_m() const;
-  std::unique_ptr<NearRegion> make(const Eigen::Vector2d& center_W) const;
+  std::unique_ptr<NearRegion> make(const StillBodies& still, const Eigen::Vector2d& center_W) const;
+  StillBodies still_bodies() const;
+  bool serves(const NearRegion& region, const Eigen::Vector3d& eye_W) const;
   void collect();
   void prepare(const Eigen::Vector3d& eye_W);
   void keep(std::unique_ptr<NearRegion> region);
 
   const EmbreeDevice& device_;
   const SceneryStore& store_;
+  const MovingModels& moving_;
   const RayOptions options_;
   std::vector<Kept> kept_;
   std::future<std::unique_ptr<NearRegion>> next_;

@@ -28,29 +28,36 @@ bool QuickLook::load(const SceneRay* rays, int count, RayPacket& packet) const {
   return true;
 }
 
+const ModelList& QuickLook::others() const {
+  return region_->asks_tree() ? moving_.loose() : region_->others();
+}
+
 bool QuickLook::meet_others(const SceneRay* rays, int count, const double reach_m[kPacketRays],
                             RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const {
   double t_high[kPacketRays];
   double t_leave[kPacketRays];
+  double t_tree[kPacketRays];
   bool beyond = false;
-  bool touched = false;
+  bool touched = region_->asks_tree();
   for (int i = 0; i < kPacketRays; ++i) {
     t_high[i] = kDone;
     t_leave[i] = std::numeric_limits<double>::infinity();
+    t_tree[i] = t_leave[i];
     if (i >= count || reach_m[i] < 0.0) continue;
     const Ray ray{rays[i].origin_W, rays[i].direction_W};
     // No way out is shorter than the one straight to the border.
     const double depth_m = region_->depth_m(ray.origin);
-    const double below_top_m = scenery_.places().bounds_W().upper.z() - ray.origin.z();
+    const double below_top_m = top_W() - ray.origin.z();
     const bool leaves_above = ray.direction.z() > 0.0 && ray.direction.z() * depth_m >= below_top_m;
-    if (reach_m[i] > depth_m && !leaves_above) t_leave[i] = region_->exit_t(ray);
+    if (reach_m[i] > depth_m && !leaves_above) t_leave[i] = region_->picture_exit_t(ray);
     t_high[i] = std::min(reach_m[i], t_leave[i]);
     if (reach_m[i] > t_leave[i]) {
       beyond = true;
     } else {
       t_leave[i] = std::numeric_limits<double>::infinity();
     }
-    touched = touched || moving_.touches_any(ray, reach_m[i]);
+    t_tree[i] = region_->asks_tree() ? 0.0 : t_leave[i];
+    touched = touched || others().touches_any(ray, reach_m[i]);
   }
   if (!beyond && !touched && !region_->has_rest() && !scenery_.has_everywhere()) return false;
   for (int i = 0; i < count; ++i) {
@@ -58,11 +65,16 @@ bool QuickLook::meet_others(const SceneRay* rays, int count, const double reach_
     if (reach_m[i] < 0.0) continue;
     scenery_.meet_everywhere(queries[i]);
   }
-  if (touched) moving_.meet(queries, count);
+  if (touched) others().meet(queries, count);
   for (int i = 0; i < count; ++i) t_high[i] = std::min(t_high[i], queries[i].reach());
   region_->meet_rest(queries, t_high);
   if (beyond) scenery_.places().meet(queries, t_leave);
+  if (beyond || region_->asks_tree()) moving_.tree().meet(queries, t_tree);
   return true;
+}
+
+double QuickLook::top_W() const {
+  return std::max(scenery_.places().bounds_W().upper.z(), moving_.tree().bounds_W().upper.z());
 }
 
 bool QuickLook::look(const SceneRay* rays, int count, SurfacePoint* points) const {
@@ -154,9 +166,8 @@ void QuickLook::glance_at_others(const Eigen::Vector3d& eye_W, std::size_t numbe
 void QuickLook::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const {
   const Eigen::Vector3f eye = (eye_W - region_->origin_W()).cast<float>();
   const auto depth_m = static_cast<float>(region_->depth_m(eye_W));
-  const auto below_top_m =
-      std::max(static_cast<float>(scenery_.places().bounds_W().upper.z() - eye_W.z()), 1e-6f);
-  const bool always = region_->has_rest() || scenery_.has_everywhere();
+  const auto below_top_m = std::max(static_cast<float>(top_W() - eye_W.z()), 1e-6f);
+  const bool always = region_->has_rest() || region_->asks_tree() || scenery_.has_everywhere();
   for (std::size_t number = 0; number < count; ++number) {
     GlanceBlock& block = blocks[number];
     region_->draft()->glance(eye, block);
@@ -167,7 +178,7 @@ void QuickLook::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::s
       const unsigned not_above = block.z_W[i] * depth_m < below_top_m;
       leave |= far & not_above;
     }
-    if (always || leave != 0 || moving_.may_touch_some(eye_W, block)) {
+    if (always || leave != 0 || others().may_touch_some(eye_W, block)) {
       glance_at_others(eye_W, number, block);
     }
   }

@@ -43,6 +43,11 @@ class QuickLook {
   bool meet_others(const SceneRay* rays, int count, const double reach_m[kPacketRays],
                    RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const;
 
+  /// The models that are neither in the draft nor asked for by the tree.
+  const ModelList& others() const;
+  /// Of all that a ray may meet beyond the region.
+  double top_W() const;
+
   /// Replaces what is farther than something that is not in the draft.
   void glance_at_others(const Eigen::Vector3d& eye_W, std::size_t number, GlanceBlock& block) const;
 

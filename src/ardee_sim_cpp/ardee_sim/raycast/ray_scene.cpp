@@ -27,7 +27,7 @@ struct RayScene::Impl {
       : masks(std::move(scene_log)),
         scenery(device, masks, scene_kind),
         moving(device, masks, scene_kind),
-        regions(device, scenery, ray_options),
+        regions(device, scenery, moving, ray_options),
         arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {
     // TBB has no more workers than cores unless it is told.
     if (ray_options.threads > tbb::info::default_concurrency()) {
@@ -328,9 +328,11 @@ void RayScene::find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRa
 
 bool RayScene::has_models() const { return !impl_->moving.empty(); }
 
-bool RayScene::may_be_shaded(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
-                             float about_m) const {
-  return impl_->moving.may_shade(at_W, to_lamp_W, about_m);
+bool RayScene::may_be_shaded(const Eigen::Vector3d& eye_W, const Eigen::Vector3f& at_W,
+                             const Eigen::Vector3f& to_lamp_W, float about_m) const {
+  const NearRegion* region = impl_->regions.find(eye_W);
+  if (region != nullptr) return region->may_shade(at_W, to_lamp_W, about_m);
+  return impl_->moving.loose().may_shade(at_W, to_lamp_W, about_m);
 }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {

@@ -110,9 +110,10 @@ class RayScene {
   void find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRay* rays, std::size_t count,
                              bool* in_shadow) const;
   bool has_models() const;
-  /// Whether a moving model may stand in the way from about a place (within `about_m`) to a lamp.
-  bool may_be_shaded(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
-                     float about_m) const;
+  /// Whether the light of a cell that was found from that eye may change: a moving model may stand
+  /// in the way from about the place (within `about_m`) to a lamp.
+  bool may_be_shaded(const Eigen::Vector3d& eye_W, const Eigen::Vector3f& at_W,
+                     const Eigen::Vector3f& to_lamp_W, float about_m) const;
   /// The same without the look: range, entity, label and normal.
   void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.

@@ -104,7 +104,7 @@ bool Shader::may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const {
     } else {
       continue;
     }
-    if (s_->rays.may_be_shaded(at_W, to_lamp_W, about_m)) return true;
+    if (s_->rays.may_be_shaded(s_->camera.X_WC.p, at_W, to_lamp_W, about_m)) return true;
   }
   return false;
 }

@@ -34,7 +34,7 @@ class NearRegionTest : public testing::Test {
 
   NearRegion region(const RegionBudget& budget) {
     store_.commit();
-    return NearRegion(device_, store_, {0, 0}, 8.5, budget);
+    return NearRegion(device_, store_, {}, {0, 0}, 8.5, budget);
   }
 
   EmbreeDevice device_;

@@ -139,10 +139,10 @@ TEST(SurfaceCells, AreNoneWhereSomethingElseIsMet) {
   }
   EXPECT_GT(of_box, 100);
   const Eigen::Vector3f up(0, 0, 1);
-  EXPECT_TRUE(test.scene.may_be_shaded({40.7f, -30.1f, 0.0f}, up, 0.0f));
-  EXPECT_FALSE(test.scene.may_be_shaded({40.7f, -30.1f, 4.0f}, up, 0.0f));
-  EXPECT_FALSE(test.scene.may_be_shaded({41.7f, -30.1f, 0.0f}, up, 0.0f));
-  EXPECT_TRUE(test.scene.may_be_shaded({41.7f, -30.1f, 0.0f}, up, 0.7f));
+  EXPECT_TRUE(test.scene.may_be_shaded(eye_W, {40.7f, -30.1f, 0.0f}, up, 0.0f));
+  EXPECT_FALSE(test.scene.may_be_shaded(eye_W, {40.7f, -30.1f, 4.0f}, up, 0.0f));
+  EXPECT_FALSE(test.scene.may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.0f));
+  EXPECT_TRUE(test.scene.may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.7f));
 }
 
 TEST(SurfaceCells, AreNoneWithoutADraft) {
