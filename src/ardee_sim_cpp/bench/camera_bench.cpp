@@ -49,10 +49,10 @@ std::string carrier() {
 }
 
 /// Counts pictures.
-class Counter : public ReadingSink {
+class Counter : public devices::ReadingSink {
  public:
-  void on_reading(const Output& /*output*/, const Reading& reading) override {
-    if (std::holds_alternative<ImageReading>(reading)) ++frames;
+  void on_reading(const devices::Output& /*output*/, const devices::Reading& reading) override {
+    if (std::holds_alternative<devices::ImageReading>(reading)) ++frames;
   }
   int frames = 0;
 };
@@ -101,7 +101,7 @@ double embree_rays_per_s(const BenchArguments& arguments, const Simulation& simu
                          const Drive& done) {
   const auto flat = EmbreeReference::flat(scenery(simulation), done.poses_W.front().p.head<2>(),
                                           arguments.number("--reach-m"));
-  Camera camera;
+  render::Camera camera;
   camera.width = kWidth;
   camera.height = kHeight;
   camera.horizontal_fov_rad = kFov_rad;

@@ -37,8 +37,8 @@ void run(const BenchArguments& arguments) {
   const TimeNs end = nanoseconds(arguments.number("--duration-s"));
   while (simulation.now_ns() < end) {
     for (const auto& device : robot.devices) {
-      for (const Input& input : device->ports().inputs) {
-        if (input.kind != command_kind<Twist>()) continue;
+      for (const devices::Input& input : device->ports().inputs) {
+        if (input.kind != devices::command_kind<Twist>()) continue;
         input.on_command(keeper.command(robot.robot->pose()));
       }
     }

@@ -95,8 +95,9 @@ void run(const BenchArguments& arguments) {
         distance_m += (here.p - last).head<2>().norm();
         last = here.p;
         for (const auto& device : robot.devices) {
-          for (const Input& input : device->ports().inputs) {
-            if (input.kind == command_kind<Twist>()) input.on_command(keeper.command(here));
+          for (const devices::Input& input : device->ports().inputs) {
+            if (input.kind == devices::command_kind<Twist>())
+              input.on_command(keeper.command(here));
           }
         }
       }

@@ -24,7 +24,7 @@ constexpr const char* kUsage =
 
 /// A lidar's rays, and the places on its way from which it sends them.
 struct Scans {
-  RayPattern pattern;
+  raycast::RayPattern pattern;
   float range_max_m = 0.0f;
   std::vector<Pose> poses_W;
 
@@ -38,13 +38,13 @@ struct Scans {
 };
 
 /// Remembers a lidar's first scan.
-class FirstScan : public ReadingSink {
+class FirstScan : public devices::ReadingSink {
  public:
-  void on_reading(const Output& /*output*/, const Reading& reading) override {
-    const auto* scan = std::get_if<LidarReading>(&reading);
+  void on_reading(const devices::Output& /*output*/, const devices::Reading& reading) override {
+    const auto* scan = std::get_if<devices::LidarReading>(&reading);
     if (scan && found.ranges_m.empty()) found = *scan;
   }
-  LidarReading found;
+  devices::LidarReading found;
 };
 
 /// Drives the robot and writes down where its lidar is, 40 times a second.
@@ -77,15 +77,15 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
   RateTimer due(kScanRate_hz);
   due.start_at(simulation.now_ns());
   for (const auto& device : robot.devices) {
-    for (Output& output : device->ports().outputs) output.demanded = false;
+    for (devices::Output& output : device->ports().outputs) output.demanded = false;
   }
   while (static_cast<double>(scans.poses_W.size()) < arguments.number("--scans")) {
     simulation.step();
     if (!due.due(simulation.now_ns())) continue;
     scans.poses_W.push_back(simulation.state(lidar_link, "world").pose);
     for (const auto& device : robot.devices) {
-      for (const Input& input : device->ports().inputs) {
-        if (input.kind == command_kind<Twist>()) {
+      for (const devices::Input& input : device->ports().inputs) {
+        if (input.kind == devices::command_kind<Twist>()) {
           input.on_command(keeper.command(robot.robot->pose()));
         }
       }
@@ -114,13 +114,13 @@ struct EngineResult {
 EngineResult run_engine(const BenchArguments& arguments, const std::vector<Placement>& placements,
                         const Scans& scans) {
   EngineResult result;
-  RayOptions options;
+  raycast::RayOptions options;
   options.threads = static_cast<int>(arguments.number("--threads"));
-  options.flattened_radius_m = arguments.number("--radius-m");
-  RayScene scene(SceneKind::kVisual, options, Log());
+  options.local_scene_radius_m = arguments.number("--radius-m");
+  raycast::RayScene scene(raycast::SceneKind::kVisual, options, Log());
   scene.add_scenery(0, placements);
   scene.prepare({scans.poses_W.front().p});
-  std::vector<RayHit> hits;
+  std::vector<raycast::RayHit> hits;
   std::vector<double> prepare_us;
   const auto round = [&] {
     double cast_s = 0.0;
@@ -130,16 +130,16 @@ EngineResult run_engine(const BenchArguments& arguments, const std::vector<Place
       CpuStopwatch watch;
       scene.prepare({pose.p});
       prepare_us.push_back(watch.restart() * 1e6);
-      scene.cast(pose, scans.pattern, scans.range_max_m, kNoEntity, 0, hits);
+      scene.cast(pose, scans.pattern, scans.range_max_m, raycast::kNoEntity, 0, hits);
       cast_s += watch.elapsed_s();
-      for (const RayHit& hit : hits) result.ranges_m.push_back(hit.range_m);
+      for (const raycast::RayHit& hit : hits) result.ranges_m.push_back(hit.range_m);
     }
     return cast_s;
   };
   result.rays_per_s = best_rays_per_s(scans, static_cast<int>(arguments.number("--rounds")), round);
   result.prepare_us = median(prepare_us);
   result.prepare_max_us = percentile(prepare_us, 1.0);
-  result.triangles = scene.flattened_triangles();
+  result.triangles = scene.local_scene_triangles();
   return result;
 }
 
@@ -165,8 +165,8 @@ double run_reference(const BenchArguments& arguments, const EmbreeReference& ref
 /// beyond it is left out, which the engine goes on to.
 double run_committed(const BenchArguments& arguments, const std::vector<Placement>& placements,
                      const Scans& scans) {
-  RayOptions options;
-  options.flattened_radius_m = arguments.number("--radius-m");
+  raycast::RayOptions options;
+  options.local_scene_radius_m = arguments.number("--radius-m");
   Eigen::Vector3d middle_W(0, 0, 0);
   middle_W.head<2>() = scans.middle();
   const BareRegion region(placements, middle_W, options);
@@ -209,7 +209,7 @@ void run(const BenchArguments& arguments, std::ostream& out) {
       << ", \"hit_share\": " << hits / static_cast<double>(flat_m.size())
       << ",\n \"rays_per_s\": " << engine.rays_per_s << ", \"prepare_us\": " << engine.prepare_us
       << ", \"prepare_max_us\": " << engine.prepare_max_us
-      << ", \"flattened_triangles\": " << engine.triangles
+      << ", \"local_scene_triangles\": " << engine.triangles
       << ",\n \"embree_rays_per_s\": " << divided_rays_per_s
       << ", \"embree_triangles\": " << divided.triangle_count()
       << ", \"embree_agreement\": " << agreement(engine.ranges_m, divided_m)

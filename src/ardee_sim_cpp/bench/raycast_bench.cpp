@@ -32,12 +32,12 @@ constexpr int kRepeats = 5;
 
 struct Options {
   bool json = false;
-  RayOptions rays;
+  raycast::RayOptions rays;
   std::vector<std::size_t> counts;
 };
 
-RayPattern lidar_pattern() {
-  RayPattern pattern;
+raycast::RayPattern lidar_pattern() {
+  raycast::RayPattern pattern;
   for (int k = 0; k < 1081; ++k) {
     const double angle = (-135.0 + 0.25 * k) * kPi / 180.0;
     pattern.directions_S.emplace_back(static_cast<float>(std::cos(angle)),
@@ -46,8 +46,8 @@ RayPattern lidar_pattern() {
   return pattern;
 }
 
-RayPattern camera_pattern() {
-  RayPattern pattern;
+raycast::RayPattern camera_pattern() {
+  raycast::RayPattern pattern;
   for (int row = 0; row < 240; ++row) {
     for (int column = 0; column < 320; ++column) {
       pattern.directions_S.push_back(Eigen::Vector3f(1.0f,
@@ -98,13 +98,13 @@ struct Rates {
   double flat = 0.0;
 };
 
-Rates standing(const RayScene& scene, const BareRegion& bare, const FlatField& flat,
-               const std::vector<Pose>& poses, const RayPattern& pattern) {
+Rates standing(const raycast::RayScene& scene, const BareRegion& bare, const FlatField& flat,
+               const std::vector<Pose>& poses, const raycast::RayPattern& pattern) {
   const std::size_t rays = poses.size() * pattern.directions_S.size();
-  std::vector<RayHit> hits;
+  std::vector<raycast::RayHit> hits;
   Rates rates;
   rates.scene = rate_mrays(rays, [&] {
-    for (const Pose& pose : poses) scene.cast(pose, pattern, kRange_m, kNoEntity, 0, hits);
+    for (const Pose& pose : poses) scene.cast(pose, pattern, kRange_m, raycast::kNoEntity, 0, hits);
   });
   rates.bare = rate_mrays(rays, [&] {
     for (const Pose& pose : poses) bare.cast(pose, pattern, kRange_m);
@@ -124,11 +124,11 @@ struct Drive {
 
 /// As a simulation at 30 times real time does it: 1200 scans a second, held to that pace if there
 /// is time.
-Drive drive(RayScene& scene, double side_m, const RayPattern& pattern) {
+Drive drive(raycast::RayScene& scene, double side_m, const raycast::RayPattern& pattern) {
   const double length_m = std::min(60.0, 0.8 * side_m);
   const int scans = std::max(200, static_cast<int>(length_m / kScanStep_m));
   const auto poses = lane_poses(scans, length_m / scans, -0.5 * length_m);
-  std::vector<RayHit> hits;
+  std::vector<raycast::RayHit> hits;
   Drive result;
   const double before_s = thread_s();
   const double all_before_s = process_s();
@@ -141,7 +141,7 @@ Drive drive(RayScene& scene, double side_m, const RayPattern& pattern) {
       result.longest_prepare_ms =
           std::max(result.longest_prepare_ms, 1e3 * (thread_s() - prepare_s));
     }
-    scene.cast(pose, pattern, kRange_m, kNoEntity, 0, hits);
+    scene.cast(pose, pattern, kRange_m, raycast::kNoEntity, 0, hits);
     const double ahead_s = (k + 1) * kScanStep_m / kWallSpeed_m_per_s - watch.elapsed_s();
     if (ahead_s > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(ahead_s));
   }
@@ -155,16 +155,16 @@ Drive drive(RayScene& scene, double side_m, const RayPattern& pattern) {
 
 void run(const Options& options, std::size_t count, bool first) {
   const auto field = make_field(count);
-  const RayPattern lidar = lidar_pattern();
+  const raycast::RayPattern lidar = lidar_pattern();
   const Stopwatch start;
-  RayScene scene(SceneKind::kVisual, options.rays, Log());
+  raycast::RayScene scene(raycast::SceneKind::kVisual, options.rays, Log());
   scene.add_scenery(0, field);
   scene.prepare({});
   const double add_s = start.elapsed_s();
   const Eigen::Vector3d eye(0.0, 0.5 * kRow_m, kEyeHeight_m);
   scene.prepare({eye});
-  std::vector<RayHit> hits;
-  scene.cast({eye, Eigen::Quaterniond::Identity()}, lidar, kRange_m, kNoEntity, 0, hits);
+  std::vector<raycast::RayHit> hits;
+  scene.cast({eye, Eigen::Quaterniond::Identity()}, lidar, kRange_m, raycast::kNoEntity, 0, hits);
   const double first_scan_s = start.elapsed_s();
   const double resident_mb = memory_mb("VmRSS");
   const double embree_mb = 1e-6 * static_cast<double>(scene.memory_bytes());
@@ -208,9 +208,9 @@ bool parse(int argc, char** argv, Options& options) {
     if (word == "--json") {
       options.json = true;
     } else if (word == "--instances") {
-      options.rays.flatten = false;
+      options.rays.local_scenes = false;
     } else if (word == "--radius-m" && k + 1 < argc) {
-      options.rays.flattened_radius_m = std::atof(argv[++k]);
+      options.rays.local_scene_radius_m = std::atof(argv[++k]);
     } else if (const long count = std::atol(word.c_str()); count > 0) {
       options.counts.push_back(static_cast<std::size_t>(count));
     } else {

@@ -3,12 +3,12 @@
 
 #include <embree3/rtcore.h>
 
-#include "ardee_sim/raycast/near_region.h"
+#include "ardee_sim/raycast/local_scene.h"
 
 namespace ardee::bench {
 namespace {
 
-/// As NearRegions makes it: half as much again as the radius asked for.
+/// As LocalSceneCache makes it: half as much again as the radius asked for.
 constexpr double kSpare = 1.5;
 
 void attach(RTCDevice device, RTCScene scene, const Placement& placement) {
@@ -34,44 +34,48 @@ void attach(RTCDevice device, RTCScene scene, const Placement& placement) {
 }  // namespace
 
 struct BareRegion::Impl {
-  Impl(const std::vector<Placement>& field, const Eigen::Vector3d& eye, const RayOptions& options)
-      : store(device, masks, SceneKind::kVisual) {
+  Impl(const std::vector<Placement>& field, const Eigen::Vector3d& eye,
+       const raycast::RayOptions& options)
+      : store(device, masks, raycast::SceneKind::kVisual) {
     store.add(0, field);
     store.commit();
-    if (!options.flatten) return;
-    region = std::make_unique<NearRegion>(device, store, StillBodies{}, eye.head<2>(),
-                                          kSpare * options.flattened_radius_m,
-                                          RegionBudget{options.flattened_budget_bytes});
+    if (!options.local_scenes) return;
+    local = std::make_unique<raycast::LocalScene>(
+        device, store, raycast::StillInstances{}, eye.head<2>(),
+        kSpare * options.local_scene_radius_m,
+        raycast::LocalSceneBudget{options.local_scene_budget_bytes});
   }
 
-  EmbreeDevice device;
-  AlphaMasks masks{Log()};
-  SceneryStore store;
-  std::unique_ptr<NearRegion> region;
+  raycast::EmbreeDevice device;
+  raycast::AlphaMasks masks{Log()};
+  raycast::SceneryStore store;
+  std::unique_ptr<raycast::LocalScene> local;
 };
 
 BareRegion::BareRegion(const std::vector<Placement>& field, const Eigen::Vector3d& eye,
-                       const RayOptions& options)
+                       const raycast::RayOptions& options)
     : impl_(std::make_unique<Impl>(field, eye, options)) {}
 
 BareRegion::~BareRegion() = default;
 
-void BareRegion::cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m) const {
+void BareRegion::cast(const Pose& X_WS, const raycast::RayPattern& pattern,
+                      float max_range_m) const {
   const auto& directions = pattern.directions_S;
-  for (std::size_t i = 0; i < directions.size(); i += kPacketRays) {
-    RayQuery queries[kPacketRays];
-    double t_high[kPacketRays];
-    double t_low[kPacketRays];
-    for (std::size_t k = 0; k < kPacketRays; ++k) {
+  for (std::size_t i = 0; i < directions.size(); i += raycast::kPacketRays) {
+    raycast::RayQuery queries[raycast::kPacketRays];
+    double t_high[raycast::kPacketRays];
+    double t_low[raycast::kPacketRays];
+    for (std::size_t k = 0; k < raycast::kPacketRays; ++k) {
       const auto& direction = directions[std::min(i + k, directions.size() - 1)];
-      queries[k].start({X_WS.p, X_WS.q * direction.cast<double>()}, max_range_m, kNoEntity, 0);
+      queries[k].start({X_WS.p, X_WS.q * direction.cast<double>()}, max_range_m, raycast::kNoEntity,
+                       0);
       t_high[k] = i + k < directions.size() ? static_cast<double>(max_range_m) : -1.0;
       t_low[k] = t_high[k] < 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
     }
-    if (impl_->region != nullptr) {
-      impl_->region->meet(queries, t_high);
+    if (impl_->local != nullptr) {
+      impl_->local->intersect(queries, t_high);
     } else {
-      impl_->store.places().meet(queries, t_low);
+      impl_->store.places().intersect(queries, t_low);
     }
   }
 }
@@ -97,7 +101,8 @@ FlatField::FlatField(const std::vector<Placement>& field, double half_size_m)
 
 FlatField::~FlatField() = default;
 
-void FlatField::cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m) const {
+void FlatField::cast(const Pose& X_WS, const raycast::RayPattern& pattern,
+                     float max_range_m) const {
   const Eigen::Vector3f origin = X_WS.p.cast<float>();
   const Eigen::Matrix3f R_WS = X_WS.q.toRotationMatrix().cast<float>();
   for (const Eigen::Vector3f& direction_S : pattern.directions_S) {

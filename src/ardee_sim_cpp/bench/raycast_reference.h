@@ -13,9 +13,9 @@ namespace ardee::bench {
 class BareRegion {
  public:
   BareRegion(const std::vector<Placement>& field, const Eigen::Vector3d& eye,
-             const RayOptions& options);
+             const raycast::RayOptions& options);
   ~BareRegion();
-  void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m) const;
+  void cast(const Pose& X_WS, const raycast::RayPattern& pattern, float max_range_m) const;
 
  private:
   struct Impl;
@@ -27,7 +27,7 @@ class FlatField {
  public:
   FlatField(const std::vector<Placement>& field, double half_size_m);
   ~FlatField();
-  void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m) const;
+  void cast(const Pose& X_WS, const raycast::RayPattern& pattern, float max_range_m) const;
 
  private:
   struct Impl;

@@ -18,11 +18,11 @@ constexpr const char* kUsage =
     "only, all but pictures and clouds.\n";
 
 /// Counts what the devices measure.
-class Counter : public ReadingSink {
+class Counter : public devices::ReadingSink {
  public:
-  void on_reading(const Output& /*output*/, const Reading& reading) override {
+  void on_reading(const devices::Output& /*output*/, const devices::Reading& reading) override {
     ++readings;
-    if (const auto* scan = std::get_if<LidarReading>(&reading)) {
+    if (const auto* scan = std::get_if<devices::LidarReading>(&reading)) {
       ++scans;
       rays += scan->ranges_m.size();
     }
@@ -119,10 +119,10 @@ class Bench {
 
   void demand(bool lidars, bool rest) {
     for (const auto& device : robot_->devices) {
-      for (Output& output : device->ports().outputs) {
-        const bool scan = output.kind == reading_kind<LidarReading>();
-        const bool picture = output.kind == reading_kind<ImageReading>() ||
-                             output.kind == reading_kind<PointCloudReading>();
+      for (devices::Output& output : device->ports().outputs) {
+        const bool scan = output.kind == devices::reading_kind<devices::LidarReading>();
+        const bool picture = output.kind == devices::reading_kind<devices::ImageReading>() ||
+                             output.kind == devices::reading_kind<devices::PointCloudReading>();
         output.demanded = !picture && (scan ? lidars : rest);
       }
     }
@@ -177,8 +177,8 @@ class Bench {
 
   void command(const Twist& twist) {
     for (const auto& device : robot_->devices) {
-      for (const Input& input : device->ports().inputs) {
-        if (input.kind == command_kind<Twist>()) input.on_command(twist);
+      for (const devices::Input& input : device->ports().inputs) {
+        if (input.kind == devices::command_kind<Twist>()) input.on_command(twist);
       }
     }
   }

@@ -83,35 +83,35 @@ class Forgotten : public Action::Handle {
   void cancel() override {}
 };
 
-JointTrajectory some_trajectory() {
-  JointTrajectory trajectory;
+devices::JointTrajectory some_trajectory() {
+  devices::JointTrajectory trajectory;
   trajectory.joints = {"upper", "lower"};
   trajectory.points = {{{0.5, -0.5}, {}, {}, {}, 0.03}, {{1.0, 0.0}, {0.0, 0.0}, {}, {}, 0.07}};
   return trajectory;
 }
 
-void set_goal(const FollowTrajectoryAction& action) {
-  const auto goal = std::make_shared<Forgotten<FollowTrajectoryAction>>();
-  FollowTrajectoryGoal wanted;
+void set_goal(const devices::FollowTrajectoryAction& action) {
+  const auto goal = std::make_shared<Forgotten<devices::FollowTrajectoryAction>>();
+  devices::FollowTrajectoryGoal wanted;
   wanted.trajectory = some_trajectory();
   action.on_goal(wanted, goal);
 }
 
-void set_goal(const GripperAction& action) {
-  action.on_goal({0.5, 3.0}, std::make_shared<Forgotten<GripperAction>>());
+void set_goal(const devices::GripperAction& action) {
+  action.on_goal({0.5, 3.0}, std::make_shared<Forgotten<devices::GripperAction>>());
 }
 
 /// A command that a controller refuses changes nothing.
-void command(Ports& ports) {
-  const std::vector<Command> commands{Trigger{},
-                                      Twist{{0.5, 0.1, 0.0}, {0.0, 0.0, 0.3}},
-                                      0.7,
-                                      true,
-                                      std::vector<double>{0.3, -0.2},
-                                      SteeringCommand{0.2, -0.1, 0.5},
-                                      some_trajectory()};
-  for (const Input& input : ports.inputs) {
-    for (const Command& each : commands) {
+void command(devices::Ports& ports) {
+  const std::vector<devices::Command> commands{devices::Trigger{},
+                                               Twist{{0.5, 0.1, 0.0}, {0.0, 0.0, 0.3}},
+                                               0.7,
+                                               true,
+                                               std::vector<double>{0.3, -0.2},
+                                               devices::SteeringCommand{0.2, -0.1, 0.5},
+                                               some_trajectory()};
+  for (const devices::Input& input : ports.inputs) {
+    for (const devices::Command& each : commands) {
       if (each.index() != input.kind) continue;
       try {
         input.on_command(each);
@@ -119,17 +119,17 @@ void command(Ports& ports) {
       }
     }
   }
-  for (const Action& action : ports.actions) {
+  for (const devices::Action& action : ports.actions) {
     std::visit([](const auto& each) { set_goal(each); }, action);
   }
-  for (const Tuning& tuning : ports.tunings) {
-    for (const Tunable& tunable : tuning.parameters) tunable.set(tunable.high);
+  for (const devices::ParameterGroup& tuning : ports.tunings) {
+    for (const devices::TunableParameter& tunable : tuning.parameters) tunable.set(tunable.high);
   }
 }
 
 void run(Simulation& simulation) {
   for (int i = 0; i < kSteps; ++i) simulation.step();
-  const Robot& robot = *simulation.entities().back()->robot;
+  const devices::Robot& robot = *simulation.entities().back()->robot;
   for (std::size_t link = 0; link < robot.model().links.size(); ++link) {
     if (!robot.link_pose(link).is_finite()) throw std::logic_error("a link is nowhere");
   }
@@ -163,7 +163,7 @@ void control_robot(const std::string& input) {
                      : dynamic_cast<control::RosControl*>(entity.devices.front().get());
   if (!device) throw Error("found settings of joints that leave ros_control out");
   control::Manager& manager = device->manager();
-  Ports& ports = manager.load("c").ports();
+  devices::Ports& ports = manager.load("c").ports();
   manager.switch_controllers({{"c"}, {}, control::Strictness::kStrict});
   try {
     run(simulation);

@@ -9,8 +9,8 @@ namespace {
 
 void make_regions(const Element& plugin) {
   Log log = quiet_log();
-  const GpsRegions regions(plugin, {}, log);
-  for (const GpsRegion& region : regions.all()) {
+  const devices::GpsRegions regions(plugin, {}, log);
+  for (const devices::GpsRegion& region : regions.all()) {
     regions.find(region.pose.p);
     if (region.periodic) region.periodic->at(0, CounterRng(1));
   }

@@ -80,9 +80,9 @@ std::string with_small_sizes(const std::string& text) {
 }
 
 /// Everything listens, and takes nothing.
-class Listener : public ReadingSink {
+class Listener : public devices::ReadingSink {
  public:
-  void on_reading(const Output&, const Reading&) override { ++count; }
+  void on_reading(const devices::Output&, const devices::Reading&) override { ++count; }
   std::size_t count = 0;
 };
 
@@ -101,24 +101,25 @@ std::vector<Pose> run(Simulation& simulation) {
   return poses;
 }
 
-void command(Device& device) {
-  for (const Input& input : device.ports().inputs) {
-    if (input.kind == command_kind<Twist>()) {
+void command(devices::Device& device) {
+  for (const devices::Input& input : device.ports().inputs) {
+    if (input.kind == devices::command_kind<Twist>()) {
       input.on_command(Twist{{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
     }
-    if (input.kind == command_kind<double>()) input.on_command(input.high);
-    if (input.kind == command_kind<ForceTorque>()) {
-      input.on_command(ForceTorque{{1, 2, 3}, {4, 5, 6}});
+    if (input.kind == devices::command_kind<double>()) input.on_command(input.high);
+    if (input.kind == devices::command_kind<physics::ForceTorque>()) {
+      input.on_command(physics::ForceTorque{{1, 2, 3}, {4, 5, 6}});
     }
-    if (input.kind == command_kind<Trigger>()) input.on_command(Trigger{});
+    if (input.kind == devices::command_kind<devices::Trigger>())
+      input.on_command(devices::Trigger{});
   }
-  for (const Tuning& tuning : device.ports().tunings) {
-    for (const Tunable& tunable : tuning.parameters) tunable.set(tunable.high);
+  for (const devices::ParameterGroup& tuning : device.ports().tunings) {
+    for (const devices::TunableParameter& tunable : tuning.parameters) tunable.set(tunable.high);
   }
 }
 
 /// Sets each property to what it is: no setter may refuse what its getter gives.
-void set_again(PhysicsModel& model, const Model& description) {
+void set_again(physics::PhysicsModel& model, const Model& description) {
   for (std::size_t link = 0; link < description.links.size(); ++link) {
     model.set_link_properties(link, model.link_properties(link));
   }

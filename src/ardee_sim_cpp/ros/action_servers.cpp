@@ -16,12 +16,12 @@
 namespace ardee::node {
 namespace {
 
-JointTolerance from_ros(const control_msgs::JointTolerance& message) {
+devices::JointTolerance from_ros(const control_msgs::JointTolerance& message) {
   return {message.name, message.position, message.velocity, message.acceleration};
 }
 
-FollowTrajectoryGoal from_ros(const control_msgs::FollowJointTrajectoryGoal& message) {
-  FollowTrajectoryGoal goal;
+devices::FollowTrajectoryGoal from_ros(const control_msgs::FollowJointTrajectoryGoal& message) {
+  devices::FollowTrajectoryGoal goal;
   goal.trajectory = node::from_ros(message.trajectory);
   for (const auto& each : message.path_tolerance) goal.path_tolerances.push_back(from_ros(each));
   for (const auto& each : message.goal_tolerance) goal.goal_tolerances.push_back(from_ros(each));
@@ -29,17 +29,17 @@ FollowTrajectoryGoal from_ros(const control_msgs::FollowJointTrajectoryGoal& mes
   return goal;
 }
 
-GripperGoal from_ros(const control_msgs::GripperCommandGoal& message) {
+devices::GripperGoal from_ros(const control_msgs::GripperCommandGoal& message) {
   return {message.command.position, message.command.max_effort};
 }
 
-void fill(const FollowTrajectoryResult& result,
+void fill(const devices::FollowTrajectoryResult& result,
           control_msgs::FollowJointTrajectoryResult& message) {
   message.error_code = result.code;
   message.error_string = result.text;
 }
 
-void fill(const TrajectoryControllerReading& reading,
+void fill(const devices::TrajectoryControllerReading& reading,
           control_msgs::FollowJointTrajectoryFeedback& message) {
   const control_msgs::JointTrajectoryControllerState state = to_message(reading);
   message.header = state.header;
@@ -51,7 +51,7 @@ void fill(const TrajectoryControllerReading& reading,
 
 /// A result or feedback.
 template <typename Message>
-void fill(const GripperState& state, Message& message) {
+void fill(const devices::GripperState& state, Message& message) {
   message.position = state.position;
   message.effort = state.effort;
   message.stalled = state.is_stalled;
@@ -127,18 +127,21 @@ class Server {
   actionlib::ActionServer<Spec> server_;
 };
 
-std::shared_ptr<void> serve(const ros::NodeHandle& node, const FollowTrajectoryAction& action) {
+std::shared_ptr<void> serve(const ros::NodeHandle& node,
+                            const devices::FollowTrajectoryAction& action) {
   return std::make_shared<
-      Server<FollowTrajectoryAction, control_msgs::FollowJointTrajectoryAction>>(node, action);
+      Server<devices::FollowTrajectoryAction, control_msgs::FollowJointTrajectoryAction>>(node,
+                                                                                          action);
 }
-std::shared_ptr<void> serve(const ros::NodeHandle& node, const GripperAction& action) {
-  return std::make_shared<Server<GripperAction, control_msgs::GripperCommandAction>>(node, action);
+std::shared_ptr<void> serve(const ros::NodeHandle& node, const devices::GripperAction& action) {
+  return std::make_shared<Server<devices::GripperAction, control_msgs::GripperCommandAction>>(
+      node, action);
 }
 
 }  // namespace
 
-void ActionServers::add(const ros::NodeHandle& node, const Ports& ports) {
-  for (const Action& action : ports.actions) {
+void ActionServers::add(const ros::NodeHandle& node, const devices::Ports& ports) {
+  for (const devices::Action& action : ports.actions) {
     std::visit(
         [&](const auto& each) {
           require_valid(each.name);

@@ -15,7 +15,7 @@ namespace ardee::node {
 class ActionServers {
  public:
   /// `ports` outlive this object. Throws Error for a name that is none.
-  void add(const ros::NodeHandle& node, const Ports& ports);
+  void add(const ros::NodeHandle& node, const devices::Ports& ports);
 
  private:
   std::vector<std::shared_ptr<void>> servers_;

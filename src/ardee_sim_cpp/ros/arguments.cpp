@@ -59,9 +59,9 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
 }
 
 /// ~plugin_aliases: a list, so that a name of a file need not be one of a parameter.
-std::vector<PluginAlias> read_aliases(const ros::NodeHandle& node) {
+std::vector<devices::PluginAlias> read_aliases(const ros::NodeHandle& node) {
   const Setting list = setting_from_ros(node.resolveName("plugin_aliases"));
-  return list ? read_plugin_aliases(list) : std::vector<PluginAlias>();
+  return list ? devices::read_plugin_aliases(list) : std::vector<devices::PluginAlias>();
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct Settings {
   bool publish_world_tf = false;
   bool lenient = false;  // leave out what is missing, with an error; else refuse the whole
   double scenery_radius_m = 6.0;
-  std::vector<PluginAlias> plugin_aliases;
+  std::vector<devices::PluginAlias> plugin_aliases;
   int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none
 };
 

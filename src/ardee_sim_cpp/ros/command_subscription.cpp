@@ -26,7 +26,7 @@ constexpr double kWarningPeriod_s = 5.0;
 
 /// Warns at once, and then not again for a while of wall time. ROS's own throttle counts simulated
 /// time, and says nothing in its first seconds.
-class Complaint {
+class ThrottledWarning {
  public:
   void say(const std::string& text) {
     const ros::WallTime now = ros::WallTime::now();
@@ -39,30 +39,34 @@ class Complaint {
   ros::WallTime last_;
 };
 
-Command to_command(const std_msgs::Empty&) { return Trigger{}; }
-Command to_command(const geometry_msgs::Twist& message) { return from_ros(message); }
-Command to_command(const std_msgs::Float64& message) { return message.data; }
-Command to_command(const std_msgs::Bool& message) { return message.data != 0; }
-Command to_command(const std_msgs::Float64MultiArray& message) {
+devices::Command to_command(const std_msgs::Empty&) { return devices::Trigger{}; }
+devices::Command to_command(const geometry_msgs::Twist& message) { return from_ros(message); }
+devices::Command to_command(const std_msgs::Float64& message) { return message.data; }
+devices::Command to_command(const std_msgs::Bool& message) { return message.data != 0; }
+devices::Command to_command(const std_msgs::Float64MultiArray& message) {
   return std::vector<double>(message.data.begin(), message.data.end());
 }
-Command to_command(const four_wheel_steering_msgs::FourWheelSteering& message) {
-  return SteeringCommand{message.front_steering_angle, message.rear_steering_angle, message.speed};
+devices::Command to_command(const four_wheel_steering_msgs::FourWheelSteering& message) {
+  return devices::SteeringCommand{message.front_steering_angle, message.rear_steering_angle,
+                                  message.speed};
 }
-Command to_command(const trajectory_msgs::JointTrajectory& message) { return from_ros(message); }
+devices::Command to_command(const trajectory_msgs::JointTrajectory& message) {
+  return from_ros(message);
+}
 
-Command to_command(const geometry_msgs::Wrench& message) { return from_ros(message); }
+devices::Command to_command(const geometry_msgs::Wrench& message) { return from_ros(message); }
 
-void check_publishers(const Input& input) {
+void check_publishers(const devices::Input& input) {
   if (!input.needs_one_publisher) return;
   const std::size_t count = ros::TopicManager::instance()->getNumPublishers(input.topic);
   if (count > 1) throw Error("found " + std::to_string(count) + " publishers, expected one");
 }
 
 template <typename Message>
-ros::Subscriber subscribe_to(ros::NodeHandle& node, const Input& input) {
+ros::Subscriber subscribe_to(ros::NodeHandle& node, const devices::Input& input) {
   boost::function<void(const boost::shared_ptr<const Message>&)> on_message =
-      [input, complaint = Complaint()](const boost::shared_ptr<const Message>& message) mutable {
+      [input,
+       complaint = ThrottledWarning()](const boost::shared_ptr<const Message>& message) mutable {
         try {
           check_publishers(input);
           input.on_command(to_command(*message));
@@ -87,9 +91,9 @@ void require_valid(const std::string& topic) {
   }
 }
 
-ros::Subscriber subscribe(ros::NodeHandle& node, const Input& input) {
+ros::Subscriber subscribe(ros::NodeHandle& node, const devices::Input& input) {
   require_valid(input.topic);
-  using Subscribe = ros::Subscriber (*)(ros::NodeHandle&, const Input&);
+  using Subscribe = ros::Subscriber (*)(ros::NodeHandle&, const devices::Input&);
   constexpr Subscribe kSubscribe[] = {// in the order of Command
                                       subscribe_to<std_msgs::Empty>,
                                       subscribe_to<geometry_msgs::Twist>,
@@ -99,7 +103,8 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const Input& input) {
                                       subscribe_to<four_wheel_steering_msgs::FourWheelSteering>,
                                       subscribe_to<trajectory_msgs::JointTrajectory>,
                                       subscribe_to<geometry_msgs::Wrench>};
-  static_assert(std::size(kSubscribe) == std::variant_size_v<Command>, "one a kind of command");
+  static_assert(std::size(kSubscribe) == std::variant_size_v<devices::Command>,
+                "one a kind of command");
   return kSubscribe[input.kind](node, input);
 }
 

@@ -6,7 +6,7 @@
 namespace ardee::node {
 namespace {
 
-trajectory_msgs::JointTrajectoryPoint to_ros(const JointTrajectoryPoint& point) {
+trajectory_msgs::JointTrajectoryPoint to_ros(const devices::JointTrajectoryPoint& point) {
   trajectory_msgs::JointTrajectoryPoint message;
   message.positions = point.positions;
   message.velocities = point.velocities;
@@ -18,14 +18,14 @@ trajectory_msgs::JointTrajectoryPoint to_ros(const JointTrajectoryPoint& point) 
 
 }  // namespace
 
-geometry_msgs::TwistStamped to_message(const TwistReading& reading) {
+geometry_msgs::TwistStamped to_message(const devices::TwistReading& reading) {
   geometry_msgs::TwistStamped message;
   message.header = to_ros(reading.header);
   message.twist = to_ros(reading.twist);
   return message;
 }
 
-control_msgs::JointControllerState to_message(const JointControllerReading& reading) {
+control_msgs::JointControllerState to_message(const devices::JointControllerReading& reading) {
   control_msgs::JointControllerState message;
   message.header = to_ros(reading.header);
   message.set_point = reading.set_point;
@@ -43,7 +43,7 @@ control_msgs::JointControllerState to_message(const JointControllerReading& read
 }
 
 control_msgs::JointTrajectoryControllerState to_message(
-    const TrajectoryControllerReading& reading) {
+    const devices::TrajectoryControllerReading& reading) {
   control_msgs::JointTrajectoryControllerState message;
   message.header = to_ros(reading.header);
   message.joint_names = reading.names;
@@ -54,7 +54,7 @@ control_msgs::JointTrajectoryControllerState to_message(
 }
 
 four_wheel_steering_msgs::FourWheelSteeringStamped to_message(
-    const FourWheelSteeringReading& reading) {
+    const devices::FourWheelSteeringReading& reading) {
   four_wheel_steering_msgs::FourWheelSteeringStamped message;
   message.header = to_ros(reading.header);
   message.data.front_steering_angle = static_cast<float>(reading.front_angle_rad);

@@ -15,10 +15,10 @@ void add_verb(ServiceServers& servers, const std::string& name, std::function<vo
   });
 }
 
-std::string step(Stage& stage, std::uint32_t steps, ardee_msgs::StepResponse& response) {
-  response.sim_time = to_ros(stage.simulation.now_ns());
-  const std::uint32_t taken = stage.runner.advance(steps);
-  response.sim_time = to_ros(stage.simulation.now_ns());
+std::string step(ServiceContext& context, std::uint32_t steps, ardee_msgs::StepResponse& response) {
+  response.sim_time = to_ros(context.simulation.now_ns());
+  const std::uint32_t taken = context.runner.advance(steps);
+  response.sim_time = to_ros(context.simulation.now_ns());
   if (taken < steps) {
     throw Error("interrupted after " + std::to_string(taken) + " of " + std::to_string(steps) +
                 " steps");
@@ -28,15 +28,15 @@ std::string step(Stage& stage, std::uint32_t steps, ardee_msgs::StepResponse& re
 
 }  // namespace
 
-void add_control_services(ServiceServers& servers, Stage& stage) {
-  Runner& runner = stage.runner;
+void add_control_services(ServiceServers& servers, ServiceContext& context) {
+  Runner& runner = context.runner;
   add_verb(servers, "pause_physics", [&runner] { runner.set_paused(true); });
   add_verb(servers, "unpause_physics", [&runner] { runner.set_paused(false); });
   add_verb(servers, "reset_world", [&runner] { runner.reset_world(); });
   add_verb(servers, "reset_simulation", [&runner] { runner.reset_simulation(); });
   servers.add<ardee_msgs::Step>("/ardee/step", "Step",
-                                [&stage](const auto& request, auto& response) {
-                                  return step(stage, request.steps, response);
+                                [&context](const auto& request, auto& response) {
+                                  return step(context, request.steps, response);
                                 });
 }
 

@@ -33,7 +33,7 @@ msgs::ControllerState to_message(const control::ControllerState& state) {
 }  // namespace
 
 ControllerServices::ControllerServices(const ros::NodeHandle& node, control::RosControl& device,
-                                       const Robot& robot, Routes& routes, Log log)
+                                       const devices::Robot& robot, Routes& routes, Log log)
     : node_(node),
       manager_(device.manager()),
       space_(device.robot_namespace()),
@@ -67,7 +67,7 @@ ControllerServices::ControllerServices(const ros::NodeHandle& node, control::Ros
 
 template <typename Service, typename Act>
 void ControllerServices::serve(const std::string& name, Act act) {
-  const std::string full = resolve_topic("controller_manager/" + name, space_);
+  const std::string full = devices::resolve_topic("controller_manager/" + name, space_);
   require_valid(full);
   if (!is_free_service(full)) {
     taken_.push_back(full);

@@ -22,8 +22,8 @@ namespace ardee::node {
 class ControllerServices {
  public:
   /// All references outlive this object.
-  ControllerServices(const ros::NodeHandle& node, control::RosControl& device, const Robot& robot,
-                     Routes& routes, Log log);
+  ControllerServices(const ros::NodeHandle& node, control::RosControl& device,
+                     const devices::Robot& robot, Routes& routes, Log log);
 
   /// Services that are another's already.
   const std::vector<std::string>& taken() const { return taken_; }
@@ -43,7 +43,7 @@ class ControllerServices {
   ros::NodeHandle node_;
   control::Manager& manager_;
   std::string space_;
-  const Robot& robot_;
+  const devices::Robot& robot_;
   Routes& routes_;
   Log log_;
   std::map<std::string, std::unique_ptr<PortTopics>> topics_;  // by controller

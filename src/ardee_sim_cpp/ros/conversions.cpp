@@ -9,7 +9,7 @@ ros::Time to_ros(TimeNs time_ns) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(time_ns));
 }
 
-std_msgs::Header to_ros(const Header& header) {
+std_msgs::Header to_ros(const devices::Header& header) {
   std_msgs::Header message;
   message.stamp = to_ros(header.stamp_ns);
   message.frame_id = header.frame_id;
@@ -55,7 +55,7 @@ geometry_msgs::Transform to_transform(const Pose& pose) {
   return message;
 }
 
-geometry_msgs::Wrench to_ros(const ForceTorque& wrench) {
+geometry_msgs::Wrench to_ros(const physics::ForceTorque& wrench) {
   geometry_msgs::Wrench message;
   message.force = to_vector(wrench.force);
   message.torque = to_vector(wrench.torque);
@@ -93,7 +93,7 @@ Pose from_ros(const geometry_msgs::Pose& message) {
   return pose;
 }
 
-ForceTorque from_ros(const geometry_msgs::Wrench& wrench) {
+physics::ForceTorque from_ros(const geometry_msgs::Wrench& wrench) {
   return {from_ros(wrench.force), from_ros(wrench.torque)};
 }
 
@@ -103,8 +103,8 @@ Twist from_ros(const geometry_msgs::Twist& twist) {
 
 bool is_finite(const Twist& twist) { return twist.linear.allFinite() && twist.angular.allFinite(); }
 
-JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message) {
-  JointTrajectory trajectory;
+devices::JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message) {
+  devices::JointTrajectory trajectory;
   if (!message.header.stamp.isZero()) trajectory.start_s = message.header.stamp.toSec();
   trajectory.joints = message.joint_names;
   for (const auto& point : message.points) {

@@ -20,14 +20,14 @@
 namespace ardee::node {
 
 ros::Time to_ros(TimeNs time_ns);
-std_msgs::Header to_ros(const Header& header);
+std_msgs::Header to_ros(const devices::Header& header);
 geometry_msgs::Point to_point(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector);
 geometry_msgs::Quaternion to_quaternion(const Eigen::Quaterniond& q);
 geometry_msgs::Pose to_ros(const Pose& pose);
 geometry_msgs::Transform to_transform(const Pose& pose);
 geometry_msgs::Twist to_ros(const Twist& twist);
-geometry_msgs::Wrench to_ros(const ForceTorque& wrench);
+geometry_msgs::Wrench to_ros(const physics::ForceTorque& wrench);
 
 Eigen::Vector3d from_ros(const geometry_msgs::Vector3& vector);
 Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
@@ -36,8 +36,8 @@ Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
 Pose from_ros(const geometry_msgs::Pose& pose);
 Twist from_ros(const geometry_msgs::Twist& twist);
 /// A stamp of zero is no start.
-JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message);
-ForceTorque from_ros(const geometry_msgs::Wrench& wrench);
+devices::JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message);
+physics::ForceTorque from_ros(const geometry_msgs::Wrench& wrench);
 bool is_finite(const Twist& twist);
 
 }  // namespace ardee::node

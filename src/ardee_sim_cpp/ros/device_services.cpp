@@ -14,7 +14,7 @@
 namespace ardee::node {
 namespace {
 
-GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
+devices::GeoPose from_ros_geo(const geographic_msgs::GeoPose& message) {
   geometry_msgs::Pose pose;
   pose.orientation = message.orientation;
   return {message.position.latitude, message.position.longitude, message.position.altitude,
@@ -27,11 +27,11 @@ bool is_free_service(const std::string& name) {
   return !ros::ServiceManager::instance()->lookupServicePublication(name);
 }
 
-void DeviceServices::add(const Ports& ports) {
-  for (const Service& service : ports.services) {
+void DeviceServices::add(const devices::Ports& ports) {
+  for (const devices::Service& service : ports.services) {
     if (is_free(service.name)) add(service);
   }
-  for (const Tuning& tuning : ports.tunings) {
+  for (const devices::ParameterGroup& tuning : ports.tunings) {
     if (is_free(TuningServer::service_of(tuning))) {
       tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
     }
@@ -44,7 +44,7 @@ bool DeviceServices::is_free(const std::string& name) {
   return false;
 }
 
-void DeviceServices::add(const Service& service) {
+void DeviceServices::add(const devices::Service& service) {
   using control_msgs::QueryTrajectoryState;
   using hector_gazebo_plugins::SetBias;
   using hector_gazebo_plugins::SetReferenceGeoPose;
@@ -63,12 +63,12 @@ void DeviceServices::add(const Service& service) {
                             return std::string();
                           });
   } else if (const auto* state_at =
-                 std::get_if<std::function<TrajectoryState(double)>>(&service.act)) {
+                 std::get_if<std::function<devices::TrajectoryState(double)>>(&service.act)) {
     servers_.add<QueryTrajectoryState>(
         service.name, service.name,
         [state_at = *state_at](const QueryTrajectoryState::Request& request,
                                QueryTrajectoryState::Response& response) {
-          TrajectoryState state = state_at(request.time.toSec());
+          devices::TrajectoryState state = state_at(request.time.toSec());
           response.name = std::move(state.names);
           response.position = std::move(state.positions);
           response.velocity = std::move(state.velocities);
@@ -78,7 +78,7 @@ void DeviceServices::add(const Service& service) {
   } else {
     servers_.add<SetReferenceGeoPose>(
         service.name, service.name,
-        [place = std::get<std::function<void(const GeoPose&)>>(service.act)](
+        [place = std::get<std::function<void(const devices::GeoPose&)>>(service.act)](
             const SetReferenceGeoPose::Request& request, SetReferenceGeoPose::Response&) {
           place(from_ros_geo(request.geo_pose));
           return std::string();

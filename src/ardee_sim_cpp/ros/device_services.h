@@ -22,12 +22,12 @@ class DeviceServices {
   explicit DeviceServices(const ros::NodeHandle& node) : node_(node), servers_(node) {}
 
   /// `ports` outlive this object.
-  void add(const Ports& ports);
+  void add(const devices::Ports& ports);
   /// What was not added because the name is another's already.
   const std::vector<std::string>& taken() const { return taken_; }
 
  private:
-  void add(const Service& service);
+  void add(const devices::Service& service);
   bool is_free(const std::string& name);
 
   ros::NodeHandle node_;

@@ -58,7 +58,7 @@ class Paint {
  private:
   const SubMesh& part_;
   Color diffuse_{0.5f, 0.5f, 0.5f, 1.0f};
-  std::optional<Texture> texture_;
+  std::optional<render::Texture> texture_;
 };
 
 }  // namespace

@@ -7,12 +7,12 @@
 namespace ardee::node {
 namespace {
 
-gazebo_msgs::ContactState to_state(const ContactsReading::Touch& touch) {
+gazebo_msgs::ContactState to_state(const devices::ContactsReading::Touch& touch) {
   gazebo_msgs::ContactState state;
   state.collision1_name = touch.collision1;
   state.collision2_name = touch.collision2;
-  ForceTorque total;
-  for (const Contact& point : touch.points) {
+  physics::ForceTorque total;
+  for (const physics::Contact& point : touch.points) {
     state.wrenches.push_back(to_ros(point.on1));
     state.contact_positions.push_back(to_vector(point.position));
     state.contact_normals.push_back(to_vector(point.normal));
@@ -26,11 +26,11 @@ gazebo_msgs::ContactState to_state(const ContactsReading::Touch& touch) {
 
 }  // namespace
 
-gazebo_msgs::ContactsState to_message(const ContactsReading& reading) {
+gazebo_msgs::ContactsState to_message(const devices::ContactsReading& reading) {
   gazebo_msgs::ContactsState message;
   message.header = to_ros(reading.header);
   for (std::size_t i = 0; i < reading.touches.size(); ++i) {
-    const ContactsReading::Touch& touch = reading.touches[i];
+    const devices::ContactsReading::Touch& touch = reading.touches[i];
     std::ostringstream info;  // as the stock plugin writes it
     info << "Debug:  i:(" << i << "/" << reading.touches.size()
          << ")     my geom:" << touch.collision1 << "   other geom:" << touch.collision2
@@ -41,7 +41,7 @@ gazebo_msgs::ContactsState to_message(const ContactsReading& reading) {
   return message;
 }
 
-geometry_msgs::WrenchStamped to_message(const WrenchReading& reading) {
+geometry_msgs::WrenchStamped to_message(const devices::WrenchReading& reading) {
   geometry_msgs::WrenchStamped message;
   message.header = to_ros(reading.header);
   message.wrench = to_ros(reading.wrench);

@@ -14,17 +14,18 @@
 namespace ardee::node {
 namespace {
 
-TimeNs start_time(const Stage& stage, const ros::Time& wanted) {
-  return std::max(stage.simulation.now_ns(), static_cast<TimeNs>(wanted.toNSec()));
+TimeNs start_time(const ServiceContext& context, const ros::Time& wanted) {
+  return std::max(context.simulation.now_ns(), static_cast<TimeNs>(wanted.toNSec()));
 }
 
 /// The wrench is in the axes of the reference frame, and the force acts at reference_point in it.
 /// In the world's axes the point is counted from the body's centre of mass, so that a request
 /// without a point pushes without turning.
-std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest& request) {
-  const LinkRef ref = require_link(stage, request.body_name);
+std::string apply_wrench(ServiceContext& context,
+                         const gazebo_msgs::ApplyBodyWrenchRequest& request) {
+  const LinkRef ref = require_link(context, request.body_name);
   if (!ref.entity.robot->is_dynamic()) throw Error("'" + request.body_name + "' does not move");
-  const Pose X_WR = frame_in_world(stage, request.reference_frame, "reference_frame").pose;
+  const Pose X_WR = frame_in_world(context, request.reference_frame, "reference_frame").pose;
   const bool in_world = names_world(request.reference_frame);
   const Eigen::Vector3d point_R = from_ros(request.reference_point);
   const Pose X_WL = ref.entity.robot->link_pose(ref.link);
@@ -38,14 +39,15 @@ std::string apply_wrench(Stage& stage, const gazebo_msgs::ApplyBodyWrenchRequest
   wrench.torque_W = X_WR.q * from_ros(request.wrench.torque);
   const Eigen::Vector3d point_W = in_world ? X_WL * center_L + point_R : X_WR * point_R;
   wrench.point_L = X_WL.inverse() * point_W;
-  wrench.start_ns = start_time(stage, request.start_time);
+  wrench.start_ns = start_time(context, request.start_time);
   wrench.duration_ns = request.duration.toNSec();
-  stage.simulation.wrenches().add(wrench);
+  context.simulation.wrenches().add(wrench);
   return "ApplyBodyWrench: wrench added";
 }
 
-std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortRequest& request) {
-  const JointRef ref = require_joint(stage, request.joint_name);
+std::string apply_effort(ServiceContext& context,
+                         const gazebo_msgs::ApplyJointEffortRequest& request) {
+  const JointRef ref = require_joint(context, request.joint_name);
   if (!(std::abs(request.effort) <= limits::kStrongest)) {
     throw Error("found an effort that is not finite or above 1e9 N m or N");
   }
@@ -53,31 +55,31 @@ std::string apply_effort(Stage& stage, const gazebo_msgs::ApplyJointEffortReques
     throw Error("joint '" + request.joint_name +
                 "' has no axis, expected one that moves along one");
   }
-  stage.simulation.joint_efforts().add({ref.entity.robot.get(), ref.joint, request.effort,
-                                        start_time(stage, request.start_time),
-                                        request.duration.toNSec()});
+  context.simulation.joint_efforts().add({ref.entity.robot.get(), ref.joint, request.effort,
+                                          start_time(context, request.start_time),
+                                          request.duration.toNSec()});
   return "ApplyJointEffort: effort set";
 }
 
 }  // namespace
 
-void add_force_services(ServiceServers& servers, Stage& stage) {
+void add_force_services(ServiceServers& servers, ServiceContext& context) {
   servers.add<gazebo_msgs::ApplyBodyWrench>(
       "apply_body_wrench", "ApplyBodyWrench",
-      [&stage](const auto& request, auto&) { return apply_wrench(stage, request); });
+      [&context](const auto& request, auto&) { return apply_wrench(context, request); });
   servers.add<gazebo_msgs::BodyRequest>(
-      "clear_body_wrenches", "ClearBodyWrenches", [&stage](const auto& request, auto&) {
-        const LinkRef ref = require_link(stage, request.body_name);
-        stage.simulation.wrenches().clear(*ref.entity.robot, ref.link);
+      "clear_body_wrenches", "ClearBodyWrenches", [&context](const auto& request, auto&) {
+        const LinkRef ref = require_link(context, request.body_name);
+        context.simulation.wrenches().clear(*ref.entity.robot, ref.link);
         return "";
       });
   servers.add<gazebo_msgs::ApplyJointEffort>(
       "apply_joint_effort", "ApplyJointEffort",
-      [&stage](const auto& request, auto&) { return apply_effort(stage, request); });
+      [&context](const auto& request, auto&) { return apply_effort(context, request); });
   servers.add<gazebo_msgs::JointRequest>(
-      "clear_joint_forces", "ClearJointForces", [&stage](const auto& request, auto&) {
-        const JointRef ref = require_joint(stage, request.joint_name);
-        stage.simulation.joint_efforts().clear(*ref.entity.robot, ref.joint);
+      "clear_joint_forces", "ClearJointForces", [&context](const auto& request, auto&) {
+        const JointRef ref = require_joint(context, request.joint_name);
+        context.simulation.joint_efforts().clear(*ref.entity.robot, ref.joint);
         return "";
       });
 }

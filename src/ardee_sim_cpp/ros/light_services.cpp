@@ -13,8 +13,8 @@ namespace {
 constexpr double kMostAttenuation = 1e9;
 constexpr double kLongest = 1e9;  // of a direction, whose length means nothing
 
-const Light& require_light(const Stage& stage, const std::string& name) {
-  for (const Light& light : stage.simulation.world().lights) {
+const Light& require_light(const ServiceContext& context, const std::string& name) {
+  for (const Light& light : context.simulation.world().lights) {
     if (light.name == name) return light;
   }
   throw Error("Requested light " + name + " not found!");
@@ -35,9 +35,9 @@ Color checked_color(const char* field, const std_msgs::ColorRGBA& message) {
   return color;
 }
 
-std::string get_light(Stage& stage, const std::string& name,
+std::string get_light(ServiceContext& context, const std::string& name,
                       gazebo_msgs::GetLightPropertiesResponse& response) {
-  const Light& light = require_light(stage, name);
+  const Light& light = require_light(context, name);
   response.diffuse = to_ros(light.diffuse);
   response.attenuation_constant = light.attenuation_constant;
   response.attenuation_linear = light.attenuation_linear;
@@ -52,8 +52,9 @@ bool is_filled_in(const geometry_msgs::Pose& pose) {
 
 /// A script written before there were fields for shadows, specular colour, direction and pose
 /// leaves them empty, direction and pose among them, which no light can have: then all four stay.
-std::string set_light(Stage& stage, const gazebo_msgs::SetLightPropertiesRequest& request) {
-  Light light = require_light(stage, request.light_name);
+std::string set_light(ServiceContext& context,
+                      const gazebo_msgs::SetLightPropertiesRequest& request) {
+  Light light = require_light(context, request.light_name);
   light.diffuse = checked_color("diffuse", request.diffuse);
   light.attenuation_constant =
       checked("attenuation_constant", request.attenuation_constant, 0.0, kMostAttenuation);
@@ -75,24 +76,25 @@ std::string set_light(Stage& stage, const gazebo_msgs::SetLightPropertiesRequest
     light.specular = specular;
     light.cast_shadows = request.cast_shadows;
   }
-  stage.simulation.set_light(light);
+  context.simulation.set_light(light);
   return "SetLightProperties: light set";
 }
 
 }  // namespace
 
-void add_light_services(ServiceServers& servers, Stage& stage) {
-  servers.add<gazebo_msgs::GetLightProperties>(
-      "get_light_properties", "GetLightProperties", [&stage](const auto& request, auto& response) {
-        return get_light(stage, request.light_name, response);
-      });
+void add_light_services(ServiceServers& servers, ServiceContext& context) {
+  servers.add<gazebo_msgs::GetLightProperties>("get_light_properties", "GetLightProperties",
+                                               [&context](const auto& request, auto& response) {
+                                                 return get_light(context, request.light_name,
+                                                                  response);
+                                               });
   servers.add<gazebo_msgs::SetLightProperties>(
       "set_light_properties", "SetLightProperties",
-      [&stage](const auto& request, auto&) { return set_light(stage, request); });
+      [&context](const auto& request, auto&) { return set_light(context, request); });
   servers.add<gazebo_msgs::DeleteLight>(
-      "delete_light", "DeleteLight", [&stage](const auto& request, auto&) {
-        require_light(stage, request.light_name);
-        stage.simulation.remove_light(request.light_name);
+      "delete_light", "DeleteLight", [&context](const auto& request, auto&) {
+        require_light(context, request.light_name);
+        context.simulation.remove_light(request.light_name);
         return "DeleteLight: " + request.light_name + " successfully deleted";
       });
 }

@@ -8,11 +8,11 @@
 namespace ardee::node {
 namespace {
 
-std::string get_state(Stage& stage, const gazebo_msgs::GetLinkStateRequest& request,
+std::string get_state(ServiceContext& context, const gazebo_msgs::GetLinkStateRequest& request,
                       gazebo_msgs::GetLinkStateResponse& response) {
-  require_link(stage, request.link_name);
-  frame_in_world(stage, request.reference_frame, "reference_frame");
-  const RelativeState state = stage.simulation.state(request.link_name, request.reference_frame);
+  require_link(context, request.link_name);
+  frame_in_world(context, request.reference_frame, "reference_frame");
+  const RelativeState state = context.simulation.state(request.link_name, request.reference_frame);
   response.link_state.link_name = request.link_name;
   response.link_state.reference_frame = request.reference_frame;
   response.link_state.pose = to_ros(state.pose);
@@ -21,32 +21,33 @@ std::string get_state(Stage& stage, const gazebo_msgs::GetLinkStateRequest& requ
 }
 
 /// A link is moved with its whole model, joints as they are: moved alone it would tear them.
-void set_state(Stage& stage, const gazebo_msgs::LinkState& wanted) {
-  const LinkRef ref = require_link(stage, wanted.link_name);
-  frame_in_world(stage, wanted.reference_frame, "reference_frame");
-  const Pose X_LM = stage.simulation.state(ref.entity.name(), wanted.link_name).pose;
+void set_state(ServiceContext& context, const gazebo_msgs::LinkState& wanted) {
+  const LinkRef ref = require_link(context, wanted.link_name);
+  frame_in_world(context, wanted.reference_frame, "reference_frame");
+  const Pose X_LM = context.simulation.state(ref.entity.name(), wanted.link_name).pose;
   RelativeState state{from_ros(wanted.pose) * X_LM, from_ros(wanted.twist)};
   if (!is_finite(state.twist)) throw Error("found a twist that is not finite");
   // The velocity asked for is that of the link's origin, the one given that of the model's.
   const Eigen::Vector3d arm_R = state.pose.p - from_ros(wanted.pose.position);
   state.twist.linear += state.twist.angular.cross(arm_R);
-  stage.simulation.set_state(ref.entity.name(), state, wanted.reference_frame);
+  context.simulation.set_state(ref.entity.name(), state, wanted.reference_frame);
 }
 
 }  // namespace
 
-void add_link_state_services(ServiceServers& servers, Stage& stage) {
+void add_link_state_services(ServiceServers& servers, ServiceContext& context) {
   servers.add<gazebo_msgs::GetLinkState>("get_link_state", "GetLinkState",
-                                         [&stage](const auto& request, auto& response) {
-                                           return get_state(stage, request, response);
+                                         [&context](const auto& request, auto& response) {
+                                           return get_state(context, request, response);
                                          });
   servers.add<gazebo_msgs::SetLinkState>("set_link_state", "SetLinkState",
-                                         [&stage](const auto& request, auto&) {
-                                           set_state(stage, request.link_state);
+                                         [&context](const auto& request, auto&) {
+                                           set_state(context, request.link_state);
                                            return "SetLinkState: success";
                                          });
   servers.listen<gazebo_msgs::LinkState>(
-      "set_link_state", "SetLinkState", [&stage](const auto& wanted) { set_state(stage, wanted); });
+      "set_link_state", "SetLinkState",
+      [&context](const auto& wanted) { set_state(context, wanted); });
 }
 
 }  // namespace ardee::node

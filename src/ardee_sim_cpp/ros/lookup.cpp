@@ -14,20 +14,20 @@ double checked(const std::string& field, double value, double low, double high) 
   throw Error(text.str());
 }
 
-Entity& require_model(Stage& stage, const std::string& name) {
-  Entity* entity = stage.simulation.find(name);
+Entity& require_model(ServiceContext& context, const std::string& name) {
+  Entity* entity = context.simulation.find(name);
   if (!entity) throw Error("model '" + name + "' does not exist");
   return *entity;
 }
 
-LinkRef require_link(Stage& stage, const std::string& name) {
-  if (const auto found = stage.simulation.find_link(name)) return {*found->entity, found->link};
+LinkRef require_link(ServiceContext& context, const std::string& name) {
+  if (const auto found = context.simulation.find_link(name)) return {*found->entity, found->link};
   throw Error("link '" + name + "' does not exist, expected model::link");
 }
 
-JointRef require_joint(Stage& stage, const std::string& name) {
+JointRef require_joint(ServiceContext& context, const std::string& name) {
   std::optional<JointRef> unscoped;
-  for (const auto& entity : stage.simulation.entities()) {
+  for (const auto& entity : context.simulation.entities()) {
     if (!entity->robot->is_dynamic()) continue;
     const auto& joints = entity->robot->model().joints;
     for (std::size_t joint = 0; joint < joints.size(); ++joint) {
@@ -39,9 +39,10 @@ JointRef require_joint(Stage& stage, const std::string& name) {
   return *unscoped;
 }
 
-RelativeState frame_in_world(Stage& stage, const std::string& reference, const std::string& field) {
+RelativeState frame_in_world(ServiceContext& context, const std::string& reference,
+                             const std::string& field) {
   try {
-    return stage.simulation.state(reference, "");
+    return context.simulation.state(reference, "");
   } catch (const Error&) {
     throw Error("reference " + field +
                 " not found, did you forget to scope the link by model name?" + " (" + field +

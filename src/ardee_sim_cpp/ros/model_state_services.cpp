@@ -11,30 +11,30 @@ namespace {
 
 constexpr double kMostPosition = 1e6;  // rad or m: no joint of a field's robot is there
 
-std::string get_state(Stage& stage, const gazebo_msgs::GetModelStateRequest& request,
+std::string get_state(ServiceContext& context, const gazebo_msgs::GetModelStateRequest& request,
                       gazebo_msgs::GetModelStateResponse& response) {
-  require_model(stage, request.model_name);
-  frame_in_world(stage, request.relative_entity_name, "relative_entity_name");
+  require_model(context, request.model_name);
+  frame_in_world(context, request.relative_entity_name, "relative_entity_name");
   const RelativeState state =
-      stage.simulation.state(request.model_name, request.relative_entity_name);
-  response.header.stamp = to_ros(stage.simulation.now_ns());
+      context.simulation.state(request.model_name, request.relative_entity_name);
+  response.header.stamp = to_ros(context.simulation.now_ns());
   response.header.frame_id = request.relative_entity_name;
   response.pose = to_ros(state.pose);
   response.twist = to_ros(state.twist);
   return "GetModelState: got properties";
 }
 
-void set_state(Stage& stage, const gazebo_msgs::ModelState& wanted) {
-  require_model(stage, wanted.model_name);
-  frame_in_world(stage, wanted.reference_frame, "reference_frame");
+void set_state(ServiceContext& context, const gazebo_msgs::ModelState& wanted) {
+  require_model(context, wanted.model_name);
+  frame_in_world(context, wanted.reference_frame, "reference_frame");
   const RelativeState state{from_ros(wanted.pose), from_ros(wanted.twist)};
   if (!is_finite(state.twist)) throw Error("found a twist that is not finite");
-  stage.simulation.set_state(wanted.model_name, state, wanted.reference_frame);
+  context.simulation.set_state(wanted.model_name, state, wanted.reference_frame);
 }
 
 /// Moves all or none: what only a motion tells (a closed chain, a link out of the world) puts back
 /// those that have moved.
-void move_joints(PhysicsModel& dynamics, const std::vector<std::size_t>& joints,
+void move_joints(physics::PhysicsModel& dynamics, const std::vector<std::size_t>& joints,
                  const std::vector<double>& positions) {
   std::vector<double> before;
   try {
@@ -52,8 +52,9 @@ void move_joints(PhysicsModel& dynamics, const std::vector<std::size_t>& joints,
 }
 
 /// All joints are found and all numbers checked before the first is moved.
-std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationRequest& request) {
-  const Entity& entity = require_model(stage, request.model_name);
+std::string set_joints(ServiceContext& context,
+                       const gazebo_msgs::SetModelConfigurationRequest& request) {
+  const Entity& entity = require_model(context, request.model_name);
   if (request.joint_names.size() != request.joint_positions.size()) {
     throw Error("found " + std::to_string(request.joint_names.size()) + " joint_names and " +
                 std::to_string(request.joint_positions.size()) +
@@ -61,7 +62,7 @@ std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationReq
   }
   std::vector<std::size_t> joints;
   for (std::size_t i = 0; i < request.joint_names.size(); ++i) {
-    const JointRef ref = require_joint(stage, entity.name() + "::" + request.joint_names[i]);
+    const JointRef ref = require_joint(context, entity.name() + "::" + request.joint_names[i]);
     if (entity.robot->dynamics().joint_axes(ref.joint) == 0) {
       throw Error("joint '" + request.joint_names[i] +
                   "' has no axis, expected one that moves along one");
@@ -76,22 +77,22 @@ std::string set_joints(Stage& stage, const gazebo_msgs::SetModelConfigurationReq
 
 }  // namespace
 
-void add_model_state_services(ServiceServers& servers, Stage& stage) {
+void add_model_state_services(ServiceServers& servers, ServiceContext& context) {
   servers.add<gazebo_msgs::GetModelState>("get_model_state", "GetModelState",
-                                          [&stage](const auto& request, auto& response) {
-                                            return get_state(stage, request, response);
+                                          [&context](const auto& request, auto& response) {
+                                            return get_state(context, request, response);
                                           });
   servers.add<gazebo_msgs::SetModelState>("set_model_state", "SetModelState",
-                                          [&stage](const auto& request, auto&) {
-                                            set_state(stage, request.model_state);
+                                          [&context](const auto& request, auto&) {
+                                            set_state(context, request.model_state);
                                             return "SetModelState: set model state done";
                                           });
   servers.add<gazebo_msgs::SetModelConfiguration>(
       "set_model_configuration", "SetModelConfiguration",
-      [&stage](const auto& request, auto&) { return set_joints(stage, request); });
+      [&context](const auto& request, auto&) { return set_joints(context, request); });
   servers.listen<gazebo_msgs::ModelState>(
       "set_model_state", "SetModelState",
-      [&stage](const auto& wanted) { set_state(stage, wanted); });
+      [&context](const auto& wanted) { set_state(context, wanted); });
 }
 
 }  // namespace ardee::node

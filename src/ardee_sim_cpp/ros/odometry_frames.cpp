@@ -30,18 +30,20 @@ OdometryFrames::OdometryFrames(bool enabled) {
               const tf2_msgs::TFMessage& message) { publisher.publish(message); };
 }
 
-void OdometryFrames::on_reading(const Robot& robot, const OdometryReading& reading) {
+void OdometryFrames::on_reading(const devices::Robot& robot,
+                                const devices::OdometryReading& reading) {
   if (!reading.places_frame) return;
   // The height in odometry messages is 0, whatever the robot's.
   learn(robot, reading.header, reading.pose, true);
 }
 
-void OdometryFrames::on_reading(const Robot& robot, const TransformReading& reading) {
+void OdometryFrames::on_reading(const devices::Robot& robot,
+                                const devices::TransformReading& reading) {
   if (reading.places_frame) learn(robot, reading.header, reading.pose, false);
 }
 
-void OdometryFrames::learn(const Robot& robot, const Header& header, const Pose& X_OB,
-                           bool planar) {
+void OdometryFrames::learn(const devices::Robot& robot, const devices::Header& header,
+                           const Pose& X_OB, bool planar) {
   if (!send_ || header.frame_id == kWorldFrame || frames_.count(header.frame_id) > 0) return;
   frames_[header.frame_id] = {robot.name(), level_frame(robot.pose(), X_OB, planar)};
   publish();

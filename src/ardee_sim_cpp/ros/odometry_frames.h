@@ -26,10 +26,10 @@ class OdometryFrames {
   /// `send` gets all frames whenever one of them has changed.
   explicit OdometryFrames(Send send) : send_(std::move(send)) {}
 
-  void on_reading(const Robot& robot, const OdometryReading& reading);
-  void on_reading(const Robot& robot, const TransformReading& reading);
+  void on_reading(const devices::Robot& robot, const devices::OdometryReading& reading);
+  void on_reading(const devices::Robot& robot, const devices::TransformReading& reading);
   template <typename Other>
-  void on_reading(const Robot&, const Other&) {}
+  void on_reading(const devices::Robot&, const Other&) {}
 
   /// The frames of this robot are no longer published.
   void forget(const std::string& robot_name);
@@ -41,7 +41,8 @@ class OdometryFrames {
     std::string robot_name;
     Pose X_WO;
   };
-  void learn(const Robot& robot, const Header& header, const Pose& X_OB, bool planar);
+  void learn(const devices::Robot& robot, const devices::Header& header, const Pose& X_OB,
+             bool planar);
   void publish();
 
   Send send_;  // none: disabled

@@ -12,10 +12,11 @@
 namespace ardee::node {
 namespace {
 
-std::string get_physics(Stage& stage, gazebo_msgs::GetPhysicsPropertiesResponse& response) {
-  const PhysicsParams& physics = stage.simulation.physics();
+std::string get_physics(ServiceContext& context,
+                        gazebo_msgs::GetPhysicsPropertiesResponse& response) {
+  const PhysicsParams& physics = context.simulation.physics();
   response.time_step = physics.step_s;
-  response.pause = stage.runner.paused();
+  response.pause = context.runner.paused();
   response.max_update_rate = physics.real_time_update_rate_hz;
   response.gravity = to_vector(physics.gravity_m_per_s2);
   response.ode_config.auto_disable_bodies = false;
@@ -60,29 +61,30 @@ void set_ode(const gazebo_msgs::ODEPhysics& ode, PhysicsParams& physics) {
   }
 }
 
-std::string set_physics(Stage& stage, const gazebo_msgs::SetPhysicsPropertiesRequest& request) {
-  PhysicsParams physics = stage.simulation.physics();
+std::string set_physics(ServiceContext& context,
+                        const gazebo_msgs::SetPhysicsPropertiesRequest& request) {
+  PhysicsParams physics = context.simulation.physics();
   change("time_step", request.time_step, bounds::kStep_s, physics.step_s);
   change("max_update_rate", request.max_update_rate, bounds::kUpdateRate_hz,
          physics.real_time_update_rate_hz);
   physics.gravity_m_per_s2 = from_ros(request.gravity);
   set_ode(request.ode_config, physics);
-  stage.simulation.set_physics(physics);
-  stage.runner.follow_physics();
+  context.simulation.set_physics(physics);
+  context.runner.follow_physics();
   return "physics engine updated";
 }
 
 }  // namespace
 
-void add_physics_services(ServiceServers& servers, Stage& stage) {
-  const auto tuning = std::make_shared<PhysicsTuning>(servers.space(), stage);
+void add_physics_services(ServiceServers& servers, ServiceContext& context) {
+  const auto tuning = std::make_shared<PhysicsTuning>(servers.space(), context);
   servers.add<gazebo_msgs::GetPhysicsProperties>(
       "get_physics_properties", "GetPhysicsProperties",
-      [&stage](const auto&, auto& response) { return get_physics(stage, response); });
+      [&context](const auto&, auto& response) { return get_physics(context, response); });
   servers.add<gazebo_msgs::SetPhysicsProperties>("set_physics_properties", "SetPhysicsProperties",
-                                                 [&stage, tuning](const auto& request, auto&) {
+                                                 [&context, tuning](const auto& request, auto&) {
                                                    const std::string done =
-                                                       set_physics(stage, request);
+                                                       set_physics(context, request);
                                                    tuning->publish();
                                                    return done;
                                                  });

@@ -11,7 +11,8 @@ namespace {
 constexpr double kMostCount = 10000.0;
 
 /// A number that Gazebo has and this engine has not: 0, whatever is asked for.
-Tunable inert(const char* name, Tunable::Type type, double high) {
+devices::TunableParameter inert(const char* name, devices::TunableParameter::Type type,
+                                double high) {
   return {name,
           "without effect",
           type,
@@ -22,8 +23,9 @@ Tunable inert(const char* name, Tunable::Type type, double high) {
           [](double) { warn_of_inert_physics(); }};
 }
 
-const Tunable& require(const Tuning& tuning, const std::string& name) {
-  for (const Tunable& each : tuning.parameters) {
+const devices::TunableParameter& require(const devices::ParameterGroup& tuning,
+                                         const std::string& name) {
+  for (const devices::TunableParameter& each : tuning.parameters) {
     if (each.name == name) return each;
   }
   throw Error("found the parameter '" + name + "', expected one of Physics.cfg");
@@ -38,44 +40,46 @@ void warn_of_inert_physics() {
       "iterations without preconditioning");
 }
 
-Tunable PhysicsTuning::number(const char* name, const char* unit, double high, double initial,
-                              double PhysicsParams::*field) {
+devices::TunableParameter PhysicsTuning::number(const char* name, const char* unit, double high,
+                                                double initial, double PhysicsParams::*field) {
   return {name,
           unit,
-          Tunable::Type::kDouble,
+          devices::TunableParameter::Type::kDouble,
           0.0,
           high,
           initial,
-          [this, field] { return stage_.simulation.physics().*field; },
+          [this, field] { return context_.simulation.physics().*field; },
           [this, field](double value) { wanted_.*field = value; }};
 }
 
-Tunable PhysicsTuning::count(const char* name, double initial, int PhysicsParams::*field) {
+devices::TunableParameter PhysicsTuning::count(const char* name, double initial,
+                                               int PhysicsParams::*field) {
   return {name,
           "",
-          Tunable::Type::kInt,
+          devices::TunableParameter::Type::kInt,
           0.0,
           kMostCount,
           initial,
-          [this, field] { return double(stage_.simulation.physics().*field); },
+          [this, field] { return double(context_.simulation.physics().*field); },
           [this, field](double value) { wanted_.*field = static_cast<int>(value); }};
 }
 
-Tunable PhysicsTuning::gravity(const char* name, Eigen::Index axis, double initial) {
+devices::TunableParameter PhysicsTuning::gravity(const char* name, Eigen::Index axis,
+                                                 double initial) {
   constexpr double kMost_m_per_s2 = 100.0;
   return {name,
           "m/s^2",
-          Tunable::Type::kDouble,
+          devices::TunableParameter::Type::kDouble,
           -kMost_m_per_s2,
           kMost_m_per_s2,
           initial,
-          [this, axis] { return stage_.simulation.physics().gravity_m_per_s2[axis]; },
+          [this, axis] { return context_.simulation.physics().gravity_m_per_s2[axis]; },
           [this, axis](double value) { wanted_.gravity_m_per_s2[axis] = value; }};
 }
 
-Tuning PhysicsTuning::describe(const std::string& space) {
+devices::ParameterGroup PhysicsTuning::describe(const std::string& space) {
   using P = PhysicsParams;
-  using Type = Tunable::Type;
+  using Type = devices::TunableParameter::Type;
   return {
       space,
       {number("time_step", "s", 10.0, 0.001, &P::step_s),
@@ -93,24 +97,24 @@ Tuning PhysicsTuning::describe(const std::string& space) {
        count("max_contacts", 20, &P::max_contacts)}};
 }
 
-PhysicsTuning::PhysicsTuning(const std::string& space, Stage& stage)
-    : stage_(stage),
+PhysicsTuning::PhysicsTuning(const std::string& space, ServiceContext& context)
+    : context_(context),
       tuning_(describe(space)),
       server_(node_, tuning_, [this](const auto& values) { set(values); }) {}
 
 void PhysicsTuning::set(const TuningServer::Values& values) {
-  wanted_ = stage_.simulation.physics();
+  wanted_ = context_.simulation.physics();
   for (const auto& [name, value] : values) {
-    const Tunable& asked = require(tuning_, name);
+    const devices::TunableParameter& asked = require(tuning_, name);
     // Who sends all numbers to change one sends back some that a world may have beyond the range.
     if (value == asked.get()) continue;
-    if (asked.type == Tunable::Type::kInt && value != std::floor(value)) {
+    if (asked.type == devices::TunableParameter::Type::kInt && value != std::floor(value)) {
       throw Error(name + ": found " + std::to_string(value) + ", expected a whole number");
     }
     asked.set(checked(name, value, asked.low, asked.high));
   }
-  stage_.simulation.set_physics(wanted_);
-  stage_.runner.follow_physics();
+  context_.simulation.set_physics(wanted_);
+  context_.runner.follow_physics();
 }
 
 }  // namespace ardee::node

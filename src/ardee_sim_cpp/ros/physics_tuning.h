@@ -10,24 +10,24 @@ namespace ardee::node {
 /// request acts whole, or is refused and changes nothing.
 class PhysicsTuning {
  public:
-  /// `space` is the node's namespace; `stage` outlives this object.
-  PhysicsTuning(const std::string& space, Stage& stage);
+  /// `space` is the node's namespace; `context` outlives this object.
+  PhysicsTuning(const std::string& space, ServiceContext& context);
 
   /// The physics has changed by another way: whoever follows it is told.
   void publish() { server_.publish(); }
 
  private:
-  Tuning describe(const std::string& space);
-  Tunable number(const char* name, const char* unit, double high, double initial,
-                 double PhysicsParams::*field);
-  Tunable count(const char* name, double initial, int PhysicsParams::*field);
-  Tunable gravity(const char* name, Eigen::Index axis, double initial);
+  devices::ParameterGroup describe(const std::string& space);
+  devices::TunableParameter number(const char* name, const char* unit, double high, double initial,
+                                   double PhysicsParams::*field);
+  devices::TunableParameter count(const char* name, double initial, int PhysicsParams::*field);
+  devices::TunableParameter gravity(const char* name, Eigen::Index axis, double initial);
   void set(const TuningServer::Values& values);
 
-  Stage& stage_;
+  ServiceContext& context_;
   ros::NodeHandle node_;
   PhysicsParams wanted_;  // by the request that is being served
-  const Tuning tuning_;
+  const devices::ParameterGroup tuning_;
   TuningServer server_;
 };
 

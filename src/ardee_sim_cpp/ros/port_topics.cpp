@@ -15,10 +15,11 @@ constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages 
 constexpr std::uint32_t kImageQueue = 5;     // a picture is large
 
 template <std::size_t kKind>
-using MessageOf = decltype(to_message(std::declval<std::variant_alternative_t<kKind, Reading>>()));
+using MessageOf =
+    decltype(to_message(std::declval<std::variant_alternative_t<kKind, devices::Reading>>()));
 
 template <std::size_t... kKinds>
-ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
+ros::Publisher advertise_kind(ros::NodeHandle& node, const devices::Output& output,
                               std::index_sequence<kKinds...>) {
   ros::Publisher publisher;
   const auto try_kind = [&](auto kind) {
@@ -30,7 +31,9 @@ ros::Publisher advertise_kind(ros::NodeHandle& node, const Output& output,
   return publisher;
 }
 
-bool is_picture(const Output& output) { return output.kind == reading_kind<ImageReading>(); }
+bool is_picture(const devices::Output& output) {
+  return output.kind == devices::reading_kind<devices::ImageReading>();
+}
 
 }  // namespace
 
@@ -38,39 +41,39 @@ bool Route::has_listeners() const {
   return publisher ? publisher.getNumSubscribers() > 0 : pictures->has_listeners();
 }
 
-PortTopics::PortTopics(const ros::NodeHandle& node, Ports& ports, const Robot& robot,
-                       const std::string& sensor, Routes& routes)
+PortTopics::PortTopics(const ros::NodeHandle& node, devices::Ports& ports,
+                       const devices::Robot& robot, const std::string& sensor, Routes& routes)
     : node_(node), ports_(ports), routes_(routes), services_(node) {
-  for (const Service& service : ports.services) require_valid(service.name);
+  for (const devices::Service& service : ports.services) require_valid(service.name);
   std::vector<Route> made;
   const bool is_camera = std::any_of(ports.outputs.begin(), ports.outputs.end(), is_picture);
-  for (Output& output : ports.outputs) {
+  for (devices::Output& output : ports.outputs) {
     made.push_back(advertise(output, robot));
     made.back().sensor = sensor;
     made.back().is_camera = is_camera;
   }
-  for (const Input& input : ports.inputs) subscribers_.push_back(subscribe(node_, input));
+  for (const devices::Input& input : ports.inputs) subscribers_.push_back(subscribe(node_, input));
   services_.add(ports);
   actions_.add(node, ports);
   for (Route& route : made) {
-    const Output* output = route.output;
+    const devices::Output* output = route.output;
     routes_.emplace(output, std::move(route));
   }
 }
 
 PortTopics::~PortTopics() {
-  for (const Output& output : ports_.outputs) routes_.erase(&output);
+  for (const devices::Output& output : ports_.outputs) routes_.erase(&output);
 }
 
-Route PortTopics::advertise(Output& output, const Robot& robot) {
+Route PortTopics::advertise(devices::Output& output, const devices::Robot& robot) {
   require_valid(output.topic);
   Route route{&output, &robot, "", false, {}, nullptr};
   if (is_picture(output)) {
     const image_transport::Publisher pictures = images_.advertise(output.topic, kImageQueue);
     if (pictures) route.pictures = std::make_unique<PictureSender>(pictures, kImageQueue);
   } else {
-    route.publisher =
-        advertise_kind(node_, output, std::make_index_sequence<std::variant_size_v<Reading>>());
+    route.publisher = advertise_kind(
+        node_, output, std::make_index_sequence<std::variant_size_v<devices::Reading>>());
   }
   if (!route.publisher && !route.pictures) {
     throw Error("topic " + output.topic + " is already published with another type");
@@ -78,7 +81,8 @@ Route PortTopics::advertise(Output& output, const Robot& robot) {
   return route;
 }
 
-void warn_of_taken(const std::vector<std::string>& services, const Robot& robot, Log& log) {
+void warn_of_taken(const std::vector<std::string>& services, const devices::Robot& robot,
+                   Log& log) {
   if (services.empty()) return;
   const std::size_t others = services.size() - 1;
   log.warn(robot.model().source.to_string() + ": service " + services.front() +

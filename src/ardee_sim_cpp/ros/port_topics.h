@@ -19,8 +19,8 @@ namespace ardee::node {
 
 /// Where the readings of an output go.
 struct Route {
-  Output* output = nullptr;
-  const Robot* robot = nullptr;
+  devices::Output* output = nullptr;
+  const devices::Robot* robot = nullptr;
   std::string sensor;  // its scoped name where a sensor is what measures
   bool is_camera = false;
   ros::Publisher publisher;
@@ -30,7 +30,7 @@ struct Route {
 };
 
 /// All outputs that are published now.
-using Routes = std::unordered_map<const Output*, Route>;
+using Routes = std::unordered_map<const devices::Output*, Route>;
 
 /// The topics, services, tunings and actions of the ports of a device or of a controller; they are
 /// there as long as this is.
@@ -38,7 +38,7 @@ class PortTopics {
  public:
   /// `sensor` is the scoped name of a sensor, or empty. Throws Error if a topic cannot be had, and
   /// leaves none behind then. All references outlive this object.
-  PortTopics(const ros::NodeHandle& node, Ports& ports, const Robot& robot,
+  PortTopics(const ros::NodeHandle& node, devices::Ports& ports, const devices::Robot& robot,
              const std::string& sensor, Routes& routes);
   ~PortTopics();
   PortTopics(const PortTopics&) = delete;
@@ -48,11 +48,11 @@ class PortTopics {
   const std::vector<std::string>& taken() const { return services_.taken(); }
 
  private:
-  Route advertise(Output& output, const Robot& robot);
+  Route advertise(devices::Output& output, const devices::Robot& robot);
 
   ros::NodeHandle node_;
   image_transport::ImageTransport images_{node_};
-  Ports& ports_;
+  devices::Ports& ports_;
   Routes& routes_;
   std::vector<ros::Subscriber> subscribers_;
   DeviceServices services_;
@@ -60,6 +60,6 @@ class PortTopics {
 };
 
 /// Says once whose services are another's already, which roscpp would of each.
-void warn_of_taken(const std::vector<std::string>& services, const Robot& robot, Log& log);
+void warn_of_taken(const std::vector<std::string>& services, const devices::Robot& robot, Log& log);
 
 }  // namespace ardee::node

@@ -10,18 +10,18 @@
 namespace ardee::node {
 namespace {
 
-std::string get_world(Stage& stage, gazebo_msgs::GetWorldPropertiesResponse& response) {
-  response.sim_time = seconds(stage.simulation.now_ns());
-  for (const auto& entity : stage.simulation.entities()) {
+std::string get_world(ServiceContext& context, gazebo_msgs::GetWorldPropertiesResponse& response) {
+  response.sim_time = seconds(context.simulation.now_ns());
+  for (const auto& entity : context.simulation.entities()) {
     response.model_names.push_back(entity->name());
   }
   response.rendering_enabled = true;  // as gazebo_ros says at all times
   return "GetWorldProperties: got properties";
 }
 
-std::string get_model(Stage& stage, const std::string& name,
+std::string get_model(ServiceContext& context, const std::string& name,
                       gazebo_msgs::GetModelPropertiesResponse& response) {
-  const Entity& entity = require_model(stage, name);
+  const Entity& entity = require_model(context, name);
   const Model& model = entity.robot->model();
   response.canonical_body_name = model.canonical_link;
   for (const Link& link : model.links) {
@@ -36,14 +36,14 @@ std::string get_model(Stage& stage, const std::string& name,
   return "GetModelProperties: got properties";
 }
 
-std::string get_link(Stage& stage, const std::string& name,
+std::string get_link(ServiceContext& context, const std::string& name,
                      gazebo_msgs::GetLinkPropertiesResponse& response) {
-  const LinkRef ref = require_link(stage, name);
-  const Robot& robot = *ref.entity.robot;
+  const LinkRef ref = require_link(context, name);
+  const devices::Robot& robot = *ref.entity.robot;
   const Link& described = robot.model().links[ref.link];
-  const LinkProperties link = robot.is_dynamic()
-                                  ? robot.dynamics().link_properties(ref.link)
-                                  : LinkProperties{described.inertial, described.gravity};
+  const physics::LinkProperties link =
+      robot.is_dynamic() ? robot.dynamics().link_properties(ref.link)
+                         : physics::LinkProperties{described.inertial, described.gravity};
   response.gravity_mode = link.gravity;
   const Inertial inertial = link.inertial.value_or(Inertial{});
   response.com = to_ros(inertial.X_LI);
@@ -78,12 +78,12 @@ std::uint8_t gazebo_type(JointType type) {
   return Response::FIXED;
 }
 
-std::string get_joint(Stage& stage, const std::string& name,
+std::string get_joint(ServiceContext& context, const std::string& name,
                       gazebo_msgs::GetJointPropertiesResponse& response) {
-  const JointRef ref = require_joint(stage, name);
+  const JointRef ref = require_joint(context, name);
   const Joint& joint = ref.entity.robot->model().joints[ref.joint];
   response.type = gazebo_type(joint.type);
-  const PhysicsModel& dynamics = ref.entity.robot->dynamics();
+  const physics::PhysicsModel& dynamics = ref.entity.robot->dynamics();
   for (std::size_t axis = 0; axis < dynamics.joint_axes(ref.joint); ++axis) {
     response.damping.push_back(dynamics.joint_properties(ref.joint, axis).spring.damping);
   }
@@ -96,22 +96,24 @@ std::string get_joint(Stage& stage, const std::string& name,
 
 }  // namespace
 
-void add_property_services(ServiceServers& servers, Stage& stage) {
+void add_property_services(ServiceServers& servers, ServiceContext& context) {
   servers.add<gazebo_msgs::GetWorldProperties>(
       "get_world_properties", "GetWorldProperties",
-      [&stage](const auto&, auto& response) { return get_world(stage, response); });
-  servers.add<gazebo_msgs::GetModelProperties>(
-      "get_model_properties", "GetModelProperties", [&stage](const auto& request, auto& response) {
-        return get_model(stage, request.model_name, response);
+      [&context](const auto&, auto& response) { return get_world(context, response); });
+  servers.add<gazebo_msgs::GetModelProperties>("get_model_properties", "GetModelProperties",
+                                               [&context](const auto& request, auto& response) {
+                                                 return get_model(context, request.model_name,
+                                                                  response);
+                                               });
+  servers.add<gazebo_msgs::GetLinkProperties>(
+      "get_link_properties", "GetLinkProperties", [&context](const auto& request, auto& response) {
+        return get_link(context, request.link_name, response);
       });
-  servers.add<gazebo_msgs::GetLinkProperties>("get_link_properties", "GetLinkProperties",
-                                              [&stage](const auto& request, auto& response) {
-                                                return get_link(stage, request.link_name, response);
-                                              });
-  servers.add<gazebo_msgs::GetJointProperties>(
-      "get_joint_properties", "GetJointProperties", [&stage](const auto& request, auto& response) {
-        return get_joint(stage, request.joint_name, response);
-      });
+  servers.add<gazebo_msgs::GetJointProperties>("get_joint_properties", "GetJointProperties",
+                                               [&context](const auto& request, auto& response) {
+                                                 return get_joint(context, request.joint_name,
+                                                                  response);
+                                               });
 }
 
 }  // namespace ardee::node

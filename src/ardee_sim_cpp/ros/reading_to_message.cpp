@@ -11,7 +11,7 @@ void set_diagonal(const std::array<double, kSize>& diagonal, Matrix& matrix) {
   for (std::size_t i = 0; i < kSize; ++i) matrix[i * (kSize + 1)] = diagonal[i];
 }
 
-visualization_msgs::Marker box_marker(const RegionsReading::Region& region) {
+visualization_msgs::Marker box_marker(const devices::RegionsReading::Region& region) {
   visualization_msgs::Marker marker;
   marker.ns = "regions";
   marker.type = visualization_msgs::Marker::CUBE;
@@ -24,7 +24,7 @@ visualization_msgs::Marker box_marker(const RegionsReading::Region& region) {
   return marker;
 }
 
-visualization_msgs::Marker name_marker(const RegionsReading::Region& region) {
+visualization_msgs::Marker name_marker(const devices::RegionsReading::Region& region) {
   constexpr double kTextHeight_m = 0.3;
   visualization_msgs::Marker marker;
   marker.ns = "names";
@@ -40,7 +40,7 @@ visualization_msgs::Marker name_marker(const RegionsReading::Region& region) {
 
 }  // namespace
 
-nav_msgs::Odometry to_message(const OdometryReading& reading) {
+nav_msgs::Odometry to_message(const devices::OdometryReading& reading) {
   nav_msgs::Odometry message;
   message.header = to_ros(reading.header);
   message.child_frame_id = reading.child_frame_id;
@@ -51,7 +51,7 @@ nav_msgs::Odometry to_message(const OdometryReading& reading) {
   return message;
 }
 
-tf2_msgs::TFMessage to_message(const TransformReading& reading) {
+tf2_msgs::TFMessage to_message(const devices::TransformReading& reading) {
   tf2_msgs::TFMessage message;
   message.transforms.resize(1);
   message.transforms[0].header = to_ros(reading.header);
@@ -60,7 +60,7 @@ tf2_msgs::TFMessage to_message(const TransformReading& reading) {
   return message;
 }
 
-sensor_msgs::JointState to_message(const JointStateReading& reading) {
+sensor_msgs::JointState to_message(const devices::JointStateReading& reading) {
   sensor_msgs::JointState message;
   message.header = to_ros(reading.header);
   message.name = reading.names;
@@ -70,7 +70,7 @@ sensor_msgs::JointState to_message(const JointStateReading& reading) {
   return message;
 }
 
-sensor_msgs::Imu to_message(const ImuReading& reading) {
+sensor_msgs::Imu to_message(const devices::ImuReading& reading) {
   sensor_msgs::Imu message;
   message.header = to_ros(reading.header);
   message.orientation = to_quaternion(reading.orientation);
@@ -82,7 +82,7 @@ sensor_msgs::Imu to_message(const ImuReading& reading) {
   return message;
 }
 
-sensor_msgs::NavSatFix to_message(const FixReading& reading) {
+sensor_msgs::NavSatFix to_message(const devices::FixReading& reading) {
   sensor_msgs::NavSatFix message;
   message.header = to_ros(reading.header);
   message.status.status = static_cast<std::int8_t>(reading.status);
@@ -99,21 +99,21 @@ sensor_msgs::NavSatFix to_message(const FixReading& reading) {
   return message;
 }
 
-geometry_msgs::Vector3Stamped to_message(const VectorReading& reading) {
+geometry_msgs::Vector3Stamped to_message(const devices::VectorReading& reading) {
   geometry_msgs::Vector3Stamped message;
   message.header = to_ros(reading.header);
   message.vector = to_vector(reading.vector);
   return message;
 }
 
-sensor_msgs::MagneticField to_message(const MagneticFieldReading& reading) {
+sensor_msgs::MagneticField to_message(const devices::MagneticFieldReading& reading) {
   sensor_msgs::MagneticField message;
   message.header = to_ros(reading.header);
   message.magnetic_field = to_vector(reading.field_T);
   return message;
 }
 
-ardee_msgs::GpsQuality to_message(const GpsQualityReading& reading) {
+ardee_msgs::GpsQuality to_message(const devices::GpsQualityReading& reading) {
   ardee_msgs::GpsQuality message;
   message.header = to_ros(reading.header);
   message.region = reading.region;
@@ -123,10 +123,10 @@ ardee_msgs::GpsQuality to_message(const GpsQualityReading& reading) {
   return message;
 }
 
-visualization_msgs::MarkerArray to_message(const RegionsReading& reading) {
+visualization_msgs::MarkerArray to_message(const devices::RegionsReading& reading) {
   visualization_msgs::MarkerArray message;
   int id = 0;
-  for (const RegionsReading::Region& region : reading.regions) {
+  for (const devices::RegionsReading::Region& region : reading.regions) {
     for (visualization_msgs::Marker marker : {box_marker(region), name_marker(region)}) {
       marker.header = to_ros(reading.header);
       marker.id = id;

@@ -13,14 +13,14 @@ namespace ardee::node {
 namespace {
 
 /// Odometry is measured at all times: OdometryFrames reads it.
-bool always_demanded(const Output& output) {
-  return output.kind == reading_kind<OdometryReading>() ||
-         output.kind == reading_kind<TransformReading>();
+bool always_demanded(const devices::Output& output) {
+  return output.kind == devices::reading_kind<devices::OdometryReading>() ||
+         output.kind == devices::reading_kind<devices::TransformReading>();
 }
 
 /// "model::link::sensor", or nothing for a device that is no sensor.
-std::string sensor_name(const Device& device, const Robot& robot) {
-  const auto* sensor = dynamic_cast<const Sensor*>(&device);
+std::string sensor_name(const devices::Device& device, const devices::Robot& robot) {
+  const auto* sensor = dynamic_cast<const devices::Sensor*>(&device);
   if (!sensor) return "";
   return robot.name() + "::" + robot.model().links[sensor->link()].name + "::" + device.name();
 }
@@ -31,7 +31,7 @@ void append(const std::vector<std::string>& more, std::vector<std::string>& all)
 
 }  // namespace
 
-void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
+void RobotTopics::add(devices::Device& device, const devices::Robot& robot, Topics& topics) {
   topics.devices.push_back(std::make_unique<PortTopics>(node_, device.ports(), robot,
                                                         sensor_name(device, robot), routes_));
   append(topics.devices.back()->taken(), topics.taken);
@@ -44,14 +44,14 @@ void RobotTopics::add(Device& device, const Robot& robot, Topics& topics) {
 
 void RobotTopics::add(Entity& entity) {
   Topics topics;
-  std::set<const Device*> left_out;
+  std::set<const devices::Device*> left_out;
   for (const auto& device : entity.devices) {
     try {
       add(*device, *entity.robot, topics);
     } catch (const Error& error) {
       const Error placed(entity.robot->model().source,
                          "plugin '" + device->name() + "': " + error.what());
-      if (!device->is_dispensable()) throw placed;
+      if (!device->is_optional()) throw placed;
       log_.error(std::string(placed.what()) + "; it is left out");
       left_out.insert(device.get());
     }
@@ -79,7 +79,7 @@ void RobotTopics::count(const Route& route, TimeNs now_ns) {
   metrics_.on_measured(route.sensor, route.is_camera, now_ns);
 }
 
-void RobotTopics::on_reading(const Output& output, const Reading& reading) {
+void RobotTopics::on_reading(const devices::Output& output, const devices::Reading& reading) {
   const auto found = routes_.find(&output);
   if (found == routes_.end()) return;
   const Route& route = found->second;
@@ -90,7 +90,8 @@ void RobotTopics::on_reading(const Output& output, const Reading& reading) {
         if (!output.latched && !route.has_listeners()) return;
         if (route.publisher) {
           route.publisher.publish(to_message(measured));
-        } else if constexpr (std::is_same_v<std::decay_t<decltype(measured)>, ImageReading>) {
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(measured)>,
+                                            devices::ImageReading>) {
           route.pictures->send(boost::make_shared<sensor_msgs::Image>(to_message(measured)));
         }
       },

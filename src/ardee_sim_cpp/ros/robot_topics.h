@@ -19,7 +19,7 @@ namespace ardee::node {
 
 /// The topics and services of the robots' devices: publishers of what they measure, subscribers to
 /// their commands. They come when a robot is spawned and go when it is removed.
-class RobotTopics : public ReadingSink {
+class RobotTopics : public devices::ReadingSink {
  public:
   RobotTopics(OdometryFrames& frames, PerformanceMetrics& metrics, Log log)
       : frames_(frames), metrics_(metrics), log_(std::move(log)) {}
@@ -30,7 +30,7 @@ class RobotTopics : public ReadingSink {
   void remove(const std::string& entity_name);
   /// Tells the devices which of their outputs somebody listens to.
   void update_demand();
-  void on_reading(const Output& output, const Reading& reading) override;
+  void on_reading(const devices::Output& output, const devices::Reading& reading) override;
 
  private:
   struct Topics {
@@ -38,7 +38,7 @@ class RobotTopics : public ReadingSink {
     std::vector<std::unique_ptr<ControllerServices>> managers;
     std::vector<std::string> taken;  // services
   };
-  void add(Device& device, const Robot& robot, Topics& topics);
+  void add(devices::Device& device, const devices::Robot& robot, Topics& topics);
   void count(const Route& route, TimeNs now_ns);
 
   OdometryFrames& frames_;

@@ -15,7 +15,7 @@ constexpr auto kChorePeriod = std::chrono::milliseconds(200);
 
 }  // namespace
 
-Runner::Runner(Simulation& simulation, const Outlets& outlets, std::function<void()> chores)
+Runner::Runner(Simulation& simulation, const StepListeners& outlets, std::function<void()> chores)
     : simulation_(simulation), outlets_(outlets), chores_(std::move(chores)) {
   follow_physics();
   outlets_.clock.publish(simulation.now_ns());

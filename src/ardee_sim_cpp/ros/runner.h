@@ -15,7 +15,7 @@
 namespace ardee::node {
 
 /// What is told of each step.
-struct Outlets {
+struct StepListeners {
   RobotTopics& robots;
   StateTopics& states;
   ClockPublisher& clock;
@@ -27,7 +27,7 @@ struct Outlets {
 class Runner {
  public:
   /// `chores` is called a few times a second of wall time, also while paused.
-  Runner(Simulation& simulation, const Outlets& outlets, std::function<void()> chores);
+  Runner(Simulation& simulation, const StepListeners& outlets, std::function<void()> chores);
 
   /// Until ROS shuts down.
   void run();
@@ -51,7 +51,7 @@ class Runner {
   void serve(double timeout_s);
 
   Simulation& simulation_;
-  Outlets outlets_;
+  StepListeners outlets_;
   std::function<void()> chores_;
   Clock::time_point next_chores_ = Clock::now();
   Pacer pacer_;

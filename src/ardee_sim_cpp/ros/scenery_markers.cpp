@@ -51,8 +51,8 @@ Eigen::Vector3d SceneryMarkers::default_eye() const {
   if (const auto& camera = simulation_.world().gui_camera) {
     const Eigen::Vector3d view = camera->q * Eigen::Vector3d::UnitX();
     const double distance_m = view.z() < 0.0 ? -camera->p.z() / view.z() : 0.0;
-    const bool looks_down = distance_m > 0.0 && distance_m < kFarthest_m;
-    return looks_down ? Eigen::Vector3d(camera->p + distance_m * view) : camera->p;
+    const bool materials_down = distance_m > 0.0 && distance_m < kFarthest_m;
+    return materials_down ? Eigen::Vector3d(camera->p + distance_m * view) : camera->p;
   }
   Eigen::AlignedBox3d bounds;
   for (const auto& entity : simulation_.entities()) {

@@ -7,7 +7,7 @@
 
 namespace ardee::node {
 
-sensor_msgs::LaserScan to_message(const LidarReading& reading) {
+sensor_msgs::LaserScan to_message(const devices::LidarReading& reading) {
   sensor_msgs::LaserScan message;
   message.header = to_ros(reading.header);
   message.angle_min = static_cast<float>(reading.angle_min_rad);
@@ -22,7 +22,7 @@ sensor_msgs::LaserScan to_message(const LidarReading& reading) {
   return message;
 }
 
-ardee_msgs::Encoder to_message(const EncoderReading& reading) {
+ardee_msgs::Encoder to_message(const devices::EncoderReading& reading) {
   ardee_msgs::Encoder message;
   message.header = to_ros(reading.header);
   message.id = reading.id;
@@ -32,7 +32,7 @@ ardee_msgs::Encoder to_message(const EncoderReading& reading) {
   return message;
 }
 
-ardee_msgs::Battery to_message(const BatteryReading& reading) {
+ardee_msgs::Battery to_message(const devices::BatteryReading& reading) {
   ardee_msgs::Battery message;
   message.header = to_ros(reading.header);
   message.voltage = reading.voltage_V;
@@ -41,7 +41,7 @@ ardee_msgs::Battery to_message(const BatteryReading& reading) {
   return message;
 }
 
-sensor_msgs::BatteryState to_message(const BatteryStateReading& reading) {
+sensor_msgs::BatteryState to_message(const devices::BatteryStateReading& reading) {
   using Message = sensor_msgs::BatteryState;
   Message message;
   message.header = to_ros(reading.header);
@@ -61,7 +61,7 @@ sensor_msgs::BatteryState to_message(const BatteryStateReading& reading) {
   return message;
 }
 
-sensor_msgs::Range to_message(const RangeReading& reading) {
+sensor_msgs::Range to_message(const devices::RangeReading& reading) {
   sensor_msgs::Range message;
   message.header = to_ros(reading.header);
   message.radiation_type = static_cast<std::uint8_t>(reading.radiation);
@@ -72,12 +72,12 @@ sensor_msgs::Range to_message(const RangeReading& reading) {
   return message;
 }
 
-sensor_msgs::PointCloud2 to_message(const PointCloudReading& reading) {
+sensor_msgs::PointCloud2 to_message(const devices::PointCloudReading& reading) {
   sensor_msgs::PointCloud2 message;
   message.header = to_ros(reading.header);
   message.height = reading.height;
   message.width = reading.width;
-  for (const PointCloudReading::Field& field : reading.fields) {
+  for (const devices::PointCloudReading::Field& field : reading.fields) {
     sensor_msgs::PointField& kept = message.fields.emplace_back();
     kept.name = field.name;
     kept.offset = field.offset;
@@ -92,7 +92,7 @@ sensor_msgs::PointCloud2 to_message(const PointCloudReading& reading) {
   return message;
 }
 
-sensor_msgs::PointCloud to_message(const LegacyCloudReading& reading) {
+sensor_msgs::PointCloud to_message(const devices::LegacyCloudReading& reading) {
   sensor_msgs::PointCloud message;
   message.header = to_ros(reading.header);
   for (const Eigen::Vector3f& point : reading.points) {
@@ -107,7 +107,7 @@ sensor_msgs::PointCloud to_message(const LegacyCloudReading& reading) {
   return message;
 }
 
-sensor_msgs::Image to_message(const ImageReading& reading) {
+sensor_msgs::Image to_message(const devices::ImageReading& reading) {
   sensor_msgs::Image message;
   message.header = to_ros(reading.header);
   message.height = reading.height;
@@ -119,7 +119,7 @@ sensor_msgs::Image to_message(const ImageReading& reading) {
   return message;
 }
 
-sensor_msgs::CameraInfo to_message(const CameraInfoReading& reading) {
+sensor_msgs::CameraInfo to_message(const devices::CameraInfoReading& reading) {
   sensor_msgs::CameraInfo message;
   message.header = to_ros(reading.header);
   message.height = reading.height;

@@ -11,7 +11,7 @@
 namespace ardee::node {
 
 /// What the services act on. All references outlive them.
-struct Stage {
+struct ServiceContext {
   Simulation& simulation;
   Loader& loader;
   RobotTopics& topics;
@@ -20,39 +20,40 @@ struct Stage {
 };
 
 /// The services of Gazebo's node API and /ardee/step, one file a group.
-void add_spawn_services(ServiceServers& servers, Stage& stage);
-void add_control_services(ServiceServers& servers, Stage& stage);
-void add_model_state_services(ServiceServers& servers, Stage& stage);
-void add_link_state_services(ServiceServers& servers, Stage& stage);
-void add_property_services(ServiceServers& servers, Stage& stage);
-void add_set_property_services(ServiceServers& servers, Stage& stage);
-void add_physics_services(ServiceServers& servers, Stage& stage);
-void add_force_services(ServiceServers& servers, Stage& stage);
-void add_light_services(ServiceServers& servers, Stage& stage);
+void add_spawn_services(ServiceServers& servers, ServiceContext& context);
+void add_control_services(ServiceServers& servers, ServiceContext& context);
+void add_model_state_services(ServiceServers& servers, ServiceContext& context);
+void add_link_state_services(ServiceServers& servers, ServiceContext& context);
+void add_property_services(ServiceServers& servers, ServiceContext& context);
+void add_set_property_services(ServiceServers& servers, ServiceContext& context);
+void add_physics_services(ServiceServers& servers, ServiceContext& context);
+void add_force_services(ServiceServers& servers, ServiceContext& context);
+void add_light_services(ServiceServers& servers, ServiceContext& context);
 
 /// `value` if it lies between the two; throws Error naming the request's field otherwise, and for
 /// NaN.
 double checked(const std::string& field, double value, double low, double high);
 
 /// The model of that name; throws Error if there is none.
-Entity& require_model(Stage& stage, const std::string& name);
+Entity& require_model(ServiceContext& context, const std::string& name);
 
 /// A link, found by "model::link" or by the name of a link that a model has.
 struct LinkRef {
   Entity& entity;
   std::size_t link;
 };
-LinkRef require_link(Stage& stage, const std::string& name);
+LinkRef require_link(ServiceContext& context, const std::string& name);
 
 /// A joint, found by "model::joint" or by a joint's name that a moving model has.
 struct JointRef {
   Entity& entity;
   std::size_t joint;
 };
-JointRef require_joint(Stage& stage, const std::string& name);
+JointRef require_joint(ServiceContext& context, const std::string& name);
 
 /// State in the world of a model, a model::link or the world (""); throws Error for an unknown one
 /// with `field`, the request's field it came in.
-RelativeState frame_in_world(Stage& stage, const std::string& reference, const std::string& field);
+RelativeState frame_in_world(ServiceContext& context, const std::string& reference,
+                             const std::string& field);
 
 }  // namespace ardee::node

@@ -18,9 +18,10 @@ double checked_moment(const char* field, double value) {
   return checked(field, value, -kLarge, kLarge);
 }
 
-std::string set_link(Stage& stage, const gazebo_msgs::SetLinkPropertiesRequest& request) {
-  const LinkRef ref = require_link(stage, request.link_name);
-  PhysicsModel& dynamics = ref.entity.robot->dynamics();
+std::string set_link(ServiceContext& context,
+                     const gazebo_msgs::SetLinkPropertiesRequest& request) {
+  const LinkRef ref = require_link(context, request.link_name);
+  physics::PhysicsModel& dynamics = ref.entity.robot->dynamics();
   Inertial inertial;
   inertial.X_LI = from_ros(request.com);
   for (const double part_m : inertial.X_LI.p) {
@@ -33,7 +34,7 @@ std::string set_link(Stage& stage, const gazebo_msgs::SetLinkPropertiesRequest& 
   inertial.inertia_kg_m2 << checked_moment("ixx", request.ixx), ixy, ixz,  //
       ixy, checked_moment("iyy", request.iyy), iyz,                        //
       ixz, iyz, checked_moment("izz", request.izz);
-  LinkProperties properties;
+  physics::LinkProperties properties;
   properties.inertial = inertial;
   properties.gravity = request.gravity_mode;
   dynamics.set_link_properties(ref.link, properties);
@@ -42,11 +43,11 @@ std::string set_link(Stage& stage, const gazebo_msgs::SetLinkPropertiesRequest& 
 
 /// Properties and motor of one axis.
 struct Axis {
-  JointProperties properties;
-  JointMotor motor;
+  physics::JointProperties properties;
+  physics::JointMotor motor;
 };
 
-std::vector<Axis> axes_of(const PhysicsModel& dynamics, std::size_t joint) {
+std::vector<Axis> axes_of(const physics::PhysicsModel& dynamics, std::size_t joint) {
   std::vector<Axis> axes;
   for (std::size_t axis = 0; axis < dynamics.joint_axes(joint); ++axis) {
     axes.push_back({dynamics.joint_properties(joint, axis), dynamics.joint_motor(joint, axis)});
@@ -55,7 +56,7 @@ std::vector<Axis> axes_of(const PhysicsModel& dynamics, std::size_t joint) {
 }
 
 /// Sets all or none.
-void set_axes(PhysicsModel& dynamics, std::size_t joint, const std::vector<Axis>& wanted) {
+void set_axes(physics::PhysicsModel& dynamics, std::size_t joint, const std::vector<Axis>& wanted) {
   const auto set = [&](const std::vector<Axis>& axes) {
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
       dynamics.set_joint_properties(joint, axis, axes[axis].properties);
@@ -83,9 +84,10 @@ void write_list(const char* name, const std::vector<double>& list, std::vector<A
   for (std::size_t axis = 0; axis < list.size(); ++axis) field(axes[axis]) = list[axis];
 }
 
-std::string set_joint(Stage& stage, const gazebo_msgs::SetJointPropertiesRequest& request) {
-  const JointRef ref = require_joint(stage, request.joint_name);
-  PhysicsModel& dynamics = ref.entity.robot->dynamics();
+std::string set_joint(ServiceContext& context,
+                      const gazebo_msgs::SetJointPropertiesRequest& request) {
+  const JointRef ref = require_joint(context, request.joint_name);
+  physics::PhysicsModel& dynamics = ref.entity.robot->dynamics();
   const gazebo_msgs::ODEJointProperties& asked = request.ode_joint_config;
   std::vector<Axis> axes = axes_of(dynamics, ref.joint);
   using A = Axis;
@@ -113,13 +115,13 @@ std::string set_joint(Stage& stage, const gazebo_msgs::SetJointPropertiesRequest
 
 }  // namespace
 
-void add_set_property_services(ServiceServers& servers, Stage& stage) {
+void add_set_property_services(ServiceServers& servers, ServiceContext& context) {
   servers.add<gazebo_msgs::SetLinkProperties>(
       "set_link_properties", "SetLinkProperties",
-      [&stage](const auto& request, auto&) { return set_link(stage, request); });
+      [&context](const auto& request, auto&) { return set_link(context, request); });
   servers.add<gazebo_msgs::SetJointProperties>(
       "set_joint_properties", "SetJointProperties",
-      [&stage](const auto& request, auto&) { return set_joint(stage, request); });
+      [&context](const auto& request, auto&) { return set_joint(context, request); });
 }
 
 }  // namespace ardee::node

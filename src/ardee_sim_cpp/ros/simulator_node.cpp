@@ -125,7 +125,7 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
                 scenery_.update();
                 metrics_.publish(simulation_.now_ns());
               }),
-      stage_{simulation_, loader_, topics_, runner_, messages_},
+      context_{simulation_, loader_, topics_, runner_, messages_},
       servers_(private_node) {
   for (const auto& entity : simulation_.entities()) topics_.add(*entity);
   simulation_.set_sink(&topics_);
@@ -136,15 +136,15 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
     runner_.follow_physics();
   }
   runner_.set_paused(settings.paused);
-  add_spawn_services(servers_, stage_);
-  add_control_services(servers_, stage_);
-  add_model_state_services(servers_, stage_);
-  add_link_state_services(servers_, stage_);
-  add_property_services(servers_, stage_);
-  add_set_property_services(servers_, stage_);
-  add_physics_services(servers_, stage_);
-  add_force_services(servers_, stage_);
-  add_light_services(servers_, stage_);
+  add_spawn_services(servers_, context_);
+  add_control_services(servers_, context_);
+  add_model_state_services(servers_, context_);
+  add_link_state_services(servers_, context_);
+  add_property_services(servers_, context_);
+  add_set_property_services(servers_, context_);
+  add_physics_services(servers_, context_);
+  add_force_services(servers_, context_);
+  add_light_services(servers_, context_);
   ROS_INFO_STREAM("seed " << settings.seed << ", " << simulation_.entities().size()
                           << " models, step " << simulation_.physics().step_s << " s"
                           << (settings.paused ? ", paused" : ""));

@@ -38,7 +38,7 @@ class SimulatorNode {
   ClockPublisher clock_;
   SceneryMarkers scenery_;
   Runner runner_;
-  Stage stage_;
+  ServiceContext context_;
   ServiceServers servers_;
 };
 

@@ -30,7 +30,7 @@ void StateTopics::publish() {
   if (models_.getNumSubscribers() > 0) {
     gazebo_msgs::ModelStates states;
     for (const auto& entity : simulation_.entities()) {
-      const Robot& robot = *entity->robot;
+      const devices::Robot& robot = *entity->robot;
       append(states, robot.name(), robot.pose(), robot.twist());
     }
     models_.publish(states);
@@ -38,7 +38,7 @@ void StateTopics::publish() {
   if (links_.getNumSubscribers() > 0) {
     gazebo_msgs::LinkStates states;
     for (const auto& entity : simulation_.entities()) {
-      const Robot& robot = *entity->robot;
+      const devices::Robot& robot = *entity->robot;
       for (std::size_t link = 0; link < robot.model().links.size(); ++link) {
         append(states, robot.name() + "::" + robot.model().links[link].name, robot.link_pose(link),
                robot.link_twist(link));

@@ -16,14 +16,15 @@ using dynamic_reconfigure::Config;
 const ros::WallDuration kLook(0.2);
 
 /// The numbers that `value` gives for the parameters, as one message.
-Config config_of(const Tuning& tuning, const std::function<double(const Tunable&)>& value) {
+Config config_of(const devices::ParameterGroup& tuning,
+                 const std::function<double(const devices::TunableParameter&)>& value) {
   Config config;
-  for (const Tunable& parameter : tuning.parameters) {
-    if (parameter.type == Tunable::Type::kBool) {
+  for (const devices::TunableParameter& parameter : tuning.parameters) {
+    if (parameter.type == devices::TunableParameter::Type::kBool) {
       auto& kept = config.bools.emplace_back();
       kept.name = parameter.name;
       kept.value = value(parameter) != 0.0;
-    } else if (parameter.type == Tunable::Type::kInt) {
+    } else if (parameter.type == devices::TunableParameter::Type::kInt) {
       auto& kept = config.ints.emplace_back();
       kept.name = parameter.name;
       kept.value = static_cast<int>(std::lround(value(parameter)));
@@ -39,30 +40,34 @@ Config config_of(const Tuning& tuning, const std::function<double(const Tunable&
   return config;
 }
 
-const char* type_name(Tunable::Type type) {
-  if (type == Tunable::Type::kBool) return "bool";
-  return type == Tunable::Type::kInt ? "int" : "double";
+const char* type_name(devices::TunableParameter::Type type) {
+  if (type == devices::TunableParameter::Type::kBool) return "bool";
+  return type == devices::TunableParameter::Type::kInt ? "int" : "double";
 }
 
-dynamic_reconfigure::ConfigDescription describe(const Tuning& tuning) {
+dynamic_reconfigure::ConfigDescription describe(const devices::ParameterGroup& tuning) {
   dynamic_reconfigure::ConfigDescription description;
   auto& group = description.groups.emplace_back();
   group.name = "Default";
-  for (const Tunable& parameter : tuning.parameters) {
+  for (const devices::TunableParameter& parameter : tuning.parameters) {
     auto& kept = group.parameters.emplace_back();
     kept.name = parameter.name;
     kept.type = type_name(parameter.type);
     kept.description = parameter.description;
   }
-  description.min = config_of(tuning, [](const Tunable& each) { return each.low; });
-  description.max = config_of(tuning, [](const Tunable& each) { return each.high; });
-  description.dflt = config_of(tuning, [](const Tunable& each) { return each.initial; });
+  description.min =
+      config_of(tuning, [](const devices::TunableParameter& each) { return each.low; });
+  description.max =
+      config_of(tuning, [](const devices::TunableParameter& each) { return each.high; });
+  description.dflt =
+      config_of(tuning, [](const devices::TunableParameter& each) { return each.initial; });
   return description;
 }
 
-void set_alone(const Tuning& tuning, const std::string& name, double value) {
-  const auto found = std::find_if(tuning.parameters.begin(), tuning.parameters.end(),
-                                  [&name](const Tunable& each) { return each.name == name; });
+void set_alone(const devices::ParameterGroup& tuning, const std::string& name, double value) {
+  const auto found =
+      std::find_if(tuning.parameters.begin(), tuning.parameters.end(),
+                   [&name](const devices::TunableParameter& each) { return each.name == name; });
   if (found == tuning.parameters.end() || !std::isfinite(value)) {
     ROS_ERROR_STREAM(tuning.name << ": found '" << name << "' = " << value
                                  << ", expected a finite value of a known parameter; ignored");
@@ -73,12 +78,12 @@ void set_alone(const Tuning& tuning, const std::string& name, double value) {
 
 }  // namespace
 
-TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning)
+TuningServer::TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning)
     : TuningServer(node, tuning, [&tuning](const Values& values) {
         for (const auto& [name, value] : values) set_alone(tuning, name, value);
       }) {}
 
-TuningServer::TuningServer(ros::NodeHandle& node, const Tuning& tuning,
+TuningServer::TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning,
                            std::function<void(const Values&)> set)
     : tuning_(tuning),
       set_(std::move(set)),
@@ -100,12 +105,12 @@ void TuningServer::publish() {
 
 std::vector<double> TuningServer::numbers() const {
   std::vector<double> made;
-  for (const Tunable& each : tuning_.parameters) made.push_back(each.get());
+  for (const devices::TunableParameter& each : tuning_.parameters) made.push_back(each.get());
   return made;
 }
 
 Config TuningServer::current() const {
-  return config_of(tuning_, [](const Tunable& each) { return each.get(); });
+  return config_of(tuning_, [](const devices::TunableParameter& each) { return each.get(); });
 }
 
 bool TuningServer::serve(dynamic_reconfigure::Reconfigure::Request& request,

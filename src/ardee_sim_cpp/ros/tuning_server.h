@@ -25,14 +25,17 @@ class TuningServer {
 
   /// Each number is set by itself: one beyond its bounds becomes the nearest within, one that is
   /// not finite or not known is ignored. `tuning` outlives the server.
-  TuningServer(ros::NodeHandle& node, const Tuning& tuning);
+  TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning);
   /// `set` sets all numbers of a request together, or throws Error and sets none.
-  TuningServer(ros::NodeHandle& node, const Tuning& tuning, std::function<void(const Values&)> set);
+  TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning,
+               std::function<void(const Values&)> set);
 
   /// Tells whoever follows the numbers what they are. What changes them by other ways (a reset)
   /// need not call it: a few times a second it is looked whether something has.
   void publish();
-  static std::string service_of(const Tuning& tuning) { return tuning.name + "/set_parameters"; }
+  static std::string service_of(const devices::ParameterGroup& tuning) {
+    return tuning.name + "/set_parameters";
+  }
 
  private:
   dynamic_reconfigure::Config current() const;
@@ -40,7 +43,7 @@ class TuningServer {
   bool serve(dynamic_reconfigure::Reconfigure::Request& request,
              dynamic_reconfigure::Reconfigure::Response& response);
 
-  const Tuning& tuning_;
+  const devices::ParameterGroup& tuning_;
   std::function<void(const Values&)> set_;
   ros::Publisher descriptions_;
   ros::Publisher updates_;

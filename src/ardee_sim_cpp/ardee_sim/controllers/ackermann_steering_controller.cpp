@@ -71,7 +71,8 @@ void AckermannSteeringController::update_odometry(TimeNs now_ns) {
   odometry().add_way({way_m, 0.0, std::tan(steer) * way_m / odometry_base_m_}, now_ns);
 }
 
-void AckermannSteeringController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void AckermannSteeringController::update(TimeNs now_ns, double period_s,
+                                         devices::ReadingSink& sink) {
   update_odometry(now_ns);
   publish_odometry(now_ns, sink);
   const Twist wanted = twist_at(now_ns);

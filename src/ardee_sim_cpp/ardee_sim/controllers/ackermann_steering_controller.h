@@ -15,7 +15,7 @@ class AckermannSteeringController : public DriveController {
   static std::unique_ptr<Controller> make(const ControllerContext& context);
   explicit AckermannSteeringController(const ControllerContext& context);
 
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
 
  private:

@@ -18,10 +18,12 @@ std::string interface_name(JointInterface interface) {
   return "";
 }
 
-std::string ControllerContext::own_name() const { return resolve_topic(name, robot_namespace); }
+std::string ControllerContext::own_name() const {
+  return devices::resolve_topic(name, robot_namespace);
+}
 
 std::string ControllerContext::topic(const std::string& relative_topic) const {
-  return resolve_topic(name + "/" + relative_topic, robot_namespace);
+  return devices::resolve_topic(name + "/" + relative_topic, robot_namespace);
 }
 
 JointHandle& ControllerContext::joint(const std::string& joint_name, JointInterface interface,

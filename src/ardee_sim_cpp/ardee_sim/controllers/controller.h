@@ -46,7 +46,7 @@ class Controller {
 
   /// Begins to run: the first update comes with the next period.
   virtual void start(TimeNs /*now_ns*/) {}
-  virtual void update(TimeNs now_ns, double period_s, ReadingSink& sink) = 0;
+  virtual void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) = 0;
   virtual void stop(TimeNs /*now_ns*/) {}
   /// State as when it was made, stopped; tuned numbers as in its settings.
   virtual void reset(TimeNs now_ns) = 0;
@@ -56,7 +56,7 @@ class Controller {
   /// Topics, services and tunings, there from when it is made until it is unloaded. Commands that
   /// come while it does not run are refused by its inputs with an Error or forgotten at its start,
   /// as its original does.
-  Ports& ports() { return ports_; }
+  devices::Ports& ports() { return ports_; }
   bool is_running() const { return is_running_; }
   void set_running(bool is_running) { is_running_ = is_running; }
 
@@ -67,7 +67,7 @@ class Controller {
 
  private:
   std::map<JointInterface, std::set<std::string>> claims_;
-  Ports ports_;
+  devices::Ports ports_;
   bool is_running_ = false;
 };
 

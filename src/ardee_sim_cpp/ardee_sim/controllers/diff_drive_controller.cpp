@@ -49,12 +49,13 @@ DiffDriveController::DiffDriveController(const ControllerContext& context)
                 std::to_string(right_.wheels.size()) + ", expected as many on each side");
   }
   if (context.settings.boolean("publish_cmd", false)) {
-    command_output_ =
-        &ports().add_output(context.topic("cmd_vel_out"), reading_kind<TwistReading>());
+    command_output_ = &ports().add_output(context.topic("cmd_vel_out"),
+                                          devices::reading_kind<devices::TwistReading>());
   }
   if (context.settings.boolean("publish_wheel_joint_controller_state", false)) {
-    wheels_output_ = &ports().add_output(context.topic("wheel_joint_controller_state"),
-                                         reading_kind<TrajectoryControllerReading>());
+    wheels_output_ =
+        &ports().add_output(context.topic("wheel_joint_controller_state"),
+                            devices::reading_kind<devices::TrajectoryControllerReading>());
   }
   add_tuning(context);
 }
@@ -77,9 +78,14 @@ DiffDriveController::Side DiffDriveController::read_side(const ControllerContext
 void DiffDriveController::add_tuning(const ControllerContext& context) {
   const auto multiplier = [](const std::string& name, const std::string& description,
                              double& value) {
-    return Tunable{
-        name, description, Tunable::Type::kDouble,     0.5,
-        1.5,  value,       [&value] { return value; }, [&value](double number) { value = number; }};
+    return devices::TunableParameter{name,
+                                     description,
+                                     devices::TunableParameter::Type::kDouble,
+                                     0.5,
+                                     1.5,
+                                     value,
+                                     [&value] { return value; },
+                                     [&value](double number) { value = number; }};
   };
   constexpr double kHighestRateHz = 2000.0;
   PublishTimer& timer = publish_timer();
@@ -92,11 +98,11 @@ void DiffDriveController::add_tuning(const ControllerContext& context) {
                    right_.radius_multiplier),
         multiplier("wheel_separation_multiplier", "Wheel separation multiplier.",
                    separation_multiplier_),
-        {"publish_rate", "Publish rate of odom.", Tunable::Type::kDouble, 0.0, kHighestRateHz,
-         timer.rate_hz(), [&timer] { return timer.rate_hz(); },
+        {"publish_rate", "Publish rate of odom.", devices::TunableParameter::Type::kDouble, 0.0,
+         kHighestRateHz, timer.rate_hz(), [&timer] { return timer.rate_hz(); },
          [&timer](double rate_hz) { timer.set_rate(rate_hz); }},
-        {"enable_odom_tf", "Publish odom frame to tf.", Tunable::Type::kBool, 0.0, 1.0,
-         tf ? 1.0 : 0.0, [&tf] { return tf ? 1.0 : 0.0; },
+        {"enable_odom_tf", "Publish odom frame to tf.", devices::TunableParameter::Type::kBool, 0.0,
+         1.0, tf ? 1.0 : 0.0, [&tf] { return tf ? 1.0 : 0.0; },
          [&tf](double number) { tf = number != 0.0; }}}});
 }
 
@@ -125,14 +131,14 @@ void DiffDriveController::update_odometry(TimeNs now_ns) {
   odometry().add_way({(right_m + left_m) / 2.0, 0.0, (right_m - left_m) / separation_m()}, now_ns);
 }
 
-void DiffDriveController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void DiffDriveController::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
   update_odometry(now_ns);
   publish_odometry(now_ns, sink);
   const Twist wanted = twist_at(now_ns);
   const double v = linear_.limit(wanted.linear.x(), period_s);
   const double w = angular_.limit(wanted.angular.z(), period_s);
   if (command_output_ && command_output_->demanded) {
-    sink.on_reading(*command_output_, TwistReading{{now_ns, ""}, {{v, 0, 0}, {0, 0, w}}});
+    sink.on_reading(*command_output_, devices::TwistReading{{now_ns, ""}, {{v, 0, 0}, {0, 0, w}}});
   }
   const double turn = w * separation_m() / 2.0;
   for (const Wheel& wheel : left_.wheels) wheel.joint->command = (v - turn) / radius_m(left_);
@@ -140,11 +146,12 @@ void DiffDriveController::update(TimeNs now_ns, double period_s, ReadingSink& si
   if (wheels_output_) publish_wheels(now_ns, period_s, sink);
 }
 
-void DiffDriveController::publish_wheels(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void DiffDriveController::publish_wheels(TimeNs now_ns, double period_s,
+                                         devices::ReadingSink& sink) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  TrajectoryControllerReading state;
+  devices::TrajectoryControllerReading state;
   state.header.stamp_ns = now_ns;
-  const auto add = [](JointTrajectoryPoint& point, double position, double velocity,
+  const auto add = [](devices::JointTrajectoryPoint& point, double position, double velocity,
                       double acceleration, double effort) {
     point.positions.push_back(position);
     point.velocities.push_back(velocity);

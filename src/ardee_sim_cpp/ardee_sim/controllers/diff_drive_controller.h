@@ -16,7 +16,7 @@ class DiffDriveController : public DriveController {
   static std::unique_ptr<Controller> make(const ControllerContext& context);
   explicit DiffDriveController(const ControllerContext& context);
 
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
 
  private:
@@ -40,7 +40,7 @@ class DiffDriveController : public DriveController {
   /// How far a side has rolled since the last time.
   double roll(Side& side) const;
   void update_odometry(TimeNs now_ns);
-  void publish_wheels(TimeNs now_ns, double period_s, ReadingSink& sink);
+  void publish_wheels(TimeNs now_ns, double period_s, devices::ReadingSink& sink);
 
   Side left_;
   Side right_;
@@ -50,8 +50,8 @@ class DiffDriveController : public DriveController {
   double radius_m_;
   SpeedLimiter linear_;
   SpeedLimiter angular_;
-  Output* command_output_ = nullptr;
-  Output* wheels_output_ = nullptr;
+  devices::Output* command_output_ = nullptr;
+  devices::Output* wheels_output_ = nullptr;
 };
 
 }  // namespace ardee::control

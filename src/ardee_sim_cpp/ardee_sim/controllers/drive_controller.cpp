@@ -36,10 +36,11 @@ DriveController::DriveController(const ControllerContext& context, std::string o
       command_timeout_ns_(nanoseconds(context.settings.number("cmd_vel_timeout", 0.5))),
       publish_timer_(context.settings.number("publish_rate", 50.0)),
       odometry_(read_window(context.settings)),
-      odometry_output_(ports().add_output(context.topic("odom"), reading_kind<OdometryReading>())),
-      tf_output_(ports().add_output("/tf", reading_kind<TransformReading>())) {
-  Input& input = ports().add_velocity_input(context.topic("cmd_vel"),
-                                            [this](const Twist& command) { take(command); });
+      odometry_output_(ports().add_output(context.topic("odom"),
+                                          devices::reading_kind<devices::OdometryReading>())),
+      tf_output_(ports().add_output("/tf", devices::reading_kind<devices::TransformReading>())) {
+  devices::Input& input = ports().add_velocity_input(
+      context.topic("cmd_vel"), [this](const Twist& command) { take(command); });
   input.needs_one_publisher = !context.settings.boolean("allow_multiple_cmd_vel_publishers", true);
 }
 
@@ -59,8 +60,9 @@ void DriveController::reset(TimeNs now_ns) {
   command_ns_ = now_ns;
   publish_timer_.start(now_ns);
   odometry_.reset(now_ns);
-  for (const Tuning& tuning : ports().tunings) {
-    for (const Tunable& parameter : tuning.parameters) parameter.set(parameter.initial);
+  for (const devices::ParameterGroup& tuning : ports().tunings) {
+    for (const devices::TunableParameter& parameter : tuning.parameters)
+      parameter.set(parameter.initial);
   }
 }
 
@@ -77,19 +79,20 @@ DriveController::DriveCommand DriveController::command_at(TimeNs now_ns) {
   }
   if (now_ns - command_ns_ <= command_timeout_ns_) return command_;
   if (std::holds_alternative<Twist>(command_)) return Twist{};
-  return SteeringCommand{};
+  return devices::SteeringCommand{};
 }
 
-bool DriveController::publish_odometry(TimeNs now_ns, ReadingSink& sink) {
+bool DriveController::publish_odometry(TimeNs now_ns, devices::ReadingSink& sink) {
   if (!publish_timer_.due(now_ns)) return false;
-  const Header header{now_ns, odometry_frame_};
+  const devices::Header header{now_ns, odometry_frame_};
   if (odometry_output_.demanded) {
-    sink.on_reading(odometry_output_,
-                    OdometryReading{header, base_frame_, odometry_.pose(), odometry_.twist(),
-                                    pose_covariance_, twist_covariance_});
+    sink.on_reading(odometry_output_, devices::OdometryReading{
+                                          header, base_frame_, odometry_.pose(), odometry_.twist(),
+                                          pose_covariance_, twist_covariance_});
   }
   if (enable_odometry_tf_) {
-    sink.on_reading(tf_output_, TransformReading{header, base_frame_, odometry_.pose(), true});
+    sink.on_reading(tf_output_,
+                    devices::TransformReading{header, base_frame_, odometry_.pose(), true});
   }
   return true;
 }

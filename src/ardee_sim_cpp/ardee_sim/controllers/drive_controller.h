@@ -19,7 +19,7 @@ class DriveController : public Controller {
   void reset(TimeNs now_ns) override;
 
  protected:
-  using DriveCommand = std::variant<Twist, SteeringCommand>;
+  using DriveCommand = std::variant<Twist, devices::SteeringCommand>;
 
   /// `odometry_frame`: the frame of the odometry, whatever a parameter says of it.
   DriveController(const ControllerContext& context, std::string odometry_frame);
@@ -33,7 +33,7 @@ class DriveController : public Controller {
   DriveCommand command_at(TimeNs now_ns);
   Twist twist_at(TimeNs now_ns) { return std::get<Twist>(command_at(now_ns)); }
   /// Whether odometry is due; if so it is published.
-  bool publish_odometry(TimeNs now_ns, ReadingSink& sink);
+  bool publish_odometry(TimeNs now_ns, devices::ReadingSink& sink);
 
   PlanarOdometry& odometry() { return odometry_; }
   const std::string& base_frame() const { return base_frame_; }
@@ -53,8 +53,8 @@ class DriveController : public Controller {
   DriveCommand command_;
   bool command_is_new_ = false;
   TimeNs command_ns_ = 0;  // when it came
-  Output& odometry_output_;
-  Output& tf_output_;
+  devices::Output& odometry_output_;
+  devices::Output& tf_output_;
 };
 
 /// "velocity_rolling_window_size". Throws Error if it is below 1.

@@ -24,7 +24,7 @@ std::vector<std::string> commanded_joints(const Setting& settings, JointCount co
 }
 
 void add_command_input(const ControllerContext& context, JointCount count,
-                       std::vector<double>& commands, Ports& ports) {
+                       std::vector<double>& commands, devices::Ports& ports) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   const std::string topic = context.topic("command");
   if (count == JointCount::kOne) {
@@ -82,7 +82,8 @@ void ForwardController::start(TimeNs /*now_ns*/) {
   }
 }
 
-void ForwardController::update(TimeNs /*now_ns*/, double /*period_s*/, ReadingSink& /*sink*/) {
+void ForwardController::update(TimeNs /*now_ns*/, double /*period_s*/,
+                               devices::ReadingSink& /*sink*/) {
   for (std::size_t i = 0; i < joints_.size(); ++i) joints_[i]->command = commands_[i];
 }
 

@@ -27,7 +27,7 @@ class ForwardController : public Controller {
 
   /// Positions hold where they are; velocities and efforts are 0.
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { start(now_ns); }
 
  private:
@@ -42,6 +42,6 @@ std::vector<std::string> commanded_joints(const Setting& settings, JointCount co
 /// Takes what comes on "command" into `commands`, which has the right size and outlives the ports:
 /// a number, or as many as there are joints. Others, and those that are not finite, are an Error.
 void add_command_input(const ControllerContext& context, JointCount count,
-                       std::vector<double>& commands, Ports& ports);
+                       std::vector<double>& commands, devices::Ports& ports);
 
 }  // namespace ardee::control

@@ -59,7 +59,8 @@ AxleCommand FourWheelGeometry::axle_for_steering(double angle_rad, double turn_p
   return axle;
 }
 
-std::array<AxleCommand, 2> FourWheelGeometry::for_steering(const SteeringCommand& command) const {
+std::array<AxleCommand, 2> FourWheelGeometry::for_steering(
+    const devices::SteeringCommand& command) const {
   const double front = std::clamp(command.front_angle_rad, -kPi / 2.0, kPi / 2.0);
   const double rear = std::clamp(command.rear_angle_rad, -kPi / 2.0, kPi / 2.0);
   const double turn_per_m = (std::tan(front) - std::tan(rear)) / wheel_base_m;

@@ -35,7 +35,7 @@ struct FourWheelGeometry {
   /// front.
   std::array<AxleCommand, 2> for_twist(double forward, double turn) const;
   /// Front and rear for virtual angles and a speed along the vehicle.
-  std::array<AxleCommand, 2> for_steering(const SteeringCommand& command) const;
+  std::array<AxleCommand, 2> for_steering(const devices::SteeringCommand& command) const;
   /// The angle of the virtual wheel at the middle of an axle whose wheels stand so.
   static double virtual_angle(double left_rad, double right_rad);
   /// Velocity of the vehicle's middle.

@@ -53,10 +53,11 @@ FourWheelSteeringController::FourWheelSteeringController(const ControllerContext
       angular_(context.settings, "angular/z"),
       acceleration_(read_window(context.settings)),
       jerk_(read_window(context.settings)),
-      steering_output_(ports().add_output(context.topic("odom_steer"),
-                                          reading_kind<FourWheelSteeringReading>())) {
-  ports().add_input<SteeringCommand>(
-      context.topic("cmd_four_wheel_steering"), [this](const SteeringCommand& command) {
+      steering_output_(
+          ports().add_output(context.topic("odom_steer"),
+                             devices::reading_kind<devices::FourWheelSteeringReading>())) {
+  ports().add_input<devices::SteeringCommand>(
+      context.topic("cmd_four_wheel_steering"), [this](const devices::SteeringCommand& command) {
         if (!std::isfinite(command.front_angle_rad) || !std::isfinite(command.rear_angle_rad) ||
             !std::isfinite(command.speed_m_per_s)) {
           throw Error("found a command that is not finite");
@@ -129,19 +130,21 @@ void FourWheelSteeringController::update_odometry(TimeNs now_ns) {
   speed_m_per_s_ = speed;
 }
 
-void FourWheelSteeringController::publish_steering(TimeNs now_ns, ReadingSink& sink) const {
+void FourWheelSteeringController::publish_steering(TimeNs now_ns,
+                                                   devices::ReadingSink& sink) const {
   if (!steering_output_.demanded) return;
-  sink.on_reading(steering_output_, FourWheelSteeringReading{{now_ns, ""},
-                                                             front_.angle_rad,
-                                                             rear_.angle_rad,
-                                                             front_.rate_rad_per_s.mean(),
-                                                             rear_.rate_rad_per_s.mean(),
-                                                             speed_m_per_s_,
-                                                             acceleration_.mean(),
-                                                             jerk_.mean()});
+  sink.on_reading(steering_output_, devices::FourWheelSteeringReading{{now_ns, ""},
+                                                                      front_.angle_rad,
+                                                                      rear_.angle_rad,
+                                                                      front_.rate_rad_per_s.mean(),
+                                                                      rear_.rate_rad_per_s.mean(),
+                                                                      speed_m_per_s_,
+                                                                      acceleration_.mean(),
+                                                                      jerk_.mean()});
 }
 
-void FourWheelSteeringController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void FourWheelSteeringController::update(TimeNs now_ns, double period_s,
+                                         devices::ReadingSink& sink) {
   update_odometry(now_ns);
   if (publish_odometry(now_ns, sink)) publish_steering(now_ns, sink);
   const DriveCommand wanted = command_at(now_ns);
@@ -150,7 +153,7 @@ void FourWheelSteeringController::update(TimeNs now_ns, double period_s, Reading
     const double forward = linear_.limit(twist->linear.x(), period_s);
     commands = geometry_.for_twist(forward, angular_.limit(twist->angular.z(), period_s));
   } else {
-    SteeringCommand steering = std::get<SteeringCommand>(wanted);
+    devices::SteeringCommand steering = std::get<devices::SteeringCommand>(wanted);
     steering.speed_m_per_s = linear_.limit(steering.speed_m_per_s, period_s);
     commands = geometry_.for_steering(steering);
   }

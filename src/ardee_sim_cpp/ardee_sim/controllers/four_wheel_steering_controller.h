@@ -18,7 +18,7 @@ class FourWheelSteeringController : public DriveController {
   explicit FourWheelSteeringController(const ControllerContext& context);
 
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
 
  private:
@@ -37,7 +37,7 @@ class FourWheelSteeringController : public DriveController {
   Axle read_axle(const ControllerContext& context, const std::string& key);
   void brake() override;
   void update_odometry(TimeNs now_ns);
-  void publish_steering(TimeNs now_ns, ReadingSink& sink) const;
+  void publish_steering(TimeNs now_ns, devices::ReadingSink& sink) const;
 
   Axle front_;
   Axle rear_;
@@ -48,7 +48,7 @@ class FourWheelSteeringController : public DriveController {
   RollingMean acceleration_;
   RollingMean jerk_;
   TimeNs last_ns_ = 0;
-  Output& steering_output_;
+  devices::Output& steering_output_;
 };
 
 }  // namespace ardee::control

@@ -29,12 +29,13 @@ GripperController::GripperController(const ControllerContext& context, JointInte
     pid_.emplace(read_pid_gains(context.settings.at(group), context.log));
     ports().tunings.push_back(pid_->tuning(context.topic(group)));
   }
-  GripperAction action;
+  devices::GripperAction action;
   action.name = context.topic("gripper_cmd");
-  action.on_goal = [this](const GripperGoal& goal, const GripperAction::HandlePtr& handle) {
+  action.on_goal = [this](const devices::GripperGoal& goal,
+                          const devices::GripperAction::HandlePtr& handle) {
     on_goal(goal, handle);
   };
-  action.on_cancel = [this](const GripperAction::HandlePtr& handle) { on_cancel(handle); };
+  action.on_cancel = [this](const devices::GripperAction::HandlePtr& handle) { on_cancel(handle); };
   ports().actions.push_back(std::move(action));
 }
 
@@ -56,7 +57,8 @@ void GripperController::reset(TimeNs now_ns) {
 
 void GripperController::hold() { command_ = {joint_.position, default_.max_effort}; }
 
-void GripperController::on_goal(const GripperGoal& goal, const GripperAction::HandlePtr& handle) {
+void GripperController::on_goal(const devices::GripperGoal& goal,
+                                const devices::GripperAction::HandlePtr& handle) {
   std::string why;
   if (!is_running()) why = "found a goal, expected none while the controller is stopped";
   if (!std::isfinite(goal.position) || !std::isfinite(goal.max_effort)) {
@@ -73,7 +75,7 @@ void GripperController::on_goal(const GripperGoal& goal, const GripperAction::Ha
   last_movement_ns_ = now_ns_;
 }
 
-void GripperController::on_cancel(const GripperAction::HandlePtr& handle) {
+void GripperController::on_cancel(const devices::GripperAction::HandlePtr& handle) {
   if (handle != goal_) return;
   hold();
   preempt();
@@ -83,7 +85,7 @@ void GripperController::preempt() {
   if (goal_) std::exchange(goal_, nullptr)->cancel();
 }
 
-void GripperController::update(TimeNs now_ns, double period_s, ReadingSink& /*sink*/) {
+void GripperController::update(TimeNs now_ns, double period_s, devices::ReadingSink& /*sink*/) {
   now_ns_ = now_ns;
   const double error = command_.position - joint_.position;
   check_goal(now_ns, error);
@@ -99,7 +101,7 @@ void GripperController::update(TimeNs now_ns, double period_s, ReadingSink& /*si
 
 void GripperController::check_goal(TimeNs now_ns, double error) {
   if (!goal_) return;
-  GripperState state{joint_.position, effort_, false, std::abs(error) < goal_tolerance_};
+  devices::GripperState state{joint_.position, effort_, false, std::abs(error) < goal_tolerance_};
   if (std::abs(joint_.velocity) > stall_velocity_) last_movement_ns_ = now_ns;
   state.is_stalled = !state.has_reached_goal && now_ns - last_movement_ns_ > stall_timeout_ns_;
   if (feedback_timer_.due(now_ns)) goal_->feed_back(state);

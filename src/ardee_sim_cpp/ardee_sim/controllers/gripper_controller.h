@@ -20,30 +20,30 @@ class GripperController : public Controller {
   GripperController(const ControllerContext& context, JointInterface interface);
 
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void stop(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
 
  private:
   void hold();
-  void on_goal(const GripperGoal& goal, const GripperAction::HandlePtr& handle);
-  void on_cancel(const GripperAction::HandlePtr& handle);
+  void on_goal(const devices::GripperGoal& goal, const devices::GripperAction::HandlePtr& handle);
+  void on_cancel(const devices::GripperAction::HandlePtr& handle);
   void preempt();
   void check_goal(TimeNs now_ns, double error);
 
   JointHandle& joint_;
   std::optional<Pid> pid_;  // none: positions are commanded
-  GripperGoal default_;
+  devices::GripperGoal default_;
   double goal_tolerance_;
   double stall_velocity_;
   TimeNs stall_timeout_ns_;
   PublishTimer feedback_timer_;
 
-  GripperGoal command_;
+  devices::GripperGoal command_;
   double effort_ = 0.0;  // of the last update, as results have it
   TimeNs now_ns_ = 0;
   TimeNs last_movement_ns_ = 0;
-  GripperAction::HandlePtr goal_;
+  devices::GripperAction::HandlePtr goal_;
 };
 
 }  // namespace ardee::control

@@ -5,7 +5,7 @@ namespace ardee::control {
 namespace {
 
 /// Whether the physics has the joint, so that something acts through it.
-bool has_wrench(PhysicsModel& physics, const Joint& joint, std::size_t index) {
+bool has_wrench(physics::PhysicsModel& physics, const Joint& joint, std::size_t index) {
   if (joint.type != JointType::kFixed) return true;
   try {
     physics.want_joint_wrench(index);
@@ -17,15 +17,16 @@ bool has_wrench(PhysicsModel& physics, const Joint& joint, std::size_t index) {
 
 }  // namespace
 
-HardwareSensors::HardwareSensors(DeviceContext& context)
-    : robot_(context.robot), gravity_m_per_s2_(context.surroundings.gravity_m_per_s2) {
+HardwareSensors::HardwareSensors(devices::DeviceContext& context)
+    : robot_(context.robot), gravity_m_per_s2_(context.world_info.gravity_m_per_s2) {
   const Model& model = robot_.model();
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     for (const SensorDescription& sensor : model.links[link].sensors) {
       if (sensor.type != "imu" || handles_.imus.count(sensor.name) > 0) continue;
       ImuHandle& handle = handles_.imus[sensor.name];
       handle.frame = model.links[link].name;
-      imus_.push_back({&handle, link, sensor.X_LS, InertialMotion(robot_, link, sensor.X_LS)});
+      imus_.push_back(
+          {&handle, link, sensor.X_LS, devices::InertialMotion(robot_, link, sensor.X_LS)});
     }
   }
   for (std::size_t index = 0; index < model.joints.size(); ++index) {
@@ -58,14 +59,14 @@ void HardwareSensors::end_step(TimeNs now_ns) {
 
 void HardwareSensors::read() {
   for (Imu& imu : imus_) {
-    const InertialMotion::Mean mean = imu.motion.take();
+    const devices::InertialMotion::Mean mean = imu.motion.take();
     imu.handle->orientation = (robot_.link_pose(imu.link) * imu.X_LS).q;
     imu.handle->angular_velocity = mean.angular_velocity;
     imu.handle->linear_acceleration = mean.specific_force();
   }
   for (JointWrench& each : wrenches_) {
     if (!each.handle->is_wanted) continue;
-    const ForceTorque wrench_W = robot_.dynamics().joint_wrench(each.joint);
+    const physics::ForceTorque wrench_W = robot_.dynamics().joint_wrench(each.joint);
     const Eigen::Quaterniond q_CW = robot_.link_pose(each.child).q.conjugate();
     each.handle->wrench = {q_CW * wrench_W.force, q_CW * wrench_W.torque};
   }

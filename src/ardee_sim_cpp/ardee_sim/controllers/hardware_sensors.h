@@ -25,8 +25,8 @@ struct ImuHandle {
 /// (hardware_interface::ForceTorqueSensorInterface).
 struct ForceTorqueHandle {
   std::string frame;
-  ForceTorque wrench;      // N, N m
-  bool is_wanted = false;  // else it stays 0
+  physics::ForceTorque wrench;  // N, N m
+  bool is_wanted = false;       // else it stays 0
 };
 
 struct SensorHandles {
@@ -38,7 +38,7 @@ struct SensorHandles {
 /// of its joints that moves or, by `<provide_feedback>`, is kept.
 class HardwareSensors {
  public:
-  explicit HardwareSensors(DeviceContext& context);
+  explicit HardwareSensors(devices::DeviceContext& context);
 
   SensorHandles& handles() { return handles_; }
   void reset(TimeNs now_ns);
@@ -53,7 +53,7 @@ class HardwareSensors {
     ImuHandle* handle;
     std::size_t link;
     Pose X_LS;
-    InertialMotion motion;
+    devices::InertialMotion motion;
   };
   struct JointWrench {
     ForceTorqueHandle* handle;
@@ -61,7 +61,7 @@ class HardwareSensors {
     std::size_t child;
   };
 
-  Robot& robot_;
+  devices::Robot& robot_;
   std::function<Eigen::Vector3d()> gravity_m_per_s2_;
   SensorHandles handles_;
   std::vector<Imu> imus_;

@@ -15,12 +15,12 @@ JointActuator::JointActuator(JointHandle& handle, std::size_t joint, const Comma
   if (gains) pid_.emplace(*gains);
 }
 
-void JointActuator::read(const PhysicsModel& physics) {
+void JointActuator::read(const physics::PhysicsModel& physics) {
   handle_.position = physics.joint_position(joint_);
   handle_.velocity = physics.joint_velocity(joint_);
 }
 
-void JointActuator::write(PhysicsModel& physics, double dt_s, bool is_stopped) {
+void JointActuator::write(physics::PhysicsModel& physics, double dt_s, bool is_stopped) {
   if (!is_stopped) held_position_.reset();
   if (is_stopped && handle_.interface == JointInterface::kPosition) {
     if (!held_position_) held_position_ = handle_.position;
@@ -49,8 +49,8 @@ double JointActuator::wanted_effort(double dt_s, bool is_stopped) {
 }
 
 /// What acts is measured too: the effort within the joint's limits.
-void JointActuator::push(PhysicsModel& physics, double effort) {
-  const JointProperties& joint = physics.joint_properties(joint_, 0);
+void JointActuator::push(physics::PhysicsModel& physics, double effort) {
+  const physics::JointProperties& joint = physics.joint_properties(joint_, 0);
   const double velocity = physics.joint_velocity(joint_);
   const bool is_too_fast = std::abs(velocity) > joint.max_velocity && effort * velocity > 0.0;
   const double most = std::min(joint.max_effort, limits::kStrongest);
@@ -58,7 +58,7 @@ void JointActuator::push(PhysicsModel& physics, double effort) {
   physics.apply_joint_effort(joint_, handle_.effort);
 }
 
-void JointActuator::reset(PhysicsModel& physics) {
+void JointActuator::reset(physics::PhysicsModel& physics) {
   handle_.command = 0.0;
   handle_.effort = 0.0;
   limiter_.reset();
@@ -68,7 +68,7 @@ void JointActuator::reset(PhysicsModel& physics) {
     pid_->restore_gains();
   }
   if (is_motor()) {
-    JointProperties properties = physics.joint_properties(joint_, 0);
+    physics::JointProperties properties = physics.joint_properties(joint_, 0);
     properties.friction = 0.0;
     physics.set_joint_properties(joint_, 0, properties);
   }

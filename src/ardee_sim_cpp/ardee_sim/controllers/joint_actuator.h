@@ -23,12 +23,12 @@ class JointActuator {
   JointActuator(JointHandle& handle, std::size_t joint, const CommandLimits& limits,
                 const std::optional<PidGains>& gains);
 
-  void read(const PhysicsModel& physics);
+  void read(const physics::PhysicsModel& physics);
   /// Enforces the limits on the command, `dt_s` after the last one, and acts on the joint. An
   /// emergency stop holds positions, brakes velocities and leaves efforts away.
-  void write(PhysicsModel& physics, double dt_s, bool is_stopped);
+  void write(physics::PhysicsModel& physics, double dt_s, bool is_stopped);
   /// Of a physics that is as at the beginning: command 0.
-  void reset(PhysicsModel& physics);
+  void reset(physics::PhysicsModel& physics);
 
   Pid* pid() { return pid_ ? &*pid_ : nullptr; }
   const JointHandle& handle() const { return handle_; }
@@ -37,7 +37,7 @@ class JointActuator {
   bool is_motor() const { return handle_.interface != JointInterface::kEffort && !pid_; }
   /// What the command asks for as an effort, before the joint's own limits.
   double wanted_effort(double dt_s, bool is_stopped);
-  void push(PhysicsModel& physics, double effort);
+  void push(physics::PhysicsModel& physics, double effort);
 
   JointHandle& handle_;
   std::size_t joint_;

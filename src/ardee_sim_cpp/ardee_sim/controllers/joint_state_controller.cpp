@@ -24,8 +24,8 @@ std::unique_ptr<Controller> JointStateController::make(const ControllerContext& 
 
 JointStateController::JointStateController(const ControllerContext& context)
     : timer_(context.settings.number("publish_rate")),
-      output_(ports().add_output(resolve_topic("joint_states", context.robot_namespace),
-                                 reading_kind<JointStateReading>())) {
+      output_(ports().add_output(devices::resolve_topic("joint_states", context.robot_namespace),
+                                 devices::reading_kind<devices::JointStateReading>())) {
   if (context.settings.has("joints")) {
     for (const std::string& name : context.settings.texts("joints")) {
       const auto found = context.hardware.find(name);
@@ -73,7 +73,7 @@ void JointStateController::start(TimeNs now_ns) {
   timer_.start(publishes ? now_ns - nanoseconds(kPeriodsAgo / timer_.rate_hz()) : now_ns);
 }
 
-void JointStateController::update(TimeNs now_ns, double /*period_s*/, ReadingSink& sink) {
+void JointStateController::update(TimeNs now_ns, double /*period_s*/, devices::ReadingSink& sink) {
   if (!timer_.due(now_ns) || !output_.demanded) return;
   reading_.header.stamp_ns = now_ns;
   for (std::size_t i = 0; i < joints_.size(); ++i) {

@@ -16,16 +16,17 @@ class JointStateController : public Controller {
   explicit JointStateController(const ControllerContext& context);
 
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { start(now_ns); }
 
  private:
   void add_extra_joints(const ControllerContext& context);
 
   std::vector<const JointHandle*> joints_;
-  JointStateReading reading_;  // joints of the hardware first, then those that never change
+  devices::JointStateReading
+      reading_;  // joints of the hardware first, then those that never change
   PublishTimer timer_;
-  Output& output_;
+  devices::Output& output_;
 };
 
 }  // namespace ardee::control

@@ -47,7 +47,7 @@ Manager::Loaded& Manager::require(const std::string& name, const std::string& fa
 Controller& Manager::load(const std::string& name) {
   const std::string failure = "could not load controller '" + name + "': ";
   if (find_loaded(name)) throw Error(failure + "one with this name is loaded already");
-  const std::string path = resolve_topic(name, context_.robot_namespace);
+  const std::string path = devices::resolve_topic(name, context_.robot_namespace);
   auto loaded = std::make_unique<Loaded>(context_, name, context_.parameter(path));
   if (!loaded->settings.has("type")) {
     throw Error(failure + "found no parameter " + path +
@@ -182,7 +182,7 @@ std::vector<std::string> Manager::type_names() const {
   return names;
 }
 
-void Manager::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void Manager::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
   now_ns_ = now_ns;
   for (const auto& each : loaded_) {
     if (each->controller->is_running()) each->controller->update(now_ns, period_s, sink);

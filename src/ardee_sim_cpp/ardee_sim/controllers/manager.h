@@ -70,7 +70,7 @@ class Manager {
   Controller* find(const std::string& name) const;
 
   /// Lets those that run act.
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink);
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink);
   /// Stops those that run and starts them again.
   void restart(TimeNs now_ns);
   /// All are as they were made, and those that ran start again.

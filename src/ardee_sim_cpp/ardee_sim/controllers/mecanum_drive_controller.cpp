@@ -68,7 +68,7 @@ void MecanumDriveController::update_odometry(TimeNs now_ns) {
       now_ns);
 }
 
-void MecanumDriveController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void MecanumDriveController::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
   update_odometry(now_ns);
   publish_odometry(now_ns, sink);
   const Twist wanted = twist_at(now_ns);

@@ -51,19 +51,19 @@ void Pid::reset() {
   integral_ = 0.0;
 }
 
-Tuning Pid::tuning(const std::string& name) {
+devices::ParameterGroup Pid::tuning(const std::string& name) {
   constexpr double kMostP = 1e5;
   constexpr double kMostD = 1e3;
   const auto number = [this](const char* gain, const char* description, double PidGains::*member,
                              double low, double high) {
-    return Tunable{gain,
-                   description,
-                   Tunable::Type::kDouble,
-                   low,
-                   high,
-                   gains_.*member,
-                   [this, member] { return gains_.*member; },
-                   [this, member](double value) { gains_.*member = value; }};
+    return devices::TunableParameter{gain,
+                                     description,
+                                     devices::TunableParameter::Type::kDouble,
+                                     low,
+                                     high,
+                                     gains_.*member,
+                                     [this, member] { return gains_.*member; },
+                                     [this, member](double value) { gains_.*member = value; }};
   };
   return {name,
           {number("p", "Proportional gain.", &PidGains::p, -kMostP, kMostP),
@@ -73,7 +73,7 @@ Tuning Pid::tuning(const std::string& name) {
                   -kMostP, 0.0),
            number("i_clamp_max", "Max bounds for the integral windup", &PidGains::i_clamp_max, 0.0,
                   kMostP),
-           {"antiwindup", "Antiwindup.", Tunable::Type::kBool, 0.0, 1.0,
+           {"antiwindup", "Antiwindup.", devices::TunableParameter::Type::kBool, 0.0, 1.0,
             gains_.antiwindup ? 1.0 : 0.0, [this] { return gains_.antiwindup ? 1.0 : 0.0; },
             [this](double value) { gains_.antiwindup = value != 0.0; }}}};
 }

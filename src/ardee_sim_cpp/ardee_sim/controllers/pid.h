@@ -38,7 +38,7 @@ class Pid {
   void set_gains(const PidGains& gains) { gains_ = gains; }
   void restore_gains() { gains_ = initial_gains_; }
   /// Its gains as dynamic_reconfigure has them. The Pid outlives it.
-  Tuning tuning(const std::string& name);
+  devices::ParameterGroup tuning(const std::string& name);
 
  private:
   PidGains gains_;

@@ -38,8 +38,8 @@ PidController::PidController(const ControllerContext& context, JointInterface in
   set_points_.resize(joints_.size());
   add_command_input(context, count, set_points_, ports());
   if (is_group) return;
-  state_output_ =
-      &ports().add_output(context.topic("state"), reading_kind<JointControllerReading>());
+  state_output_ = &ports().add_output(context.topic("state"),
+                                      devices::reading_kind<devices::JointControllerReading>());
 }
 
 void PidController::start(TimeNs /*now_ns*/) {
@@ -50,7 +50,7 @@ void PidController::start(TimeNs /*now_ns*/) {
   }
 }
 
-void PidController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void PidController::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     JointHandle& joint = joints_[i].handle;
     joint.command = command(joints_[i], set_points_[i], now_ns, period_s, sink);
@@ -58,11 +58,11 @@ void PidController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
 }
 
 double PidController::command(Joint& joint, double set_point, TimeNs now_ns, double period_s,
-                              ReadingSink& sink) {
+                              devices::ReadingSink& sink) {
   constexpr int kUpdatesAState = 10;
   const JointHandle& handle = joint.handle;
   const bool is_position = quantity_ == Quantity::kPosition;
-  JointControllerReading state;
+  devices::JointControllerReading state;
   state.set_point = is_position ? within_limits(handle, set_point) : set_point;
   state.process_value = is_position ? handle.position : handle.velocity;
   state.process_value_dot = is_position ? handle.velocity : 0.0;

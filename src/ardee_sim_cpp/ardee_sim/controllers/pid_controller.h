@@ -27,7 +27,7 @@ class PidController : public Controller {
 
   /// Positions hold where they are; velocities are 0.
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
 
  private:
@@ -37,12 +37,13 @@ class PidController : public Controller {
   };
 
   /// The joint's command towards the set point, published if it is due.
-  double command(Joint& joint, double set_point, TimeNs now_ns, double period_s, ReadingSink& sink);
+  double command(Joint& joint, double set_point, TimeNs now_ns, double period_s,
+                 devices::ReadingSink& sink);
 
   Quantity quantity_;
   std::deque<Joint> joints_;  // tunings point to them
   std::vector<double> set_points_;
-  Output* state_output_ = nullptr;  // of a single joint
+  devices::Output* state_output_ = nullptr;  // of a single joint
   int updates_ = 0;
 };
 

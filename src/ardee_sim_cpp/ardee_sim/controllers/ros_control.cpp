@@ -24,7 +24,7 @@ bool is_steer_bot(Parameters& parameters, Log& log) {
 }
 
 /// 0: each step.
-TimeNs read_period(Parameters& parameters, const DeviceContext& context) {
+TimeNs read_period(Parameters& parameters, const devices::DeviceContext& context) {
   constexpr double kLongest_s = 1e6;
   const TimeNs period_ns = nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, kLongest_s));
   if (period_ns > 0 && period_ns < context.step_ns) {
@@ -43,10 +43,10 @@ TimeNs read_period(Parameters& parameters, const DeviceContext& context) {
   return period_ns;
 }
 
-RosControl::Params read(const PluginDescription& plugin, DeviceContext& context) {
+RosControl::Params read(const PluginDescription& plugin, devices::DeviceContext& context) {
   Parameters parameters(plugin.element);
   RosControl::Params params;
-  params.robot_namespace = plugin_namespace(parameters, context);
+  params.robot_namespace = devices::plugin_namespace(parameters, context);
   params.is_steer_bot = is_steer_bot(parameters, context.log);
   params.period_ns = read_period(parameters, context);
   params.stop_topic = parameters.text("eStopTopic", "");
@@ -79,7 +79,8 @@ JointInterface read_interface(const Transmission& transmission) {
 
 }  // namespace
 
-std::unique_ptr<Device> RosControl::make(const PluginDescription& plugin, DeviceContext& context) {
+std::unique_ptr<devices::Device> RosControl::make(const PluginDescription& plugin,
+                                                  devices::DeviceContext& context) {
   const Params params = read(plugin, context);
   context.robot.dynamics();  // not of what stands still
   try {
@@ -93,8 +94,8 @@ std::unique_ptr<Device> RosControl::make(const PluginDescription& plugin, Device
 }
 
 RosControl::RosControl(const PluginDescription& plugin, const Params& params,
-                       DeviceContext& context)
-    : Device(plugin.name), params_(params), robot_(context.robot), sensors_(context) {
+                       devices::DeviceContext& context)
+    : devices::Device(plugin.name), params_(params), robot_(context.robot), sensors_(context) {
   if (params_.is_steer_bot) add_steer_bot(context);
   for (const Transmission& each : robot_.model().transmissions) {
     if (params_.is_steer_bot) break;  // which has no use for them
@@ -112,7 +113,7 @@ RosControl::RosControl(const PluginDescription& plugin, const Params& params,
 }
 
 void RosControl::add_joint(const Transmission& transmission, const std::string& scope,
-                           DeviceContext& context) {
+                           devices::DeviceContext& context) {
   const std::size_t index = robot_.joint_index(transmission.joint, transmission.source);
   const Joint& joint = robot_.model().joints[index];
   const JointInterface interface = read_interface(transmission);
@@ -133,8 +134,9 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
   add_actuator(add_handle(name, interface), index, context);
 }
 
-void RosControl::add_steer_bot(DeviceContext& context) {
-  const std::string path = resolve_topic("steer_bot_hardware_gazebo", params_.robot_namespace);
+void RosControl::add_steer_bot(devices::DeviceContext& context) {
+  const std::string path =
+      devices::resolve_topic("steer_bot_hardware_gazebo", params_.robot_namespace);
   steer_bot_.emplace(context.parameter(path), robot_.model(), context.log);
   const std::vector<Joint>& joints = robot_.model().joints;
   for (const auto& [name, interface] : steer_bot_->joints()) {
@@ -157,13 +159,14 @@ JointHandle& RosControl::add_handle(const std::string& name, JointInterface inte
   return handle;
 }
 
-void RosControl::add_actuator(JointHandle& handle, std::size_t index, DeviceContext& context) {
+void RosControl::add_actuator(JointHandle& handle, std::size_t index,
+                              devices::DeviceContext& context) {
   const Joint& joint = robot_.model().joints[index];
   const std::string& name = handle.name;
   handle.type = joint.type;
   handle.limits = joint.axis;
   const Setting overrides =
-      context.parameter(resolve_topic("joint_limits/" + name, params_.robot_namespace));
+      context.parameter(devices::resolve_topic("joint_limits/" + name, params_.robot_namespace));
   const CommandLimits limits = read_command_limits(joint, overrides, context.log);
   actuators_.emplace_back(handle, index, limits,
                           handle.interface == JointInterface::kEffort || steer_bot_
@@ -173,10 +176,11 @@ void RosControl::add_actuator(JointHandle& handle, std::size_t index, DeviceCont
 }
 
 std::optional<PidGains> RosControl::read_gains(const std::string& joint,
-                                               DeviceContext& context) const {
-  Setting gains = context.parameter(resolve_topic(kGains + joint, params_.robot_namespace));
+                                               devices::DeviceContext& context) const {
+  Setting gains =
+      context.parameter(devices::resolve_topic(kGains + joint, params_.robot_namespace));
   if (!gains.has("p") && params_.has_legacy_gains) {
-    gains = context.parameter(resolve_topic(kGains + joint, "/"));
+    gains = context.parameter(devices::resolve_topic(kGains + joint, "/"));
   }
   if (gains.has("p")) return read_pid_gains(gains, context.log);
   context.log.info("joint '" + joint + "': no gains at " + gains.path() +
@@ -187,12 +191,13 @@ std::optional<PidGains> RosControl::read_gains(const std::string& joint,
 void RosControl::add_gains(JointActuator& actuator) {
   Pid* pid = actuator.pid();
   if (!pid) return;
-  add_tuning(pid->tuning(resolve_topic(kGains + actuator.handle().name, params_.robot_namespace)));
+  add_tuning(pid->tuning(
+      devices::resolve_topic(kGains + actuator.handle().name, params_.robot_namespace)));
 }
 
 void RosControl::add_stop() {
   if (params_.stop_topic.empty()) return;
-  ports().add_input<bool>(resolve_topic(params_.stop_topic, params_.robot_namespace),
+  ports().add_input<bool>(devices::resolve_topic(params_.stop_topic, params_.robot_namespace),
                           [this](bool is_stopped) { is_stopped_ = is_stopped; });
 }
 
@@ -215,12 +220,12 @@ void RosControl::control(TimeNs now_ns) {
   manager_->update(now_ns, period_s, waiting_);
 }
 
-void RosControl::after_step(TimeNs now_ns, ReadingSink& sink) {
+void RosControl::after_step(TimeNs now_ns, devices::ReadingSink& sink) {
   sensors_.end_step(now_ns);
   waiting_.give(sink);
 }
 
-void RosControl::Waiting::give(ReadingSink& sink) {
+void RosControl::Waiting::give(devices::ReadingSink& sink) {
   for (const auto& [output, reading] : readings_) sink.on_reading(*output, reading);
   readings_.clear();
 }
@@ -237,7 +242,7 @@ void RosControl::reset(TimeNs now_ns) {
   manager_->reset(now_ns);
 }
 
-void add_ros_control(Registry& registry) {
+void add_ros_control(devices::Registry& registry) {
   registry.add_model_plugin("libgazebo_ros_control.so", RosControl::make);
 }
 

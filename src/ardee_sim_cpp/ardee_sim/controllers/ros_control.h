@@ -18,7 +18,7 @@ namespace ardee::control {
 /// libgazebo_ros_control.so with its DefaultRobotHWSim, the joints that the robot's transmissions
 /// name, or with a SteerBot, as a controller manager's controllers see them. Each control period
 /// they are read and the controllers act; each step their commands do.
-class RosControl : public Device {
+class RosControl : public devices::Device {
  public:
   struct Params {
     std::string robot_namespace;
@@ -30,9 +30,11 @@ class RosControl : public Device {
 
   /// Nothing, with an error in the log, if the robot's transmissions are not as the original needs
   /// them: the robot is there, and nothing moves it.
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<devices::Device> make(const PluginDescription& plugin,
+                                               devices::DeviceContext& context);
   /// Throws Error if a joint of the transmissions is not there, or its interface is not known.
-  RosControl(const PluginDescription& plugin, const Params& params, DeviceContext& context);
+  RosControl(const PluginDescription& plugin, const Params& params,
+             devices::DeviceContext& context);
 
   Manager& manager() { return *manager_; }
   const std::string& robot_namespace() const { return params_.robot_namespace; }
@@ -41,36 +43,37 @@ class RosControl : public Device {
   void observe(TimeNs now_ns) override { sensors_.begin_step(now_ns); }
   void on_set_state() override { sensors_.on_set_state(); }
   /// What the controllers have given before the step.
-  void after_step(TimeNs now_ns, ReadingSink& sink) override;
+  void after_step(TimeNs now_ns, devices::ReadingSink& sink) override;
   /// Joints have the command 0; controllers that run start again.
   void reset(TimeNs now_ns) override;
 
  private:
   /// Keeps readings until the step has been taken.
-  class Waiting : public ReadingSink {
+  class Waiting : public devices::ReadingSink {
    public:
-    void on_reading(const Output& output, const Reading& reading) override {
+    void on_reading(const devices::Output& output, const devices::Reading& reading) override {
       readings_.emplace_back(&output, reading);
     }
-    void give(ReadingSink& sink);
+    void give(devices::ReadingSink& sink);
     void clear() { readings_.clear(); }
 
    private:
-    std::vector<std::pair<const Output*, Reading>> readings_;
+    std::vector<std::pair<const devices::Output*, devices::Reading>> readings_;
   };
 
   void add_joint(const Transmission& transmission, const std::string& scope,
-                 DeviceContext& context);
-  void add_steer_bot(DeviceContext& context);
+                 devices::DeviceContext& context);
+  void add_steer_bot(devices::DeviceContext& context);
   JointHandle& add_handle(const std::string& name, JointInterface interface);
-  void add_actuator(JointHandle& handle, std::size_t joint, DeviceContext& context);
-  std::optional<PidGains> read_gains(const std::string& joint, DeviceContext& context) const;
+  void add_actuator(JointHandle& handle, std::size_t joint, devices::DeviceContext& context);
+  std::optional<PidGains> read_gains(const std::string& joint,
+                                     devices::DeviceContext& context) const;
   void add_gains(JointActuator& actuator);
   void add_stop();
   void control(TimeNs now_ns);
 
   Params params_;
-  Robot& robot_;
+  devices::Robot& robot_;
   Hardware hardware_;
   std::deque<JointActuator> actuators_;
   HardwareSensors sensors_;
@@ -84,6 +87,6 @@ class RosControl : public Device {
 };
 
 /// The plugin libgazebo_ros_control.so.
-void add_ros_control(Registry& registry);
+void add_ros_control(devices::Registry& registry);
 
 }  // namespace ardee::control

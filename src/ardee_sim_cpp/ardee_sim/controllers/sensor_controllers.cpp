@@ -17,16 +17,17 @@ ImuSensorController::ImuSensorController(const ControllerContext& context)
                      "nothing is published");
   }
   for (const auto& [name, handle] : context.sensors.imus) {
-    sensors_.emplace_back(&handle, &ports().add_output(resolve_topic(name, context.robot_namespace),
-                                                       reading_kind<ImuReading>()));
+    sensors_.emplace_back(&handle,
+                          &ports().add_output(devices::resolve_topic(name, context.robot_namespace),
+                                              devices::reading_kind<devices::ImuReading>()));
   }
 }
 
-void ImuSensorController::update(TimeNs now_ns, double /*period_s*/, ReadingSink& sink) {
+void ImuSensorController::update(TimeNs now_ns, double /*period_s*/, devices::ReadingSink& sink) {
   if (!timer_.due(now_ns)) return;
   for (const auto& [handle, output] : sensors_) {
     if (!output->demanded) continue;
-    ImuReading reading;
+    devices::ImuReading reading;
     reading.header = {now_ns, handle->frame};
     reading.orientation = handle->orientation;
     reading.angular_velocity = handle->angular_velocity;
@@ -43,16 +44,18 @@ ForceTorqueSensorController::ForceTorqueSensorController(const ControllerContext
     : timer_(context.settings.number("publish_rate")) {
   for (auto& [name, handle] : context.sensors.force_torques) {
     handle.is_wanted = true;
-    sensors_.emplace_back(&handle, &ports().add_output(resolve_topic(name, context.robot_namespace),
-                                                       reading_kind<WrenchReading>()));
+    sensors_.emplace_back(&handle,
+                          &ports().add_output(devices::resolve_topic(name, context.robot_namespace),
+                                              devices::reading_kind<devices::WrenchReading>()));
   }
 }
 
-void ForceTorqueSensorController::update(TimeNs now_ns, double /*period_s*/, ReadingSink& sink) {
+void ForceTorqueSensorController::update(TimeNs now_ns, double /*period_s*/,
+                                         devices::ReadingSink& sink) {
   if (!timer_.due(now_ns)) return;
   for (const auto& [handle, output] : sensors_) {
     if (output->demanded)
-      sink.on_reading(*output, WrenchReading{{now_ns, handle->frame}, handle->wrench});
+      sink.on_reading(*output, devices::WrenchReading{{now_ns, handle->frame}, handle->wrench});
   }
 }
 

@@ -17,12 +17,12 @@ class ImuSensorController : public Controller {
   explicit ImuSensorController(const ControllerContext& context);
 
   void start(TimeNs now_ns) override { timer_.start(now_ns); }
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { timer_.start(now_ns); }
 
  private:
   PublishTimer timer_;
-  std::vector<std::pair<const ImuHandle*, Output*>> sensors_;
+  std::vector<std::pair<const ImuHandle*, devices::Output*>> sensors_;
 };
 
 /// force_torque_sensor_controller/ForceTorqueSensorController: the same of each ForceTorqueHandle.
@@ -32,12 +32,12 @@ class ForceTorqueSensorController : public Controller {
   explicit ForceTorqueSensorController(const ControllerContext& context);
 
   void start(TimeNs now_ns) override { timer_.start(now_ns); }
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { timer_.start(now_ns); }
 
  private:
   PublishTimer timer_;
-  std::vector<std::pair<const ForceTorqueHandle*, Output*>> sensors_;
+  std::vector<std::pair<const ForceTorqueHandle*, devices::Output*>> sensors_;
 };
 
 }  // namespace ardee::control

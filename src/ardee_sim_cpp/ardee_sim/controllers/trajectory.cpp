@@ -142,9 +142,10 @@ JointPath spliced_path(const JointPath& path, double now_s, double start_s,
   return spliced;
 }
 
-void check_points(const std::vector<JointTrajectoryPoint>& points, std::size_t joint_count) {
+void check_points(const std::vector<devices::JointTrajectoryPoint>& points,
+                  std::size_t joint_count) {
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const JointTrajectoryPoint& point = points[i];
+    const devices::JointTrajectoryPoint& point = points[i];
     const std::string place = "points[" + std::to_string(i) + "]";
     check_numbers(point.positions, joint_count, true, place + ".positions");
     check_numbers(point.velocities, joint_count, false, place + ".velocities");

@@ -92,6 +92,7 @@ JointPath spliced_path(const JointPath& path, double now_s, double start_s,
 
 /// Throws Error unless each point has a position for each of `joint_count` joints, velocities and
 /// accelerations for all or none, finite numbers, and times that rise.
-void check_points(const std::vector<JointTrajectoryPoint>& points, std::size_t joint_count);
+void check_points(const std::vector<devices::JointTrajectoryPoint>& points,
+                  std::size_t joint_count);
 
 }  // namespace ardee::control

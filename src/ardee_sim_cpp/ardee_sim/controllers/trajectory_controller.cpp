@@ -23,7 +23,7 @@ void override_tolerance(double given, double& tolerance) {
   if (given != 0.0) tolerance = std::max(given, 0.0);
 }
 
-void override_tolerance(const JointTolerance& given, StateTolerance& tolerance) {
+void override_tolerance(const devices::JointTolerance& given, StateTolerance& tolerance) {
   override_tolerance(given.position, tolerance.position);
   override_tolerance(given.velocity, tolerance.velocity);
   override_tolerance(given.acceleration, tolerance.acceleration);
@@ -34,13 +34,14 @@ double position_difference(const JointHandle& joint, double desired) {
   return joint.type == JointType::kPrismatic ? difference : shortest_turn(difference);
 }
 
-void append(const JointMotion& motion, bool has_acceleration, JointTrajectoryPoint& point) {
+void append(const JointMotion& motion, bool has_acceleration,
+            devices::JointTrajectoryPoint& point) {
   point.positions.push_back(motion.position);
   point.velocities.push_back(motion.velocity);
   if (has_acceleration) point.accelerations.push_back(motion.acceleration);
 }
 
-Waypoint waypoint(const JointTrajectoryPoint& point, std::size_t place) {
+Waypoint waypoint(const devices::JointTrajectoryPoint& point, std::size_t place) {
   const auto if_any = [place](const std::vector<double>& numbers) {
     return numbers.empty() ? std::nullopt : std::optional<double>(numbers[place]);
   };
@@ -71,26 +72,28 @@ TrajectoryController::TrajectoryController(const ControllerContext& context,
     : log_(context.log),
       allows_partial_goals_(context.settings.boolean("allow_partial_joints_goal", false)),
       stop_duration_s_(std::max(context.settings.number("stop_trajectory_duration", 0.0), 0.0)),
-      state_output_(
-          &ports().add_output(context.topic("state"), reading_kind<TrajectoryControllerReading>())),
+      state_output_(&ports().add_output(
+          context.topic("state"), devices::reading_kind<devices::TrajectoryControllerReading>())),
       state_timer_(context.settings.number("state_publish_rate", 50.0)),
       feedback_timer_(context.settings.number("action_monitor_rate", 20.0)) {
   const std::vector<std::string> names = context.settings.texts("joints");
   if (names.empty()) throw Error(context.settings.path() + "/joints: found none, expected some");
   for (const std::string& name : names) add_joint(context, name, interface);
 
-  ports().add_input<JointTrajectory>(
+  ports().add_input<devices::JointTrajectory>(
       context.topic("command"),
-      [this](const JointTrajectory& trajectory) { on_command(trajectory); });
-  FollowTrajectoryAction action;
+      [this](const devices::JointTrajectory& trajectory) { on_command(trajectory); });
+  devices::FollowTrajectoryAction action;
   action.name = context.topic("follow_joint_trajectory");
-  action.on_goal = [this](const FollowTrajectoryGoal& goal,
-                          const FollowTrajectoryAction::HandlePtr& handle) {
+  action.on_goal = [this](const devices::FollowTrajectoryGoal& goal,
+                          const devices::FollowTrajectoryAction::HandlePtr& handle) {
     on_goal(goal, handle);
   };
-  action.on_cancel = [this](const FollowTrajectoryAction::HandlePtr& handle) { on_cancel(handle); };
+  action.on_cancel = [this](const devices::FollowTrajectoryAction::HandlePtr& handle) {
+    on_cancel(handle);
+  };
   ports().actions.push_back(std::move(action));
-  const std::function<TrajectoryState(double)> query = [this](double time_s) {
+  const std::function<devices::TrajectoryState(double)> query = [this](double time_s) {
     return state_at(time_s);
   };
   ports().services.push_back({context.topic("query_state"), query});
@@ -163,22 +166,23 @@ std::vector<std::optional<std::size_t>> TrajectoryController::places(
   return found;
 }
 
-std::vector<SegmentTolerance> TrajectoryController::tolerances(const FollowTrajectoryGoal& goal) {
+std::vector<SegmentTolerance> TrajectoryController::tolerances(
+    const devices::FollowTrajectoryGoal& goal) {
   std::vector<SegmentTolerance> all;
   std::set<std::string> names;
   for (const Joint& joint : joints_) {
     SegmentTolerance& tolerance = all.emplace_back(joint.tolerance);
     names.insert(joint.handle.name);
-    for (const JointTolerance& given : goal.path_tolerances) {
+    for (const devices::JointTolerance& given : goal.path_tolerances) {
       if (given.joint == joint.handle.name) override_tolerance(given, tolerance.path);
     }
-    for (const JointTolerance& given : goal.goal_tolerances) {
+    for (const devices::JointTolerance& given : goal.goal_tolerances) {
       if (given.joint == joint.handle.name) override_tolerance(given, tolerance.goal);
     }
     override_tolerance(goal.goal_time_tolerance_s, tolerance.goal_time_s);
   }
   for (const auto* list : {&goal.path_tolerances, &goal.goal_tolerances}) {
-    for (const JointTolerance& given : *list) {
+    for (const devices::JointTolerance& given : *list) {
       if (names.count(given.joint)) continue;
       log_.warn(state_output_->topic + ": a goal has a tolerance of '" + given.joint +
                 "', which is no joint of the controller; it has no effect");
@@ -187,16 +191,16 @@ std::vector<SegmentTolerance> TrajectoryController::tolerances(const FollowTraje
   return all;
 }
 
-void TrajectoryController::follow(const JointTrajectory& trajectory,
+void TrajectoryController::follow(const devices::JointTrajectory& trajectory,
                                   const std::vector<SegmentTolerance>& tolerances,
                                   std::uint64_t goal) {
-  const std::vector<JointTrajectoryPoint>& points = trajectory.points;
+  const std::vector<devices::JointTrajectoryPoint>& points = trajectory.points;
   if (points.empty()) return hold(goal);
   const auto found = places(trajectory.joints);
   check_points(points, trajectory.joints.size());
   const double next_s = next_uptime_s();
   const double start_s = trajectory.start_s ? to_uptime_s(*trajectory.start_s) : next_s;
-  const auto is_ahead = [&](const JointTrajectoryPoint& point) {
+  const auto is_ahead = [&](const devices::JointTrajectoryPoint& point) {
     return start_s + point.time_from_start_s > next_s;
   };
   const auto first = std::find_if(points.begin(), points.end(), is_ahead);
@@ -235,14 +239,14 @@ void TrajectoryController::hold(std::uint64_t goal) {
   }
 }
 
-void TrajectoryController::on_command(const JointTrajectory& trajectory) {
+void TrajectoryController::on_command(const devices::JointTrajectory& trajectory) {
   require_running();
   follow(trajectory, tolerances({}), 0);
   preempt();
 }
 
-void TrajectoryController::on_goal(const FollowTrajectoryGoal& goal,
-                                   const FollowTrajectoryAction::HandlePtr& handle) {
+void TrajectoryController::on_goal(const devices::FollowTrajectoryGoal& goal,
+                                   const devices::FollowTrajectoryAction::HandlePtr& handle) {
   Result::Code code = Result::kInvalidGoal;
   try {
     require_running();
@@ -261,7 +265,7 @@ void TrajectoryController::on_goal(const FollowTrajectoryGoal& goal,
   ++goal_number_;
 }
 
-void TrajectoryController::on_cancel(const FollowTrajectoryAction::HandlePtr& handle) {
+void TrajectoryController::on_cancel(const devices::FollowTrajectoryAction::HandlePtr& handle) {
   if (handle != goal_) return;
   hold(0);
   preempt();
@@ -271,10 +275,10 @@ void TrajectoryController::preempt() {
   if (goal_) std::exchange(goal_, nullptr)->cancel();
 }
 
-TrajectoryState TrajectoryController::state_at(double time_s) const {
+devices::TrajectoryState TrajectoryController::state_at(double time_s) const {
   require_running();
   const double uptime_s = to_uptime_s(time_s);
-  TrajectoryState state;
+  devices::TrajectoryState state;
   for (const Joint& joint : joints_) {
     const Segment& segment = segment_at(joint.path, uptime_s);
     if (uptime_s < segment.start_s()) {
@@ -290,12 +294,12 @@ TrajectoryState TrajectoryController::state_at(double time_s) const {
   return state;
 }
 
-void TrajectoryController::update(TimeNs now_ns, double period_s, ReadingSink& sink) {
+void TrajectoryController::update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) {
   now_ns_ = now_ns;
   period_ns_ = nanoseconds(period_s);
   uptime_ns_ += period_ns_;
   const double uptime_s = seconds(uptime_ns_);
-  TrajectoryControllerReading state;
+  devices::TrajectoryControllerReading state;
   state.header.stamp_ns = now_ns;
   std::optional<Result> failure;
   for (Joint& joint : joints_) {
@@ -320,9 +324,8 @@ void TrajectoryController::update(TimeNs now_ns, double period_s, ReadingSink& s
   }
 }
 
-std::optional<FollowTrajectoryResult> TrajectoryController::violation(Joint& joint,
-                                                                      const Segment& segment,
-                                                                      const JointMotion& error) {
+std::optional<devices::FollowTrajectoryResult> TrajectoryController::violation(
+    Joint& joint, const Segment& segment, const JointMotion& error) {
   if (segment.goal != goal_number_) return std::nullopt;
   const double uptime_s = seconds(uptime_ns_);
   const SegmentTolerance& tolerance = segment.tolerance;

@@ -31,12 +31,12 @@ class TrajectoryController : public Controller {
 
   /// Holds the joints where they are.
   void start(TimeNs now_ns) override;
-  void update(TimeNs now_ns, double period_s, ReadingSink& sink) override;
+  void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void stop(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
 
  private:
-  using Result = FollowTrajectoryResult;
+  using Result = devices::FollowTrajectoryResult;
   struct Joint {
     JointHandle& handle;
     SegmentTolerance tolerance;  // of goals that say none
@@ -57,35 +57,36 @@ class TrajectoryController : public Controller {
   /// For each joint the place of its name, none if it is not among them. Throws Error for names
   /// that are not those of the joints.
   std::vector<std::optional<std::size_t>> places(const std::vector<std::string>& names) const;
-  std::vector<SegmentTolerance> tolerances(const FollowTrajectoryGoal& goal);
+  std::vector<SegmentTolerance> tolerances(const devices::FollowTrajectoryGoal& goal);
 
   /// From the next update on. Throws Error if there is no way to; then nothing has changed.
-  void follow(const JointTrajectory& trajectory, const std::vector<SegmentTolerance>& tolerances,
-              std::uint64_t goal);
+  void follow(const devices::JointTrajectory& trajectory,
+              const std::vector<SegmentTolerance>& tolerances, std::uint64_t goal);
   void hold(std::uint64_t goal);
-  void on_command(const JointTrajectory& trajectory);
-  void on_goal(const FollowTrajectoryGoal& goal, const FollowTrajectoryAction::HandlePtr& handle);
-  void on_cancel(const FollowTrajectoryAction::HandlePtr& handle);
+  void on_command(const devices::JointTrajectory& trajectory);
+  void on_goal(const devices::FollowTrajectoryGoal& goal,
+               const devices::FollowTrajectoryAction::HandlePtr& handle);
+  void on_cancel(const devices::FollowTrajectoryAction::HandlePtr& handle);
   void preempt();
-  TrajectoryState state_at(double time_s) const;
+  devices::TrajectoryState state_at(double time_s) const;
 
   /// What is wrong with the joint for the goal, if its segment belongs to it.
   std::optional<Result> violation(Joint& joint, const Segment& segment, const JointMotion& error);
   void end_goal(const std::optional<Result>& failure);
-  void publish(TrajectoryControllerReading& state, ReadingSink& sink);
+  void publish(devices::TrajectoryControllerReading& state, devices::ReadingSink& sink);
 
   Log& log_;
   bool allows_partial_goals_;
   double stop_duration_s_;
   std::deque<Joint> joints_;  // tunings point to them
-  Output* state_output_;
+  devices::Output* state_output_;
   PublishTimer state_timer_;
   PublishTimer feedback_timer_;
 
   TimeNs now_ns_ = 0;
   TimeNs period_ns_ = 0;
   TimeNs uptime_ns_ = 0;  // the sum of all periods since the start: the clock of the paths
-  FollowTrajectoryAction::HandlePtr goal_;
+  devices::FollowTrajectoryAction::HandlePtr goal_;
   std::uint64_t goal_number_ = 0;  // of the latest goal
 };
 

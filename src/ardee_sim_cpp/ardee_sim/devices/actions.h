@@ -9,7 +9,7 @@
 
 #include "ardee_sim/devices/control_readings.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A goal of an action that a client has set, as its server sees it. A goal is accepted or rejected
 /// when it comes, and ends once: succeeded, aborted or cancelled. After its end, or when the client
@@ -95,4 +95,4 @@ struct TrajectoryState {
   std::vector<double> accelerations;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -8,7 +8,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
@@ -154,4 +154,4 @@ void Battery::reset(TimeNs now_ns) {
   current_A_ = params_.idle_current_A;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/drive_command.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libardee_ros_battery.so (thesis 4.3.1, Listings A.8, A.12), in two modes. Quick: the voltage
 /// falls by a fixed amount each update, to try in seconds what an algorithm does when the battery
@@ -65,4 +65,4 @@ class Battery : public Device {
   Output& state_output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -6,7 +6,7 @@
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor,
                                          const PluginDescription& plugin, std::size_t link,
@@ -24,7 +24,7 @@ std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor,
 }
 
 BlockLidar::BlockLidar(const std::string& name, const Mount& mount, const LidarParams& params,
-                       double coordinate_std, RayScenes& scenes)
+                       double coordinate_std, RaySceneProvider& scenes)
     : Sensor(name, mount),
       params_(params),
       coordinate_std_(coordinate_std),
@@ -58,4 +58,4 @@ void BlockLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sin
   sink.on_reading(output_, cloud);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

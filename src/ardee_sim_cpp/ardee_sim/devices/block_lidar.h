@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/lidar_params.h"
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A lidar over a grid of angles that gives sensor_msgs/PointCloud, row by row, with one unnamed
 /// channel of intensities. Each beam has a point; by REP 117 the coordinates of one without a range
@@ -22,7 +22,7 @@ class BlockLidar : public Sensor {
                                       const PluginDescription& plugin, std::size_t link,
                                       DeviceContext& context);
   BlockLidar(const std::string& name, const Mount& mount, const LidarParams& params,
-             double coordinate_std, RayScenes& scenes);
+             double coordinate_std, RaySceneProvider& scenes);
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
@@ -31,11 +31,11 @@ class BlockLidar : public Sensor {
  private:
   LidarParams params_;
   double coordinate_std_;
-  RayScenes& scenes_;
+  RaySceneProvider& scenes_;
   LidarBeams beams_;
   std::shared_ptr<void> eye_;
   std::vector<BeamEcho> echoes_;
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

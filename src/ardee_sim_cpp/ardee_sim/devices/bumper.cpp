@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 /// The name that a collision had before Gazebo lumped its link into the one that it is fixed to:
@@ -71,8 +71,8 @@ std::set<std::string> read_collisions(const SensorDescription& sensor, std::size
 }
 
 /// The contact as the second body feels it.
-Contact swapped(const Contact& contact) {
-  Contact made = contact;
+physics::Contact swapped(const physics::Contact& contact) {
+  physics::Contact made = contact;
   std::swap(made.collision1, made.collision2);
   std::swap(made.on1, made.on2);
   made.normal = -contact.normal;
@@ -90,7 +90,7 @@ std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor,
   params.collisions = read_collisions(sensor, link, context.robot);
   params.topic = resolve_topic(parameters.text("bumperTopicName", "bumper_states"), space);
   params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
-  params.surroundings = context.surroundings;
+  params.world_info = context.world_info;
   parameters.ignore({"alwaysOn", "updateRate"});
   parameters.finish(context.log);
   return std::make_unique<Bumper>(sensor.name, params);
@@ -102,7 +102,7 @@ Bumper::Bumper(const std::string& name, const Params& params)
       output_(add_output(params.topic, reading_kind<ContactsReading>())) {}
 
 void Bumper::observe(TimeNs /*now_ns*/) {
-  if (output_.demanded) params_.surroundings.want_contacts();
+  if (output_.demanded) params_.world_info.want_contacts();
 }
 
 void Bumper::follow(TimeNs now_ns) {
@@ -110,10 +110,10 @@ void Bumper::follow(TimeNs now_ns) {
     touches_.clear();
     return;
   }
-  for (const Contact& found : params_.surroundings.contacts()) {
+  for (const physics::Contact& found : params_.world_info.contacts()) {
     const bool is_first = params_.collisions.count(found.collision1) != 0;
     if (!is_first && params_.collisions.count(found.collision2) == 0) continue;
-    const Contact contact = is_first ? found : swapped(found);
+    const physics::Contact contact = is_first ? found : swapped(found);
     const auto belongs = [&](const ContactsReading::Touch& touch) {
       return touch.time_ns == now_ns && touch.collision1 == contact.collision1 &&
              touch.collision2 == contact.collision2;
@@ -135,4 +135,4 @@ void Bumper::reset(TimeNs now_ns) {
   touches_.clear();
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

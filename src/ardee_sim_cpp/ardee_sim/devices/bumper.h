@@ -8,7 +8,7 @@
 
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_bumper.so in a sensor of type contact: whatever touches the collisions that the
 /// sensor's <contact> names. A message holds each step since the last one, as the stock plugin's
@@ -20,7 +20,7 @@ class Bumper : public Sensor {
     std::set<std::string> collisions{};  // scoped names
     std::string topic{};
     std::string frame{};
-    Surroundings surroundings{};
+    WorldInfo world_info{};
   };
 
   static std::unique_ptr<Device> make(const SensorDescription& sensor,
@@ -42,4 +42,4 @@ class Bumper : public Sensor {
   std::vector<ContactsReading::Touch> touches_;  // since the last sample
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,24 +3,24 @@
 
 #include <set>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 struct Format {
-  PixelFormat format;
+  render::PixelFormat format;
   const char* encoding;
   std::initializer_list<const char*> names;  // SDF's, Gazebo's, and what people write besides
 };
 
 const Format kFormats[] = {
-    {PixelFormat::kRgb8, "rgb8", {"R8G8B8", "RGB_INT8", "RGB8"}},
-    {PixelFormat::kBgr8, "bgr8", {"B8G8R8", "BGR_INT8", "BGR8"}},
-    {PixelFormat::kMono8, "mono8", {"L8", "L_INT8", "MONO8"}},
-    {PixelFormat::kMono16, "mono16", {"L16", "L_INT16", "L_UINT16", "MONO16"}},
-    {PixelFormat::kBayerRggb8, "bayer_rggb8", {"BAYER_RGGB8"}},
-    {PixelFormat::kBayerBggr8, "bayer_bggr8", {"BAYER_BGGR8"}},
-    {PixelFormat::kBayerGbrg8, "bayer_gbrg8", {"BAYER_GBRG8"}},
-    {PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
+    {render::PixelFormat::kRgb8, "rgb8", {"R8G8B8", "RGB_INT8", "RGB8"}},
+    {render::PixelFormat::kBgr8, "bgr8", {"B8G8R8", "BGR_INT8", "BGR8"}},
+    {render::PixelFormat::kMono8, "mono8", {"L8", "L_INT8", "MONO8"}},
+    {render::PixelFormat::kMono16, "mono16", {"L16", "L_INT16", "L_UINT16", "MONO16"}},
+    {render::PixelFormat::kBayerRggb8, "bayer_rggb8", {"BAYER_RGGB8"}},
+    {render::PixelFormat::kBayerBggr8, "bayer_bggr8", {"BAYER_BGGR8"}},
+    {render::PixelFormat::kBayerGbrg8, "bayer_gbrg8", {"BAYER_GBRG8"}},
+    {render::PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
 };
 
 /// Gazebo's and SDF's names of what no picture here has.
@@ -33,7 +33,7 @@ constexpr char kPlain16[] = "16UC1";  // the same bytes as mono16, not said to b
 
 }  // namespace
 
-PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log) {
+render::PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log) {
   std::string known;
   for (const Format& each : kFormats) {
     for (const char* text : each.names) {
@@ -44,26 +44,26 @@ PixelFormat read_pixel_format(const std::string& name, const Source& source, Log
   if (kOthers.count(name) != 0) {
     log.warn(source.to_string() + ": found format '" + name + "', expected one of: " + known +
              "; the first is used");
-    return PixelFormat::kRgb8;
+    return render::PixelFormat::kRgb8;
   }
   throw Error(source, "found format '" + name + "', expected one of: " + known);
 }
 
-PixelFormat read_encoding(const std::string& name, const Source& source) {
+render::PixelFormat read_encoding(const std::string& name, const Source& source) {
   std::string known;
   for (const Format& each : kFormats) {
     if (name == each.encoding) return each.format;
     known += std::string(each.encoding) + ", ";
   }
-  if (name == kPlain16) return PixelFormat::kMono16;
+  if (name == kPlain16) return render::PixelFormat::kMono16;
   throw Error(source, "found encoding '" + name + "', expected one of: " + known + kPlain16);
 }
 
-const char* encoding_of(PixelFormat format) {
+const char* encoding_of(render::PixelFormat format) {
   for (const Format& each : kFormats) {
     if (each.format == format) return each.encoding;
   }
   return "";
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,20 +5,20 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/description/element.h"
-#include "ardee_sim/render/develop.h"
+#include "ardee_sim/render/image_formation.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// The format that SDF's <format> names, as SDF, Gazebo or ROS spells it. One of more channels or
 /// bits than a picture has here is a warning, and red, green and blue of eight bits. Throws Error
 /// for one that is not known.
-PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log);
+render::PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log);
 
 /// The format of an encoding of sensor_msgs/image_encodings. Throws Error for one that is not
 /// known.
-PixelFormat read_encoding(const std::string& name, const Source& source);
+render::PixelFormat read_encoding(const std::string& name, const Source& source);
 
 /// Its name in sensor_msgs/image_encodings.
-const char* encoding_of(PixelFormat format);
+const char* encoding_of(render::PixelFormat format);
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kMostDistortion = 1e3;
@@ -29,7 +29,7 @@ std::array<double, 5> read_distortion(const Element& distortion) {
   return D;
 }
 
-void read_intrinsics(const Element& intrinsics, Lens& lens) {
+void read_intrinsics(const Element& intrinsics, render::Lens& lens) {
   Parameters parameters(intrinsics);
   lens.fx_px = parameters.number("fx", lens.fx_px, kShortest_px, kMost_px);
   lens.fy_px = parameters.number("fy", lens.fy_px, kShortest_px, kMost_px);
@@ -39,7 +39,7 @@ void read_intrinsics(const Element& intrinsics, Lens& lens) {
 }
 
 /// Returns whether there are <intrinsics>.
-bool read_lens_block(const Element& block, Lens& lens, Log& log) {
+bool read_lens_block(const Element& block, render::Lens& lens, Log& log) {
   Parameters parameters(block);
   const std::string type = parameters.text("type", "gnomonical");
   if (type != "gnomonical") {
@@ -53,7 +53,8 @@ bool read_lens_block(const Element& block, Lens& lens, Log& log) {
 }
 
 /// Focal length and middle as the plugin overrides those of the field of view.
-void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, Lens& lens, Log& log) {
+void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, render::Lens& lens,
+                            Log& log) {
   const double focal_px = plugin.number("focalLength", 0.0, 0.0, kMost_px);
   const double cx_px = plugin.number("Cx", 0.0, -kMost_px, kMost_px);
   const double cy_px = plugin.number("Cy", 0.0, -kMost_px, kMost_px);
@@ -80,7 +81,8 @@ void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, Lens& len
 }
 
 /// Sets what bends the picture, and returns what camera_info says.
-std::array<double, 5> read_bend(Parameters& plugin, const SdfLens& of_sdf, Lens& lens, Log& log) {
+std::array<double, 5> read_bend(Parameters& plugin, const SdfLens& of_sdf, render::Lens& lens,
+                                Log& log) {
   std::array<double, 5> of_plugin{};
   std::size_t k = 0;
   for (const char* key :
@@ -108,13 +110,13 @@ std::array<double, 5> read_bend(Parameters& plugin, const SdfLens& of_sdf, Lens&
 }  // namespace
 
 void CameraLens::set_horizontal_fov(int width_px, double fov_rad) {
-  const double zoom = Lens::pinhole(width_px, 1, fov_rad).fx_px / taken.fx_px;
-  taken.fx_px *= zoom;
-  taken.fy_px *= zoom;
-  taken.skew_px *= zoom;
+  const double zoom = render::Lens::pinhole(width_px, 1, fov_rad).fx_px / actual.fx_px;
+  actual.fx_px *= zoom;
+  actual.fy_px *= zoom;
+  actual.skew_px *= zoom;
 }
 
-SdfLens read_sdf_lens(Parameters& camera, Lens& lens, Log& log) {
+SdfLens read_sdf_lens(Parameters& camera, render::Lens& lens, Log& log) {
   SdfLens found;
   if (const Element* block = camera.block("distortion")) {
     found.distortion = read_distortion(*block);
@@ -125,15 +127,16 @@ SdfLens read_sdf_lens(Parameters& camera, Lens& lens, Log& log) {
   return found;
 }
 
-CameraLens read_camera_lens(Parameters& plugin, const Lens& lens, const SdfLens& of_sdf, Log& log) {
+CameraLens read_camera_lens(Parameters& plugin, const render::Lens& lens, const SdfLens& of_sdf,
+                            Log& log) {
   CameraLens made;
-  made.taken = lens;
-  read_plugin_intrinsics(plugin, of_sdf, made.taken, log);
+  made.actual = lens;
+  read_plugin_intrinsics(plugin, of_sdf, made.actual, log);
   const double cx_prime_px = plugin.number("CxPrime", 0.0, -kMost_px, kMost_px);
   if (cx_prime_px != 0.0) made.cx_prime_px = cx_prime_px;
-  made.told = read_bend(plugin, of_sdf, made.taken, log);
+  made.reported = read_bend(plugin, of_sdf, made.actual, log);
   made.baseline_m = plugin.number("hackBaseline", 0.0);
   return made;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

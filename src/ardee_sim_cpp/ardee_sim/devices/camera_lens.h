@@ -8,12 +8,12 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/render/lens.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A camera's lens: what the picture is taken with, and what camera_info says besides.
 struct CameraLens {
-  Lens taken;                           // K, and what bends the picture
-  std::array<double, 5> told{};         // D: of a plugin without <autoDistortion> told only
+  render::Lens actual;                  // K, and what bends the picture
+  std::array<double, 5> reported{};     // D: of a plugin without <autoDistortion> told only
   std::optional<double> cx_prime_px{};  // the middle of P in x; none: that of K
   double baseline_m = 0.0;              // P[3] = -fx * baseline
 
@@ -30,9 +30,10 @@ struct SdfLens {
 /// <distortion>, and <lens> with its <intrinsics>: fx, fy, cx, cy, s in pixels, as camera_info's K
 /// has them; what is absent follows from the field of view that `lens` has. Other projections than
 /// the pinhole's are a warning.
-SdfLens read_sdf_lens(Parameters& camera, Lens& lens, Log& log);
+SdfLens read_sdf_lens(Parameters& camera, render::Lens& lens, Log& log);
 
 /// The plugin's keys focalLength, Cx, Cy, CxPrime, distortionK1 ..., autoDistortion, hackBaseline.
-CameraLens read_camera_lens(Parameters& plugin, const Lens& lens, const SdfLens& of_sdf, Log& log);
+CameraLens read_camera_lens(Parameters& plugin, const render::Lens& lens, const SdfLens& of_sdf,
+                            Log& log);
 
-}  // namespace ardee
+}  // namespace ardee::devices

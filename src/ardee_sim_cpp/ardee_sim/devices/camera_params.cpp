@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/camera_formats.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr int kLongestSide_px = 8192;
@@ -80,8 +80,8 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
   if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
   if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera);
   if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera);
-  camera.lens.taken = Lens::pinhole(camera.width, camera.height, fov_rad);
-  of_sdf = read_sdf_lens(parameters, camera.lens.taken, log);
+  camera.lens.actual = render::Lens::pinhole(camera.width, camera.height, fov_rad);
+  of_sdf = read_sdf_lens(parameters, camera.lens.actual, log);
   return camera;
 }
 
@@ -157,7 +157,7 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
     topics.labels = base + "/segmentation/label";
     topics.instances = base + "/segmentation/instance";
   }
-  camera.lens = read_camera_lens(parameters, camera.lens.taken, of_sdf, context.log);
+  camera.lens = read_camera_lens(parameters, camera.lens.actual, of_sdf, context.log);
   if (!has_baseline) camera.lens.baseline_m = 0.0;
   read_zoom(parameters, camera);
   camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context,
@@ -177,11 +177,11 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
 }  // namespace
 
 CameraInfoReading CameraParams::info() const {
-  const Lens& taken = lens.taken;
+  const render::Lens& taken = lens.actual;
   CameraInfoReading info;
   info.width = static_cast<std::uint32_t>(width);
   info.height = static_cast<std::uint32_t>(height);
-  info.D = lens.told;
+  info.D = lens.reported;
   info.K = {taken.fx_px, taken.skew_px, taken.cx_px, 0, taken.fy_px, taken.cy_px, 0, 0, 1};
   info.P = {taken.fx_px,
             taken.skew_px,
@@ -229,4 +229,4 @@ CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescript
   return all;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -6,9 +6,9 @@
 
 #include "ardee_sim/devices/camera_lens.h"
 #include "ardee_sim/devices/device.h"
-#include "ardee_sim/render/develop.h"
+#include "ardee_sim/render/image_formation.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Which of Gazebo's camera plugins is meant.
 enum class CameraKind { kColor, kDepth, kOpenni };
@@ -49,9 +49,10 @@ struct CameraParams {
   double fov_max_rad = 0.0;
   double near_m = 0.1;
   double far_m = 100.0;
-  Development development;                        // of the image
-  std::string encoding;                           // of the image, as sensor_msgs has it
-  PixelFormat cloud_format = PixelFormat::kRgb8;  // in which the cloud has its colours: <format>
+  render::ImageFormation development;  // of the image
+  std::string encoding;                // of the image, as sensor_msgs has it
+  render::PixelFormat cloud_format =
+      render::PixelFormat::kRgb8;  // in which the cloud has its colours: <format>
   DepthParams depth;
   CameraTopics topics;
   std::string frame;  // the optical one
@@ -72,4 +73,4 @@ struct CamerasParams {
 CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
                            CameraKind kind, bool several, bool triggered, DeviceContext& context);
 
-}  // namespace ardee
+}  // namespace ardee::devices

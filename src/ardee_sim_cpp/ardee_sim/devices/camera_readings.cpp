@@ -7,7 +7,7 @@
 
 #include "ardee_sim/core/normal_table.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr std::uint32_t kPointBytes = 32;
@@ -15,7 +15,7 @@ constexpr std::uint32_t kColorOffset = 16;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 template <typename Number>
-ImageReading image_of(const Frame& frame, const char* encoding,
+ImageReading image_of(const render::Frame& frame, const char* encoding,
                       const std::vector<Number>& numbers) {
   ImageReading image;
   image.width = static_cast<std::uint32_t>(frame.width);
@@ -28,21 +28,22 @@ ImageReading image_of(const Frame& frame, const char* encoding,
 }
 
 /// 0x00RRGGBB of a pixel; a Bayer pixel counts as grey.
-std::uint32_t packed_color(const std::vector<std::uint8_t>& pixels, PixelFormat format,
+std::uint32_t packed_color(const std::vector<std::uint8_t>& pixels, render::PixelFormat format,
                            std::size_t pixel) {
-  const std::uint8_t* at = &pixels[pixel * static_cast<std::size_t>(bytes_per_pixel(format))];
+  const std::uint8_t* at =
+      &pixels[pixel * static_cast<std::size_t>(render::bytes_per_pixel(format))];
   const auto pack = [](std::uint32_t r, std::uint32_t g, std::uint32_t b) {
     return r << 16 | g << 8 | b;
   };
-  if (format == PixelFormat::kRgb8) return pack(at[0], at[1], at[2]);
-  if (format == PixelFormat::kBgr8) return pack(at[2], at[1], at[0]);
-  if (format == PixelFormat::kMono16) return pack(at[1], at[1], at[1]);
+  if (format == render::PixelFormat::kRgb8) return pack(at[0], at[1], at[2]);
+  if (format == render::PixelFormat::kBgr8) return pack(at[2], at[1], at[0]);
+  if (format == render::PixelFormat::kMono16) return pack(at[1], at[1], at[1]);
   return pack(at[0], at[0], at[0]);
 }
 
 }  // namespace
 
-std::vector<float> measured_depths(const Frame& frame, const DepthParams& params,
+std::vector<float> measured_depths(const render::Frame& frame, const DepthParams& params,
                                    const CounterRng& noise) {
   std::vector<float> depths_m(frame.depth_m.size());
   const bool noisy = params.has_noise();
@@ -59,17 +60,19 @@ std::vector<float> measured_depths(const Frame& frame, const DepthParams& params
   return depths_m;
 }
 
-ImageReading color_image(const Frame& frame, const CameraParams& params, const CounterRng& noise) {
+ImageReading color_image(const render::Frame& frame, const CameraParams& params,
+                         const CounterRng& noise) {
   ImageReading image;
   image.width = static_cast<std::uint32_t>(frame.width);
   image.height = static_cast<std::uint32_t>(frame.height);
   image.encoding = params.encoding;
-  image.step = image.width * static_cast<std::uint32_t>(bytes_per_pixel(params.development.format));
-  image.data = develop(frame, params.development, noise);
+  image.step =
+      image.width * static_cast<std::uint32_t>(render::bytes_per_pixel(params.development.format));
+  image.data = render::form_image(frame, params.development, noise);
   return image;
 }
 
-ImageReading depth_image(const Frame& frame, const std::vector<float>& depths_m,
+ImageReading depth_image(const render::Frame& frame, const std::vector<float>& depths_m,
                          const DepthParams& params) {
   if (!params.millimetres) return image_of(frame, "32FC1", depths_m);
   std::vector<std::uint16_t> depths_mm;
@@ -81,25 +84,27 @@ ImageReading depth_image(const Frame& frame, const std::vector<float>& depths_m,
   return image_of(frame, "16UC1", depths_mm);
 }
 
-ImageReading label_image(const Frame& frame) { return image_of(frame, "16UC1", frame.labels); }
+ImageReading label_image(const render::Frame& frame) {
+  return image_of(frame, "16UC1", frame.labels);
+}
 
-ImageReading instance_image(const Frame& frame) {
+ImageReading instance_image(const render::Frame& frame) {
   std::vector<std::uint32_t> numbers;
   numbers.reserve(frame.entities.size());
   for (const std::uint32_t entity : frame.entities) numbers.push_back(entity + 1);  // nothing: 0
   return image_of(frame, "32SC1", numbers);
 }
 
-std::vector<std::uint8_t> cloud_pixels(const Frame& frame, const CameraParams& params,
+std::vector<std::uint8_t> cloud_pixels(const render::Frame& frame, const CameraParams& params,
                                        const ImageReading& image, const CounterRng& noise) {
   if (params.cloud_format == params.development.format && !image.data.empty()) return image.data;
-  Development colored = params.development;
+  render::ImageFormation colored = params.development;
   colored.format = params.cloud_format;
-  return develop(frame, colored, noise);
+  return render::form_image(frame, colored, noise);
 }
 
-PointCloudReading point_cloud(const Camera& camera, const std::vector<float>& depths_m,
-                              const std::vector<std::uint8_t>& pixels, PixelFormat format) {
+PointCloudReading point_cloud(const render::Camera& camera, const std::vector<float>& depths_m,
+                              const std::vector<std::uint8_t>& pixels, render::PixelFormat format) {
   PointCloudReading cloud;
   cloud.width = static_cast<std::uint32_t>(camera.width);
   cloud.height = static_cast<std::uint32_t>(camera.height);
@@ -121,4 +126,4 @@ PointCloudReading point_cloud(const Camera& camera, const std::vector<float>& de
   return cloud;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

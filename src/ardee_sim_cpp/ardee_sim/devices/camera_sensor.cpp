@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/camera_readings.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 CameraSensor::Made make(const SensorDescription& sensor, const PluginDescription& plugin,
@@ -71,9 +71,9 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
   set_lens(eye);
-  eye.unzoomed = params.lens.taken;
+  eye.unzoomed = params.lens.actual;
   eye.unzoomed_table = eye.camera.lens;
-  eye.view = context.scenes.register_eye(SceneKind::kVisual,
+  eye.view = context.scenes.register_eye(raycast::SceneKind::kVisual,
                                          [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
   const auto output = [this](const std::string& topic, std::size_t kind) {
     return topic.empty() ? nullptr : &add_output(topic, kind);
@@ -100,14 +100,15 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
 
 void CameraSensor::set_lens(Eye& eye) {
   const CameraParams& params = eye.params;
-  eye.camera.lens = std::make_shared<LensTable>(params.lens.taken, params.width, params.height);
+  eye.camera.lens =
+      std::make_shared<render::UndistortionMap>(params.lens.actual, params.width, params.height);
 }
 
 void CameraSensor::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
   asked_ = false;
   for (Eye& eye : eyes_) {
-    eye.params.lens.taken = eye.unzoomed;
+    eye.params.lens.actual = eye.unzoomed;
     eye.camera.lens = eye.unzoomed_table;
   }
 }
@@ -130,7 +131,7 @@ void CameraSensor::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& s
 }
 
 void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
-  FrameParts parts;
+  render::FrameParts parts;
   parts.light = asked_for(eye.image) || asked_for(eye.points);
   parts.depth = asked_for(eye.depth) || asked_for(eye.points);
   parts.ids = asked_for(eye.labels) || asked_for(eye.instances);
@@ -141,7 +142,7 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
   };
   if (parts.any()) {
     eye.camera.X_WC = pose() * eye.params.X_SC;
-    const Frame frame = pictures_.take(eye.camera, parts);
+    const render::Frame frame = pictures_.take(eye.camera, parts);
     ImageReading image;
     if (asked_for(eye.image)) image = color_image(frame, eye.params, noise.frame(0));
     if (parts.depth) {
@@ -160,4 +161,4 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
   if (asked_for(eye.depth_info)) give(eye.depth_info, eye.params.info());
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

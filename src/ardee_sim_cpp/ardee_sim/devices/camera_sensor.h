@@ -8,7 +8,7 @@
 #include "ardee_sim/devices/camera_params.h"
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Colour and depth cameras, one or several in a sensor. What nobody listens to is not worked out:
 /// depth costs no shading, camera_info no picture.
@@ -47,9 +47,9 @@ class CameraSensor : public Sensor {
  private:
   struct Eye {
     CameraParams params;
-    Lens unzoomed;
-    std::shared_ptr<const LensTable> unzoomed_table;
-    Camera camera;               // but for its pose
+    render::Lens unzoomed;
+    std::shared_ptr<const render::UndistortionMap> unzoomed_table;
+    render::Camera camera;       // but for its pose
     std::shared_ptr<void> view;  // tells the scenes where rays start
     Output* image = nullptr;     // null: there is no such topic
     Output* info = nullptr;
@@ -63,10 +63,10 @@ class CameraSensor : public Sensor {
   static void set_lens(Eye& eye);
   void sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, ReadingSink& sink);
 
-  Pictures& pictures_;
+  CameraRenderer& pictures_;
   std::vector<Eye> eyes_;
   bool triggered_ = false;
   bool asked_ = false;  // a trigger has come since the last picture
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/physics/contact.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A request to act now, without content.
 struct Trigger {};
@@ -41,6 +41,6 @@ struct JointTrajectory {
 
 /// Whatever a device may be told on a topic.
 using Command = std::variant<Trigger, Twist, double, bool, std::vector<double>, SteeringCommand,
-                             JointTrajectory, ForceTorque>;
+                             JointTrajectory, physics::ForceTorque>;
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -8,7 +8,7 @@
 #include "ardee_sim/devices/command.h"
 #include "ardee_sim/devices/reading_header.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A velocity with time and frame (geometry_msgs/TwistStamped).
 struct TwistReading {
@@ -56,4 +56,4 @@ struct FourWheelSteeringReading {
   double jerk_m_per_s3 = 0.0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

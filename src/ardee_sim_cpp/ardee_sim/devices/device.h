@@ -11,28 +11,28 @@
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/description/world.h"
-#include "ardee_sim/devices/pictures.h"
+#include "ardee_sim/devices/camera_renderer.h"
 #include "ardee_sim/devices/ports.h"
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/physics/contact.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// The ray scenes, made when first asked for and brought up to the present state of the world when
 /// used.
-class RayScenes {
+class RaySceneProvider {
  public:
   using Eye = std::function<Eigen::Vector3d()>;
 
-  virtual ~RayScenes() = default;
+  virtual ~RaySceneProvider() = default;
   /// Announces a point that rays will start from, as long as the returned token lives: ground near
   /// it is kept ready.
-  virtual std::shared_ptr<void> register_eye(SceneKind kind, Eye eye) = 0;
+  virtual std::shared_ptr<void> register_eye(raycast::SceneKind kind, Eye eye) = 0;
   /// The scene as of this step.
-  virtual const RayScene& now(SceneKind kind) = 0;
+  virtual const raycast::RayScene& now(raycast::SceneKind kind) = 0;
   /// The visual scene, from now on ready for pictures too.
-  virtual const RayScene& for_pictures() = 0;
+  virtual const raycast::RayScene& for_pictures() = 0;
 };
 
 /// Receives what devices measure; the ROS node publishes it, a test records it.
@@ -43,7 +43,7 @@ class ReadingSink {
 };
 
 /// What a device may know of the world that its robot is in.
-struct Surroundings {
+struct WorldInfo {
   std::function<Eigen::Vector3d()> gravity_m_per_s2;  // as it is now
   std::optional<SphericalCoordinates> spherical_coordinates;
   /// Files that the static models come from, each once.
@@ -53,7 +53,7 @@ struct Surroundings {
   /// Asks, before a step, for its contacts.
   std::function<void()> want_contacts;
   /// Contacts of the last step, if they were asked for.
-  std::function<const std::vector<Contact>&()> contacts;
+  std::function<const std::vector<physics::Contact>&()> contacts;
 };
 
 inline Setting no_parameter(const std::string& name) { return {name, {}}; }
@@ -61,15 +61,15 @@ inline Setting no_parameter(const std::string& name) { return {name, {}}; }
 /// What a device is given when it is made. All references outlive the device.
 struct DeviceContext {
   Robot& robot;
-  RayScenes& scenes;
-  Pictures& pictures;
+  RaySceneProvider& scenes;
+  CameraRenderer& pictures;
   Log& log;
   std::uint64_t seed = 0;       // of this robot's streams
   std::string robot_namespace;  // where plugins without one of their own put their topics
   TimeNs step_ns = 0;
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
-  Surroundings surroundings;
+  WorldInfo world_info;
   std::string scope = "";  // of the plugin (PluginDescription)
   /// A parameter by its full name ("/robot/base"); nothing is there without ROS's parameter server.
   std::function<Setting(const std::string& name)> parameter = no_parameter;
@@ -93,8 +93,8 @@ class Device {
 
   const std::string& name() const { return name_; }
   /// Whether the robot does without it where it cannot be, as it does without a sensor.
-  bool is_dispensable() const { return is_dispensable_; }
-  void set_dispensable(bool is_dispensable) { is_dispensable_ = is_dispensable; }
+  bool is_optional() const { return is_optional_; }
+  void set_optional(bool is_optional) { is_optional_ = is_optional; }
   Ports& ports() { return ports_; }
   const Ports& ports() const { return ports_; }
 
@@ -118,12 +118,12 @@ class Device {
   void add_service(const std::string& name, Service::Act act) {
     ports_.services.push_back({name, std::move(act)});
   }
-  void add_tuning(Tuning tuning) { ports_.tunings.push_back(std::move(tuning)); }
+  void add_tuning(ParameterGroup tuning) { ports_.tunings.push_back(std::move(tuning)); }
 
  private:
   std::string name_;
-  bool is_dispensable_ = false;
+  bool is_optional_ = false;
   Ports ports_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr WithoutPrefix kBelowNamespace = WithoutPrefix::kNamespace;
@@ -201,4 +201,4 @@ void DiffDrive::reset(TimeNs now_ns) {
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/wheel_encoder.h"
 #include "ardee_sim/devices/wheel_odometry.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_diff_drive.so: two driven wheels.
 class DiffDrive : public Device {
@@ -67,4 +67,4 @@ class DiffDrive : public Device {
   Output* joints_output_ = nullptr;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

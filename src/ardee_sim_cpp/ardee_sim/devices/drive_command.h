@@ -4,7 +4,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/core/time.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// The command that a drive follows. The last one stays, as the stock plugins have it, unless a
 /// timeout is set.
@@ -38,4 +38,4 @@ class DriveCommand {
   TimeNs time_ns_ = 0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

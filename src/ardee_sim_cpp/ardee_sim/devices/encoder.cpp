@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::unique_ptr<Device> Encoder::make(const PluginDescription& plugin, DeviceContext& context) {
   constexpr double kDefaultRate_hz = 100.0;
@@ -40,4 +40,4 @@ void Encoder::reset(TimeNs now_ns) {
   encoder_.reset(now_ns);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

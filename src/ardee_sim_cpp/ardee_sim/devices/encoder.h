@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/wheel_encoder.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libardee_ros_encoder.so (thesis 4.3.1, Listing A.5): one encoder on a joint, on a topic of its
 /// own.
@@ -25,4 +25,4 @@ class Encoder : public Device {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/reading_header.h"
 #include "ardee_sim/physics/contact.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// What touched the collisions of a sensor since the reading before. Vectors have the world's axes,
 /// positions are in the world, torques are about the first body's centre of mass.
@@ -17,7 +17,7 @@ struct ContactsReading {
     TimeNs time_ns = 0;
     std::string collision1;
     std::string collision2;
-    std::vector<Contact> points;
+    std::vector<physics::Contact> points;
   };
   Header header;
   std::vector<Touch> touches;
@@ -26,7 +26,7 @@ struct ContactsReading {
 /// A force and a torque about the origin of header.frame_id (geometry_msgs/WrenchStamped).
 struct WrenchReading {
   Header header;
-  ForceTorque wrench;
+  physics::ForceTorque wrench;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
                                                 DeviceContext& context) {
@@ -35,7 +35,7 @@ void ForceTorqueSensor::observe(TimeNs /*now_ns*/) {
 }
 
 void ForceTorqueSensor::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
-  const ForceTorque wrench_W = mount().robot.dynamics().joint_wrench(params_.joint);
+  const physics::ForceTorque wrench_W = mount().robot.dynamics().joint_wrench(params_.joint);
   const Eigen::Quaterniond q_CW = pose().q.conjugate();
   WrenchReading reading{{now_ns, params_.frame}, {q_CW * wrench_W.force, q_CW * wrench_W.torque}};
   for (int axis = 0; axis < 3; ++axis) {
@@ -46,4 +46,4 @@ void ForceTorqueSensor::sample(TimeNs now_ns, const CounterRng& noise, ReadingSi
   sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_ft_sensor.so: the wrench that a joint's child applies to the joint, about the
 /// joint's origin, in the axes of the child link, whose name is the frame. A mass that hangs on the
@@ -35,4 +35,4 @@ class ForceTorqueSensor : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

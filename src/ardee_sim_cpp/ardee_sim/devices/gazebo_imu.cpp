@@ -6,7 +6,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -42,7 +42,7 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
   params.frame = resolve_frame(parameters.text("frameName", body), space, context);
   parameters.ignore({"alwaysOn", "updateRateHZ"});
   parameters.finish(context.log);
-  return std::make_unique<GazeboImu>(plugin.name, params, context.surroundings.gravity_m_per_s2);
+  return std::make_unique<GazeboImu>(plugin.name, params, context.world_info.gravity_m_per_s2);
 }
 
 std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& sensor,
@@ -65,7 +65,7 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
   }
   parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
   parameters.finish(context.log);
-  return std::make_unique<GazeboImu>(sensor.name, params, context.surroundings.gravity_m_per_s2);
+  return std::make_unique<GazeboImu>(sensor.name, params, context.world_info.gravity_m_per_s2);
 }
 
 GazeboImu::GazeboImu(const std::string& name, const Params& params,
@@ -119,4 +119,4 @@ void GazeboImu::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink
   if (output_.demanded) sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/inertial_sensor.h"
 #include "ardee_sim/devices/sdf_imu_noise.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_imu.so, a model plugin, and libgazebo_ros_imu_sensor.so, in a <sensor type="imu">.
 /// The first has no gravity in its acceleration (0 at rest) unless <gravity> is true; the second
@@ -49,4 +49,4 @@ class GazeboImu : public InertialSensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

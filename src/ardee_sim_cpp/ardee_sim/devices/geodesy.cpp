@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -106,4 +106,4 @@ Vector3d LocalFrame::to_local(const GeoPoint& point) const {
                    point.altitude_m - origin_.altitude_m});
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace ardee {
+namespace ardee::devices {
 
 /// WGS-84: degrees, and metres above the ellipsoid.
 struct GeoPoint {
@@ -49,4 +49,4 @@ class LocalFrame {
 Eigen::Vector3d ecef_from_geodetic(const GeoPoint& point);
 GeoPoint geodetic_from_ecef(const Eigen::Vector3d& ecef_m);
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -117,4 +117,4 @@ void Gps::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) 
   report(now_ns, sky, error_W, variance_m2.cwiseSqrt(), sink);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/gps_params.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libhector_gazebo_ros_gps.so: position and velocity (north, west, up) with hector's errors.
 class Gps : public Sensor {
@@ -55,4 +55,4 @@ class Gps : public Sensor {
   Output& velocity_output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/gps_regions.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 GpsNoise combined(const GpsNoise& one, const GpsNoise& other) {
   GpsNoise both;
@@ -60,4 +60,4 @@ bool GpsRegion::contains(const Eigen::Vector3d& point_W) const {
   return (inside.cwiseAbs().array() <= 0.5 * size_m.array()).all();
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
@@ -33,7 +33,7 @@ LocalFrame read_frame_on_earth(Parameters& parameters, DeviceContext& context) {
   origin.altitude_m = parameters.number("referenceAltitude", 0.0, -1e5, 1e7);
   double heading_deg = parameters.number("referenceHeading", 0.0, -360.0, 360.0);
   if (parameters.boolean("useWorldSphericalCoordinates", false)) {
-    if (const auto& world = context.surroundings.spherical_coordinates) {
+    if (const auto& world = context.world_info.spherical_coordinates) {
       if (std::abs(world->latitude_deg) > kMostLatitude_deg) {
         throw parameters.error("useWorldSphericalCoordinates",
                                "expected a world less than 89.9 degrees from the equator");
@@ -70,10 +70,11 @@ GpsParams read_gps_params(Parameters& parameters, DeviceContext& context) {
   return params;
 }
 
-Tuning gnss_tuning(const std::string& name, int& status, int& service) {
+ParameterGroup gnss_tuning(const std::string& name, int& status, int& service) {
   const auto tunable = [](const char* key, const char* about, std::function<bool()> get,
                           std::function<void(bool)> set) {
-    Tunable made{key, about, Tunable::Type::kBool, 0.0, 1.0, get() ? 1.0 : 0.0, {}, {}};
+    TunableParameter made{key, about, TunableParameter::Type::kBool, 0.0, 1.0, get() ? 1.0 : 0.0,
+                          {},  {}};
     made.get = [get = std::move(get)] { return get() ? 1.0 : 0.0; };
     made.set = [set = std::move(set)](double value) { set(value != 0.0); };
     return made;
@@ -106,4 +107,4 @@ Tuning gnss_tuning(const std::string& name, int& status, int& service) {
            system("SERVICE_GALILEO", "GALILEO service", kGalileo)}};
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

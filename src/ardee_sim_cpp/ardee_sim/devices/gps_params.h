@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/sensor.h"
 #include "ardee_sim/devices/sensor_model.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Keys of libhector_gazebo_ros_gps.so. Ours: <noiseMode> and <projection> (flat, as hector's, or
 /// tangent).
@@ -28,6 +28,6 @@ GpsParams read_gps_params(Parameters& parameters, DeviceContext& context);
 
 /// <topic>/status: a fix or none, its augmentation and the systems, as hector_gazebo_plugins/GNSS
 /// for dynamic_reconfigure. Valid as long as the two numbers stay where they are.
-Tuning gnss_tuning(const std::string& name, int& status, int& service);
+ParameterGroup gnss_tuning(const std::string& name, int& status, int& service);
 
-}  // namespace ardee
+}  // namespace ardee::devices

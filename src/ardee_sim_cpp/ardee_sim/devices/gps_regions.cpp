@@ -11,7 +11,7 @@
 #include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kFarthest_m = 1e6;
@@ -255,4 +255,4 @@ const GpsRegion* GpsRegions::find(const Eigen::Vector3d& point_W) const {
   return nullptr;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -10,7 +10,7 @@
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// What a place does to the GPS. Factors are those of the open sky's noise.
 struct GpsNoise {
@@ -85,4 +85,4 @@ class GpsRegions {
   std::vector<GpsRegion> regions_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -65,10 +65,10 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
                                const DeviceContext& context)
     : Gps(name, params.gps),
       plugin_(params.plugin),
-      surroundings_(context.surroundings),
+      world_info_(context.world_info),
       log_(context.log),
-      scenery_files_(surroundings_.scenery_files()),
-      scenery_changes_(surroundings_.scenery_changes()),
+      scenery_files_(world_info_.scenery_files()),
+      scenery_changes_(world_info_.scenery_changes()),
       regions_(plugin_, scenery_files_, log_),
       correlation_time_s_(params.correlation_time_s),
       key_(stream_key(params.gps.mount.seed, name + "/dropout")),
@@ -89,9 +89,9 @@ void GpsWithDropout::reset(TimeNs now_ns) {
 }
 
 void GpsWithDropout::follow_scenery() {
-  if (surroundings_.scenery_changes() == scenery_changes_) return;
-  scenery_changes_ = surroundings_.scenery_changes();
-  std::vector<std::string> files = surroundings_.scenery_files();
+  if (world_info_.scenery_changes() == scenery_changes_) return;
+  scenery_changes_ = world_info_.scenery_changes();
+  std::vector<std::string> files = world_info_.scenery_files();
   if (files == scenery_files_) return;
   scenery_files_ = std::move(files);
   try {
@@ -176,4 +176,4 @@ void GpsWithDropout::report(TimeNs now_ns, const Sky& sky, const Vector3d& error
   sink.on_reading(quality_output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

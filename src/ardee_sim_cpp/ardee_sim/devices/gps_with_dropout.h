@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/gps.h"
 #include "ardee_sim/devices/gps_regions.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_gps_with_dropout.so (thesis 4.3.1): hector's GPS that is worse in regions, and in
 /// none of them as good as ever. In a region its noise is multiplied; an error that is correlated
@@ -44,7 +44,7 @@ class GpsWithDropout : public Gps {
   RegionsReading regions_reading(TimeNs now_ns) const;
 
   Element plugin_;
-  Surroundings surroundings_;
+  WorldInfo world_info_;
   Log& log_;
   std::vector<std::string> scenery_files_;  // that the regions are of
   std::uint64_t scenery_changes_;
@@ -62,4 +62,4 @@ class GpsWithDropout : public Gps {
   Output& regions_output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 using Eigen::Vector3d;
 
@@ -73,4 +73,4 @@ void GroundTruth::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& si
   sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_p3d.so: where a link really is, in the world or seen from another link of the
 /// robot
@@ -42,4 +42,4 @@ class GroundTruth : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

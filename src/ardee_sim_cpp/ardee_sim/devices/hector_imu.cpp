@@ -6,7 +6,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -53,7 +53,7 @@ std::array<double, 3> diagonal(const Vector3d& variances) {
 
 std::unique_ptr<Device> HectorImu::make(const PluginDescription& plugin, DeviceContext& context) {
   return std::make_unique<HectorImu>(plugin.name, read(plugin, context),
-                                     context.surroundings.gravity_m_per_s2);
+                                     context.world_info.gravity_m_per_s2);
 }
 
 HectorImu::HectorImu(const std::string& name, const Params& params,
@@ -144,4 +144,4 @@ void HectorImu::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& 
   sink.on_reading(bias_output_, bias);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/sensor_model.h"
 #include "ardee_sim/devices/vibration.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libhector_gazebo_ros_imu.so: specific force, angular velocity and the orientation of an attitude
 /// filter that trusts its biased sensors, each with hector's errors (<accel...>, <rate...>,
@@ -59,4 +59,4 @@ class HectorImu : public InertialSensor {
   Output& bias_output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

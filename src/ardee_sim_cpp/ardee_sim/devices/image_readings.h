@@ -8,7 +8,7 @@
 
 #include "ardee_sim/devices/reading_header.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A picture; `encoding` is one of sensor_msgs/image_encodings, rows are `step` bytes,
 /// little-endian.
@@ -32,4 +32,4 @@ struct CameraInfoReading {
   std::array<double, 12> P{};
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -60,4 +60,4 @@ InertialMotion::Mean InertialMotion::take() {
   return mean;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,7 +4,7 @@
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/devices/robot.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// How a point of a robot moves, from its poses before and after each step: what the physics did,
 /// whatever the mounting, and what drives did. A model whose state is set between steps makes no
@@ -45,4 +45,4 @@ class InertialMotion {
   double summed_s_ = 0.0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

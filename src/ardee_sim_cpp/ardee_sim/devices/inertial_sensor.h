@@ -4,7 +4,7 @@
 #include "ardee_sim/devices/inertial_motion.h"
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// What all inertial units share: they follow the motion of their mounting through every step. A
 /// sample is the mean since the sample before, as of a unit that integrates between its outputs.
@@ -35,4 +35,4 @@ class InertialSensor : public Sensor {
   InertialMotion motion_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

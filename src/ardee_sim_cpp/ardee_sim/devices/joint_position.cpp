@@ -8,7 +8,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 /// 1/s: how fast what a disturbance has moved goes back.
@@ -93,4 +93,4 @@ void JointPosition::reset(TimeNs now_ns) {
   last_ns_ = now_ns;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

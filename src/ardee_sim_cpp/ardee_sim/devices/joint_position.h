@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libardee_ros_joint_position.so: a servo that holds a joint where it is told to on a topic
 /// (std_msgs/Float64, rad or m), as effort_controllers/JointPositionController does below
@@ -43,4 +43,4 @@ class JointPosition : public Device {
   TimeNs last_ns_ = 0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

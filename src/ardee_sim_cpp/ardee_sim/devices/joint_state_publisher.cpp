@@ -7,7 +7,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kDefaultRateHz = 100.0;  // of the stock plugin
@@ -66,4 +66,4 @@ void JointStatePublisher::reset(TimeNs now_ns) {
   timer_.start_at(now_ns + 1);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

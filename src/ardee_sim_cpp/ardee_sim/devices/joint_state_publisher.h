@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_joint_state_publisher.so: positions and velocities of the named joints on
 /// joint_states; no effort, no frame, as the stock plugin. Without a namespace of its own or of the
@@ -27,4 +27,4 @@ class JointStatePublisher : public Device {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kMostTimeIncrement_s = 1e3;
 
 std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescription& plugin,
-                             std::size_t link, SceneKind scene, DeviceContext& context) {
+                             std::size_t link, raycast::SceneKind scene, DeviceContext& context) {
   Parameters keys(plugin.element);
   LidarParams params = read_lidar_params(sensor, keys, scene, "/world", context);
   if (keys.has("timeIncrement")) {
@@ -43,17 +43,17 @@ void corrupt_echoes(const RayBlock& rays, const CounterRng& noise, std::vector<B
 std::unique_ptr<Device> Lidar::make_on_collisions(const SensorDescription& sensor,
                                                   const PluginDescription& plugin, std::size_t link,
                                                   DeviceContext& context) {
-  return make(sensor, plugin, link, SceneKind::kCollision, context);
+  return make(sensor, plugin, link, raycast::SceneKind::kCollision, context);
 }
 
 std::unique_ptr<Device> Lidar::make_on_visuals(const SensorDescription& sensor,
                                                const PluginDescription& plugin, std::size_t link,
                                                DeviceContext& context) {
-  return make(sensor, plugin, link, SceneKind::kVisual, context);
+  return make(sensor, plugin, link, raycast::SceneKind::kVisual, context);
 }
 
 Lidar::Lidar(const std::string& name, const Mount& mount, const LidarParams& params,
-             RayScenes& scenes)
+             RaySceneProvider& scenes)
     : Sensor(name, mount),
       params_(params),
       scenes_(scenes),
@@ -85,4 +85,4 @@ void Lidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
   sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/lidar_params.h"
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Range noise on all finite echoes, which stay within the device's limits. Beam i uses counter i.
 void corrupt_echoes(const RayBlock& rays, const CounterRng& noise, std::vector<BeamEcho>& echoes);
@@ -27,7 +27,8 @@ class Lidar : public Sensor {
   static std::unique_ptr<Device> make_on_visuals(const SensorDescription& sensor,
                                                  const PluginDescription& plugin, std::size_t link,
                                                  DeviceContext& context);
-  Lidar(const std::string& name, const Mount& mount, const LidarParams& params, RayScenes& scenes);
+  Lidar(const std::string& name, const Mount& mount, const LidarParams& params,
+        RaySceneProvider& scenes);
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
@@ -35,11 +36,11 @@ class Lidar : public Sensor {
 
  private:
   LidarParams params_;
-  RayScenes& scenes_;
+  RaySceneProvider& scenes_;
   LidarBeams beams_;
   std::shared_ptr<void> eye_;
   std::vector<BeamEcho> echoes_;
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr std::size_t kMostSubRays = std::size_t(1) << 23;
@@ -33,7 +33,7 @@ std::vector<Eigen::Vector3f> make_axes(const RayBlock& block) {
 
 /// Whether two beams side by side, which met something at those points, have met two surfaces that
 /// one pulse would not tell apart.
-bool mix(const RayHit& a, const Eigen::Vector3f& point_a_W, const RayHit& b,
+bool mix(const raycast::RayHit& a, const Eigen::Vector3f& point_a_W, const raycast::RayHit& b,
          const Eigen::Vector3f& point_b_W, float pulse_length_m) {
   if (!(std::abs(a.range_m - b.range_m) <= pulse_length_m)) return false;  // NaN: both met nothing
   const Eigen::Vector3f apart_W = point_b_W - point_a_W;
@@ -88,7 +88,8 @@ LidarBeams::LidarBeams(const RayBlock& block, const LidarOptics& optics, bool lo
   mixing_reach_ = static_cast<std::size_t>(std::min(reach, static_cast<double>(columns_)));
 }
 
-SceneRay LidarBeams::ray(const Poses& X_WS, const Rays& rays, std::size_t i, double from_m) const {
+raycast::SceneRay LidarBeams::ray(const Poses& X_WS, const Rays& rays, std::size_t i,
+                                  double from_m) const {
   const Pose& pose = X_WS.of(rays.beam(i));
   const Eigen::Vector3d direction_S = rays.pattern.directions_S[i].cast<double>();
   const double reach_m = static_cast<double>(static_cast<float>(range_max_m_)) - from_m;
@@ -97,10 +98,10 @@ SceneRay LidarBeams::ray(const Poses& X_WS, const Rays& rays, std::size_t i, dou
 
 template <typename Cast>
 void LidarBeams::look_beyond_minimum(const Poses& X_WS, const Rays& rays, const Cast& cast,
-                                     std::vector<RayHit>& hits) const {
+                                     std::vector<raycast::RayHit>& hits) const {
   const auto minimum_m = static_cast<float>(range_min_m_);
   std::vector<std::size_t> blocked;
-  std::vector<SceneRay> again;
+  std::vector<raycast::SceneRay> again;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!(hits[i].range_m < minimum_m)) continue;
     if (!look_through_near_ && hits[i].entity != carrier_.entity) continue;
@@ -108,7 +109,7 @@ void LidarBeams::look_beyond_minimum(const Poses& X_WS, const Rays& rays, const 
     again.push_back(ray(X_WS, rays, i, range_min_m_));
   }
   if (blocked.empty()) return;
-  std::vector<RayHit> beyond;
+  std::vector<raycast::RayHit> beyond;
   cast(again, beyond);
   for (std::size_t k = 0; k < blocked.size(); ++k) {
     beyond[k].range_m += minimum_m;
@@ -138,15 +139,15 @@ void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS,
   make_echoes(mixing_, hits_mixing_, X_WS, echoes);
 }
 
-void LidarBeams::measure(const Pose& X_WS, const RayScene& scene,
+void LidarBeams::measure(const Pose& X_WS, const raycast::RayScene& scene,
                          std::vector<BeamEcho>& echoes) const {
   const Poses pose(&X_WS, 1);
-  const auto trace = [&](const Rays& rays, std::vector<RayHit>& hits) {
+  const auto trace = [&](const Rays& rays, std::vector<raycast::RayHit>& hits) {
     scene.cast(X_WS, rays.pattern, static_cast<float>(range_max_m_), carrier_.entity, carrier_.link,
                hits);
     look_beyond_minimum(
         pose, rays,
-        [&](const std::vector<SceneRay>& some, std::vector<RayHit>& beyond) {
+        [&](const std::vector<raycast::SceneRay>& some, std::vector<raycast::RayHit>& beyond) {
           scene.cast(some, carrier_.entity, carrier_.link, beyond);
         },
         hits);
@@ -154,25 +155,27 @@ void LidarBeams::measure(const Pose& X_WS, const RayScene& scene,
   measure_by(trace, pose, echoes);
 }
 
-void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const RayScene& scene,
+void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const raycast::RayScene& scene,
                                 std::vector<BeamEcho>& echoes) const {
   const Poses poses(X_WS.data(), columns_);
   const Poses pose_now(&X_WS.back(), 1);
-  const auto cast_at_others = [&](const std::vector<SceneRay>& some, std::vector<RayHit>& hits) {
-    scene.cast(some, carrier_.entity, kAllLinks, hits);
+  const auto cast_at_others = [&](const std::vector<raycast::SceneRay>& some,
+                                  std::vector<raycast::RayHit>& hits) {
+    scene.cast(some, carrier_.entity, raycast::kAllLinks, hits);
   };
-  const auto cast_at_own = [&](const std::vector<SceneRay>& some, std::vector<RayHit>& hits) {
+  const auto cast_at_own = [&](const std::vector<raycast::SceneRay>& some,
+                               std::vector<raycast::RayHit>& hits) {
     scene.cast_at_model(some, carrier_.entity, carrier_.link, hits);
   };
-  const auto trace = [&](const Rays& rays, std::vector<RayHit>& hits) {
+  const auto trace = [&](const Rays& rays, std::vector<raycast::RayHit>& hits) {
     const std::size_t count = rays.pattern.directions_S.size();
-    std::vector<SceneRay> way;
+    std::vector<raycast::SceneRay> way;
     way.reserve(count);
     for (std::size_t i = 0; i < count; ++i) way.push_back(ray(poses, rays, i, 0.0));
     cast_at_others(way, hits);
     look_beyond_minimum(poses, rays, cast_at_others, hits);
     for (std::size_t i = 0; i < count; ++i) way[i] = ray(pose_now, rays, i, 0.0);
-    std::vector<RayHit> own;
+    std::vector<raycast::RayHit> own;
     cast_at_own(way, own);
     look_beyond_minimum(pose_now, rays, cast_at_own, own);
     for (std::size_t i = 0; i < count; ++i) {
@@ -222,9 +225,9 @@ void LidarBeams::pick_mixing(const Poses& X_WS) const {
   }
 }
 
-void LidarBeams::make_echoes(const Rays& rays, const std::vector<RayHit>& hits, const Poses& X_WS,
-                             std::vector<BeamEcho>& echoes) const {
-  EchoMaker maker(optics_, range_min_m_);
+void LidarBeams::make_echoes(const Rays& rays, const std::vector<raycast::RayHit>& hits,
+                             const Poses& X_WS, std::vector<BeamEcho>& echoes) const {
+  ReturnModel maker(optics_, range_min_m_);
   const auto each = static_cast<std::size_t>(rays.each);
   std::vector<float> cosines(each);
   for (std::size_t k = 0; k < rays.beams.size(); ++k) {
@@ -238,4 +241,4 @@ void LidarBeams::make_echoes(const Rays& rays, const std::vector<RayHit>& hits, 
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 
 #include "ardee_sim/core/rng.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -51,10 +51,11 @@ LidarOptics read_lidar_optics(Parameters& parameters) {
   return optics;
 }
 
-RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarOptics& optics) {
+raycast::RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S,
+                                 const LidarOptics& optics) {
   if (optics.sub_rays == 1) return {axes_S};
   const CounterRng turns(stream_key(0, "beam footprint"));
-  RayPattern pattern;
+  raycast::RayPattern pattern;
   pattern.directions_S.reserve(axes_S.size() * static_cast<std::size_t>(optics.sub_rays));
   for (std::size_t beam = 0; beam < axes_S.size(); ++beam) {
     const Eigen::Vector3d axis = axes_S[beam].cast<double>().normalized();
@@ -74,27 +75,27 @@ RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarO
   return pattern;
 }
 
-EchoMaker::EchoMaker(const LidarOptics& optics, double range_min_m)
+ReturnModel::ReturnModel(const LidarOptics& optics, double range_min_m)
     : optics_(optics), range_min_m_(static_cast<float>(range_min_m)) {
   if (optics.reflectivity_range_m > 0.0) {
     least_power_ = kReferenceReflectivity / std::pow(optics.reflectivity_range_m, 2);
   }
 }
 
-double EchoMaker::power(const RayHit& hit, float cosine) const {
+double ReturnModel::power(const raycast::RayHit& hit, float cosine) const {
   const double range_m = std::max(static_cast<double>(hit.range_m), kLeastRange_m);
   return std::max(static_cast<double>(hit.reflectivity), kDarkest) *
          std::max(static_cast<double>(cosine), kLeastCosine) / (range_m * range_m);
 }
 
-float EchoMaker::intensity(const RayHit& hit, float cosine) const {
+float ReturnModel::intensity(const raycast::RayHit& hit, float cosine) const {
   if (optics_.intensity == LidarOptics::Intensity::kPlain) {
     return hit.laser_retro > 0.0f ? hit.laser_retro : cosine;
   }
   return static_cast<float>(optics_.intensity_scale) * hit.reflectivity * cosine;
 }
 
-BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines, int count) {
+BeamEcho ReturnModel::make(const raycast::RayHit* hits, const float* cosines, int count) {
   if (count == 1) return single(hits[0], cosines[0]);
   returns_.clear();
   for (int k = 0; k < count; ++k) {
@@ -107,7 +108,7 @@ BeamEcho EchoMaker::make(const RayHit* hits, const float* cosines, int count) {
   return pulse.first == nullptr ? BeamEcho{kInfinity, 0.0f, 0} : mix(pulse, count);
 }
 
-BeamEcho EchoMaker::single(const RayHit& hit, float cosine) const {
+BeamEcho ReturnModel::single(const raycast::RayHit& hit, float cosine) const {
   if (hit.range_m < range_min_m_) return {-kInfinity, 0.0f, 0};
   const bool seen =
       std::isfinite(hit.range_m) && (least_power_ <= 0.0 || power(hit, cosine) >= least_power_);
@@ -116,7 +117,7 @@ BeamEcho EchoMaker::single(const RayHit& hit, float cosine) const {
 }
 
 /// Returns within a pulse's length of the nearest of them are one; the next one begins beyond.
-EchoMaker::Pulse EchoMaker::choose_pulse() const {
+ReturnModel::Pulse ReturnModel::choose_pulse() const {
   Pulse best{nullptr, nullptr, 0.0};
   const Return* const end = returns_.data() + returns_.size();
   for (const Return* first = returns_.data(); first != end;) {
@@ -133,7 +134,7 @@ EchoMaker::Pulse EchoMaker::choose_pulse() const {
   return best;
 }
 
-BeamEcho EchoMaker::mix(const Pulse& pulse, int count) const {
+BeamEcho ReturnModel::mix(const Pulse& pulse, int count) const {
   double range_m = 0.0;
   double plain = 0.0;
   double diffuse = 0.0;
@@ -152,4 +153,4 @@ BeamEcho EchoMaker::mix(const Pulse& pulse, int count) const {
   return {mixed_m, static_cast<float>(is_plain ? plain : diffuse), strongest->hit->label};
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -8,7 +8,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/raycast/ray_scene.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// What a lidar's light does on its way; the defaults are those of an ideal one.
 ///
@@ -49,23 +49,24 @@ struct BeamEcho {
 /// Directions of all sub-rays, those of a beam side by side. They stand for equal areas: the first
 /// is the beam's axis, the others lie about it on a sunflower (Vogel 1979) turned by an angle of
 /// the beam's own.
-RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S, const LidarOptics& optics);
+raycast::RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S,
+                                 const LidarOptics& optics);
 
 /// Makes an echo of what the sub-rays of a beam have met.
-class EchoMaker {
+class ReturnModel {
  public:
-  EchoMaker(const LidarOptics& optics, double range_min_m);
+  ReturnModel(const LidarOptics& optics, double range_min_m);
 
   /// `hits` and `cosines` (of incidence) are those of `count` rays that sample the beam: its axis
   /// alone, or its sub-rays.
-  BeamEcho make(const RayHit* hits, const float* cosines, int count);
+  BeamEcho make(const raycast::RayHit* hits, const float* cosines, int count);
 
  private:
   struct Return {
     float range_m;
     float cosine;
     double power;
-    const RayHit* hit;
+    const raycast::RayHit* hit;
   };
   struct Pulse {
     const Return* first;
@@ -73,9 +74,9 @@ class EchoMaker {
     double power;
   };
 
-  double power(const RayHit& hit, float cosine) const;
-  float intensity(const RayHit& hit, float cosine) const;
-  BeamEcho single(const RayHit& hit, float cosine) const;
+  double power(const raycast::RayHit& hit, float cosine) const;
+  float intensity(const raycast::RayHit& hit, float cosine) const;
+  BeamEcho single(const raycast::RayHit& hit, float cosine) const;
   Pulse choose_pulse() const;
   BeamEcho mix(const Pulse& pulse, int count) const;
 
@@ -85,4 +86,4 @@ class EchoMaker {
   std::vector<Return> returns_;  // of the beam, by range
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,10 +5,11 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
-LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin, SceneKind scene,
-                              const char* default_topic, DeviceContext& context) {
+LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugin,
+                              raycast::SceneKind scene, const char* default_topic,
+                              DeviceContext& context) {
   LidarParams params;
   params.rays = read_ray_block(sensor, context.log);
   params.rays.noise.growth = plugin.number("noiseGrowth", 0.0, 0.0, 1.0);
@@ -23,8 +24,9 @@ LidarParams read_lidar_params(const SensorDescription& sensor, Parameters& plugi
   return params;
 }
 
-SceneKind scene_of(const SensorDescription& sensor) {
-  return sensor.type.rfind("gpu_", 0) == 0 ? SceneKind::kVisual : SceneKind::kCollision;
+raycast::SceneKind scene_of(const SensorDescription& sensor) {
+  return sensor.type.rfind("gpu_", 0) == 0 ? raycast::SceneKind::kVisual
+                                           : raycast::SceneKind::kCollision;
 }
 
 double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz) {
@@ -41,4 +43,4 @@ double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double 
 
 double read_gaussian_noise(Parameters& plugin) { return plugin.number("gaussianNoise", 0.0, 0.0); }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::unique_ptr<Device> LinkForce::make(const PluginDescription& plugin, DeviceContext& context) {
   Parameters parameters(plugin.element);
@@ -13,7 +13,7 @@ std::unique_ptr<Device> LinkForce::make(const PluginDescription& plugin, DeviceC
   Params params{{context.robot, link, {}, 0.0, context.seed}};
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
-  params.surroundings = context.surroundings;
+  params.world_info = context.world_info;
   parameters.ignore({"alwaysOn", "updateRate"});
   parameters.finish(context.log);
   return std::make_unique<LinkForce>(plugin.name, params);
@@ -27,21 +27,21 @@ LinkForce::LinkForce(const std::string& name, const Params& params)
       output_(add_output(params.topic, reading_kind<WrenchReading>())) {}
 
 void LinkForce::observe(TimeNs /*now_ns*/) {
-  if (output_.demanded) params_.surroundings.want_contacts();
+  if (output_.demanded) params_.world_info.want_contacts();
 }
 
 void LinkForce::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {
   WrenchReading reading{{now_ns, params_.frame}, {}};
-  const auto add = [&](const std::string& collision, const ForceTorque& wrench) {
+  const auto add = [&](const std::string& collision, const physics::ForceTorque& wrench) {
     if (collision.compare(0, scope_.size(), scope_) != 0) return;
     reading.wrench.force += wrench.force;
     reading.wrench.torque += wrench.torque;
   };
-  for (const Contact& contact : params_.surroundings.contacts()) {
+  for (const physics::Contact& contact : params_.world_info.contacts()) {
     add(contact.collision1, contact.on1);
     add(contact.collision2, contact.on2);
   }
   sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

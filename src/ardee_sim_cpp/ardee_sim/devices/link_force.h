@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_f3d.so: the force with which whatever touches a link presses on it, and the torque
 /// about the centre of mass of what moves with it as one body, in the world's axes whatever
@@ -18,7 +18,7 @@ class LinkForce : public Sensor {
     Mount mount;
     std::string topic{};
     std::string frame{};
-    Surroundings surroundings{};
+    WorldInfo world_info{};
   };
 
   static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
@@ -36,4 +36,4 @@ class LinkForce : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

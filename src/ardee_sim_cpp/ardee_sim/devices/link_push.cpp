@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::unique_ptr<Device> LinkPush::make(const PluginDescription& plugin, DeviceContext& context) {
   context.robot.dynamics();  // a static model cannot be pushed
@@ -20,12 +20,12 @@ std::unique_ptr<Device> LinkPush::make(const PluginDescription& plugin, DeviceCo
 LinkPush::LinkPush(const std::string& name, const std::string& topic, std::size_t link,
                    Robot& robot)
     : Device(name), robot_(robot), link_(link) {
-  ports().add_wrench_input(topic, [this](const ForceTorque& wrench) { wrench_ = wrench; });
+  ports().add_wrench_input(topic, [this](const physics::ForceTorque& wrench) { wrench_ = wrench; });
 }
 
 void LinkPush::before_step(TimeNs /*now_ns*/) {
   if (wrench_.force.isZero(0.0) && wrench_.torque.isZero(0.0)) return;
-  PhysicsModel& dynamics = robot_.dynamics();
+  physics::PhysicsModel& dynamics = robot_.dynamics();
   const auto& inertial = dynamics.link_properties(link_).inertial;
   const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d(0, 0, 0);
   dynamics.apply_wrench(link_, wrench_.force, robot_.link_pose(link_) * center_L, wrench_.torque);
@@ -33,4 +33,4 @@ void LinkPush::before_step(TimeNs /*now_ns*/) {
 
 void LinkPush::reset(TimeNs /*now_ns*/) { wrench_ = {}; }
 
-}  // namespace ardee
+}  // namespace ardee::devices

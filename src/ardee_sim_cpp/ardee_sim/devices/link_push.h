@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_force.so: pushes a link at its centre of mass with the last wrench that came on a
 /// topic, in the world's axes, at each step until another comes.
@@ -21,7 +21,7 @@ class LinkPush : public Device {
  private:
   Robot& robot_;
   std::size_t link_;
-  ForceTorque wrench_;
+  physics::ForceTorque wrench_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

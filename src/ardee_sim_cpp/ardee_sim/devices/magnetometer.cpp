@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 using Eigen::Vector3d;
 
@@ -65,4 +65,4 @@ void Magnetometer::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSin
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

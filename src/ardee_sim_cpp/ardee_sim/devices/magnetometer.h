@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/sensor.h"
 #include "ardee_sim/devices/sensor_model.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libhector_gazebo_ros_magnetic.so: the Earth's field in the body's axes, in the unit of
 /// <magnitude>, as Vector3Stamped or, with <useMagneticFieldMsgs>, as MagneticField.
@@ -41,4 +41,4 @@ class Magnetometer : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

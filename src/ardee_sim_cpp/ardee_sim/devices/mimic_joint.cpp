@@ -4,7 +4,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kMost = 1e6;  // multiplier, or rad or m
@@ -49,4 +49,4 @@ MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot&
 
 void MimicJoint::reset(TimeNs /*now_ns*/) { robot_.dynamics().couple_joints(coupling_); }
 
-}  // namespace ardee
+}  // namespace ardee::devices

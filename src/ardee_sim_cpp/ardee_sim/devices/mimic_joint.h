@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another. Where the plugin
 /// puts the follower into place, here both feel what loads either of them.
@@ -21,4 +21,4 @@ class MimicJoint : public Device {
   Robot& robot_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -11,7 +11,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/devices/reading_header.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Pose of the child frame in header.frame_id, velocity in the child frame; covariances are the
 /// diagonals of x, y, z, roll, pitch, yaw.
@@ -103,4 +103,4 @@ struct RegionsReading {
   std::vector<Region> regions;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

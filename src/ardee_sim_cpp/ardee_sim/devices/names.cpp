@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 std::string without_slashes(const std::string& text) {
   const std::size_t first = text.find_first_not_of('/');
@@ -49,4 +49,4 @@ std::size_t plugin_link(Parameters& parameters, const DeviceContext& context) {
   return context.link_index(body->text, body->source);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

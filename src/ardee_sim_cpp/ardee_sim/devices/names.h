@@ -6,7 +6,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// The namespace of a plugin: its <robotNamespace>, or where that is absent or empty the one the
 /// robot was spawned in.
@@ -39,4 +39,4 @@ std::string plugin_frame(Parameters& parameters, const char* key, const char* fa
 /// none. Throws Error if the robot has no such link.
 std::size_t plugin_link(Parameters& parameters, const DeviceContext& context);
 
-}  // namespace ardee
+}  // namespace ardee::devices

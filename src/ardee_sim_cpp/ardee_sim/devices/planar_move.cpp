@@ -6,7 +6,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kFastest = 1e3;  // m/s, rad/s: what a command can ask
@@ -84,4 +84,4 @@ void PlanarMove::reset(TimeNs now_ns) {
   odometry_timer_.start_at(now_ns + 1);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/drive_command.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_planar_move.so: moves the model over the plane as commanded, forwards, sideways
 /// and turning, whatever it stands on; gravity acts as ever.
@@ -38,4 +38,4 @@ class PlanarMove : public Device {
   Output* tf_output_ = nullptr;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

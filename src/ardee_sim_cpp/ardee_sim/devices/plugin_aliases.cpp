@@ -5,7 +5,7 @@
 
 #include "ardee_sim/core/error.h"
 
-namespace ardee {
+namespace ardee::devices {
 /// The text of config/plugin_aliases.yaml, which CMake puts into the library.
 extern const char* const kPluginAliasesYaml;
 
@@ -76,4 +76,4 @@ const std::vector<PluginAlias>& builtin_aliases() {
   return aliases;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 
 #include "ardee_sim/description/setting.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A plugin file of another name whose work one of the registry's does.
 struct PluginAlias {
@@ -26,4 +26,4 @@ std::vector<PluginAlias> read_plugin_aliases(const std::string& yaml, const std:
 /// config/plugin_aliases.yaml.
 const std::vector<PluginAlias>& builtin_aliases();
 
-}  // namespace ardee
+}  // namespace ardee::devices

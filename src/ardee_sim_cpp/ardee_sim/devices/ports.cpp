@@ -6,7 +6,7 @@
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/core/limits.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 Output& Ports::add_output(const std::string& topic, std::size_t kind) {
   outputs.push_back({topic, kind});
@@ -23,8 +23,9 @@ Input& Ports::add_velocity_input(const std::string& topic, std::function<void(co
 }
 
 Input& Ports::add_wrench_input(const std::string& topic,
-                               std::function<void(const ForceTorque&)> act) {
-  return add_input<ForceTorque>(topic, [act = std::move(act)](const ForceTorque& wrench) {
+                               std::function<void(const physics::ForceTorque&)> act) {
+  return add_input<physics::ForceTorque>(topic, [act = std::move(act)](
+                                                    const physics::ForceTorque& wrench) {
     using limits::is_within, limits::kStrongest;
     if (!is_within(wrench.force, kStrongest) || !is_within(wrench.torque, kStrongest)) {
       throw Error("found a wrench with a number that is not finite or beyond 1e9, expected less");
@@ -48,4 +49,4 @@ Input& Ports::add_number_input(const std::string& topic, double low, double high
   return input;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -15,7 +15,7 @@
 #include "ardee_sim/devices/command.h"
 #include "ardee_sim/devices/reading.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Position of type T in the variant.
 template <typename Variant, typename T, std::size_t kIndex = 0>
@@ -74,7 +74,7 @@ struct Service {
 };
 
 /// A number of a device that may be changed while it runs.
-struct Tunable {
+struct TunableParameter {
   enum class Type { kDouble, kInt, kBool };
   std::string name;
   std::string description;
@@ -87,9 +87,9 @@ struct Tunable {
 };
 
 /// A group of tunables under one name, as dynamic_reconfigure has them.
-struct Tuning {
+struct ParameterGroup {
   std::string name;
-  std::vector<Tunable> parameters;
+  std::vector<TunableParameter> parameters;
 };
 
 /// All that a device, or a controller that it has loaded, exchanges with the outside.
@@ -97,7 +97,7 @@ struct Ports {
   std::deque<Output> outputs;  // addresses stay valid as more are added
   std::vector<Input> inputs;
   std::vector<Service> services;
-  std::vector<Tuning> tunings;
+  std::vector<ParameterGroup> tunings;
   std::vector<Action> actions;
 
   Output& add_output(const std::string& topic, std::size_t kind);
@@ -112,10 +112,11 @@ struct Ports {
   /// Velocities: one that is not finite is an Error.
   Input& add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act);
   /// Wrenches in the world's axes: one beyond what the physics takes is an Error.
-  Input& add_wrench_input(const std::string& topic, std::function<void(const ForceTorque&)> act);
+  Input& add_wrench_input(const std::string& topic,
+                          std::function<void(const physics::ForceTorque&)> act);
   /// A number within [low, high]; another is an Error.
   Input& add_number_input(const std::string& topic, double low, double high,
                           std::function<void(double)> act);
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

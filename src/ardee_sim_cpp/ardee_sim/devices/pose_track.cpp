@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace ardee {
+namespace ardee::devices {
 
 void PoseTrack::add(TimeNs time_ns, const Pose& X_WS) {
   if (!track_.empty() && track_.back().time_ns == time_ns) track_.pop_back();
@@ -25,4 +25,4 @@ Pose PoseTrack::at(double time_ns) const {
           before.X_WS.q.slerp(share, after->X_WS.q).normalized()};
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

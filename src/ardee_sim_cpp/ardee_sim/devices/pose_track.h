@@ -6,7 +6,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/core/time.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Where something was in the last while, step by step.
 class PoseTrack {
@@ -31,4 +31,4 @@ class PoseTrack {
   std::deque<Stamped> track_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

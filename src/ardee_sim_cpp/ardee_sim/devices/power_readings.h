@@ -6,7 +6,7 @@
 
 #include "ardee_sim/devices/reading_header.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A rotary encoder on a wheel: angle in rad, speed of the wheel's rim in m/s, quadrature pulses a
 /// second.
@@ -39,4 +39,4 @@ struct BatteryStateReading {
   std::string location;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kSonarRate_hz = 10.0;  // hector_gazebo_ros_sonar's
@@ -77,7 +77,7 @@ std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor,
 }
 
 RangeFinder::RangeFinder(const std::string& name, const Mount& mount, const Params& params,
-                         RayScenes& scenes)
+                         RaySceneProvider& scenes)
     : Sensor(name, mount),
       params_(params),
       scenes_(scenes),
@@ -118,4 +118,4 @@ void RangeFinder::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& si
   sink.on_reading(output_, reading);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

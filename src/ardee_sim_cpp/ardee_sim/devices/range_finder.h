@@ -10,7 +10,7 @@
 #include "ardee_sim/devices/sensor.h"
 #include "ardee_sim/devices/sensor_model.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A sonar or infrared ranger: the nearest range of all rays over its cone. Without a return it
 /// tells its maximum; what is nearer than its minimum is told as the minimum.
@@ -18,7 +18,7 @@ class RangeFinder : public Sensor {
  public:
   struct Params {
     RayBlock rays;
-    SceneKind scene = SceneKind::kCollision;
+    raycast::SceneKind scene = raycast::SceneKind::kCollision;
     bool look_through_near = false;
     RangeReading::Radiation radiation = RangeReading::Radiation::kUltrasound;
     double field_of_view_rad = 0.0;  // as told
@@ -36,7 +36,8 @@ class RangeFinder : public Sensor {
   static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor,
                                             const PluginDescription& plugin, std::size_t link,
                                             DeviceContext& context);
-  RangeFinder(const std::string& name, const Mount& mount, const Params& params, RayScenes& scenes);
+  RangeFinder(const std::string& name, const Mount& mount, const Params& params,
+              RaySceneProvider& scenes);
 
   void reset(TimeNs now_ns) override;
 
@@ -50,7 +51,7 @@ class RangeFinder : public Sensor {
   double nearest_m(const CounterRng& noise);
 
   Params params_;
-  RayScenes& scenes_;
+  RaySceneProvider& scenes_;
   LidarBeams beams_;
   std::shared_ptr<void> eye_;
   SensorModel model_;
@@ -58,4 +59,4 @@ class RangeFinder : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

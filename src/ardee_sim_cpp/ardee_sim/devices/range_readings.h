@@ -8,7 +8,7 @@
 
 #include "ardee_sim/devices/reading_header.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// One sweep of a planar lidar. Ranges by REP 117: +inf beyond the maximum, -inf nearer than the
 /// minimum.
@@ -62,4 +62,4 @@ struct LegacyCloudReading {
   std::vector<float> channel;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

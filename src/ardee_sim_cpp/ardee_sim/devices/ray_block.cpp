@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr int kMostRays = 1 << 22;
@@ -104,4 +104,4 @@ RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
   return block;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -6,7 +6,7 @@
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/description/parameters.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Errors of a measured range: normal, with a deviation that grows with it.
 struct RangeNoise {
@@ -55,4 +55,4 @@ struct RayBlock {
 /// Reads and checks it, and that the sensor has no <update_rate> below 0.
 RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -10,7 +10,7 @@
 #include "ardee_sim/devices/power_readings.h"
 #include "ardee_sim/devices/range_readings.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Whatever a device may give.
 using Reading =
@@ -21,4 +21,4 @@ using Reading =
                  JointControllerReading, TrajectoryControllerReading, FourWheelSteeringReading,
                  ContactsReading, WrenchReading>;
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 
 #include "ardee_sim/core/time.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// When and in which frame something was measured.
 struct Header {
@@ -13,4 +13,4 @@ struct Header {
   std::string frame_id;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

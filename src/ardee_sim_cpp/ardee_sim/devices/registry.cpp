@@ -32,7 +32,7 @@
 #include "ardee_sim/devices/tricycle_drive.h"
 #include "ardee_sim/devices/velodyne_lidar.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 /// "path/libx.so", "libx.so" and "x" name the same plugin.
@@ -175,7 +175,7 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
   const char* what = candidate.sensor ? "sensor" : "plugin";
   auto device =
       may_fail ? made_or_left_out(make, plugin, what, candidate.name, context.log) : make();
-  if (device) device->set_dispensable(may_fail);
+  if (device) device->set_optional(may_fail);
   return device;
 }
 
@@ -237,4 +237,4 @@ Registry builtin_registry() {
   return registry;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

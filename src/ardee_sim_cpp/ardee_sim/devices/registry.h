@@ -10,7 +10,7 @@
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/plugin_aliases.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
@@ -63,4 +63,4 @@ class Registry {
 /// All devices that ARDEE has, a line each.
 Registry builtin_registry();
 
-}  // namespace ardee
+}  // namespace ardee::devices

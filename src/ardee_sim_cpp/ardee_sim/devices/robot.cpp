@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 template <typename Item>
@@ -23,7 +23,7 @@ std::size_t index_of(const std::vector<Item>& items, const std::string& name, co
 
 }  // namespace
 
-PhysicsModel& Robot::dynamics() const {
+physics::PhysicsModel& Robot::dynamics() const {
   if (!dynamics_)
     throw Error(model_->source, "model '" + name_ + "' is static, expected one that moves");
   return *dynamics_;
@@ -65,4 +65,4 @@ std::size_t Robot::joint_index(const std::string& joint_name, const Source& sour
   return index_of(model_->joints, joint_name, "joint", source, scope);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -8,7 +8,7 @@
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/physics_world.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A model in the world as its devices see it: its description, and where its links are now. A
 /// static model stands still and has no dynamics.
@@ -25,9 +25,9 @@ class Robot {
 
   bool is_dynamic() const { return dynamics_ != nullptr; }
   /// Throws Error if the model is static.
-  PhysicsModel& dynamics() const;
+  physics::PhysicsModel& dynamics() const;
   /// The moving state; nullptr and a fixed pose for a static model.
-  void attach(PhysicsModel* dynamics) { dynamics_ = dynamics; }
+  void attach(physics::PhysicsModel* dynamics) { dynamics_ = dynamics; }
   void place(const Pose& X_WM) { fixed_pose_ = X_WM; }
 
   Pose pose() const { return dynamics_ ? dynamics_->pose() : fixed_pose_; }
@@ -49,8 +49,8 @@ class Robot {
   std::string name_;
   std::shared_ptr<const Model> model_;
   std::uint32_t entity_;
-  PhysicsModel* dynamics_ = nullptr;
+  physics::PhysicsModel* dynamics_ = nullptr;
   Pose fixed_pose_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 /// One axis' errors from the element that holds <mean>, <stddev> and so on.
@@ -76,4 +76,4 @@ SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key) {
   return noise;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

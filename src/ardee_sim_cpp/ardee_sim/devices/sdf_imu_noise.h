@@ -3,7 +3,7 @@
 
 #include "ardee_sim/devices/sensor_model.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// The errors of SDF's <imu> block, in rad/s and m/s^2.
 struct SdfImuNoise {
@@ -24,4 +24,4 @@ struct SdfImuNoise {
 /// <dynamic_bias_correlation_time> make a drift.
 SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key);
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
     : Device(name),
@@ -43,4 +43,4 @@ void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::M
   mount.offset_ns = nanoseconds(parameters.number("updateOffset", 0.0, 0.0, kLongest_s));
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

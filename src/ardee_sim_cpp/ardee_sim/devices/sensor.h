@@ -7,7 +7,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// What all sensors share: where they sit and when they measure. A subclass says what is measured.
 class Sensor : public Device {
@@ -53,4 +53,4 @@ class Sensor : public Device {
 /// s, from <updateOffset> in s on.
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount);
 
-}  // namespace ardee
+}  // namespace ardee::devices

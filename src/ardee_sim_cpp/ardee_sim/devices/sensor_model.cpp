@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
@@ -107,11 +107,11 @@ double SensorModel::corrupt(double value, double dt_s) {
   return value * errors_.scale_error.x() + next_error(dt_s).x();
 }
 
-Tuning SensorModel::tuning(const std::string& name) {
+ParameterGroup SensorModel::tuning(const std::string& name) {
   // Names, bounds and words of hector_gazebo_plugins' SensorModel.cfg.
   const auto tunable = [this](const char* key, const char* about, double low, double high,
                               Vector3d SensorErrors::*member) {
-    Tunable made{key, about, Tunable::Type::kDouble, low, high, 0.0, {}, {}};
+    TunableParameter made{key, about, TunableParameter::Type::kDouble, low, high, 0.0, {}, {}};
     made.get = [this, member] { return (errors_.*member).head(axes_).mean(); };
     made.set = [this, member](double value) { (errors_.*member).setConstant(value); };
     made.initial = made.get();
@@ -129,4 +129,4 @@ Tuning SensorModel::tuning(const std::string& name) {
        tunable("scale_error", "Scale error", 0.0, 2.0, &SensorErrors::scale_error)}};
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

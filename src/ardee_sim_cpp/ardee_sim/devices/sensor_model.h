@@ -9,7 +9,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// How a drift moves in a time dt. kHector: as hector_gazebo's SensorModel does, d <- exp(-f dt) d
 /// + dt N(0, sqrt(2 f) drift), whose standard deviation settles at about drift sqrt(dt) whatever it
@@ -69,7 +69,7 @@ class SensorModel {
   /// hector_gazebo_plugins/SensorModel as a dynamic_reconfigure server of that name: a number set
   /// is that of all axes, the number shown is their mean. Valid as long as this model stays where
   /// it is.
-  Tuning tuning(const std::string& name);
+  ParameterGroup tuning(const std::string& name);
 
  private:
   double next_drift(int axis, double dt_s);
@@ -82,4 +82,4 @@ class SensorModel {
   Eigen::Vector3d drift_{0, 0, 0};
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kFastest = 1e6;           // rad/s: what a command can ask of a wheel
@@ -116,7 +116,7 @@ double SkidSteerDrive::side_speed(const Params& params, const Twist& command, bo
 void SkidSteerDrive::before_step(TimeNs now_ns) {
   const Twist& command = command_.at(now_ns);
   if (!command_timer_.due(now_ns)) return;
-  PhysicsModel& dynamics = robot_.dynamics();
+  physics::PhysicsModel& dynamics = robot_.dynamics();
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     const bool left = wheel == kLeftFront || wheel == kLeftRear;
     const double speed = side_speed(params_, command, left);
@@ -126,7 +126,7 @@ void SkidSteerDrive::before_step(TimeNs now_ns) {
 }
 
 void SkidSteerDrive::integrate_wheels() {
-  const PhysicsModel& dynamics = robot_.dynamics();
+  const physics::PhysicsModel& dynamics = robot_.dynamics();
   std::array<double, kWheelCount> turned{};
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     const double angle = dynamics.joint_position(params_.joints[wheel]);
@@ -140,7 +140,7 @@ void SkidSteerDrive::integrate_wheels() {
 }
 
 OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
-  const PhysicsModel& dynamics = robot_.dynamics();
+  const physics::PhysicsModel& dynamics = robot_.dynamics();
   OdometryReading reading;
   reading.header = {now_ns, params_.odometry_frame};
   reading.child_frame_id = params_.base_frame;
@@ -196,4 +196,4 @@ void SkidSteerDrive::reset(TimeNs now_ns) {
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

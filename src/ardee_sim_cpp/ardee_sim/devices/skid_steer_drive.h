@@ -10,7 +10,7 @@
 #include "ardee_sim/devices/wheel_encoder.h"
 #include "ardee_sim/devices/wheel_odometry.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_skid_steer_drive.so (thesis 4.4.4, Listing A.3): four wheels, those of a side at
 /// one speed. Each wheel's motor has at most `torque`; there is no PID and no acceleration limit,
@@ -70,4 +70,4 @@ class SkidSteerDrive : public Device {
   Output* tf_output_ = nullptr;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -8,7 +8,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 TorsionalSpring::Params read(const PluginDescription& plugin, DeviceContext& context) {
@@ -72,7 +72,7 @@ void TorsionalSpring::set_reference(double reference_rad) {
 
 void TorsionalSpring::reset(TimeNs /*now_ns*/) {
   reference_rad_ = params_.reference_rad;
-  PhysicsModel& dynamics = robot_.dynamics();
+  physics::PhysicsModel& dynamics = robot_.dynamics();
   dynamics.set_joint_spring(
       joint_, {params_.stiffness_n_m_per_rad, params_.damping_n_m_s_per_rad, reference_rad_});
   if (params_.has_limits) dynamics.set_joint_limits(joint_, params_.lower_rad, params_.upper_rad);
@@ -92,4 +92,4 @@ void TorsionalSpring::after_step(TimeNs now_ns, ReadingSink& /*sink*/) {
   log_.info(text.str());
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libTorsionalSpringPlugin.so (thesis 4.4.3, Listings A.4, A.26, A.27): a torsional harmonic
 /// oscillator on a joint, tau = -damping * rate - stiffness * (angle - reference) (eq. 4.1), with
@@ -44,4 +44,4 @@ class TorsionalSpring : public Device {
   RateTimer verbose_timer_{1.0};
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

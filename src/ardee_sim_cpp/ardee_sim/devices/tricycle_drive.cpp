@@ -7,7 +7,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kFastest = 1e6;  // m/s, rad/s: what a command can ask of a wheel
@@ -193,4 +193,4 @@ void TricycleDrive::reset(TimeNs now_ns) {
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/devices/wheel_encoder.h"
 #include "ardee_sim/devices/wheel_odometry.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// libgazebo_ros_tricycle_drive.so: one wheel that is driven and steered, two that carry encoders.
 /// Of a command linear.x is the speed of the driven wheel's rim in m/s and angular.z the steering
@@ -72,4 +72,4 @@ class TricycleDrive : public Device {
   Output* joints_output_ = nullptr;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -7,7 +7,7 @@
 
 #include "ardee_sim/devices/lidar.h"
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 using Type = PointCloudReading::Type;
@@ -25,7 +25,7 @@ void write(std::uint8_t* point, std::size_t offset, T value) {
 }
 
 std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescription& plugin,
-                             std::size_t link, SceneKind scene, DeviceContext& context) {
+                             std::size_t link, raycast::SceneKind scene, DeviceContext& context) {
   Parameters keys(plugin.element);
   VelodyneLidar::Params params;
   params.lidar = read_lidar_params(sensor, keys, scene, "/points", context);
@@ -51,17 +51,17 @@ std::unique_ptr<Device> VelodyneLidar::make_on_collisions(const SensorDescriptio
                                                           const PluginDescription& plugin,
                                                           std::size_t link,
                                                           DeviceContext& context) {
-  return make(sensor, plugin, link, SceneKind::kCollision, context);
+  return make(sensor, plugin, link, raycast::SceneKind::kCollision, context);
 }
 
 std::unique_ptr<Device> VelodyneLidar::make_on_visuals(const SensorDescription& sensor,
                                                        const PluginDescription& plugin,
                                                        std::size_t link, DeviceContext& context) {
-  return make(sensor, plugin, link, SceneKind::kVisual, context);
+  return make(sensor, plugin, link, raycast::SceneKind::kVisual, context);
 }
 
 VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
-                             RayScenes& scenes)
+                             RaySceneProvider& scenes)
     : Sensor(name, mount),
       params_(params),
       scenes_(scenes),
@@ -81,7 +81,7 @@ void VelodyneLidar::reset(TimeNs now_ns) {
 }
 
 void VelodyneLidar::measure(TimeNs now_ns) {
-  const RayScene& scene = scenes_.now(params_.lidar.scene);
+  const raycast::RayScene& scene = scenes_.now(params_.lidar.scene);
   if (!is_distorted()) {
     beams_.measure(pose(), scene, echoes_);
     return;
@@ -152,4 +152,4 @@ void VelodyneLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& 
   sink.on_reading(output_, cloud);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -11,7 +11,7 @@
 #include "ardee_sim/devices/pose_track.h"
 #include "ardee_sim/devices/sensor.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver,
 /// with each point's label in bytes that are free there, and its time counted from the stamp.
@@ -41,7 +41,7 @@ class VelodyneLidar : public Sensor {
                                                  const PluginDescription& plugin, std::size_t link,
                                                  DeviceContext& context);
   VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
-                RayScenes& scenes);
+                RaySceneProvider& scenes);
 
   void observe(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
@@ -59,7 +59,7 @@ class VelodyneLidar : public Sensor {
   PointCloudReading to_cloud() const;
 
   Params params_;
-  RayScenes& scenes_;
+  RaySceneProvider& scenes_;
   LidarBeams beams_;
   std::shared_ptr<void> eye_;
   PoseTrack track_;
@@ -67,4 +67,4 @@ class VelodyneLidar : public Sensor {
   Output& output_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kMostHz = 1e5;
@@ -106,4 +106,4 @@ Eigen::Vector3d Vibration::at_speed(double speed_m_per_s) const {
   return speed_m_per_s / params_.speed_m_per_s * unit_.cwiseProduct(params_.std_m_per_s2);
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -9,7 +9,7 @@
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// How a robot that drives over clods shakes its sensors.
 struct VibrationParams {
@@ -71,4 +71,4 @@ class Vibration {
   Eigen::Vector3d unit_{0, 0, 0};
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * M_PI;
@@ -68,4 +68,4 @@ WheelEncoder::Params read_encoder_params(Parameters& parameters) {
   return params;
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

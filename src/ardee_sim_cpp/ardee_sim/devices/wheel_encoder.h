@@ -8,7 +8,7 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// A rotary encoder on a wheel's joint. It counts whole pulses: the angle is a multiple of one
 /// pulse, and speeds are pulses counted over a short window, as a motor controller derives them.
@@ -49,4 +49,4 @@ std::size_t turning_joint(const DeviceContext& context, const std::string& name,
 /// The keys that all encoders have: wheelDiameter, pulsesPR, speedWindow, ideal.
 WheelEncoder::Params read_encoder_params(Parameters& parameters);
 
-}  // namespace ardee
+}  // namespace ardee::devices

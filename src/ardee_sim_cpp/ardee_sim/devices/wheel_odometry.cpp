@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace ardee {
+namespace ardee::devices {
 
 OdometrySource read_odometry_source(Parameters& parameters) {
   const std::string source = parameters.text("odometrySource", "world");
@@ -20,4 +20,4 @@ void WheelOdometry::roll(double left_m, double right_m, double separation_m) {
   pose_.q = quaternion_from_rpy({0.0, 0.0, yaw + turn});
 }
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,7 +4,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/parameters.h"
 
-namespace ardee {
+namespace ardee::devices {
 
 /// Where odometry comes from: the truth (the stock plugins' way) or the turns of the wheels.
 enum class OdometrySource { kWorld, kEncoder };
@@ -25,4 +25,4 @@ class WheelOdometry {
   Pose pose_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::devices

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-namespace ardee {
+namespace ardee::physics {
 
 /// A force (N) and a torque (N m) about a point that its owner names.
 struct ForceTorque {
@@ -25,4 +25,4 @@ struct Contact {
   ForceTorque on2;
 };
 
-}  // namespace ardee
+}  // namespace ardee::physics

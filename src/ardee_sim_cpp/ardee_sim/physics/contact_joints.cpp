@@ -81,7 +81,7 @@ double combine_radii(double a_m, double b_m) {
 
 /// Friction against turning about the normal, as a lever of the normal force (m): that of a round
 /// patch under Hertz's pressure.
-double spinning_lever(const ContactLaw& law, double depth_m) {
+double spinning_lever(const ContactParameters& law, double depth_m) {
   const double radius_m =
       law.use_patch_radius ? law.patch_radius_m : std::sqrt(law.surface_radius_m * depth_m);
   return radius_m > 0.0 ? 3.0 * M_PI / 16.0 * radius_m * law.torsional_mu : 0.0;
@@ -114,11 +114,11 @@ bool is_forceless(const Surface& a, const Surface& b) {
   return a.collide_without_contact || b.collide_without_contact;
 }
 
-ContactLaw combine_surfaces(const ContactSide& side_a, const ContactSide& side_b,
-                            const PhysicsParams& params) {
+ContactParameters combine_surfaces(const ContactSide& side_a, const ContactSide& side_b,
+                                   const PhysicsParams& params) {
   const Surface& a = side_a.shape->collision->surface;
   const Surface& b = side_b.shape->collision->surface;
-  ContactLaw law;
+  ContactParameters law;
   law.mu = std::min(a.mu, b.mu);
   law.mu2 = std::min(a.mu2, b.mu2);
   law.friction_cone = a.friction_cone && b.friction_cone;
@@ -169,7 +169,7 @@ std::vector<Contact> ContactJoints::contacts() const {
   return made;
 }
 
-void ContactJoints::join(const ContactSide& a, const ContactSide& b, const ContactLaw& law,
+void ContactJoints::join(const ContactSide& a, const ContactSide& b, const ContactParameters& law,
                          double step_s, const ContactPoint& point) {
   dContact contact{};
   contact.surface.mode = dContactApprox1 | dContactMu2 | dContactSoftERP | dContactSoftCFM;
@@ -226,7 +226,7 @@ void ContactJoints::collide(const ContactSide& a, const ContactSide& b,
     for (const ContactPoint& point : points_) to_tell_.push_back({a, b, point});
     return;
   }
-  const ContactLaw law = combine_surfaces(a, b, params);
+  const ContactParameters law = combine_surfaces(a, b, params);
   for (const ContactPoint& point : points_) join(a, b, law, params.step_s, point);
 }
 

@@ -22,7 +22,7 @@ struct ContactSide {
 /// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in
 /// parallel, the smaller friction, restitution and threshold of the two. Depth and speed of
 /// correction are those of bodies, which scenery is not: the smaller of two bodies'.
-struct ContactLaw {
+struct ContactParameters {
   double mu = 0.0;
   double mu2 = 0.0;
   bool friction_cone = false;
@@ -47,8 +47,8 @@ bool is_forceless(const Surface& a, const Surface& b);
 
 /// A soft contact may always push with twice the weight of the lighter model, else it would sink
 /// for ever.
-ContactLaw combine_surfaces(const ContactSide& a, const ContactSide& b,
-                            const PhysicsParams& params);
+ContactParameters combine_surfaces(const ContactSide& a, const ContactSide& b,
+                                   const PhysicsParams& params);
 
 /// The contacts of one step.
 class ContactJoints {
@@ -73,7 +73,7 @@ class ContactJoints {
     dJointFeedback feedback{};
   };
 
-  void join(const ContactSide& a, const ContactSide& b, const ContactLaw& law, double step_s,
+  void join(const ContactSide& a, const ContactSide& b, const ContactParameters& law, double step_s,
             const ContactPoint& point);
 
   dWorldID world_;

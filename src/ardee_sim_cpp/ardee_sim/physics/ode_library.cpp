@@ -48,6 +48,6 @@ OdeLibrary::~OdeLibrary() {
 
 void OdeLibrary::prepare_thread() { dAllocateODEDataForThread(dAllocateMaskAll); }
 
-bool OdeLibrary::take_complaint() { return std::exchange(complained, false); }
+bool OdeLibrary::take_singular_warning() { return std::exchange(complained, false); }
 
 }  // namespace ardee::physics

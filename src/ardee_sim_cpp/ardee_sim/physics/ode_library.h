@@ -24,7 +24,7 @@ class OdeLibrary {
   static void prepare_thread();
   /// Whether ODE has complained, on this thread since the last call, that a system was too
   /// ill-conditioned to solve.
-  static bool take_complaint();
+  static bool take_singular_warning();
 };
 
 }  // namespace ardee::physics

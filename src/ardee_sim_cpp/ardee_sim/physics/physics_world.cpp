@@ -14,7 +14,7 @@
 #include "ardee_sim/physics/sleepers.h"
 #include "ardee_sim/physics/solver.h"
 
-namespace ardee {
+namespace ardee::physics {
 namespace {
 
 using physics::DynamicModel;
@@ -200,4 +200,4 @@ PhysicsWorld::Stats PhysicsWorld::stats() const {
           impl_->scenery.built(), impl_->solver.was_direct()};
 }
 
-}  // namespace ardee
+}  // namespace ardee::physics

@@ -13,7 +13,7 @@
 #include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/properties.h"
 
-namespace ardee {
+namespace ardee::physics {
 
 /// The moving state of one dynamic model. Links and joints are addressed by their index in the
 /// description. Links joined by fixed joints move as one body but keep their frames.
@@ -139,4 +139,4 @@ class PhysicsWorld {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::physics

@@ -6,7 +6,7 @@
 
 #include "ardee_sim/description/model.h"
 
-namespace ardee {
+namespace ardee::physics {
 
 /// What can be changed of a link while it moves. Links that fixed joints hold together move by the
 /// sum of theirs.
@@ -46,4 +46,4 @@ struct JointProperties {
   double motor_cfm = -1.0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::physics

@@ -116,7 +116,7 @@ std::uint32_t SceneryIndex::add(const std::vector<Placement>& placements, const 
     if (fits_cells(bounds)) {
       for_each_cell(bounds, [&](std::uint64_t key) { cells_[key].push_back(reference); });
     } else {
-      everywhere_.push_back(reference);
+      unbounded_.push_back(reference);
     }
   }
   sets_.emplace(id, std::move(set));
@@ -141,7 +141,7 @@ void SceneryIndex::remove(std::uint32_t id) {
       if (cell->second.empty()) cells_.erase(cell);
     });
   }
-  erase_from(everywhere_);
+  erase_from(unbounded_);
   for (auto it = active_.begin(); it != active_.end();) {
     it = is_of_set(it->first) ? active_.erase(it) : std::next(it);
   }
@@ -224,7 +224,7 @@ void SceneryIndex::query(const Eigen::AlignedBox3d& box,
                          std::vector<const CollisionShape*>& shapes) {
   const Eigen::AlignedBox3f bounds = round_outwards(box);
   hits_.clear();
-  gather(everywhere_, bounds);
+  gather(unbounded_, bounds);
   if (count_cells(bounds) <= static_cast<double>(cells_.size())) {
     for_each_cell(bounds, [&](std::uint64_t key) {
       const auto cell = cells_.find(key);

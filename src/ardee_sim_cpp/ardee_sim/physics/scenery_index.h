@@ -90,7 +90,7 @@ class SceneryIndex {
   std::uint32_t next_id_ = 1;
   std::map<std::uint32_t, Set> sets_;
   std::unordered_map<std::uint64_t, std::vector<Reference>> cells_;
-  std::vector<Reference> everywhere_;
+  std::vector<Reference> unbounded_;
   std::unordered_map<Reference, Active> active_;
   std::uint64_t step_ = 0;
   std::size_t tested_ = 0;

@@ -80,9 +80,9 @@ void Solver::renew_threads() {
 
 bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies) {
   saved_.save(bodies);
-  OdeLibrary::take_complaint();
+  OdeLibrary::take_singular_warning();
   try {
-    if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_complaint()) return true;
+    if (dWorldStep(world_, params.step_s) && !OdeLibrary::take_singular_warning()) return true;
   } catch (const EngineFault&) {
     renew_threads();
   }

@@ -6,7 +6,7 @@
 
 #include "ardee_sim/readers/image.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 constexpr std::size_t kOpacityChannel = 3;
@@ -63,4 +63,4 @@ std::shared_ptr<const AlphaMask> AlphaMasks::get(const std::string& path, float 
   return mask;
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -12,7 +12,7 @@
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/core/log.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Which texels of a texture are holes.
 class AlphaMask {
@@ -45,4 +45,4 @@ class AlphaMasks {
   std::set<std::pair<std::string, float>> without_holes_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Axis-aligned box; empty until something is put in.
 struct Bounds {
@@ -40,4 +40,4 @@ struct Bounds {
   }
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

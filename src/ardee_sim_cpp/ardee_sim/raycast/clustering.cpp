@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Above this many boxes the longest axis is halved instead of trying each cut.
@@ -106,4 +106,4 @@ std::vector<std::uint32_t> group_boxes(const std::vector<Bounds>& boxes, std::ui
   return starts;
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -8,7 +8,7 @@
 
 #include "ardee_sim/core/error.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Rounding to float and Embree's own arithmetic cost a few parts in 2^24 of the coordinates.
@@ -103,4 +103,4 @@ void round_outwards(const Bounds& box, double extent, float lower[3], float uppe
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -12,7 +12,7 @@ struct RTCDeviceTy;
 struct RTCSceneTy;
 struct RTCIntersectFunctionNArguments;
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Embree's device: collects its errors and counts its bytes.
 class EmbreeDevice {
@@ -58,4 +58,4 @@ class EmbreeScene {
 /// that size.
 void round_outwards(const Bounds& box, double extent, float lower[3], float upper[3]);
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Narrows a chord to the slab |coordinate| <= half along one axis.
-bool clip_slab(const Ray& ray, int axis, double half, Chord& chord) {
+bool clip_slab(const Ray& ray, int axis, double half, RayInterval& chord) {
   const double o = ray.origin[axis];
   const double d = ray.direction[axis];
   if (d == 0.0) return std::abs(o) <= half;
@@ -28,14 +28,14 @@ bool clip_slab(const Ray& ray, int axis, double half, Chord& chord) {
   return chord.t_in <= chord.t_out;
 }
 
-Chord whole_line() {
+RayInterval whole_line() {
   return {-kInfinity, kInfinity, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace
 
-bool meet_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vector3d& v1,
-                   const Eigen::Vector3d& v2, TriangleHit& hit) {
+bool intersect_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vector3d& v1,
+                        const Eigen::Vector3d& v2, TriangleHit& hit) {
   const Eigen::Vector3d a = v0 - ray.origin;
   const Eigen::Vector3d b = v1 - ray.origin;
   const Eigen::Vector3d c = v2 - ray.origin;
@@ -54,7 +54,7 @@ bool meet_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vecto
   return hit.t >= 0.0;
 }
 
-bool meet_sphere(const Ray& ray, double radius, Chord& chord) {
+bool intersect_sphere(const Ray& ray, double radius, RayInterval& chord) {
   // From the point nearest to the centre, so that a far origin costs no digits.
   const double scale = ray.direction.squaredNorm();
   const double t_middle = -ray.origin.dot(ray.direction) / scale;
@@ -68,7 +68,7 @@ bool meet_sphere(const Ray& ray, double radius, Chord& chord) {
   return true;
 }
 
-bool meet_box(const Ray& ray, const Eigen::Vector3d& half_size, Chord& chord) {
+bool intersect_box(const Ray& ray, const Eigen::Vector3d& half_size, RayInterval& chord) {
   chord = whole_line();
   for (int axis = 0; axis < 3; ++axis) {
     if (!clip_slab(ray, axis, half_size[axis], chord)) return false;
@@ -76,7 +76,7 @@ bool meet_box(const Ray& ray, const Eigen::Vector3d& half_size, Chord& chord) {
   return true;
 }
 
-bool meet_cylinder(const Ray& ray, double radius, double half_length, Chord& chord) {
+bool intersect_cylinder(const Ray& ray, double radius, double half_length, RayInterval& chord) {
   chord = whole_line();
   const Eigen::Vector2d o = ray.origin.head<2>();
   const Eigen::Vector2d d = ray.direction.head<2>();
@@ -96,10 +96,10 @@ bool meet_cylinder(const Ray& ray, double radius, double half_length, Chord& cho
   return clip_slab(ray, 2, half_length, chord);
 }
 
-bool meet_ground(const Ray& ray, double& t) {
+bool intersect_ground(const Ray& ray, double& t) {
   if (ray.direction.z() == 0.0) return false;
   t = -ray.origin.z() / ray.direction.z();
   return t >= 0.0;
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

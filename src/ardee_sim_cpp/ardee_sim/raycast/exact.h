@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// A half-line in some frame; lengths along it are in units of the direction.
 struct Ray {
@@ -22,12 +22,12 @@ struct TriangleHit {
 /// Where the line of the ray meets a triangle, t >= 0. Rays cannot slip between triangles that
 /// share two vertices: the sign that decides about an edge is the exact negative of the one that
 /// its neighbour sees, and zero counts as inside.
-bool meet_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vector3d& v1,
-                   const Eigen::Vector3d& v2, TriangleHit& hit);
+bool intersect_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::Vector3d& v1,
+                        const Eigen::Vector3d& v2, TriangleHit& hit);
 
 /// Where the line of a ray enters and leaves a convex solid, with outward normals; either end may
 /// lie behind the origin.
-struct Chord {
+struct RayInterval {
   double t_in = 0.0;
   double t_out = 0.0;
   Eigen::Vector3d normal_in;
@@ -35,11 +35,11 @@ struct Chord {
 };
 
 /// Solids centred at the origin; the cylinder stands along z.
-bool meet_sphere(const Ray& ray, double radius, Chord& chord);
-bool meet_box(const Ray& ray, const Eigen::Vector3d& half_size, Chord& chord);
-bool meet_cylinder(const Ray& ray, double radius, double half_length, Chord& chord);
+bool intersect_sphere(const Ray& ray, double radius, RayInterval& chord);
+bool intersect_box(const Ray& ray, const Eigen::Vector3d& half_size, RayInterval& chord);
+bool intersect_cylinder(const Ray& ray, double radius, double half_length, RayInterval& chord);
 
 /// The plane z = 0, t >= 0.
-bool meet_ground(const Ray& ray, double& t);
+bool intersect_ground(const Ray& ray, double& t);
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Cells this close beside the ray (as a share of a cell) are tried as well: rounding must not lose
@@ -75,7 +75,7 @@ Bounds HeightSurface::bounds(const HeightPatch& patch) const {
   return result;
 }
 
-void HeightSurface::meet(
+void HeightSurface::intersect(
     const HeightPatch& patch, const Ray& ray, double t_high,
     const std::function<void(const TriangleHit&, std::uint32_t)>& found) const {
   // In cells: row by row, the columns that the ray crosses within the row's strip.
@@ -108,10 +108,10 @@ void HeightSurface::meet(
       const Eigen::Vector3d v11 = vertex(column + 1, row + 1);
       const auto cell = static_cast<std::uint32_t>(row * (grid_->columns - 1) + column);
       TriangleHit hit;
-      if (meet_triangle(ray, v00, vertex(column + 1, row), v11, hit)) found(hit, 2 * cell);
-      if (meet_triangle(ray, v00, v11, vertex(column, row + 1), hit)) found(hit, 2 * cell + 1);
+      if (intersect_triangle(ray, v00, vertex(column + 1, row), v11, hit)) found(hit, 2 * cell);
+      if (intersect_triangle(ray, v00, v11, vertex(column, row + 1), hit)) found(hit, 2 * cell + 1);
     }
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -8,7 +8,7 @@
 #include "ardee_sim/raycast/bounds.h"
 #include "ardee_sim/raycast/exact.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// A square of cells of a height grid, as large as one ray query likes to take at once.
 struct HeightPatch {
@@ -34,8 +34,8 @@ class HeightSurface {
   Bounds bounds(const HeightPatch& patch) const;
   /// Calls `found` for each triangle met with t in [0, t_high]; the number of a triangle is 2 *
   /// cell or 2 * cell + 1.
-  void meet(const HeightPatch& patch, const Ray& ray, double t_high,
-            const std::function<void(const TriangleHit&, std::uint32_t)>& found) const;
+  void intersect(const HeightPatch& patch, const Ray& ray, double t_high,
+                 const std::function<void(const TriangleHit&, std::uint32_t)>& found) const;
 
  private:
   std::shared_ptr<const HeightGrid> grid_;
@@ -43,4 +43,4 @@ class HeightSurface {
   Eigen::Vector2d cell_m_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Against rounding in the ball test only.
@@ -43,7 +43,7 @@ bool ShadowBall::may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& t
   return (to_center - along_m * to_lamp_W).squaredNorm() <= reach_m * reach_m;
 }
 
-void MovingModel::meet(RayQuery* queries, int count) const {
+void MovingModel::intersect(RayQuery* queries, int count) const {
   if (boxes_W.empty()) return;
   thread_local std::vector<double> entries;
   thread_local std::vector<double> exits;
@@ -58,7 +58,7 @@ void MovingModel::meet(RayQuery* queries, int count) const {
     for (const std::uint32_t k : near) {
       if (query.passes(entity, links[k])) continue;
       if (touches(boxes_W[k], ray.origin, inverse, query.reach())) {
-        query.meet_body(placed[k], 0.0);
+        query.intersect_traceable(placed[k], 0.0);
       }
     }
   }
@@ -82,10 +82,10 @@ bool ModelList::touches_any(const Ray& ray_W, double reach_m) const {
   });
 }
 
-bool ModelList::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& rays) const {
+bool ModelList::may_touch_some(const Eigen::Vector3d& eye_W, const PrimaryRayPacket& rays) const {
   if (models_.empty()) return false;
   float spread2 = 0.0f;  // of distances between directions, at most
-  for (int i = 1; i < GlanceBlock::kRays; ++i) {
+  for (int i = 1; i < PrimaryRayPacket::kRays; ++i) {
     const float x = rays.x_W[i] - rays.x_W[0];
     const float y = rays.y_W[i] - rays.y_W[0];
     const float z = rays.z_W[i] - rays.z_W[0];
@@ -111,8 +111,8 @@ bool ModelList::may_touch_some(const Eigen::Vector3d& eye_W, const GlanceBlock& 
   });
 }
 
-void ModelList::meet(RayQuery queries[kPacketRays], int count) const {
-  for (const MovingModel* model : models_) model->meet(queries, count);
+void ModelList::intersect(RayQuery queries[kPacketRays], int count) const {
+  for (const MovingModel* model : models_) model->intersect(queries, count);
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "ardee_sim/raycast/body_compiler.h"
+#include "ardee_sim/raycast/traceable_compiler.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Against rounding in the box test only.
@@ -22,7 +22,7 @@ bool holds(const Bounds& room, const Bounds& box) {
          (box.upper.array() <= room.upper.array()).all();
 }
 
-bool is_at(const PlacedBody& placed, const Pose& pose) {
+bool is_at(const TraceableInstance& placed, const Pose& pose) {
   return placed.p == pose.p && placed.q.coeffs() == pose.q.normalized().coeffs();
 }
 
@@ -55,9 +55,9 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
   made.entity = entity;
   made.bodies = bodies_of(model);
   for (std::uint32_t link = 0; link < model->links.size(); ++link) {
-    const Body& body = *(*made.bodies)[link];
-    if (body.pieces.empty() && body.grounds.empty()) continue;
-    PlacedBody placed;
+    const Traceable& body = *(*made.bodies)[link];
+    if (body.primitives.empty() && body.grounds.empty()) continue;
+    TraceableInstance placed;
     placed.body = &body;
     placed.entity = entity;
     made.placed.push_back(placed);
@@ -101,7 +101,7 @@ void MovingModels::prepare() {
       kMany) {
     return;
   }
-  std::vector<const PlacedBody*> places;
+  std::vector<const TraceableInstance*> places;
   loose_.clear();
   for (auto& [entity, model] : models_) {
     if (model.placed.empty()) continue;
@@ -112,8 +112,8 @@ void MovingModels::prepare() {
     }
     model.stays_since = std::min(model.stays_since, time_);
     make_room(model);
-    for (const PlacedBody& placed : model.placed) {
-      if (!placed.body->pieces.empty()) places.push_back(&placed);
+    for (const TraceableInstance& placed : model.placed) {
+      if (!placed.body->primitives.empty()) places.push_back(&placed);
     }
   }
   tree_.build(device_, std::move(places), BuildQuality::kLow, kRoom_m);
@@ -143,7 +143,7 @@ void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>&
   bool moved = false;
   for (std::size_t k = 0; k < model.placed.size(); ++k) {
     const Pose& pose = X_WL[model.links[k]];
-    PlacedBody& placed = model.placed[k];
+    TraceableInstance& placed = model.placed[k];
     moved = moved || !is_at(placed, pose);
     placed.p = pose.p;
     placed.q = pose.q.normalized();
@@ -170,13 +170,13 @@ bool MovingModels::is_at_rest(const MovingModel& model) const {
   return model.in_tree && time_ >= *model.moved_at + kLong;
 }
 
-StillBodies MovingModels::still_bodies() const {
-  StillBodies still;
+StillInstances MovingModels::still_instances() const {
+  StillInstances still;
   still.time = time_;
   for (const auto& [entity, model] : models_) {
     if (!model.in_tree) continue;
-    for (const PlacedBody& placed : model.placed) {
-      if (!placed.body->pieces.empty()) {
+    for (const TraceableInstance& placed : model.placed) {
+      if (!placed.body->primitives.empty()) {
         still.bodies.push_back({placed, model.bodies, model.moved_at});
       }
     }
@@ -184,19 +184,19 @@ StillBodies MovingModels::still_bodies() const {
   return still;
 }
 
-void MovingModels::meet(RayQuery queries[kPacketRays], int count) const {
-  loose_.meet(queries, count);
+void MovingModels::intersect(RayQuery queries[kPacketRays], int count) const {
+  loose_.intersect(queries, count);
   if (tree_.empty()) return;
   double t_low[kPacketRays];
   for (int i = 0; i < kPacketRays; ++i) {
     t_low[i] = i < count ? 0.0 : std::numeric_limits<double>::infinity();
   }
-  tree_.meet(queries, t_low);
+  tree_.intersect(queries, t_low);
 }
 
-void MovingModels::meet(RayQuery& query, std::uint32_t entity) const {
+void MovingModels::intersect(RayQuery& query, std::uint32_t entity) const {
   const auto found = models_.find(entity);
-  if (found != models_.end()) found->second.meet(&query, 1);
+  if (found != models_.end()) found->second.intersect(&query, 1);
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -7,9 +7,9 @@
 
 #include "ardee_sim/raycast/moving_model.h"
 #include "ardee_sim/raycast/place_tree.h"
-#include "ardee_sim/raycast/still_body.h"
+#include "ardee_sim/raycast/still_instance.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Models whose links can move. Few do at a time: a box test a link beats any tree that would have
 /// to be rebuilt with each motion. Those that stay where they are, which may be hundreds of plants,
@@ -31,14 +31,14 @@ class MovingModels {
   const ModelList& loose() const { return loose_; }
   const PlaceTree& tree() const { return tree_; }
   /// The first `count` of the queries, neighbouring rays, by either way.
-  void meet(RayQuery queries[kPacketRays], int count) const;
-  void meet(RayQuery& query, std::uint32_t entity) const;
+  void intersect(RayQuery queries[kPacketRays], int count) const;
+  void intersect(RayQuery& query, std::uint32_t entity) const;
 
   /// Calls of prepare().
   std::uint64_t time() const { return time_; }
   /// The links in the tree, for others to be made of.
-  StillBodies still_bodies() const;
-  /// Whether still_bodies() had this model at that time, where it is now.
+  StillInstances still_instances() const;
+  /// Whether still_instances() had this model at that time, where it is now.
   static bool was_still(const MovingModel& model, std::uint64_t at_time) {
     return model.in_tree && model.stays_since <= at_time && *model.moved_at <= at_time;
   }
@@ -60,4 +60,4 @@ class MovingModels {
   std::uint64_t time_ = 1;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

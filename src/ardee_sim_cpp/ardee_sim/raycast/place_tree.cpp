@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Against rounding where a ray enters and leaves the bounds of all.
@@ -18,12 +18,12 @@ void PlaceTree::clear() {
   bounds_W_ = Bounds{};
 }
 
-void PlaceTree::build(const EmbreeDevice& device, std::vector<const PlacedBody*> places,
+void PlaceTree::build(const EmbreeDevice& device, std::vector<const TraceableInstance*> places,
                       BuildQuality quality, double room_m) {
   clear();
   if (places.empty()) return;
   places_ = std::move(places);
-  for (const PlacedBody* placed : places_) bounds_W_.add(placed->bounds_W().grown(room_m));
+  for (const TraceableInstance* placed : places_) bounds_W_.add(placed->bounds_W().grown(room_m));
   origin_W_ = bounds_W_.center();
   const double extent = bounds_W_.radius();
   boxes_.resize(places_.size());
@@ -39,34 +39,34 @@ void PlaceTree::build(const EmbreeDevice& device, std::vector<const PlacedBody*>
         std::copy_n(boxes_[place].lower, 3, lower);
         std::copy_n(boxes_[place].upper, 3, upper);
       },
-      &meet_place, this, quality);
+      &intersect_place, this, quality);
 }
 
-void PlaceTree::meet(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const {
+void PlaceTree::intersect(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const {
   if (scene_ == nullptr) return;
   const Eigen::Vector3d half_size = 0.5 * (bounds_W_.upper - bounds_W_.lower);
-  Passage passages[kPacketRays];
+  RaySegment passages[kPacketRays];
   for (int i = 0; i < kPacketRays; ++i) {
     if (!(t_low[i] <= queries[i].reach())) continue;
     // Only the part of the ray within the bounds: floats are of the places' size wherever the
     // sensor is.
     const Ray& ray_W = queries[i].ray_W();
     passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
-    Chord chord;
-    if (!meet_box(passages[i].ray, half_size, chord)) continue;
+    RayInterval chord;
+    if (!intersect_box(passages[i].ray, half_size, chord)) continue;
     passages[i].t_low = std::max(t_low[i], chord.t_in - kEndMargin_m);
     passages[i].t_high = std::min(queries[i].reach(), chord.t_out + kEndMargin_m);
   }
   traverse_packet(scene_->get(), queries, passages);
 }
 
-void PlaceTree::meet_place(const RTCIntersectFunctionNArguments* args) {
+void PlaceTree::intersect_place(const RTCIntersectFunctionNArguments* args) {
   const auto& tree = *static_cast<const PlaceTree*>(args->geometryUserPtr);
-  const PlacedBody& placed = *tree.places_[args->primID];
+  const TraceableInstance& placed = *tree.places_[args->primID];
   for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double t_shift) {
-    query.meet_body(placed, t_shift);
+    query.intersect_traceable(placed, t_shift);
     return true;
   });
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -6,23 +6,23 @@
 
 #include "ardee_sim/raycast/ray_query.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Placed bodies, one box each, with an Embree scene over the boxes.
 class PlaceTree {
  public:
   /// The bodies stay where they are in memory until the next build. In the world they may move, as
   /// long as they stay in their boxes, which are `room_m` larger than they are now.
-  void build(const EmbreeDevice& device, std::vector<const PlacedBody*> places,
+  void build(const EmbreeDevice& device, std::vector<const TraceableInstance*> places,
              BuildQuality quality, double room_m = 0.0);
   void clear();
 
   bool empty() const { return places_.empty(); }
-  const std::vector<const PlacedBody*>& places() const { return places_; }
+  const std::vector<const TraceableInstance*>& places() const { return places_; }
   const Bounds& bounds_W() const { return bounds_W_; }
 
   /// Each query from its t_low on (infinity: not at all).
-  void meet(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
+  void intersect(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
 
   /// Calls `found(index in places)` for places whose box touches the rectangle.
   template <typename Found>
@@ -42,13 +42,13 @@ class PlaceTree {
     float upper[3];
   };
 
-  static void meet_place(const RTCIntersectFunctionNArguments* args);
+  static void intersect_place(const RTCIntersectFunctionNArguments* args);
 
-  std::vector<const PlacedBody*> places_;
+  std::vector<const TraceableInstance*> places_;
   std::vector<FloatBox> boxes_;  // of places_, relative to origin_W_
   Eigen::Vector3d origin_W_ = Eigen::Vector3d::Zero();
   Bounds bounds_W_;
   std::unique_ptr<EmbreeScene> scene_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace ardee {
+namespace ardee::raycast {
 
 void BoxTable::clear() {
   for (int k = 0; k < 3; ++k) {
@@ -35,13 +35,13 @@ RayBundle::RayBundle(const RayQuery* queries, int count)
   }
 }
 
-RayBundle::RayBundle(const Eigen::Vector3d& eye_W, const GlanceBlock& block)
+RayBundle::RayBundle(const Eigen::Vector3d& eye_W, const PrimaryRayPacket& block)
     : origin_low_(eye_W), origin_high_(eye_W) {
   Eigen::Array3f low = block.direction_W(0);
   Eigen::Array3f high = low;
   float start_m = block.near_m[0];
   float reach_m = 0.0f;
-  for (int i = 0; i < GlanceBlock::kRays; ++i) {
+  for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
     low = low.min(block.direction_W(i).array());
     high = high.max(block.direction_W(i).array());
     start_m = std::min(start_m, block.near_m[i]);
@@ -95,4 +95,4 @@ void RayBundle::find(const BoxTable& boxes, std::vector<double>& entries,
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "ardee_sim/raycast/bounds.h"
-#include "ardee_sim/raycast/glance.h"
+#include "ardee_sim/raycast/primary_ray_packet.h"
 #include "ardee_sim/raycast/ray_query.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Boxes side by side, for one pass of vector instructions.
 struct BoxTable {
@@ -27,7 +27,7 @@ class RayBundle {
  public:
   RayBundle(const RayQuery* queries, int count);
   /// Of a picture's rays from the eye, as far as they have met nothing.
-  RayBundle(const Eigen::Vector3d& eye_W, const GlanceBlock& block);
+  RayBundle(const Eigen::Vector3d& eye_W, const PrimaryRayPacket& block);
 
   /// Appends to `near` the boxes that one of the rays may touch: none that it does touch is left
   /// out. `entries` and `exits` are room for the work.
@@ -41,4 +41,4 @@ class RayBundle {
   double reach_ = 0.0;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

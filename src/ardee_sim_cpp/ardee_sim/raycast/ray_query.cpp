@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
@@ -17,14 +17,14 @@ constexpr double kNothingMatters = -1.0;
 
 bool RayQuery::precedes(const Candidate& candidate) const {
   if (candidate.t != best_t_ || placed_ == nullptr) return candidate.t <= best_t_;
-  const BodySurface& mine = entered_->body->surfaces[candidate.surface];
-  const BodySurface& best = placed_->body->surfaces[surface_];
+  const TraceableSurface& mine = entered_->body->surfaces[candidate.surface];
+  const TraceableSurface& best = placed_->body->surfaces[surface_];
   return std::make_tuple(entered_->entity, mine.link, mine.shape, candidate.primitive) <
          std::make_tuple(placed_->entity, best.link, best.shape, primitive_);
 }
 
 void RayQuery::offer(const Candidate& candidate) {
-  const BodySurface& surface = entered_->body->surfaces[candidate.surface];
+  const TraceableSurface& surface = entered_->body->surfaces[candidate.surface];
   if (!precedes(candidate)) return;
   if (purpose_ == Purpose::kShadow) {
     if (!surface.casts_shadows) return;
@@ -42,8 +42,8 @@ void RayQuery::offer(const Candidate& candidate) {
   normal_B_ = candidate.normal_B;
 }
 
-bool RayQuery::is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weights) const {
-  const Body& body = *entered_->body;
+bool RayQuery::is_hole(const TraceableTriangle& triangle, const Eigen::Vector3d& weights) const {
+  const Traceable& body = *entered_->body;
   Eigen::Vector2d uv(0, 0);
   for (std::size_t k = 0; k < 3; ++k) {
     uv +=
@@ -52,15 +52,15 @@ bool RayQuery::is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weig
   return body.surfaces[triangle.surface].mask->is_hole(uv);
 }
 
-void RayQuery::meet_marked(const TriangleBlock& block, std::uint32_t marks) {
-  const Body& body = *entered_->body;
+void RayQuery::intersect_marked(const TriangleBlock& block, std::uint32_t marks) {
+  const Traceable& body = *entered_->body;
   for (std::uint32_t lane = 0; lane < block.count && marks >> lane != 0; ++lane) {
     if ((marks >> lane & 1u) == 0) continue;
-    const BodyTriangle& triangle = body.triangles[block.first + lane];
+    const TraceableTriangle& triangle = body.triangles[block.first + lane];
     TriangleHit hit;
-    if (meet_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
-                      body.vertices[triangle.vertices[1]].cast<double>(),
-                      body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
+    if (intersect_triangle(ray_B_, body.vertices[triangle.vertices[0]].cast<double>(),
+                           body.vertices[triangle.vertices[1]].cast<double>(),
+                           body.vertices[triangle.vertices[2]].cast<double>(), hit)) {
       if (body.surfaces[triangle.surface].mask != nullptr && is_hole(triangle, hit.weights)) {
         continue;
       }
@@ -69,7 +69,7 @@ void RayQuery::meet_marked(const TriangleBlock& block, std::uint32_t marks) {
   }
 }
 
-void RayQuery::meet_block(const TriangleBlock& block) {
+void RayQuery::intersect_block(const TriangleBlock& block) {
   const double scale = ray_B_.direction.squaredNorm();
   const Eigen::Vector3d away = ray_B_.origin - block.center;
   const double t_near = -away.dot(ray_B_.direction) / scale;
@@ -84,33 +84,33 @@ void RayQuery::meet_block(const TriangleBlock& block) {
   ray.t_high = static_cast<float>(std::min(best_t_ - t_near, t_radius));
   ray.slack_m = static_cast<float>(kBlockSlack * static_cast<double>(block.radius) +
                                    1e-7 * (1.0 + origin.norm()));
-  meet_marked(block, sort_out(block, ray));
+  intersect_marked(block, cull_conservatively(block, ray));
 }
 
-void RayQuery::meet_solid(const Solid& solid) {
+void RayQuery::intersect_solid(const AnalyticSolid& solid) {
   const auto item = static_cast<std::uint32_t>(&solid - entered_->body->solids.data());
   const Ray ray{solid.R_BS.transpose() * (ray_B_.origin - solid.p_BS),
                 solid.R_BS.transpose() * ray_B_.direction};
   const bool two_sided = entered_->body->surfaces[solid.surface].two_sided;
-  Chord chord;
+  RayInterval chord;
   bool met = false;
   switch (solid.kind) {
-    case Solid::Kind::kSphere:
-      met = meet_sphere(ray, solid.half_m.x(), chord);
+    case AnalyticSolid::Kind::kSphere:
+      met = intersect_sphere(ray, solid.half_m.x(), chord);
       break;
-    case Solid::Kind::kBox:
-      met = meet_box(ray, solid.half_m, chord);
+    case AnalyticSolid::Kind::kBox:
+      met = intersect_box(ray, solid.half_m, chord);
       break;
-    case Solid::Kind::kCylinder:
-      met = meet_cylinder(ray, solid.half_m.x(), solid.half_m.z(), chord);
+    case AnalyticSolid::Kind::kCylinder:
+      met = intersect_cylinder(ray, solid.half_m.x(), solid.half_m.z(), chord);
       break;
-    case Solid::Kind::kRectangle:
-    case Solid::Kind::kGround: {
+    case AnalyticSolid::Kind::kRectangle:
+    case AnalyticSolid::Kind::kGround: {
       double t = 0.0;
-      if (!meet_ground(ray, t)) return;
+      if (!intersect_ground(ray, t)) return;
       const Eigen::Vector2d point = ray.at(t).head<2>().cwiseAbs();
       const bool inside = point.x() <= solid.half_m.x() && point.y() <= solid.half_m.y();
-      if (solid.kind == Solid::Kind::kGround || inside) {
+      if (solid.kind == AnalyticSolid::Kind::kGround || inside) {
         offer({t, solid.surface, 0, item, solid.R_BS.col(2)});
       }
       return;
@@ -124,36 +124,36 @@ void RayQuery::meet_solid(const Solid& solid) {
   }
 }
 
-void RayQuery::meet_patch(const TerrainPatch& patch) {
+void RayQuery::intersect_patch(const TerrainPatch& patch) {
   const Terrain& terrain = entered_->body->terrains[patch.terrain];
   const Ray ray{terrain.R_BS.transpose() * (ray_B_.origin - terrain.p_BS),
                 terrain.R_BS.transpose() * ray_B_.direction};
-  terrain.heights.meet(
+  terrain.heights.intersect(
       patch.cells, ray, best_t_, [&](const TriangleHit& hit, std::uint32_t number) {
         offer({hit.t, terrain.surface, number, patch.terrain, terrain.R_BS * hit.normal});
       });
 }
 
-void RayQuery::meet_piece(const Piece& piece) {
-  const Body& body = *entered_->body;
-  switch (piece.kind) {
-    case Piece::Kind::kBlock:
-      meet_block(body.blocks[piece.index]);
+void RayQuery::intersect_primitive(const Primitive& primitive) {
+  const Traceable& body = *entered_->body;
+  switch (primitive.kind) {
+    case Primitive::Kind::kBlock:
+      intersect_block(body.blocks[primitive.index]);
       break;
-    case Piece::Kind::kSolid:
-      meet_solid(body.solids[piece.index]);
+    case Primitive::Kind::kSolid:
+      intersect_solid(body.solids[primitive.index]);
       break;
-    case Piece::Kind::kPatch:
-      meet_patch(body.patches[piece.index]);
+    case Primitive::Kind::kPatch:
+      intersect_patch(body.patches[primitive.index]);
       break;
   }
 }
 
-void RayQuery::meet_body(const PlacedBody& placed, double t_low) {
+void RayQuery::intersect_traceable(const TraceableInstance& placed, double t_low) {
   enter(placed);
-  const Body& body = *placed.body;
+  const Traceable& body = *placed.body;
   if (body.scene == nullptr) {
-    for (const Piece& piece : body.pieces) meet_piece(piece);
+    for (const Primitive& primitive : body.primitives) intersect_primitive(primitive);
     return;
   }
   // From the body's bounding sphere on, so that floats are of the body's size however far the ray
@@ -172,7 +172,7 @@ void RayQuery::fill(RayHit& hit) const {
     hit.range_m = std::numeric_limits<float>::infinity();
     return;
   }
-  const BodySurface& surface = placed_->body->surfaces[surface_];
+  const TraceableSurface& surface = placed_->body->surfaces[surface_];
   hit.range_m = static_cast<float>(best_t_);
   hit.entity = placed_->entity;
   hit.link = surface.link;
@@ -185,7 +185,7 @@ void RayQuery::fill(RayHit& hit) const {
   hit.normal_W = normal_W.cast<float>();
 }
 
-void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage) {
+void traverse(RTCSceneTy* scene, RayQuery& query, const RaySegment& passage) {
   if (passage.empty()) return;
   TraversalContext context;
   rtcInitIntersectContext(&context.embree);
@@ -233,10 +233,10 @@ void RayPacket::add(int i, const Ray& ray, double reach) {
   rays.ray.flags[i] = 0;
 }
 
-bool RayPacket::load(const Passage* passages) {
+bool RayPacket::load(const RaySegment* passages) {
   bool any = false;
   for (int i = 0; i < kPacketRays; ++i) {
-    const Passage& passage = passages[i];
+    const RaySegment& passage = passages[i];
     if (passage.empty()) continue;
     any = true;
     add(i, {passage.ray.at(passage.t_low), passage.ray.direction}, passage.t_high - passage.t_low);
@@ -244,7 +244,7 @@ bool RayPacket::load(const Passage* passages) {
   return any;
 }
 
-void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const Passage* passages) {
+void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const RaySegment* passages) {
   RayPacket packet;
   if (!packet.load(passages)) return;
   TraversalContext context;
@@ -255,13 +255,13 @@ void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const Passage* passag
   rtcIntersect8(packet.valid, scene, &context.embree, &packet.rays);
 }
 
-void meet_body_piece(const RTCIntersectFunctionNArguments* args) {
-  const Body& body = *static_cast<const Body*>(args->geometryUserPtr);
-  const Piece& piece = body.pieces[args->primID];
+void intersect_primitive_of(const RTCIntersectFunctionNArguments* args) {
+  const Traceable& body = *static_cast<const Traceable*>(args->geometryUserPtr);
+  const Primitive& primitive = body.primitives[args->primID];
   for_each_ray(args, [&](RayQuery& query, RTCRayN*, unsigned, double) {
-    query.meet_piece(piece);
+    query.intersect_primitive(primitive);
     return true;
   });
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

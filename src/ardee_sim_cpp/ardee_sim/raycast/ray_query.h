@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "ardee_sim/raycast/body.h"
 #include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/raycast/traceable.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Nothing is met beyond it, so that a ray of infinite reach has no infinite place on it.
 constexpr double kLongestReach_m = 1e9;
@@ -53,7 +53,7 @@ class RayQuery {
   }
 
   /// Makes `placed` the body that the next calls speak of.
-  void enter(const PlacedBody& placed) {
+  void enter(const TraceableInstance& placed) {
     if (entered_ == &placed) return;
     entered_ = &placed;
     ray_B_ = placed.to_body(ray_W_);
@@ -61,14 +61,14 @@ class RayQuery {
   const Ray& ray_B() const { return ray_B_; }
 
   /// All of the body, from t_low on.
-  void meet_body(const PlacedBody& placed, double t_low);
-  void meet_piece(const Piece& piece);
-  void meet_block(const TriangleBlock& block);
-  void meet_marked(const TriangleBlock& block, std::uint32_t marks);
-  void meet_solid(const Solid& solid);
+  void intersect_traceable(const TraceableInstance& placed, double t_low);
+  void intersect_primitive(const Primitive& primitive);
+  void intersect_block(const TriangleBlock& block);
+  void intersect_marked(const TriangleBlock& block, std::uint32_t marks);
+  void intersect_solid(const AnalyticSolid& solid);
 
   void fill(RayHit& hit) const;
-  void fill(SurfacePoint& point) const;
+  void fill(SurfaceInteraction& point) const;
 
  private:
   struct Candidate {
@@ -79,13 +79,13 @@ class RayQuery {
     Eigen::Vector3d normal_B;
   };
 
-  bool is_hole(const BodyTriangle& triangle, const Eigen::Vector3d& weights) const;
-  void meet_patch(const TerrainPatch& patch);
+  bool is_hole(const TraceableTriangle& triangle, const Eigen::Vector3d& weights) const;
+  void intersect_patch(const TerrainPatch& patch);
   void offer(const Candidate& candidate);
   bool precedes(const Candidate& candidate) const;
-  void fill_triangle(SurfacePoint& point) const;
-  void fill_solid(SurfacePoint& point) const;
-  void fill_terrain(SurfacePoint& point) const;
+  void fill_triangle(SurfaceInteraction& point) const;
+  void fill_solid(SurfaceInteraction& point) const;
+  void fill_terrain(SurfaceInteraction& point) const;
 
   Ray ray_W_;
   Ray ray_B_;
@@ -93,8 +93,8 @@ class RayQuery {
   std::uint32_t own_entity_ = kNoEntity;
   std::uint32_t own_link_ = 0;
   Purpose purpose_ = Purpose::kNearest;
-  const PlacedBody* entered_ = nullptr;
-  const PlacedBody* placed_ = nullptr;  // what the nearest hit belongs to
+  const TraceableInstance* entered_ = nullptr;
+  const TraceableInstance* placed_ = nullptr;  // what the nearest hit belongs to
   std::uint32_t surface_ = 0;
   std::uint32_t primitive_ = 0;
   std::uint32_t item_ = 0;
@@ -114,7 +114,7 @@ struct TraversalContext {
 
 /// One query's way through a scene: the ray in the scene's frame and the stretch of it that
 /// matters.
-struct Passage {
+struct RaySegment {
   Ray ray;
   double t_low = 0.0;
   double t_high = -1.0;  // below t_low: the query stays out
@@ -132,34 +132,34 @@ struct RayPacket {
   /// Ray `i` of the packet, in the scene's frame.
   void add(int i, const Ray& ray, double reach);
   /// False if all stay out.
-  bool load(const Passage* passages);
+  bool load(const RaySegment* passages);
 };
 
-void traverse(RTCSceneTy* scene, RayQuery& query, const Passage& passage);
+void traverse(RTCSceneTy* scene, RayQuery& query, const RaySegment& passage);
 /// `queries` and `passages` are kPacketRays long.
-void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const Passage* passages);
+void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const RaySegment* passages);
 
 /// A float that is safely above the double.
 inline float float_above(double t) { return static_cast<float>(t * (1.0 + 1e-6) + 1e-5); }
 
-/// In a callback: the rays that Embree asks about. `meet(query, rays, i, t_shift)` is called for
-/// each, and Embree is told how near the nearest hit now is.
-template <typename Meet>
-void for_each_ray(const RTCIntersectFunctionNArguments* args, Meet meet) {
+/// In a callback: the rays that Embree asks about. `intersect(query, rays, i, t_shift)` is called
+/// for each, and Embree is told how near the nearest hit now is.
+template <typename Intersect>
+void for_each_ray(const RTCIntersectFunctionNArguments* args, Intersect intersect) {
   const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned id = RTCRayN_id(rays, args->N, i);
     RayQuery& query = context->queries[id];
-    if (!meet(query, rays, i, context->t_shift[id])) continue;
+    if (!intersect(query, rays, i, context->t_shift[id])) continue;
     float& t_far = RTCRayN_tfar(rays, args->N, i);
     const float t = float_above(query.reach() - context->t_shift[id]);
     if (t < t_far) t_far = t;
   }
 }
 
-/// The callback of the scene over a body's pieces.
-void meet_body_piece(const RTCIntersectFunctionNArguments* args);
+/// The callback of the scene over a body's primitives.
+void intersect_primitive_of(const RTCIntersectFunctionNArguments* args);
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -10,11 +10,11 @@
 #include <cmath>
 #include <memory>
 
+#include "ardee_sim/raycast/approximate_tracer.h"
+#include "ardee_sim/raycast/local_scene_cache.h"
 #include "ardee_sim/raycast/moving_models.h"
-#include "ardee_sim/raycast/near_regions.h"
-#include "ardee_sim/raycast/quick_look.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Rays taken at once by a thread: tens of microseconds of work.
@@ -27,7 +27,7 @@ struct RayScene::Impl {
       : masks(std::move(scene_log)),
         scenery(device, masks, scene_kind),
         moving(device, masks, scene_kind),
-        regions(device, scenery, moving, ray_options),
+        local_scenes(device, scenery, moving, ray_options),
         arena(ray_options.threads > 0 ? ray_options.threads : tbb::task_arena::automatic) {
     // TBB has no more workers than cores unless it is told.
     if (ray_options.threads > tbb::info::default_concurrency()) {
@@ -37,42 +37,42 @@ struct RayScene::Impl {
     }
   }
 
-  /// What has boxes is asked in packets; within the region first, and beyond it only for rays that
-  /// leave it unhindered.
-  void cast(RayQuery queries[kPacketRays], int count, const NearRegion* region) const {
+  /// What has boxes is asked in packets; within the local scene first, and beyond it only for rays
+  /// that leave it unhindered.
+  void cast(RayQuery queries[kPacketRays], int count, const LocalScene* local) const {
     double t_leave[kPacketRays];
     double t_high[kPacketRays];
     double t_low[kPacketRays];
-    for (int i = 0; i < count; ++i) scenery.meet_everywhere(queries[i]);
-    moving.meet(queries, count);
+    for (int i = 0; i < count; ++i) scenery.intersect_unbounded(queries[i]);
+    moving.intersect(queries, count);
     for (int i = 0; i < kPacketRays; ++i) {
       t_low[i] = std::numeric_limits<double>::infinity();
       t_high[i] = -1.0;
       if (i >= count) continue;
-      t_leave[i] = region != nullptr ? region->exit_t(queries[i].ray_W()) : 0.0;
+      t_leave[i] = local != nullptr ? local->exit_t(queries[i].ray_W()) : 0.0;
       t_high[i] = std::min(queries[i].reach(), t_leave[i]);
     }
-    if (region != nullptr) region->meet(queries, t_high);
+    if (local != nullptr) local->intersect(queries, t_high);
     bool onwards = false;
     for (int i = 0; i < count; ++i) {
-      if (region != nullptr && queries[i].reach() <= t_leave[i]) continue;
+      if (local != nullptr && queries[i].reach() <= t_leave[i]) continue;
       t_low[i] = t_leave[i];
       onwards = true;
     }
-    if (onwards) scenery.places().meet(queries, t_low);
+    if (onwards) scenery.places().intersect(queries, t_low);
   }
 
   /// Rays of any origins, up to kPacketRays.
   void cast_packet(const SceneRay* rays, int count, RayQuery::Purpose purpose,
                    std::uint32_t own_entity, std::uint32_t own_link,
                    RayQuery queries[kPacketRays]) const {
-    const NearRegion* region = regions.find(rays[0].origin_W);
+    const LocalScene* local = local_scenes.find(rays[0].origin_W);
     for (int k = 0; k < count; ++k) {
       const SceneRay& ray = rays[k];
       queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, own_entity, own_link, purpose);
-      if (region != nullptr && region->depth_m(ray.origin_W) <= 0.0) region = nullptr;
+      if (local != nullptr && local->depth_m(ray.origin_W) <= 0.0) local = nullptr;
     }
-    cast(queries, count, region);
+    cast(queries, count, local);
   }
 
   /// The same for any number of them, by the caller's thread. `quickly(first, count)` says whether
@@ -90,14 +90,14 @@ struct RayScene::Impl {
     }
   }
 
-  QuickLook quick_look(const SceneRay* rays, std::size_t count) const {
-    return {count > 0 ? regions.find(rays[0].origin_W) : nullptr, scenery, moving};
+  ApproximateTracer approximate_tracer(const SceneRay* rays, std::size_t count) const {
+    return {count > 0 ? local_scenes.find(rays[0].origin_W) : nullptr, scenery, moving};
   }
-  QuickLook quick_look(const Eigen::Vector3d& eye_W) const {
-    return {regions.find(eye_W), scenery, moving};
+  ApproximateTracer approximate_tracer(const Eigen::Vector3d& eye_W) const {
+    return {local_scenes.find(eye_W), scenery, moving};
   }
 
-  void find_shadows(const QuickLook& quick, const SceneRay* rays, std::size_t count,
+  void find_shadows(const ApproximateTracer& quick, const SceneRay* rays, std::size_t count,
                     bool* in_shadow) const {
     cast(
         rays, count, RayQuery::Purpose::kShadow,
@@ -136,7 +136,7 @@ struct RayScene::Impl {
   AlphaMasks masks;
   SceneryStore scenery;
   MovingModels moving;
-  NearRegions regions;
+  LocalSceneCache local_scenes;
   std::unique_ptr<tbb::global_control> workers;
   mutable tbb::task_arena arena;
 };
@@ -147,12 +147,12 @@ RayScene::RayScene(SceneKind kind, const RayOptions& options, Log log)
 RayScene::~RayScene() = default;
 
 void RayScene::add_scenery(std::uint32_t first_entity, const std::vector<Placement>& placements) {
-  impl_->regions.clear();
+  impl_->local_scenes.clear();
   impl_->scenery.add(first_entity, placements);
 }
 
 void RayScene::remove_scenery(std::uint32_t first_entity) {
-  impl_->regions.clear();
+  impl_->local_scenes.clear();
   impl_->scenery.remove(first_entity);
 }
 
@@ -172,7 +172,7 @@ void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures
   }
   if (!impl_->scenery.committed()) impl_->scenery.commit();
   impl_->moving.prepare();
-  impl_->regions.prepare(eyes_W, pictures);
+  impl_->local_scenes.prepare(eyes_W, pictures);
 }
 
 namespace {
@@ -203,7 +203,7 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
                     std::uint32_t own_entity, std::uint32_t own_link,
                     std::vector<RayHit>& hits) const {
   require_sane(X_WS, pattern, max_range_m);
-  const NearRegion* region = impl_->regions.find(X_WS.p);
+  const LocalScene* local = impl_->local_scenes.find(X_WS.p);
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
   const auto cast_some = [&](std::size_t first, int count, RayQuery* queries) {
     for (int k = 0; k < count; ++k) {
@@ -212,7 +212,7 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
       const Eigen::Vector3d direction = (R_WS * direction_S.cast<double>()).normalized();
       queries[k].start({X_WS.p, direction}, static_cast<double>(max_range_m), own_entity, own_link);
     }
-    impl_->cast(queries, count, region);
+    impl_->cast(queries, count, local);
   };
   impl_->cast_in_parallel(pattern.directions_S.size(), hits, cast_some);
 }
@@ -233,7 +233,7 @@ void RayScene::cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t en
     for (int k = 0; k < count; ++k) {
       const SceneRay& ray = rays[first + static_cast<std::size_t>(k)];
       queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, entity, own_link);
-      impl_->moving.meet(queries[k], entity);
+      impl_->moving.intersect(queries[k], entity);
     }
   });
 }
@@ -244,12 +244,12 @@ constexpr auto kNeverQuickly = [](std::size_t, int) { return false; };
 
 }  // namespace
 
-void RayScene::look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
+void RayScene::trace(const SceneRay* rays, std::size_t count, SurfaceInteraction* points) const {
   impl_->cast(rays, count, RayQuery::Purpose::kNearest, kNeverQuickly,
               [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
 }
 
-void RayScene::meet(const SceneRay* rays, std::size_t count, RayHit* hits) const {
+void RayScene::intersect(const SceneRay* rays, std::size_t count, RayHit* hits) const {
   impl_->cast(rays, count, RayQuery::Purpose::kNearest, kNeverQuickly,
               [hits](const RayQuery& query, std::size_t i) { query.fill(hits[i]); });
 }
@@ -260,94 +260,96 @@ void RayScene::find_shadows(const SceneRay* rays, std::size_t count, bool* in_sh
       [in_shadow](const RayQuery& query, std::size_t i) { in_shadow[i] = query.has_hit(); });
 }
 
-void RayScene::look_quickly(const SceneRay* rays, std::size_t count, SurfacePoint* points) const {
-  const QuickLook quick = impl_->quick_look(rays, count);
+void RayScene::trace_approximately(const SceneRay* rays, std::size_t count,
+                                   SurfaceInteraction* points) const {
+  const ApproximateTracer quick = impl_->approximate_tracer(rays, count);
   impl_->cast(
       rays, count, RayQuery::Purpose::kNearest,
       [&](std::size_t first, int packet) {
-        return quick.look(rays + first, packet, points + first);
+        return quick.trace(rays + first, packet, points + first);
       },
       [points](const RayQuery& query, std::size_t i) { query.fill(points[i]); });
 }
 
-void RayScene::find_shadows_quickly(const SceneRay* rays, std::size_t count,
-                                    bool* in_shadow) const {
-  impl_->find_shadows(impl_->quick_look(rays, count), rays, count, in_shadow);
+void RayScene::find_shadows_approximately(const SceneRay* rays, std::size_t count,
+                                          bool* in_shadow) const {
+  impl_->find_shadows(impl_->approximate_tracer(rays, count), rays, count, in_shadow);
 }
 
-void RayScene::glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const {
+void RayScene::trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPacket* blocks,
+                             std::size_t count) const {
   impl_->require_committed();
-  const QuickLook quick = impl_->quick_look(eye_W);
-  if (quick.starts_at(eye_W)) return quick.glance(eye_W, blocks, count);
+  const ApproximateTracer quick = impl_->approximate_tracer(eye_W);
+  if (quick.starts_at(eye_W)) return quick.trace_primary(eye_W, blocks, count);
   for (std::size_t k = 0; k < count; ++k) {
-    GlanceBlock& block = blocks[k];
-    SceneRay rays[GlanceBlock::kRays];
-    RayHit hits[GlanceBlock::kRays];
-    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    PrimaryRayPacket& block = blocks[k];
+    SceneRay rays[PrimaryRayPacket::kRays];
+    RayHit hits[PrimaryRayPacket::kRays];
+    for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
       const Eigen::Vector3d way_W = block.direction_W(i).cast<double>();
       const auto near_m = static_cast<double>(block.near_m[i]);
       rays[i] = {eye_W + near_m * way_W, way_W, static_cast<double>(block.far_m[i]) - near_m};
     }
-    meet(rays, GlanceBlock::kRays, hits);
-    for (int i = 0; i < GlanceBlock::kRays; ++i) see_exactly(hits[i], k, i, block);
+    intersect(rays, PrimaryRayPacket::kRays, hits);
+    for (int i = 0; i < PrimaryRayPacket::kRays; ++i) write_exact_hit(hits[i], k, i, block);
   }
 }
 
-void RayScene::look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
-                           const std::uint32_t* triangles, std::size_t count,
-                           SurfacePoint* points) const {
-  const QuickLook quick = impl_->quick_look(eye_W);
+void RayScene::interpolate_hits(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                                const std::uint32_t* triangles, std::size_t count,
+                                SurfaceInteraction* points) const {
+  const ApproximateTracer quick = impl_->approximate_tracer(eye_W);
   for (std::size_t i = 0; i < count; ++i) {
-    if ((triangles[i] & GlanceBlock::kOutside) == 0) {
-      quick.look_closer(rays[i], triangles[i], points[i]);
+    if ((triangles[i] & PrimaryRayPacket::kOutside) == 0) {
+      quick.interpolate_hits(rays[i], triangles[i], points[i]);
     } else {
-      look_quickly(rays + i, 1, points + i);
+      trace_approximately(rays + i, 1, points + i);
     }
   }
 }
 
-std::uint64_t RayScene::find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
-                                   const CellRequest* requests, std::size_t count,
-                                   SurfaceCell* cells) const {
-  const QuickLook quick = impl_->quick_look(eye_W);
-  if (quick.starts_at(eye_W)) return quick.find_cells(eye_W, blocks, requests, count, cells);
-  std::fill_n(cells, count, SurfaceCell{});
+std::uint64_t RayScene::find_texels(const Eigen::Vector3d& eye_W, const PrimaryRayPacket* blocks,
+                                    const TexelRequest* requests, std::size_t count,
+                                    SurfaceTexel* texels) const {
+  const ApproximateTracer quick = impl_->approximate_tracer(eye_W);
+  if (quick.starts_at(eye_W)) return quick.find_texels(eye_W, blocks, requests, count, texels);
+  std::fill_n(texels, count, SurfaceTexel{});
   return 0;
 }
 
-void RayScene::look_at_cells(const Eigen::Vector3d& eye_W, const SurfaceCell* cells,
-                             std::size_t count, SceneRay* rays, SurfacePoint* points) const {
-  const QuickLook quick = impl_->quick_look(eye_W);
-  for (std::size_t k = 0; k < count; ++k) quick.look_at(cells[k], rays[k], points[k]);
+void RayScene::trace_texels(const Eigen::Vector3d& eye_W, const SurfaceTexel* texels,
+                            std::size_t count, SceneRay* rays, SurfaceInteraction* points) const {
+  const ApproximateTracer quick = impl_->approximate_tracer(eye_W);
+  for (std::size_t k = 0; k < count; ++k) quick.look_at(texels[k], rays[k], points[k]);
 }
 
-void RayScene::find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRay* rays,
-                                     std::size_t count, bool* in_shadow) const {
-  impl_->find_shadows(impl_->quick_look(eye_W), rays, count, in_shadow);
+void RayScene::find_shadows_of_texels(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                                      std::size_t count, bool* in_shadow) const {
+  impl_->find_shadows(impl_->approximate_tracer(eye_W), rays, count, in_shadow);
 }
 
 bool RayScene::has_models() const { return !impl_->moving.empty(); }
 
 bool RayScene::may_be_shaded(const Eigen::Vector3d& eye_W, const Eigen::Vector3f& at_W,
                              const Eigen::Vector3f& to_lamp_W, float about_m) const {
-  const NearRegion* region = impl_->regions.find(eye_W);
-  if (region != nullptr) return region->may_shade(at_W, to_lamp_W, about_m);
+  const LocalScene* local = impl_->local_scenes.find(eye_W);
+  if (local != nullptr) return local->may_shade(at_W, to_lamp_W, about_m);
   return impl_->moving.loose().may_shade(at_W, to_lamp_W, about_m);
 }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {
   std::vector<Bounds> boxes;
-  for (const PlacedBody* placed : impl_->scenery.places().places())
+  for (const TraceableInstance* placed : impl_->scenery.places().places())
     boxes.push_back(placed->bounds_W());
   return boxes;
 }
 
 std::size_t RayScene::memory_bytes() const {
-  return impl_->device.bytes() + impl_->regions.bytes();
+  return impl_->device.bytes() + impl_->local_scenes.bytes();
 }
 
-std::size_t RayScene::flattened_triangles() const { return impl_->regions.triangles(); }
+std::size_t RayScene::local_scene_triangles() const { return impl_->local_scenes.triangles(); }
 
-std::size_t RayScene::regions_made() const { return impl_->regions.made(); }
+std::size_t RayScene::local_scenes_made() const { return impl_->local_scenes.made(); }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

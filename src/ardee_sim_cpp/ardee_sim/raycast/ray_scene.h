@@ -9,11 +9,11 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/raycast/bounds.h"
-#include "ardee_sim/raycast/glance.h"
-#include "ardee_sim/raycast/surface_cell.h"
-#include "ardee_sim/raycast/surface_point.h"
+#include "ardee_sim/raycast/primary_ray_packet.h"
+#include "ardee_sim/raycast/surface_interaction.h"
+#include "ardee_sim/raycast/surface_texel.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// Which bodies of the links rays meet (thesis 4.3.3).
 enum class SceneKind { kVisual, kCollision };
@@ -39,12 +39,12 @@ struct RayPattern {
 
 struct RayOptions {
   int threads = 0;  // 0: all cores
-  /// Of scenery held piece by piece about sensors.
-  std::size_t flattened_budget_bytes = 512u << 20;
+  /// Of scenery held primitive by primitive about sensors.
+  std::size_t local_scene_budget_bytes = 512u << 20;
   /// It reaches at least this far about a sensor, if the budget allows (measured: README.md).
-  double flattened_radius_m = 6.0;
+  double local_scene_radius_m = 6.0;
   /// False: instances only. What rays return is the same.
-  bool flatten = true;
+  bool local_scenes = true;
 };
 
 /// The world as rays see it, on Embree. What a ray returns does not depend on threads, on tiles or
@@ -67,7 +67,7 @@ class RayScene {
 
   /// Makes the scene ready for rays from these points: commits what moved, flattens tiles that came
   /// near.
-  /// `pictures`: from now on also for look_quickly.
+  /// `pictures`: from now on also for trace_approximately.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures = false);
 
   /// Hits nearest to the origin within max_range_m, one a direction. Rays pass through the link
@@ -86,51 +86,55 @@ class RayScene {
 
   /// For pictures: what each of `count` rays meets first, with its look. Rays close together are
   /// best asked side by side. The work is the caller's thread's; many threads may call at once.
-  void look(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
+  void trace(const SceneRay* rays, std::size_t count, SurfaceInteraction* points) const;
   /// The same, several times as quick: what is nearest is decided in floats, so that of two things
   /// some micrometres apart the farther may be given. Needs prepare() for pictures to be quick.
-  void look_quickly(const SceneRay* rays, std::size_t count, SurfacePoint* points) const;
-  void find_shadows_quickly(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
+  void trace_approximately(const SceneRay* rays, std::size_t count,
+                           SurfaceInteraction* points) const;
+  void find_shadows_approximately(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
   /// For the many rays of a picture, best in blocks of four by four: what they meet, but not how it
   /// looks.
-  void glance(const Eigen::Vector3d& eye_W, GlanceBlock* blocks, std::size_t count) const;
-  /// As look_quickly, for rays of `eye_W` that have been glanced at and have met something; they
-  /// start at their near_m. `triangles` are those of the glances.
-  void look_closer(const Eigen::Vector3d& eye_W, const SceneRay* rays,
-                   const std::uint32_t* triangles, std::size_t count, SurfacePoint* points) const;
-  /// The cells where rays of `eye_W` have met a draft by a glance, or none. Returns the draft's
-  /// number, which no other one has: cells are its own, and it may be gone after prepare().
-  std::uint64_t find_cells(const Eigen::Vector3d& eye_W, const GlanceBlock* blocks,
-                           const CellRequest* requests, std::size_t count,
-                           SurfaceCell* cells) const;
-  /// Rays that look straight at the middles of such cells from a metre off, and what they meet.
-  void look_at_cells(const Eigen::Vector3d& eye_W, const SurfaceCell* cells, std::size_t count,
-                     SceneRay* rays, SurfacePoint* points) const;
-  /// find_shadows_quickly() for rays that start on cells found from that eye.
-  void find_shadows_of_cells(const Eigen::Vector3d& eye_W, const SceneRay* rays, std::size_t count,
-                             bool* in_shadow) const;
+  void trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPacket* blocks,
+                     std::size_t count) const;
+  /// As trace_approximately, for rays of `eye_W` that have been glanced at and have met something;
+  /// they start at their near_m. `triangles` are those of the glances.
+  void interpolate_hits(const Eigen::Vector3d& eye_W, const SceneRay* rays,
+                        const std::uint32_t* triangles, std::size_t count,
+                        SurfaceInteraction* points) const;
+  /// The texels where rays of `eye_W` have met a triangle scene by a glance, or none. Returns the
+  /// triangle scene's number, which no other one has: texels are its own, and it may be gone after
+  /// prepare().
+  std::uint64_t find_texels(const Eigen::Vector3d& eye_W, const PrimaryRayPacket* blocks,
+                            const TexelRequest* requests, std::size_t count,
+                            SurfaceTexel* texels) const;
+  /// Rays that look straight at the middles of such texels from a metre off, and what they meet.
+  void trace_texels(const Eigen::Vector3d& eye_W, const SurfaceTexel* texels, std::size_t count,
+                    SceneRay* rays, SurfaceInteraction* points) const;
+  /// find_shadows_approximately() for rays that start on texels found from that eye.
+  void find_shadows_of_texels(const Eigen::Vector3d& eye_W, const SceneRay* rays, std::size_t count,
+                              bool* in_shadow) const;
   bool has_models() const;
-  /// Whether the light of a cell that was found from that eye may change: a moving model may stand
+  /// Whether the light of a texel that was found from that eye may change: a moving model may stand
   /// in the way from about the place (within `about_m`) to a lamp.
   bool may_be_shaded(const Eigen::Vector3d& eye_W, const Eigen::Vector3f& at_W,
                      const Eigen::Vector3f& to_lamp_W, float about_m) const;
   /// The same without the look: range, entity, label and normal.
-  void meet(const SceneRay* rays, std::size_t count, RayHit* hits) const;
+  void intersect(const SceneRay* rays, std::size_t count, RayHit* hits) const;
   /// Whether something that casts shadows lies on a ray within its reach, whichever side it shows.
   void find_shadows(const SceneRay* rays, std::size_t count, bool* in_shadow) const;
 
   /// About each place of the scenery, infinite planes left out; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
 
-  /// For benchmarks: bytes held by Embree and near regions, triangles in the latter, and how many
+  /// For benchmarks: bytes held by Embree and local scenes, triangles in the latter, and how many
   /// of them were made so far.
   std::size_t memory_bytes() const;
-  std::size_t flattened_triangles() const;
-  std::size_t regions_made() const;
+  std::size_t local_scene_triangles() const;
+  std::size_t local_scenes_made() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

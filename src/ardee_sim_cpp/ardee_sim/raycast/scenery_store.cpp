@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardee_sim/raycast/body_compiler.h"
+#include "ardee_sim/raycast/traceable_compiler.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Larger bodies would cost all others their digits: they are tried for each ray.
@@ -41,7 +41,7 @@ void SceneryStore::check(std::uint32_t first_entity,
   }
 }
 
-const Body* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Group& group) {
+const Traceable* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Group& group) {
   Compiled& compiled = bodies_[model.get()];
   if (compiled.body == nullptr) {
     try {
@@ -62,7 +62,7 @@ void SceneryStore::add(std::uint32_t first_entity, const std::vector<Placement>&
   Group group;
   group.count = placements.size();
   group.placed.reserve(placements.size());
-  std::map<const Model*, const Body*> known;
+  std::map<const Model*, const Traceable*> known;
   try {
     std::uint32_t entity = first_entity;
     for (const Placement& placement : placements) {
@@ -93,36 +93,36 @@ void SceneryStore::remove(std::uint32_t first_entity) {
   }
   committed_ = false;
   places_.clear();
-  everywhere_.clear();
+  unbounded_.clear();
   release(group->second);
   groups_.erase(group);
 }
 
 void SceneryStore::commit() {
-  everywhere_.clear();
-  std::vector<const PlacedBody*> places;
+  unbounded_.clear();
+  std::vector<const TraceableInstance*> places;
   for (const auto& [first, group] : groups_) {
-    for (const PlacedBody& placed : group.placed) {
-      const Body& body = *placed.body;
+    for (const TraceableInstance& placed : group.placed) {
+      const Traceable& body = *placed.body;
       const bool huge = body.bounds.radius() * placed.scale > kHugeRadius_m;
-      if (huge || !body.grounds.empty()) everywhere_.push_back(&placed);
-      if (!huge && !body.pieces.empty()) places.push_back(&placed);
+      if (huge || !body.grounds.empty()) unbounded_.push_back(&placed);
+      if (!huge && !body.primitives.empty()) places.push_back(&placed);
     }
   }
   places_.build(device_, std::move(places), BuildQuality::kMedium);
   committed_ = true;
 }
 
-void SceneryStore::meet_everywhere(RayQuery& query) const {
-  for (const PlacedBody* placed : everywhere_) {
+void SceneryStore::intersect_unbounded(RayQuery& query) const {
+  for (const TraceableInstance* placed : unbounded_) {
     query.enter(*placed);
     for (const std::uint32_t ground : placed->body->grounds) {
-      query.meet_solid(placed->body->solids[ground]);
+      query.intersect_solid(placed->body->solids[ground]);
     }
     if (placed->body->bounds.radius() * placed->scale > kHugeRadius_m) {
-      query.meet_body(*placed, 0.0);
+      query.intersect_traceable(*placed, 0.0);
     }
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

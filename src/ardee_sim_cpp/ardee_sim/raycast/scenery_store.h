@@ -7,7 +7,7 @@
 
 #include "ardee_sim/raycast/place_tree.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 /// All that stands still: each description compiled once, each place a few numbers, and one Embree
 /// scene over the places.
@@ -23,27 +23,27 @@ class SceneryStore {
   void commit();
   bool committed() const { return committed_; }
 
-  bool has_everywhere() const { return !everywhere_.empty(); }
+  bool has_unbounded() const { return !unbounded_.empty(); }
   /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
-  void meet_everywhere(RayQuery& query) const;
+  void intersect_unbounded(RayQuery& query) const;
   /// The places: what has boxes.
   const PlaceTree& places() const { return places_; }
 
  private:
   struct Compiled {
     std::shared_ptr<const Model> model;
-    std::unique_ptr<Body> body;
+    std::unique_ptr<Traceable> body;
     std::size_t uses = 0;
   };
   struct Group {
     std::size_t count = 0;
-    std::vector<PlacedBody> placed;
+    std::vector<TraceableInstance> placed;
     std::vector<const Model*> models;  // each once
   };
 
   void check(std::uint32_t first_entity, const std::vector<Placement>& placements) const;
   void release(const Group& group);
-  const Body* use_body(const std::shared_ptr<const Model>& model, Group& group);
+  const Traceable* use_body(const std::shared_ptr<const Model>& model, Group& group);
 
   const EmbreeDevice& device_;
   AlphaMasks& masks_;
@@ -52,7 +52,7 @@ class SceneryStore {
   std::map<std::uint32_t, Group> groups_;
   bool committed_ = true;
   PlaceTree places_;
-  std::vector<const PlacedBody*> everywhere_;
+  std::vector<const TraceableInstance*> unbounded_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::raycast

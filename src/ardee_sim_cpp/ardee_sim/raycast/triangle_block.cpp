@@ -6,7 +6,7 @@
 
 #include "ardee_sim/core/vector_clones.h"
 
-namespace ardee {
+namespace ardee::raycast {
 namespace {
 
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
@@ -52,11 +52,13 @@ __attribute__((always_inline)) inline std::uint32_t mark(const TriangleBlock& bl
 }  // namespace
 
 ARDEE_VECTOR_CLONES
-std::uint32_t sort_out(const TriangleBlock& block, const BlockRay& ray) { return mark(block, ray); }
+std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockRay& ray) {
+  return mark(block, ray);
+}
 
 ARDEE_VECTOR_CLONES
-std::uint32_t sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
-                       const RegionRay& ray, float slack_m) {
+std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockPlace& place,
+                                  const float center[3], const LocalRay& ray, float slack_m) {
   // From the point of the ray that is nearest to the centre: there floats are of the block's size.
   const float* d = ray.direction;
   const float cx = center[0] - ray.origin[0];
@@ -109,4 +111,4 @@ void block_bounds(const TriangleBlock& block, const float m[3][3], const float c
   }
 }
 
-}  // namespace ardee
+}  // namespace ardee::raycast

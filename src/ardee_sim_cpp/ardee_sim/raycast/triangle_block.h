@@ -6,7 +6,7 @@
 
 #include "ardee_sim/raycast/bounds.h"
 
-namespace ardee {
+namespace ardee::raycast {
 
 constexpr int kBlockLanes = 16;
 
@@ -36,28 +36,28 @@ struct BlockRay {
 };
 
 /// The triangles that the ray may meet, a bit each: all that it does meet are among them.
-std::uint32_t sort_out(const TriangleBlock& block, const BlockRay& ray);
+std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockRay& ray);
 
-/// Where a block stands in a region: its centre, and what turns (and scales) the region's axes into
-/// the block's.
+/// Where a block stands in a local scene: its centre, and what turns (and scales) the local scene's
+/// axes into the block's.
 struct BlockPlace {
   float m[3][3];
   float scale;
 };
 
-/// A unit ray in a region, from t = 0 on.
-struct RegionRay {
+/// A unit ray in a local scene, from t = 0 on.
+struct LocalRay {
   float origin[3];
   float direction[3];
   float t_high;
 };
 
-/// The same for a placed block; `slack_m` is how far the region's floats may be off.
-std::uint32_t sort_out(const TriangleBlock& block, const BlockPlace& place, const float center[3],
-                       const RegionRay& ray, float slack_m);
+/// The same for a placed block; `slack_m` is how far the local scene's floats may be off.
+std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockPlace& place,
+                                  const float center[3], const LocalRay& ray, float slack_m);
 
 /// The box about a block, turned and scaled by `m`, its centre moved to `center`.
 void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],
                   float lower[3], float upper[3]);
 
-}  // namespace ardee
+}  // namespace ardee::raycast

@@ -5,7 +5,7 @@
 
 #include "ardee_sim/core/error.h"
 
-namespace ardee {
+namespace ardee::render {
 
 double Camera::focal_length_px() const {
   return lens ? lens->lens().fx_px : 0.5 * width / std::tan(0.5 * horizontal_fov_rad);
@@ -42,4 +42,4 @@ Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W) {
   return Pose::from_xyz_rpy(eye_W, {0.0, pitch, yaw});
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

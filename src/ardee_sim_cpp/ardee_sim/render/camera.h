@@ -8,7 +8,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/render/lens.h"
 
-namespace ardee {
+namespace ardee::render {
 
 /// A camera with SDF's axes: x forward, y left, z up.
 struct Camera {
@@ -16,7 +16,7 @@ struct Camera {
   int width = 1280;
   int height = 720;
   double horizontal_fov_rad = 1.0471975511965976;  // 60 degrees; without a lens
-  std::shared_ptr<const LensTable> lens;           // of this size; null: a pinhole in the middle
+  std::shared_ptr<const UndistortionMap> lens;     // of this size; null: a pinhole in the middle
   double near_m = 0.0;                             // along the axis: what is nearer is not seen
   double far_m = std::numeric_limits<double>::infinity();
 
@@ -38,4 +38,4 @@ struct Camera {
 /// they are the same.
 Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W);
 
-}  // namespace ardee
+}  // namespace ardee::render

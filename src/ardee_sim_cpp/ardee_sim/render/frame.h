@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace ardee {
+namespace ardee::render {
 
 /// A part of a picture, in pixels.
 struct TileArea {
@@ -41,4 +41,4 @@ struct Frame {
   }
 };
 
-}  // namespace ardee
+}  // namespace ardee::render

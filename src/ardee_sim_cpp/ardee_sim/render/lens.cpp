@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 /// From the axis outwards in so many steps, each solved by Newton's method: so the solution stays
@@ -38,7 +38,7 @@ Lens Lens::pinhole(int width, int height, double horizontal_fov_rad) {
   return lens;
 }
 
-Eigen::Vector2d Lens::bend(const Eigen::Vector2d& plane) const {
+Eigen::Vector2d Lens::distort(const Eigen::Vector2d& plane) const {
   const auto [k1, k2, t1, t2, k3] = D;
   const double x = plane.x(), y = plane.y(), r2 = plane.squaredNorm();
   const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
@@ -46,14 +46,14 @@ Eigen::Vector2d Lens::bend(const Eigen::Vector2d& plane) const {
           y * radial + t1 * (r2 + 2.0 * y * y) + 2.0 * t2 * x * y};
 }
 
-std::optional<Eigen::Vector2d> Lens::straighten(const Eigen::Vector2d& bent) const {
+std::optional<Eigen::Vector2d> Lens::undistort(const Eigen::Vector2d& bent) const {
   if (is_straight()) return bent;
   Eigen::Vector2d plane(0, 0);
   for (int step = 1; step <= kSteps; ++step) {
     const Eigen::Vector2d goal = bent * step / kSteps;
     for (int k = 0;; ++k) {
       const Eigen::Matrix2d J = bend_derivative(D, plane);
-      const Eigen::Vector2d rest = goal - bend(plane);
+      const Eigen::Vector2d rest = goal - distort(plane);
       if (J.determinant() <= 0.0 || J.trace() <= 0.0 || k == kMostIterations) return std::nullopt;
       plane += J.inverse() * rest;
       if (rest.norm() < kTolerance * (1.0 + goal.norm())) break;
@@ -63,15 +63,15 @@ std::optional<Eigen::Vector2d> Lens::straighten(const Eigen::Vector2d& bent) con
 }
 
 Eigen::Vector2d Lens::to_pixel(const Eigen::Vector2d& plane) const {
-  const Eigen::Vector2d bent = bend(plane);
+  const Eigen::Vector2d bent = distort(plane);
   return {fx_px * bent.x() + skew_px * bent.y() + cx_px, fy_px * bent.y() + cy_px};
 }
 
 std::optional<Eigen::Vector2d> Lens::to_plane(const Eigen::Vector2d& pixel) const {
-  return straighten(bent_plane(pixel));
+  return undistort(distorted_plane(pixel));
 }
 
-LensTable::LensTable(const Lens& lens, int width, int height)
+UndistortionMap::UndistortionMap(const Lens& lens, int width, int height)
     : lens_(lens), width_(width), height_(height) {
   if (lens.is_straight()) return;
   const Eigen::Vector2d nothing =
@@ -84,8 +84,8 @@ LensTable::LensTable(const Lens& lens, int width, int height)
   }
 }
 
-Eigen::Vector2d LensTable::between_corners(double x_px, double y_px) const {
-  // Linear between the corners of a pixel: the bend within one is below a thousandth of it.
+Eigen::Vector2d UndistortionMap::between_corners(double x_px, double y_px) const {
+  // Linear between the corners of a pixel: the distort within one is below a thousandth of it.
   const int column = std::clamp(static_cast<int>(x_px), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(y_px), 0, height_ - 1);
   const double a = x_px - column;
@@ -98,4 +98,4 @@ Eigen::Vector2d LensTable::between_corners(double x_px, double y_px) const {
          b * ((1.0 - a) * lower[0] + a * lower[1]);
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace ardee {
+namespace ardee::render {
 
 /// A calibrated lens in the terms of sensor_msgs/CameraInfo: axes x right, y down, z forward; whole
 /// pixel coordinates are centres of pixels; points of the picture plane are (x/z, y/z).
@@ -23,13 +23,14 @@ struct Lens {
 
   bool is_straight() const { return D == std::array<double, 5>{}; }
   /// Where the distortion moves a point of the picture plane to.
-  Eigen::Vector2d bend(const Eigen::Vector2d& plane) const;
-  /// The inverse of bend; none where no light comes from (beyond the fold of a barrel distortion).
-  std::optional<Eigen::Vector2d> straighten(const Eigen::Vector2d& bent) const;
+  Eigen::Vector2d distort(const Eigen::Vector2d& plane) const;
+  /// The inverse of distort; none where no light comes from (beyond the fold of a barrel
+  /// distortion).
+  std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& bent) const;
   /// Pixel coordinates of a point of the picture plane before distortion.
   Eigen::Vector2d to_pixel(const Eigen::Vector2d& plane) const;
   /// The point of the picture plane after distortion that a pixel shows.
-  Eigen::Vector2d bent_plane(const Eigen::Vector2d& pixel) const {
+  Eigen::Vector2d distorted_plane(const Eigen::Vector2d& pixel) const {
     const double y = (pixel.y() - cy_px) / fy_px;
     return {(pixel.x() - cx_px - skew_px * y) / fx_px, y};
   }
@@ -38,15 +39,15 @@ struct Lens {
 };
 
 /// A lens and the ways of light through a whole picture, worked out once.
-class LensTable {
+class UndistortionMap {
  public:
-  LensTable(const Lens& lens, int width, int height);
+  UndistortionMap(const Lens& lens, int width, int height);
 
   const Lens& lens() const { return lens_; }
   /// The point of the picture plane at (x, y) in pixels, (0, 0) being the upper left corner of the
   /// picture; not finite where no light comes from.
   Eigen::Vector2d plane(double x_px, double y_px) const {
-    return corners_.empty() ? lens_.bent_plane({x_px - 0.5, y_px - 0.5})
+    return corners_.empty() ? lens_.distorted_plane({x_px - 0.5, y_px - 0.5})
                             : between_corners(x_px, y_px);
   }
 
@@ -59,4 +60,4 @@ class LensTable {
   std::vector<Eigen::Vector2d> corners_;  // of pixels, row by row; empty if the lens is straight
 };
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 /// A spot's share at an angle off its axis, as OGRE fades it.
@@ -47,4 +47,4 @@ std::optional<Illumination> illuminate(const Light& light, const Eigen::Vector3d
   return found;
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -6,7 +6,7 @@
 
 #include "ardee_sim/description/world.h"
 
-namespace ardee {
+namespace ardee::render {
 
 /// The light that a point gets from one source, if nothing stands between.
 struct Illumination {
@@ -18,4 +18,4 @@ struct Illumination {
 /// None where the light does not reach.
 std::optional<Illumination> illuminate(const Light& light, const Eigen::Vector3d& point_W);
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -11,10 +11,10 @@
 
 #include "ardee_sim/render/tile.h"
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
-constexpr int kTileSide_px = QuickTile::kMostSide_px;
+constexpr int kTileSide_px = AdaptiveTile::kMostSide_px;
 
 int tiles_along(int pixels) { return (pixels + kTileSide_px - 1) / kTileSide_px; }
 
@@ -54,7 +54,7 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   image.height = camera.height;
   image.samples8.resize(4 * static_cast<std::size_t>(std::max(image.width, 0)) *
                         static_cast<std::size_t>(std::max(image.height, 0)));
-  const TileShading shading{rays_, looks_, scene_, lights_, camera, options, store_};
+  const TileShading shading{rays_, materials_, scene_, lights_, camera, options, store_};
   const double pixels = static_cast<double>(camera.width) * camera.height;
   std::atomic<int> done_px{0};
   std::atomic<bool> stopped{false};
@@ -67,8 +67,8 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   return stopped ? Image{} : image;
 }
 
-Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
-                      const RenderOptions& options) const {
+Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
+                             const RenderOptions& options) const {
   Frame frame;
   frame.width = camera.width;
   frame.height = camera.height;
@@ -79,14 +79,14 @@ Frame Renderer::shoot(const Camera& camera, const FrameParts& parts,
   if (parts.depth) frame.depth_m.resize(count);
   if (parts.ids) frame.entities.resize(count);
   if (parts.ids) frame.labels.resize(count);
-  if (parts.light && options.quickly) store_.open();
+  if (parts.light && options.approximate) store_.open();
   RenderOptions once = options;
   once.samples = 1;
-  const TileShading shading{rays_, looks_, scene_, lights_, camera, once, store_};
+  const TileShading shading{rays_, materials_, scene_, lights_, camera, once, store_};
   for_each_tile(camera, options.threads, [&](const TileArea& area, TileWorker& worker) {
     shoot_tile(shading, area, parts, worker, frame);
   });
   return frame;
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

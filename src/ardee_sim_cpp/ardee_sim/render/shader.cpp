@@ -7,7 +7,7 @@
 
 #include "ardee_sim/render/sky.h"
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 /// A new ray starts this far off the surface that it leaves.
@@ -24,7 +24,7 @@ constexpr double kSheetTransmission = 0.4;
 
 /// Two-sided meshes are sheets, as leaves are. Where one encloses something, its own far wall keeps
 /// the light out.
-bool is_sheet(const SurfacePoint& point) {
+bool is_sheet(const raycast::SurfaceInteraction& point) {
   return point.two_sided && point.visual != nullptr &&
          std::holds_alternative<Mesh>(point.visual->geometry);
 }
@@ -53,10 +53,11 @@ void Shader::clear() {
   rays_.clear();
   owners_.clear();
   triangles_.clear();
-  cells_.clear();
+  texels_.clear();
 }
 
-void Shader::send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps) {
+void Shader::enqueue(const raycast::PrimaryRayPacket& glances, int ray,
+                     const LampKnowledge& lamps) {
   Sample& sample = samples_.emplace_back();
   const Eigen::Vector3d direction_W = glances.direction_W(ray).cast<double>();
   if (!glances.met(ray)) {
@@ -71,7 +72,7 @@ void Shader::send(const GlanceBlock& glances, int ray, const LampKnowledge& lamp
   triangles_.push_back(glances.triangle[ray]);
 }
 
-void Shader::send(double x_px, double y_px) {
+void Shader::enqueue(double x_px, double y_px) {
   Sample& sample = samples_.emplace_back();
   const Eigen::Vector3d way_C = s_->camera.direction_C(x_px, y_px);
   const double stretch = way_C.norm();
@@ -85,11 +86,11 @@ void Shader::send(double x_px, double y_px) {
   owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
 }
 
-void Shader::send(const SurfaceCell& cell, double footprint_m) {
+void Shader::enqueue(const raycast::SurfaceTexel& texel, double footprint_m) {
   samples_.emplace_back().footprint_m = footprint_m;
   rays_.emplace_back();
   owners_.push_back(static_cast<std::uint32_t>(samples_.size() - 1));
-  cells_.push_back(cell);
+  texels_.push_back(texel);
 }
 
 bool Shader::may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const {
@@ -109,7 +110,7 @@ bool Shader::may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const {
   return false;
 }
 
-void Shader::gather() {
+void Shader::flush() {
   points_.resize(kAtOnce);
   for (int layer = 0; layer < kMaxLayers && !rays_.empty(); ++layer) {
     const bool glanced = layer == 0 && !triangles_.empty();
@@ -127,38 +128,39 @@ void Shader::gather() {
 }
 
 void Shader::find_points(std::size_t begin, std::size_t count, bool glanced) {
-  const SceneRay* rays = rays_.data() + begin;
-  if (!cells_.empty()) {
-    s_->rays.look_at_cells(s_->camera.X_WC.p, cells_.data() + begin, count, rays_.data() + begin,
-                           points_.data());
+  const raycast::SceneRay* rays = rays_.data() + begin;
+  if (!texels_.empty()) {
+    s_->rays.trace_texels(s_->camera.X_WC.p, texels_.data() + begin, count, rays_.data() + begin,
+                          points_.data());
   } else if (glanced) {
-    s_->rays.look_closer(s_->camera.X_WC.p, rays, triangles_.data() + begin, count, points_.data());
-  } else if (s_->options.quickly) {
-    s_->rays.look_quickly(rays, count, points_.data());
+    s_->rays.interpolate_hits(s_->camera.X_WC.p, rays, triangles_.data() + begin, count,
+                              points_.data());
+  } else if (s_->options.approximate) {
+    s_->rays.trace_approximately(rays, count, points_.data());
   } else {
-    s_->rays.look(rays, count, points_.data());
+    s_->rays.trace(rays, count, points_.data());
   }
 }
 
-void Shader::shade(const SurfacePoint& point, std::size_t i, int layer) {
+void Shader::shade(const raycast::SurfaceInteraction& point, std::size_t i, int layer) {
   Sample& sample = samples_[owners_[i]];
-  const SceneRay& ray = rays_[i];
+  const raycast::SceneRay& ray = rays_[i];
   if (!point.met()) {
-    sample.light += sample.rest * sky_color(s_->scene, ray.direction_W);
+    sample.light += sample.transmittance * sky_color(s_->scene, ray.direction_W);
     return;
   }
   sample.travelled_m += point.range_m;
-  const bool of_cell = !cells_.empty();
+  const bool of_texel = !texels_.empty();
   const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), kLeastSlant);
   const double footprint_m =
-      of_cell ? sample.footprint_m : sample.travelled_m * pixel_rad_ / std::sqrt(slant);
-  const Look look = s_->looks.at(point, footprint_m, memo_);
+      of_texel ? sample.footprint_m : sample.travelled_m * pixel_rad_ / std::sqrt(slant);
+  const SurfaceColor look = s_->materials.at(point, footprint_m, memo_);
   const bool last = layer + 1 == kMaxLayers;
   const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
-  sample.see_through = of_cell && opacity < 1.0f;
+  sample.see_through = of_texel && opacity < 1.0f;
   if (sample.see_through) return;
   const Eigen::Vector3d at_W = ray.origin_W + point.range_m * ray.direction_W;
-  const float share = sample.rest * opacity;
+  const float share = sample.transmittance * opacity;
   Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
   if (is_sheet(point)) {
     ambient +=
@@ -166,20 +168,21 @@ void Shader::shade(const SurfacePoint& point, std::size_t i, int layer) {
   }
   sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
   for (std::size_t k = 0; k < s_->lights.size(); ++k) {
-    send_to_lamp(k, at_W, point, share * look.diffuse, i, layer == 0);
+    enqueue_shadow_ray(k, at_W, point, share * look.diffuse, i, layer == 0);
   }
-  sample.rest *= 1.0f - opacity;
-  if (opacity < 1.0f) look_on(at_W - kOffset_m * point.normal_W, point.range_m, i);
+  sample.transmittance *= 1.0f - opacity;
+  if (opacity < 1.0f) continue_ray(at_W - kOffset_m * point.normal_W, point.range_m, i);
 }
 
-void Shader::look_on(const Eigen::Vector3d& from_W, double range_m, std::size_t i) {
-  const SceneRay& ray = rays_[i];
+void Shader::continue_ray(const Eigen::Vector3d& from_W, double range_m, std::size_t i) {
+  const raycast::SceneRay& ray = rays_[i];
   next_rays_.push_back({from_W, ray.direction_W, ray.reach_m - range_m});
   next_owners_.push_back(owners_[i]);
 }
 
-void Shader::send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const SurfacePoint& point,
-                          const Eigen::Vector3f& diffuse, std::size_t i, bool first) {
+void Shader::enqueue_shadow_ray(std::size_t lamp, const Eigen::Vector3d& at_W,
+                                const raycast::SurfaceInteraction& point,
+                                const Eigen::Vector3f& diffuse, std::size_t i, bool first) {
   const Light& light = s_->lights[lamp];
   const bool distant = light.type == Light::Type::kDirectional;
   const std::optional<Illumination> of_place = distant ? std::nullopt : illuminate(light, at_W);
@@ -213,11 +216,11 @@ void Shader::add_unshadowed() {
     room_for_shadows_ = shadow_rays_.size();
     in_shadow_ = std::make_unique<bool[]>(room_for_shadows_);
   }
-  if (!cells_.empty()) {
-    s_->rays.find_shadows_of_cells(s_->camera.X_WC.p, shadow_rays_.data(), shadow_rays_.size(),
-                                   in_shadow_.get());
-  } else if (s_->options.quickly) {
-    s_->rays.find_shadows_quickly(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
+  if (!texels_.empty()) {
+    s_->rays.find_shadows_of_texels(s_->camera.X_WC.p, shadow_rays_.data(), shadow_rays_.size(),
+                                    in_shadow_.get());
+  } else if (s_->options.approximate) {
+    s_->rays.find_shadows_approximately(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
   } else {
     s_->rays.find_shadows(shadow_rays_.data(), shadow_rays_.size(), in_shadow_.get());
   }
@@ -235,4 +238,4 @@ void Shader::add_unshadowed() {
   waiting_.clear();
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

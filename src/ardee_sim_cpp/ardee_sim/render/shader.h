@@ -8,30 +8,30 @@
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/raycast/ray_scene.h"
 #include "ardee_sim/render/camera.h"
-#include "ardee_sim/render/light_store.h"
 #include "ardee_sim/render/lights.h"
-#include "ardee_sim/render/looks.h"
+#include "ardee_sim/render/material_library.h"
+#include "ardee_sim/render/radiance_cache.h"
 
-namespace ardee {
+namespace ardee::render {
 
 struct RenderOptions {
   int samples = 4;  // rays a pixel, in a fixed pattern
   bool shadows = true;
   int threads = 0;  // 0: all cores
   double max_range_m = 1e5;
-  /// RayScene::look_quickly, and fewer looks where a surface is even (shoot only).
-  bool quickly = false;
+  /// RayScene::trace_approximately, and fewer looks where a surface is even (shoot only).
+  bool approximate = false;
 };
 
 /// All that the shading of a part of a picture needs.
 struct TileShading {
-  const RayScene& rays;
-  const Looks& looks;
+  const raycast::RayScene& rays;
+  const MaterialLibrary& materials;
   const Scene& scene;
   const std::vector<Light>& lights;
   const Camera& camera;
   const RenderOptions& options;
-  LightStore& store;  // of this scene, these lights and looks
+  RadianceCache& store;  // of this scene, these lights and looks
 };
 
 /// Of the first lamps, a bit each: whether they shine on a place.
@@ -47,12 +47,12 @@ constexpr double kLeastSlant = 0.05;
 /// One look through a pixel: what it has gathered, and what of the light is still to come.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};
-  float rest = 1.0f;
+  float transmittance = 1.0f;
   double travelled_m = 0.0;
   double stretch = 1.0;      // length of the way for each metre along the camera's axis
   LampKnowledge lamps;       // at what is met first
-  double footprint_m = 0.0;  // of a cell
-  bool see_through = false;  // a cell that cannot be looked at without what is behind
+  double footprint_m = 0.0;  // of a texel
+  bool see_through = false;  // a texel that cannot be looked at without what is behind
 };
 
 /// Sends looks through a picture and gathers their light in waves: what all of them meet, which of
@@ -63,23 +63,23 @@ class Shader {
   void begin(const TileShading& shading);
 
   /// A look through (x, y) in pixels; one without a ray where the lens lets no light through.
-  void send(double x_px, double y_px);
+  void enqueue(double x_px, double y_px);
   /// One whose first meeting was glanced at by a ray of a block, where some lamps' shadows are
   /// known.
-  void send(const GlanceBlock& glances, int ray, const LampKnowledge& lamps);
-  /// One straight at a cell's middle, `footprint_m` about it: what it gathers depends on nothing
+  void enqueue(const raycast::PrimaryRayPacket& glances, int ray, const LampKnowledge& lamps);
+  /// One straight at a texel's middle, `footprint_m` about it: what it gathers depends on nothing
   /// else. Cells and other looks are not gathered together.
-  void send(const SurfaceCell& cell, double footprint_m);
+  void enqueue(const raycast::SurfaceTexel& texel, double footprint_m);
   /// Whether moving models may shade what is about a place.
   bool may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const;
-  /// Forgets the looks.
+  /// Forgets the materials.
   void clear();
   /// The light of all looks that were sent since the last call.
-  void gather();
+  void flush();
 
   const std::vector<Sample>& samples() const { return samples_; }
   /// Rays of the looks that were sent, and the sample of each.
-  const std::vector<SceneRay>& rays() const { return rays_; }
+  const std::vector<raycast::SceneRay>& rays() const { return rays_; }
   const std::vector<std::uint32_t>& owners() const { return owners_; }
 
  private:
@@ -93,10 +93,11 @@ class Shader {
   /// What `count` rays from number `begin` on meet, into the first of points_.
   void find_points(std::size_t begin, std::size_t count, bool glanced);
   /// The light of ray `i`, but for what depends on shadows or lies behind.
-  void shade(const SurfacePoint& point, std::size_t i, int layer);
-  void look_on(const Eigen::Vector3d& from_W, double range_m, std::size_t i);
-  void send_to_lamp(std::size_t lamp, const Eigen::Vector3d& at_W, const SurfacePoint& point,
-                    const Eigen::Vector3f& diffuse, std::size_t i, bool first);
+  void shade(const raycast::SurfaceInteraction& point, std::size_t i, int layer);
+  void continue_ray(const Eigen::Vector3d& from_W, double range_m, std::size_t i);
+  void enqueue_shadow_ray(std::size_t lamp, const Eigen::Vector3d& at_W,
+                          const raycast::SurfaceInteraction& point, const Eigen::Vector3f& diffuse,
+                          std::size_t i, bool first);
   void add_unshadowed();
 
   const TileShading* s_ = nullptr;
@@ -104,18 +105,18 @@ class Shader {
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> triangles_;  // that each ray has met by a glance; or empty
-  std::vector<SurfaceCell> cells_;        // that each ray looks at; or empty
-  std::vector<SceneRay> rays_;
-  std::vector<std::uint32_t> owners_;  // the sample of each ray
-  std::vector<SurfacePoint> points_;   // of some rays
-  std::vector<SceneRay> next_rays_;
+  std::vector<std::uint32_t> triangles_;       // that each ray has met by a glance; or empty
+  std::vector<raycast::SurfaceTexel> texels_;  // that each ray looks at; or empty
+  std::vector<raycast::SceneRay> rays_;
+  std::vector<std::uint32_t> owners_;                // the sample of each ray
+  std::vector<raycast::SurfaceInteraction> points_;  // of some rays
+  std::vector<raycast::SceneRay> next_rays_;
   std::vector<std::uint32_t> next_owners_;
-  std::vector<SceneRay> shadow_rays_;
+  std::vector<raycast::SceneRay> shadow_rays_;
   std::vector<Waiting> waiting_;
   std::unique_ptr<bool[]> in_shadow_;
   std::size_t room_for_shadows_ = 0;
-  Looks::Memo memo_;
+  MaterialLibrary::LookupCache memo_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 const Eigen::Vector3f kZenith(0.27f, 0.48f, 0.78f);
@@ -29,4 +29,4 @@ Eigen::Vector3f ambient_light(const Scene& scene, const Eigen::Vector3d& normal_
   return (kFromBelow + (1.0f - kFromBelow) * up) * all;
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

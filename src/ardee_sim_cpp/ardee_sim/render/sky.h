@@ -5,7 +5,7 @@
 
 #include "ardee_sim/description/world.h"
 
-namespace ardee {
+namespace ardee::render {
 
 /// What is seen where a ray meets nothing: the scene's sky, paler towards the horizon, or its
 /// background.
@@ -15,4 +15,4 @@ Eigen::Vector3f sky_color(const Scene& scene, const Eigen::Vector3d& direction_W
 /// down gets less of it; without one it is the scene's ambient light everywhere.
 Eigen::Vector3f ambient_light(const Scene& scene, const Eigen::Vector3d& normal_W);
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 /// Share of the way between two copies in which they are mixed.
@@ -113,4 +113,4 @@ Color Texture::color(const Eigen::Vector2d& uv, double footprint) const {
   return (1.0f - share) * levels_[fine].bilinear(uv) + share * levels_[fine + 1].bilinear(uv);
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

@@ -10,7 +10,7 @@
 #include "ardee_sim/description/material.h"
 #include "ardee_sim/readers/image.h"
 
-namespace ardee {
+namespace ardee::render {
 
 /// A picture that repeats, with ever smaller copies of itself for places seen from far.
 class Texture {
@@ -42,4 +42,4 @@ class Texture {
   std::vector<Level> levels_;
 };
 
-}  // namespace ardee
+}  // namespace ardee::render

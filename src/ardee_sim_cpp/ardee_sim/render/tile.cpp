@@ -6,7 +6,7 @@
 
 #include "ardee_sim/render/tone.h"
 
-namespace ardee {
+namespace ardee::render {
 namespace {
 
 /// The bits of a number mirrored behind the binary point: with k / n an even pattern (Hammersley).
@@ -34,24 +34,24 @@ class Tile {
       for (int i = 0; i < count; ++i) {
         const double dx = (i + 0.5) / count;
         const double dy = mirrored_bits(static_cast<unsigned>(i)) + 0.5 / count;
-        shader_.send(x + dx, y + std::fmod(dy, 1.0));
+        shader_.enqueue(x + dx, y + std::fmod(dy, 1.0));
       }
     }
-    shader_.gather();
+    shader_.flush();
     write(image);
   }
 
   /// Through the middle of each pixel.
-  void shoot(const FrameParts& parts, Frame& frame) {
-    const bool quickly = parts.light && s_.options.quickly;
-    if (parts.depth || parts.ids || !quickly) send_all();
+  void render_frame(const FrameParts& parts, Frame& frame) {
+    const bool approximate = parts.light && s_.options.approximate;
+    if (parts.depth || parts.ids || !approximate) enqueue_all();
     if (parts.depth || parts.ids) write_hits(parts, frame);
-    if (quickly) {
+    if (approximate) {
       shader_.clear();
       quick_.shade(s_, area_, shader_, frame);
     }
-    if (quickly || !parts.light) return;
-    shader_.gather();
+    if (approximate || !parts.light) return;
+    shader_.flush();
     for (std::size_t k = 0; k < shader_.samples().size(); ++k) {
       frame.light[index_in(frame, k)] = shader_.samples()[k].light;
     }
@@ -63,9 +63,9 @@ class Tile {
     return frame.index(area_.left + k % area_.width, area_.upper + k / area_.width);
   }
 
-  void send_all() {
+  void enqueue_all() {
     for (int k = 0; k < area_.width * area_.height; ++k) {
-      shader_.send(area_.left + k % area_.width + 0.5, area_.upper + k / area_.width + 0.5);
+      shader_.enqueue(area_.left + k % area_.width + 0.5, area_.upper + k / area_.width + 0.5);
     }
   }
 
@@ -88,15 +88,15 @@ class Tile {
   }
 
   void write_hits(const FrameParts& parts, Frame& frame) const {
-    const std::vector<SceneRay>& rays = shader_.rays();
-    std::vector<RayHit> hits(rays.size());
-    s_.rays.meet(rays.data(), rays.size(), hits.data());
+    const std::vector<raycast::SceneRay>& rays = shader_.rays();
+    std::vector<raycast::RayHit> hits(rays.size());
+    s_.rays.intersect(rays.data(), rays.size(), hits.data());
     const std::vector<Sample>& samples = shader_.samples();
-    std::vector<RayHit> of_pixel(samples.size());
+    std::vector<raycast::RayHit> of_pixel(samples.size());
     for (std::size_t i = 0; i < rays.size(); ++i) of_pixel[shader_.owners()[i]] = hits[i];
     for (std::size_t k = 0; k < of_pixel.size(); ++k) {
-      const RayHit& hit = of_pixel[k];
-      const bool met = hit.entity != kNoEntity;
+      const raycast::RayHit& hit = of_pixel[k];
+      const bool met = hit.entity != raycast::kNoEntity;
       const std::size_t at = index_in(frame, k);
       if (parts.depth) {
         const double range_m = samples[k].travelled_m + static_cast<double>(hit.range_m);
@@ -113,7 +113,7 @@ class Tile {
   const TileShading& s_;
   const TileArea area_;
   Shader& shader_;
-  QuickTile& quick_;
+  AdaptiveTile& quick_;
 };
 
 }  // namespace
@@ -125,7 +125,7 @@ void shade_tile(const TileShading& shading, const TileArea& area, TileWorker& wo
 
 void shoot_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
                 TileWorker& worker, Frame& frame) {
-  Tile(shading, area, worker).shoot(parts, frame);
+  Tile(shading, area, worker).render_frame(parts, frame);
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

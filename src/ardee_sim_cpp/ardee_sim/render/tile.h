@@ -2,14 +2,14 @@
 #pragma once
 
 #include "ardee_sim/readers/image.h"
-#include "ardee_sim/render/quick_tile.h"
+#include "ardee_sim/render/adaptive_tile.h"
 
-namespace ardee {
+namespace ardee::render {
 
 /// What a thread works with, from tile to tile.
 struct TileWorker {
   Shader shader;
-  QuickTile quick;
+  AdaptiveTile quick;
 };
 
 /// Computes the pixels of `area` and writes them into `image`. `worker` is the thread's own.
@@ -18,4 +18,4 @@ void shade_tile(const TileShading& shading, const TileArea& area, TileWorker& wo
 void shoot_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
                 TileWorker& worker, Frame& frame);
 
-}  // namespace ardee
+}  // namespace ardee::render

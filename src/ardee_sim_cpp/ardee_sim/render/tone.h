@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace ardee {
+namespace ardee::render {
 
 /// Light up to this is shown as it is; what is brighter approaches white.
 constexpr float kToneKnee = 0.8f;
@@ -25,4 +25,4 @@ inline std::uint8_t to_byte(float brightness) {
   return brightness < 1.0f ? static_cast<std::uint8_t>(255.0f * brightness + 0.5f) : 255;
 }
 
-}  // namespace ardee
+}  // namespace ardee::render

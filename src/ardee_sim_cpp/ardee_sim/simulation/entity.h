@@ -18,11 +18,11 @@ struct Entity {
   Instance instance;  // as it was spawned: name, model, initial pose
   std::string robot_namespace;
   std::map<std::string, double> joint_positions;
-  std::unique_ptr<Robot> robot;
-  std::vector<std::unique_ptr<Device>> devices;
+  std::unique_ptr<devices::Robot> robot;
+  std::vector<std::unique_ptr<devices::Device>> devices;
   std::vector<Placement>
       placements;  // static: what stands where; the k-th has the ray entity robot->entity() + k
-  PhysicsWorld::SceneryId scenery = 0;
+  physics::PhysicsWorld::SceneryId scenery = 0;
   std::optional<TimeNs> told_put_back_ns = std::nullopt;  // when the log last said so
 
   const std::string& name() const { return instance.name; }

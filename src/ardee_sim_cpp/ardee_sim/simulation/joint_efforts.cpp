@@ -13,12 +13,12 @@ void erase_if(std::vector<JointEffort>& efforts, Predicate predicate) {
 
 }  // namespace
 
-void JointEfforts::clear(const Robot& robot, std::size_t joint) {
+void JointEfforts::clear(const devices::Robot& robot, std::size_t joint) {
   erase_if(efforts_,
            [&](const JointEffort& each) { return each.robot == &robot && each.joint == joint; });
 }
 
-void JointEfforts::clear(const Robot& robot) {
+void JointEfforts::clear(const devices::Robot& robot) {
   erase_if(efforts_, [&](const JointEffort& each) { return each.robot == &robot; });
 }
 

@@ -10,7 +10,7 @@ namespace ardee {
 
 /// An effort (N m or N) along a joint's first axis for a while.
 struct JointEffort {
-  Robot* robot = nullptr;
+  devices::Robot* robot = nullptr;
   std::size_t joint = 0;
   double effort = 0.0;
   TimeNs start_ns = 0;
@@ -21,8 +21,8 @@ struct JointEffort {
 class JointEfforts {
  public:
   void add(const JointEffort& effort) { efforts_.push_back(effort); }
-  void clear(const Robot& robot, std::size_t joint);
-  void clear(const Robot& robot);
+  void clear(const devices::Robot& robot, std::size_t joint);
+  void clear(const devices::Robot& robot);
   void clear_all() { efforts_.clear(); }
   /// Applies those in force at `now_ns` and forgets those that are over.
   void apply(TimeNs now_ns);

@@ -5,8 +5,8 @@
 
 namespace ardee {
 
-Registry known_plugins() {
-  Registry registry = builtin_registry();
+devices::Registry known_plugins() {
+  devices::Registry registry = devices::builtin_registry();
   control::add_ros_control(registry);
   return registry;
 }

@@ -6,6 +6,6 @@
 namespace ardee {
 
 /// All plugins that a simulation knows: the devices, and ros_control.
-Registry known_plugins();
+devices::Registry known_plugins();
 
 }  // namespace ardee

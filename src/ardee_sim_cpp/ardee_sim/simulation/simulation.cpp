@@ -15,9 +15,9 @@ namespace {
 constexpr TimeNs kPutBackSilence_ns = 1000000000;
 
 /// Forwards to nobody while no sink is set.
-class NoSink : public ReadingSink {
+class NoSink : public devices::ReadingSink {
  public:
-  void on_reading(const Output&, const Reading&) override {}
+  void on_reading(const devices::Output&, const devices::Reading&) override {}
 };
 
 void require_in_world(const std::string& name, const Pose& X_WM) {
@@ -52,7 +52,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
       now_ns_(world.start_ns),
       step_ns_(nanoseconds(world.physics.step_s)) {
   const LogGroup group(log_);
-  for (const PluginAlias& alias : options.plugin_aliases) registry_.add_alias(alias);
+  for (const devices::PluginAlias& alias : options.plugin_aliases) registry_.add_alias(alias);
   physics_.reset_random(options_.seed);
   world_.models.clear();  // from here on they live in entities_
   for (const PluginDescription& plugin : world.plugins) {
@@ -104,12 +104,12 @@ Entity& Simulation::add(std::unique_ptr<Entity> entity) {
   require_in_world(name, entity->instance.pose);
   // A model without links of its own (a field of included plants) has nothing that could move.
   if (model->is_static || model->links.empty()) entity->instance.is_static = true;
-  entity->robot = std::make_unique<Robot>(name, model, next_entity_);
+  entity->robot = std::make_unique<devices::Robot>(name, model, next_entity_);
   if (!entity->is_static() && !model->instances.empty()) {
     throw Error(model->source, "model '" + name + "' moves but holds static models");
   }
   if (entity->is_static()) entity->placements = flatten_scenery(entity->instance);
-  restore(*entity);
+  instantiate(*entity);
   try {
     for (const Placement& each : entity->placements) require_in_world(name, each.X_WM);
     for (std::size_t link = 0; link < model->links.size(); ++link) {
@@ -130,14 +130,14 @@ Entity& Simulation::add(std::unique_ptr<Entity> entity) {
   return *entities_.back();
 }
 
-void Simulation::restore(Entity& entity) {
+void Simulation::instantiate(Entity& entity) {
   if (entity.is_static()) {
     entity.robot->place(entity.instance.pose);
     entity.scenery =
         physics_.add_scenery(entity.placements, entity.name(), placement_names(entity.instance));
     return;
   }
-  PhysicsModel& dynamics =
+  physics::PhysicsModel& dynamics =
       physics_.add_model(entity.instance.model, entity.instance.pose, entity.name());
   try {
     entity.robot->attach(&dynamics);
@@ -157,23 +157,23 @@ void Simulation::take_from_physics(const Entity& entity) {
 }
 
 void Simulation::build_devices(Entity& entity) {
-  DeviceContext context{*entity.robot,
-                        scenes_,
-                        pictures_,
-                        log_,
-                        stream_key(options_.seed, entity.name()),
-                        entity.robot_namespace,
-                        step_ns_,
-                        options_.tf_prefix,
-                        surroundings(),
-                        "",
-                        options_.parameter};
+  devices::DeviceContext context{*entity.robot,
+                                 scenes_,
+                                 pictures_,
+                                 log_,
+                                 stream_key(options_.seed, entity.name()),
+                                 entity.robot_namespace,
+                                 step_ns_,
+                                 options_.tf_prefix,
+                                 world_info(),
+                                 "",
+                                 options_.parameter};
   entity.devices = registry_.make_devices(context);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }
 
-Surroundings Simulation::surroundings() {
-  Surroundings made;
+devices::WorldInfo Simulation::world_info() {
+  devices::WorldInfo made;
   made.gravity_m_per_s2 = [this] { return physics_.params().gravity_m_per_s2; };
   made.spherical_coordinates = world_.spherical_coordinates;
   made.scenery_files = [this] {
@@ -185,7 +185,7 @@ Surroundings Simulation::surroundings() {
   };
   made.scenery_changes = [this] { return scenery_changes_; };
   made.want_contacts = [this] { physics_.want_contacts(); };
-  made.contacts = [this]() -> const std::vector<Contact>& { return physics_.contacts(); };
+  made.contacts = [this]() -> const std::vector<physics::Contact>& { return physics_.contacts(); };
   return made;
 }
 
@@ -223,7 +223,7 @@ void Simulation::apply_commands() {
   joint_efforts_.apply(now_ns_);
 }
 
-void Simulation::clear_commands(const Robot& robot) {
+void Simulation::clear_commands(const devices::Robot& robot) {
   wrenches_.clear(robot);
   joint_efforts_.clear(robot);
 }
@@ -246,7 +246,7 @@ void Simulation::run_observers() {
 }
 
 void Simulation::step_physics() {
-  for (const LostModel& lost : physics_.step()) {
+  for (const physics::LostModel& lost : physics_.step()) {
     const auto is_lost = [&lost](const auto& entity) {
       return !entity->is_static() && &entity->robot->dynamics() == lost.model;
     };
@@ -266,7 +266,7 @@ void Simulation::put_back(Entity& entity, const std::string& why) {
   }
   clear_commands(*entity.robot);
   physics_.remove_model(entity.robot->dynamics());
-  restore(entity);
+  instantiate(entity);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }
 
@@ -277,7 +277,7 @@ void Simulation::advance_clock() {
 
 void Simulation::sample_devices() {
   NoSink nobody;
-  ReadingSink& sink = sink_ ? *sink_ : nobody;
+  devices::ReadingSink& sink = sink_ ? *sink_ : nobody;
   for (const auto& [name, entity] : by_name_) {
     for (const auto& device : entity->devices) device->after_step(now_ns_, sink);
   }
@@ -295,7 +295,7 @@ void Simulation::reset_entities() {
     if (entity->is_static()) {
       place_static(*entity, entity->instance.pose);
     } else {
-      restore(*entity);
+      instantiate(*entity);
     }
   }
   for (const auto& entity : entities_) {

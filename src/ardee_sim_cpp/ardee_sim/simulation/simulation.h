@@ -13,19 +13,20 @@
 #include "ardee_sim/devices/registry.h"
 #include "ardee_sim/simulation/entity.h"
 #include "ardee_sim/simulation/joint_efforts.h"
-#include "ardee_sim/simulation/picture_maker.h"
-#include "ardee_sim/simulation/ray_scenes.h"
+#include "ardee_sim/simulation/ray_scene_set.h"
+#include "ardee_sim/simulation/world_camera_renderer.h"
 #include "ardee_sim/simulation/wrenches.h"
 
 namespace ardee {
 
 struct SimulationOptions {
   std::uint64_t seed = 0;
-  RayOptions rays;
+  raycast::RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
-  std::function<Setting(const std::string& name)> parameter = no_parameter;  // of DeviceContext
-  std::vector<PluginAlias> plugin_aliases;  // added to the built-in ones
+  std::function<Setting(const std::string& name)> parameter =
+      devices::no_parameter;                         // of DeviceContext
+  std::vector<devices::PluginAlias> plugin_aliases;  // added to the built-in ones
 };
 
 struct SpawnRequest {
@@ -63,7 +64,7 @@ class Simulation {
   ~Simulation();
 
   /// Receives all readings from now on; nullptr: nobody.
-  void set_sink(ReadingSink* sink) { sink_ = sink; }
+  void set_sink(devices::ReadingSink* sink) { sink_ = sink; }
 
   /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then
   /// leaves nothing behind.
@@ -112,11 +113,11 @@ class Simulation {
   Wrenches& wrenches() { return wrenches_; }
   JointEfforts& joint_efforts() { return joint_efforts_; }
   /// Rays into the present world, for tools (pictures, labels).
-  RayScenes& scenes() { return scenes_; }
+  devices::RaySceneProvider& scenes() { return scenes_; }
 
  private:
   void apply_commands();
-  void clear_commands(const Robot& robot);
+  void clear_commands(const devices::Robot& robot);
   void run_controllers();
   void run_observers();
   void step_physics();
@@ -125,8 +126,8 @@ class Simulation {
   void add_world_models(const std::vector<Instance>& models);
   Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
-  Surroundings surroundings();
-  void restore(Entity& entity);
+  devices::WorldInfo world_info();
+  void instantiate(Entity& entity);
   void take_from_physics(const Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);
   /// Puts a model back to where it was spawned; the rest of the world goes on.
@@ -137,15 +138,15 @@ class Simulation {
   World world_;
   SimulationOptions options_;
   Log log_;
-  Registry registry_;
-  PhysicsWorld physics_;
-  SceneSet scenes_;
-  PictureMaker pictures_;
+  devices::Registry registry_;
+  physics::PhysicsWorld physics_;
+  RaySceneSet scenes_;
+  WorldCameraRenderer pictures_;
   Wrenches wrenches_;
   JointEfforts joint_efforts_;
   std::vector<std::unique_ptr<Entity>> entities_;  // gone before what their devices refer to
   std::map<std::string, Entity*> by_name_;         // the order in which they act and measure
-  ReadingSink* sink_ = nullptr;
+  devices::ReadingSink* sink_ = nullptr;
   TimeNs now_ns_ = 0;
   TimeNs step_ns_ = 0;
   std::uint64_t step_count_ = 0;

@@ -30,7 +30,7 @@ RelativeState Simulation::state_in_world(const std::string& name) const {
     if (entity->name() == name) return {entity->robot->pose(), entity->robot->twist()};
   }
   if (const auto found = find_link(name)) {
-    const Robot& robot = *found->entity->robot;
+    const devices::Robot& robot = *found->entity->robot;
     return {robot.link_pose(found->link), robot.link_twist(found->link)};
   }
   throw Error("'" + name + "' does not exist, expected a model, model::link or world");

@@ -36,12 +36,12 @@ void Wrenches::add(const Wrench& wrench) {
   wrenches_.push_back(fixed);
 }
 
-void Wrenches::clear(const Robot& robot, std::size_t link) {
+void Wrenches::clear(const devices::Robot& robot, std::size_t link) {
   erase_if(wrenches_,
            [&](const Wrench& wrench) { return wrench.robot == &robot && wrench.link == link; });
 }
 
-void Wrenches::clear(const Robot& robot) {
+void Wrenches::clear(const devices::Robot& robot) {
   erase_if(wrenches_, [&](const Wrench& wrench) { return wrench.robot == &robot; });
 }
 

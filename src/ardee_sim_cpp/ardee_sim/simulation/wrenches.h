@@ -12,7 +12,7 @@ namespace ardee {
 /// A push on a link for a while; forces in world axes (N, N m), the point, in the link's frame (m),
 /// as the link stands when the push is added.
 struct Wrench {
-  Robot* robot = nullptr;
+  devices::Robot* robot = nullptr;
   std::size_t link = 0;
   Eigen::Vector3d force_W{0, 0, 0};
   Eigen::Vector3d torque_W{0, 0, 0};
@@ -26,8 +26,8 @@ class Wrenches {
  public:
   /// Throws Error for a wrench beyond what the physics takes, and then keeps what there was.
   void add(const Wrench& wrench);
-  void clear(const Robot& robot, std::size_t link);
-  void clear(const Robot& robot);
+  void clear(const devices::Robot& robot, std::size_t link);
+  void clear(const devices::Robot& robot);
   void clear_all() { wrenches_.clear(); }
   /// Applies those in force at `now_ns` and forgets those that are over.
   void apply(TimeNs now_ns);

@@ -15,24 +15,24 @@ const Eigen::Vector3d kAside(-0.75, -1.0, 0.6);
 /// A little room about the outermost corners.
 constexpr double kRoom = 1.05;
 
-bool is_ground(const Bounds& box) {
+bool is_ground(const raycast::Bounds& box) {
   const Eigen::Vector3d size = box.upper - box.lower;
   return size.head<2>().maxCoeff() > kGroundRatio * size.z();
 }
 
 }  // namespace
 
-Pose view_over(const std::vector<Bounds>& boxes_W, const Camera& camera) {
-  Bounds things;
-  Bounds all;
-  for (const Bounds& box : boxes_W) {
+Pose view_over(const std::vector<raycast::Bounds>& boxes_W, const render::Camera& camera) {
+  raycast::Bounds things;
+  raycast::Bounds all;
+  for (const raycast::Bounds& box : boxes_W) {
     all.add(box);
     if (!is_ground(box)) things.add(box);
   }
-  const Bounds& shown = things.empty() ? all : things;
-  if (shown.empty()) return look_at(kAside.normalized() * kAwayAtLeast_m, {0, 0, 0});
+  const raycast::Bounds& shown = things.empty() ? all : things;
+  if (shown.empty()) return render::look_at(kAside.normalized() * kAwayAtLeast_m, {0, 0, 0});
   const Eigen::Vector3d aside = kAside.normalized();
-  const Eigen::Quaterniond inverse = look_at(aside, {0, 0, 0}).q.conjugate();
+  const Eigen::Quaterniond inverse = render::look_at(aside, {0, 0, 0}).q.conjugate();
   const double half_width = 0.5 * camera.width / camera.focal_length_px();
   const double half_height = 0.5 * camera.height / camera.focal_length_px();
   double away_m = kAwayAtLeast_m;
@@ -44,7 +44,7 @@ Pose view_over(const std::vector<Bounds>& boxes_W, const Camera& camera) {
     const double needed = std::max(std::abs(p.y()) / half_width, std::abs(p.z()) / half_height);
     away_m = std::max(away_m, kRoom * needed - p.x());
   }
-  return look_at(shown.center() + away_m * aside, shown.center());
+  return render::look_at(shown.center() + away_m * aside, shown.center());
 }
 
 }  // namespace ardee

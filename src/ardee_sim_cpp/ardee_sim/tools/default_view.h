@@ -10,6 +10,6 @@ namespace ardee {
 
 /// A place from above and aside from which all boxes fit into the camera's picture. Grounds, much
 /// wider than high, count only if there is nothing else.
-Pose view_over(const std::vector<Bounds>& boxes_W, const Camera& camera);
+Pose view_over(const std::vector<raycast::Bounds>& boxes_W, const render::Camera& camera);
 
 }  // namespace ardee

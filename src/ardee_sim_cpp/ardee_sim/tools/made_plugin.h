@@ -17,7 +17,7 @@ class MadePlugin {
   /// `more` stands in the plugin's element too. Throws std::logic_error if it cannot be made.
   MadePlugin(const std::string& file, bool in_sensor, const std::string& more = "");
 
-  Device& device() const { return *device_; }
+  devices::Device& device() const { return *device_; }
   /// What it asked for.
   const KeyLog& keys() const { return *keys_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -33,7 +33,7 @@ class MadePlugin {
   std::vector<std::string> warnings_;
   std::shared_ptr<KeyLog> keys_;
   std::unique_ptr<Simulation> simulation_;
-  Device* device_ = nullptr;
+  devices::Device* device_ = nullptr;
 };
 
 }  // namespace ardee

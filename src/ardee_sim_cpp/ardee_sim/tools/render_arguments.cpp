@@ -99,7 +99,7 @@ struct View {
       throw Error("found one of --look-from and --look-at, expected both or none");
     }
     if (pose && from) throw Error("found --pose and --look-from, expected one of them");
-    return from ? std::optional<Pose>(look_at(*from, *at)) : pose;
+    return from ? std::optional<Pose>(render::look_at(*from, *at)) : pose;
   }
 };
 

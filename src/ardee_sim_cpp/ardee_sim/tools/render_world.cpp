@@ -45,12 +45,12 @@ class ProgressLine {
 };
 
 /// The world's scenery and models where their description puts them, and the robot.
-void fill(RayScene& rays, Looks& looks, const World& world,
+void fill(raycast::RayScene& rays, render::MaterialLibrary& materials, const World& world,
           const std::shared_ptr<const Model>& robot, const Pose& robot_W) {
   std::vector<Placement> placements;
   const auto put = [&](const Instance& instance) {
     for (Placement& placement : flatten_scenery(instance)) {
-      looks.add(placement.model);
+      materials.add(placement.model);
       placements.push_back(std::move(placement));
     }
   };
@@ -65,8 +65,9 @@ void fill(RayScene& rays, Looks& looks, const World& world,
   rays.add_scenery(0, placements);
 }
 
-Camera camera_of(const RenderArguments& arguments, const World& world, RayScene& rays) {
-  Camera camera;
+render::Camera camera_of(const RenderArguments& arguments, const World& world,
+                         raycast::RayScene& rays) {
+  render::Camera camera;
   camera.width = arguments.width;
   camera.height = arguments.height;
   camera.horizontal_fov_rad = arguments.horizontal_fov_rad;
@@ -89,16 +90,16 @@ int draw(const RenderArguments& arguments) {
   const World world = loader.load_world(arguments.world);
   const std::shared_ptr<const Model> robot =
       arguments.robot.empty() ? nullptr : loader.load_model(arguments.robot);
-  RayOptions ray_options;
+  raycast::RayOptions ray_options;
   ray_options.threads = arguments.threads;
-  ray_options.flattened_radius_m = kFlattenedRadius_m;
-  RayScene rays(SceneKind::kVisual, ray_options, log);
-  Looks looks(log);
-  fill(rays, looks, world, robot, arguments.robot_W);
-  const Camera camera = camera_of(arguments, world, rays);
+  ray_options.local_scene_radius_m = kFlattenedRadius_m;
+  raycast::RayScene rays(raycast::SceneKind::kVisual, ray_options, log);
+  render::MaterialLibrary materials(log);
+  fill(rays, materials, world, robot, arguments.robot_W);
+  const render::Camera camera = camera_of(arguments, world, rays);
   rays.prepare({camera.X_WC.p});
-  const Renderer renderer(rays, looks, world.scene, world.lights);
-  RenderOptions options;
+  const render::Renderer renderer(rays, materials, world.scene, world.lights);
+  render::RenderOptions options;
   options.samples = arguments.samples;
   options.shadows = arguments.shadows;
   options.threads = arguments.threads;

@@ -36,7 +36,8 @@ constexpr const char* kMessages[] = {"sensor_msgs/LaserScan",
                                      "four_wheel_steering_msgs/FourWheelSteeringStamped",
                                      "gazebo_msgs/ContactsState",
                                      "geometry_msgs/WrenchStamped"};
-static_assert(std::size(kMessages) == std::variant_size_v<Reading>, "a message a kind of reading");
+static_assert(std::size(kMessages) == std::variant_size_v<devices::Reading>,
+              "a message a kind of reading");
 
 constexpr const char* kCommandMessages[] = {  // in the order of Command
     "std_msgs/Empty",
@@ -47,7 +48,7 @@ constexpr const char* kCommandMessages[] = {  // in the order of Command
     "four_wheel_steering_msgs/FourWheelSteering",
     "trajectory_msgs/JointTrajectory",
     "geometry_msgs/Wrench"};
-static_assert(std::size(kCommandMessages) == std::variant_size_v<Command>,
+static_assert(std::size(kCommandMessages) == std::variant_size_v<devices::Command>,
               "a message a kind of command");
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -56,16 +57,17 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-void write_ports(Device& device, std::ostringstream& page) {
+void write_ports(devices::Device& device, std::ostringstream& page) {
   std::vector<std::string> out, in, calls;
-  for (const Output& output : device.ports().outputs) {
+  for (const devices::Output& output : device.ports().outputs) {
     out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
   }
-  for (const Input& input : device.ports().inputs) {
+  for (const devices::Input& input : device.ports().inputs) {
     in.push_back("`" + input.topic + "` (" + kCommandMessages[input.kind] + ")");
   }
-  for (const Service& service : device.ports().services) calls.push_back("`" + service.name + "`");
-  for (const Tuning& tuning : device.ports().tunings) {
+  for (const devices::Service& service : device.ports().services)
+    calls.push_back("`" + service.name + "`");
+  for (const devices::ParameterGroup& tuning : device.ports().tunings) {
     calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
   }
   if (!out.empty()) page << " Publishes " << joined(out) << ".";
@@ -105,7 +107,7 @@ void write_aliases(std::ostringstream& page) {
           "the above), `keys` (their name: ours).\n`librealsense_gazebo_plugin.so` of a model is "
           "read as a camera plugin in each of its four sensors.\n\n"
           "| file | plugin | keys |\n|---|---|---|\n";
-  for (const PluginAlias& alias : builtin_aliases()) {
+  for (const devices::PluginAlias& alias : devices::builtin_aliases()) {
     page << "| `" << alias.filename << "` | `" << alias.plugin << "` | ";
     for (const auto& [theirs, ours] : alias.keys) page << "`" << theirs << "`: `" << ours << "` ";
     page << "|\n";
@@ -149,7 +151,7 @@ std::string plugins_in_markdown() {
           "in a plugin that publishes leaves that plugin out, with one error; in a drive, a servo\n"
           "or a spring it refuses the robot. Plugins of worlds are left out with a warning "
           "each.\n\n";
-  const Registry registry = known_plugins();
+  const devices::Registry registry = known_plugins();
   for (const std::string& file : registry.model_plugin_files()) write_plugin(file, false, page);
   for (const std::string& file : registry.sensor_plugin_files()) write_plugin(file, true, page);
   write_controllers(page);

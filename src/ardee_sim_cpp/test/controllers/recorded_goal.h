@@ -8,6 +8,7 @@
 #include "rig.h"
 
 namespace ardee::control {
+using namespace devices;
 
 /// A client's side of a goal: what came back.
 template <typename Action>

@@ -13,6 +13,8 @@
 #include "ardee_sim/core/error.h"
 
 namespace ardee::control {
+using namespace physics;
+using namespace devices;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -128,9 +130,9 @@ class Rig : public ReadingSink {
   void drive(double v_m_per_s, double w_rad_per_s) {
     send("/base/cmd_vel", Twist{{v_m_per_s, 0, 0}, {0, 0, w_rad_per_s}});
   }
-  Tunable& tunable(const std::string& name) {
-    for (Tuning& tuning : controller->ports().tunings) {
-      for (Tunable& each : tuning.parameters) {
+  TunableParameter& tunable(const std::string& name) {
+    for (ParameterGroup& tuning : controller->ports().tunings) {
+      for (TunableParameter& each : tuning.parameters) {
         if (each.name == name) return each;
       }
     }

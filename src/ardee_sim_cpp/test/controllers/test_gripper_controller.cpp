@@ -7,6 +7,7 @@
 #include "recorded_goal.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 /// A finger; steps of 0.01 s.

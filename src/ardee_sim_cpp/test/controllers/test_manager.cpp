@@ -8,6 +8,7 @@
 #include "ardee_sim/core/error.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 class NoSink : public ReadingSink {

@@ -3,6 +3,7 @@
 #include "rig.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 class MecanumDriveController : public testing::Test {

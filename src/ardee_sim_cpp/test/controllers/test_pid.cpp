@@ -7,6 +7,7 @@
 #include "ardee_sim/core/error.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 Setting group(const Setting::Map& map) {
@@ -107,7 +108,7 @@ TEST(Pid, WarnsThatItsStateIsNotPublished) {
 
 TEST(Pid, IsTuned) {
   Pid pid(gains(1.0, 0.0, 0.0));
-  const Tuning tuning = pid.tuning("/robot/pid");
+  const ParameterGroup tuning = pid.tuning("/robot/pid");
   EXPECT_EQ(tuning.name, "/robot/pid");
   tuning.parameters[0].set(7.0);
   EXPECT_DOUBLE_EQ(pid.update(2.0, 0.1), 14.0);

@@ -4,6 +4,8 @@
 #include "rig.h"
 
 namespace ardee::control {
+using namespace physics;
+using namespace devices;
 namespace {
 
 JointHandle joint_at(JointType type, double position) {

@@ -8,6 +8,7 @@
 #include "rig.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 void expect_motion(const JointMotion& motion, double position, double velocity,

@@ -5,6 +5,7 @@
 #include "recorded_goal.h"
 
 namespace ardee::control {
+using namespace devices;
 namespace {
 
 /// Two joints and a controller of their positions; steps of 0.01 s.

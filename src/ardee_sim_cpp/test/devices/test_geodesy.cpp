@@ -6,6 +6,7 @@
 #include "ardee_sim/devices/geodesy.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;

@@ -5,6 +5,7 @@
 #include "ardee_sim/devices/plugin_aliases.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 TEST(PluginAliasFile, GivesItsRows) {

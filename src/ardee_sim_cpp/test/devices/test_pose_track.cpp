@@ -4,6 +4,7 @@
 #include "ardee_sim/devices/pose_track.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 Pose at_x(double x_m, double yaw_rad = 0.0) {

@@ -7,6 +7,8 @@
 #include "ardee_sim/readers/loader.h"
 
 namespace ardee {
+using namespace render;
+using namespace devices;
 namespace {
 
 class RayBlockTest : public testing::Test {

@@ -6,6 +6,7 @@
 #include "ardee_sim/devices/sensor_model.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr std::uint64_t kKey = 20210;
@@ -158,7 +159,7 @@ TEST(SensorModel, a_drift_that_is_set_decays_with_its_time_constant) {
 
 TEST(SensorModel, tuning_has_the_names_and_bounds_of_hector) {
   SensorModel model(errors_of({{"gaussianNoise", "1 2 3"}}), 3, kKey);
-  const Tuning tuning = model.tuning("imu/accel");
+  const ParameterGroup tuning = model.tuning("imu/accel");
   ASSERT_EQ(tuning.parameters.size(), 5u);
   EXPECT_EQ(tuning.name, "imu/accel");
   EXPECT_EQ(tuning.parameters[0].name, "gaussian_noise");

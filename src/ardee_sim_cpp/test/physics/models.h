@@ -9,6 +9,7 @@
 #include "ardee_sim/physics/physics_world.h"
 
 namespace ardee::test {
+using namespace physics;
 
 constexpr double kGravity = 9.8;
 

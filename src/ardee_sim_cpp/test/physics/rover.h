@@ -4,6 +4,7 @@
 #include "models.h"
 
 namespace ardee::test {
+using namespace physics;
 
 /// A four-wheeled robot with legs on torsional springs, in the dimensions of a small field robot:
 /// wheels of 97 mm, legs of 160 mm, 100 N m/rad, 12 kg in all. Forward is x. Joints: leg and wheel

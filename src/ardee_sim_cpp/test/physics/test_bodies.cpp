@@ -4,6 +4,7 @@
 #include "models.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Bodies : public testing::TestWithParam<double> {

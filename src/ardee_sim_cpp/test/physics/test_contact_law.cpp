@@ -5,6 +5,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 PhysicsParams layered(double layer_m) {
@@ -30,7 +31,7 @@ Surface stiff(double min_depth_m) {
   return surface;
 }
 
-TEST(ContactLaw, ADepthOfItsOwnTakesThePlaceOfTheWorldsLayer) {
+TEST(ContactParameters, ADepthOfItsOwnTakesThePlaceOfTheWorldsLayer) {
   const double sinks_m = 2 * kGravity / 4 / 1e6;  // four corners on springs
   EXPECT_NEAR(rest_depth(0.01, stiff(0.002), Surface{}), 0.002 + sinks_m, 1e-5);
   EXPECT_NEAR(rest_depth(0.0, stiff(0.002), Surface{}), 0.002 + sinks_m, 1e-5);
@@ -38,14 +39,14 @@ TEST(ContactLaw, ADepthOfItsOwnTakesThePlaceOfTheWorldsLayer) {
       << "scenery is no body and has no depth";
 }
 
-TEST(ContactLaw, ABodyWithoutADepthKeepsAtMostAMillimetreOfTheLayer) {
+TEST(ContactParameters, ABodyWithoutADepthKeepsAtMostAMillimetreOfTheLayer) {
   const double sinks_m = 2 * kGravity / 4 / 1e6;
   EXPECT_NEAR(rest_depth(0.01, stiff(0.0), Surface{}), 0.001 + sinks_m, 1e-5);
   EXPECT_NEAR(rest_depth(0.01, stiff(-0.5), Surface{}), 0.001 + sinks_m, 1e-5);
   EXPECT_NEAR(rest_depth(0.0002, stiff(0.0), Surface{}), 0.0002 + sinks_m, 1e-4);
 }
 
-TEST(ContactLaw, OfTwoBodiesTheSmallerDepthCounts) {
+TEST(ContactParameters, OfTwoBodiesTheSmallerDepthCounts) {
   PhysicsWorld world(layered(0.01), silent());
   auto table = box_model(100, {1, 1, 0.2}, stiff(0.003));
   table->links[0].kinematic = true;
@@ -55,7 +56,7 @@ TEST(ContactLaw, OfTwoBodiesTheSmallerDepthCounts) {
   EXPECT_NEAR(0.2 - box.pose().p.z(), 0.003 + 2 * 2 * kGravity / 4 / 1e6, 2e-5);
 }
 
-TEST(ContactLaw, ABodyIsPushedOutAsFastAsItMayBe) {
+TEST(ContactParameters, ABodyIsPushedOutAsFastAsItMayBe) {
   for (const double own : {0.05, 0.3, -1.0}) {
     Surface surface;
     surface.max_correcting_velocity_m_per_s = own;
@@ -69,7 +70,7 @@ TEST(ContactLaw, ABodyIsPushedOutAsFastAsItMayBe) {
   }
 }
 
-TEST(ContactLaw, BodiesMeetWhereMasksDo) {
+TEST(ContactParameters, BodiesMeetWhereMasksDo) {
   struct Case {
     std::uint32_t category_a, mask_a, category_b, mask_b;
     bool meet;
@@ -94,7 +95,7 @@ TEST(ContactLaw, BodiesMeetWhereMasksDo) {
   }
 }
 
-TEST(ContactLaw, WhatCollidesWithoutContactFallsThrough) {
+TEST(ContactParameters, WhatCollidesWithoutContactFallsThrough) {
   for (const bool of_ground : {false, true}) {
     Surface ghost;
     ghost.collide_without_contact = true;
@@ -107,7 +108,7 @@ TEST(ContactLaw, WhatCollidesWithoutContactFallsThrough) {
   }
 }
 
-TEST(ContactLaw, UnlimitedFrictionNeverSlides) {
+TEST(ContactParameters, UnlimitedFrictionNeverSlides) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double other : {infinity, 1e30}) {
     Surface grip;
@@ -130,7 +131,7 @@ TEST(ContactLaw, UnlimitedFrictionNeverSlides) {
   }
 }
 
-TEST(ContactLaw, APatchResistsTurningOnTheSpot) {
+TEST(ContactParameters, APatchResistsTurningOnTheSpot) {
   // Hertz's pressure on a patch of radius a: a moment of 3 pi / 16 a mu N.
   Surface rubber;
   rubber.torsional_mu = 0.8;

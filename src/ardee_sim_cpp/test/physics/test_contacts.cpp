@@ -5,6 +5,7 @@
 #include "rover.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Contacts : public testing::TestWithParam<double> {

@@ -6,6 +6,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr double kStep_s = 0.001;

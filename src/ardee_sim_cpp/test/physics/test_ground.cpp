@@ -6,6 +6,7 @@
 #include "rover.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Ground : public testing::TestWithParam<double> {

@@ -4,6 +4,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Joints : public testing::TestWithParam<double> {

@@ -7,6 +7,7 @@
 #include "models.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr int kLinks = 20'000;

@@ -5,6 +5,7 @@
 #include "rover.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr double kStep_s = 0.001;

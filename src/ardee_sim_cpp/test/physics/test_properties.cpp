@@ -5,6 +5,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 using Eigen::Vector3d;

@@ -8,6 +8,7 @@
 #include "models.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr double kStep_s = 0.001;

@@ -4,6 +4,7 @@
 #include "rover.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Rover : public testing::TestWithParam<double> {

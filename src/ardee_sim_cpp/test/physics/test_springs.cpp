@@ -6,6 +6,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 class Springs : public testing::TestWithParam<double> {

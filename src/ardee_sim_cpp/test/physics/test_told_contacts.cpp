@@ -5,6 +5,7 @@
 #include "models.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 using Eigen::Vector3d;

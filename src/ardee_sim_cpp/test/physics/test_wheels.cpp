@@ -5,6 +5,7 @@
 #include "joints.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr double kRadius_m = 0.1;

@@ -9,6 +9,7 @@
 #include "rover.h"
 
 namespace ardee::test {
+using namespace physics;
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -11,6 +11,7 @@
 #include "ardee_sim/raycast/ray_scene.h"
 
 namespace ardee::test {
+using namespace raycast;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -105,11 +106,12 @@ inline RayPattern random_pattern(int count, std::uint64_t seed) {
 }
 
 /// Rays of a picture in those directions, each from `near_m` to `far_m`; whole blocks of them.
-inline std::vector<GlanceBlock> blocks_of(const RayPattern& pattern, float near_m, float far_m) {
-  std::vector<GlanceBlock> blocks(pattern.directions_S.size() / GlanceBlock::kRays);
-  for (std::size_t k = 0; k < blocks.size() * GlanceBlock::kRays; ++k) {
-    GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-    const int i = static_cast<int>(k % GlanceBlock::kRays);
+inline std::vector<PrimaryRayPacket> blocks_of(const RayPattern& pattern, float near_m,
+                                               float far_m) {
+  std::vector<PrimaryRayPacket> blocks(pattern.directions_S.size() / PrimaryRayPacket::kRays);
+  for (std::size_t k = 0; k < blocks.size() * PrimaryRayPacket::kRays; ++k) {
+    PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
+    const int i = static_cast<int>(k % PrimaryRayPacket::kRays);
     block.set_direction(i, pattern.directions_S[k].normalized());
     block.near_m[i] = near_m;
     block.far_m[i] = far_m;
@@ -119,7 +121,7 @@ inline std::vector<GlanceBlock> blocks_of(const RayPattern& pattern, float near_
 
 inline RayOptions instances_only() {
   RayOptions options;
-  options.flatten = false;
+  options.local_scenes = false;
   return options;
 }
 

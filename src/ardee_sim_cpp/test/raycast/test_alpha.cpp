@@ -8,6 +8,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 /// An uncompressed TGA of 2 x 2 texels with the given opacities, upper row first.
@@ -48,7 +49,7 @@ TEST_P(Alpha, TexelsBelowTheRejectionAreHoles) {
   material.texture_path = write_texture({255, 0, 128, 127});
   material.alpha_rejection = 127.5f / 255.0f;
   RayOptions options;
-  options.flatten = GetParam();
+  options.local_scenes = GetParam();
   const auto met = [&](SceneKind kind, double y, double z) {
     TestScene scene(kind, options, 0, {placed(model_of(textured_square(), {}, material))});
     return std::isfinite(scene.one({3, y, z}, {-1, 0, 0}).range_m);

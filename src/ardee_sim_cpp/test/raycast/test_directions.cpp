@@ -6,6 +6,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 constexpr double kHalfRoom_m = 3.0;
@@ -91,7 +92,7 @@ std::vector<double> tiny_components() {
 /// `tiny` along the axes whose sign is 0, its neighbours are on one side of it.
 void add_block(const Eigen::Vector3i& sign, const Eigen::Vector3d& tiny, double side,
                std::vector<Eigen::Vector3d>& directions) {
-  for (int k = 0; k < GlanceBlock::kRays; ++k) {
+  for (int k = 0; k < PrimaryRayPacket::kRays; ++k) {
     Eigen::Vector3d direction;
     for (int axis = 0; axis < 3; ++axis) {
       const double beside = k % 5 == 0 ? tiny[axis] : side * 0.01 * k;
@@ -165,18 +166,18 @@ TEST_P(Directions, OfScansMeetTheWall) {
 }
 
 TEST_P(Directions, OfPicturesMeetTheWall) {
-  std::vector<SurfacePoint> points(rays_.size());
-  room_.scene.look(rays_.data(), rays_.size(), points.data());
+  std::vector<SurfaceInteraction> points(rays_.size());
+  room_.scene.trace(rays_.data(), rays_.size(), points.data());
   for (std::size_t k = 0; k < rays_.size(); ++k) expect_range(k, points[k].range_m);
-  room_.scene.look_quickly(rays_.data(), rays_.size(), points.data());
+  room_.scene.trace_approximately(rays_.data(), rays_.size(), points.data());
   for (std::size_t k = 0; k < rays_.size(); ++k) expect_range(k, points[k].range_m);
   RayPattern pattern;
   for (const SceneRay& ray : rays_) pattern.directions_S.push_back(ray.direction_W.cast<float>());
-  std::vector<GlanceBlock> blocks = blocks_of(pattern, 0.0f, 100.0f);
-  room_.scene.glance(kEye_W, blocks.data(), blocks.size());
+  std::vector<PrimaryRayPacket> blocks = blocks_of(pattern, 0.0f, 100.0f);
+  room_.scene.trace_primary(kEye_W, blocks.data(), blocks.size());
   for (std::size_t k = 0; k < rays_.size(); ++k) {
-    const GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-    expect_range(k, static_cast<double>(block.range_m[k % GlanceBlock::kRays]));
+    const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
+    expect_range(k, static_cast<double>(block.range_m[k % PrimaryRayPacket::kRays]));
   }
 }
 
@@ -188,7 +189,7 @@ TEST_P(Directions, OfShadowsEndAtTheWall) {
     }
     for (const bool quickly : {false, true}) {
       if (quickly) {
-        room_.scene.find_shadows_quickly(rays_.data(), rays_.size(), shadows.get());
+        room_.scene.find_shadows_approximately(rays_.data(), rays_.size(), shadows.get());
       } else {
         room_.scene.find_shadows(rays_.data(), rays_.size(), shadows.get());
       }

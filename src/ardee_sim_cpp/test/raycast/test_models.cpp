@@ -5,6 +5,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 using Eigen::Vector3d;
@@ -124,7 +125,7 @@ TEST(Models, ManyThatStayAreMetWhereTheyAre) {
 TEST(Models, SceneryIsRemovedWhole) {
   for (const bool flatten : {true, false}) {
     RayOptions options;
-    options.flatten = flatten;
+    options.local_scenes = flatten;
     TestScene scene(SceneKind::kCollision, options);
     const auto box = model_of(Box{{1, 1, 1}});
     scene.scene.add_scenery(0, {placed(box, at(3, 0, 0)), placed(box, at(5, 0, 0))});
@@ -154,8 +155,8 @@ TEST(Models, IdsOfInstancesNearAndFar) {
   }
   for (const bool flatten : {true, false}) {
     RayOptions options;
-    options.flatten = flatten;
-    options.flattened_radius_m = 2.0;
+    options.local_scenes = flatten;
+    options.local_scene_radius_m = 2.0;
     TestScene scene(SceneKind::kVisual, options);
     scene.scene.add_scenery(100, placements);
     for (std::uint32_t k = 0; k < 40; ++k) {
@@ -171,7 +172,7 @@ TEST(Models, IdsOfInstancesNearAndFar) {
         EXPECT_FLOAT_EQ(hit.laser_retro, 3.0f);
       }
     }
-    EXPECT_EQ(scene.scene.flattened_triangles() > 0, flatten);
+    EXPECT_EQ(scene.scene.local_scene_triangles() > 0, flatten);
   }
 }
 
@@ -194,12 +195,12 @@ TEST(Models, LinksOfTheCamerasOwnRobotAreInItsPicture) {
     const Pose arm = in_sight ? at(0.5, 0, 0) : at(0.5, 0.7, 0);
     test.scene.set_link_poses(5, {at(0, 0, 0), arm, at(-0.3, 0, 0.2)});
     test.scene.prepare({Vector3d::Zero()}, true);
-    std::vector<GlanceBlock> blocks(kSide_px * kSide_px / GlanceBlock::kRays);
+    std::vector<PrimaryRayPacket> blocks(kSide_px * kSide_px / PrimaryRayPacket::kRays);
     const auto slope = [](std::size_t px) {
       return (static_cast<float>(px) + 0.5f) / (kSide_px / 2) - 1.0f;
     };
     for (std::size_t k = 0; k < blocks.size(); ++k) {
-      for (std::size_t i = 0; i < GlanceBlock::kRays; ++i) {
+      for (std::size_t i = 0; i < PrimaryRayPacket::kRays; ++i) {
         const std::size_t x = k % (kSide_px / 4) * 4 + i % 4;
         const std::size_t y = k / (kSide_px / 4) * 4 + i / 4;
         const auto ray = static_cast<int>(i);
@@ -208,15 +209,15 @@ TEST(Models, LinksOfTheCamerasOwnRobotAreInItsPicture) {
         blocks[k].far_m[i] = 100.0f;
       }
     }
-    test.scene.glance(Vector3d::Zero(), blocks.data(), blocks.size());
+    test.scene.trace_primary(Vector3d::Zero(), blocks.data(), blocks.size());
     int of_arm = 0;
-    for (const GlanceBlock& block : blocks) {
-      for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    for (const PrimaryRayPacket& block : blocks) {
+      for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
         const Eigen::Vector3f way = block.direction_W(i);
         const float aside = std::max(std::abs(way.y()), std::abs(way.z())) / way.x();
         const bool sees_arm = in_sight && aside * 0.45f < 0.05f;
         of_arm += sees_arm ? 1 : 0;
-        EXPECT_EQ((block.surface[i] & GlanceBlock::kOutside) != 0, sees_arm);
+        EXPECT_EQ((block.surface[i] & PrimaryRayPacket::kOutside) != 0, sees_arm);
         EXPECT_NEAR(block.range_m[i], (sees_arm ? 0.45f : 3.0f) / way.x(), 1e-5f);
       }
     }

@@ -7,6 +7,7 @@
 #include "ardee_sim/raycast/ray_bundle.h"
 
 namespace ardee {
+using namespace raycast;
 namespace {
 
 constexpr int kRays = 8;
@@ -101,8 +102,8 @@ TEST(RayBundle, LooksAtRaysOfAPictureFromNearToWhatTheyHaveMet) {
     const Case some = make_case(number);
     const CounterRng rng(stream_key(number, "block"));
     const Eigen::Vector3d eye = some.queries[0].ray_W().origin;
-    GlanceBlock block{};
-    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    PrimaryRayPacket block{};
+    for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
       const RayQuery& query = some.queries[i % kRays];
       const auto n = static_cast<std::uint64_t>(3 * i);
       block.set_direction(i, query.ray_W().direction.cast<float>());
@@ -118,7 +119,7 @@ TEST(RayBundle, LooksAtRaysOfAPictureFromNearToWhatTheyHaveMet) {
     RayBundle(eye, block).find(table, entries, exits, near);
     for (std::uint32_t k = 0; k < kBoxes; ++k) {
       bool met = false;
-      for (int i = 0; i < GlanceBlock::kRays && !met; ++i) {
+      for (int i = 0; i < PrimaryRayPacket::kRays && !met; ++i) {
         const auto from = static_cast<double>(block.near_m[i]);
         const auto to = static_cast<double>(std::min(block.far_m[i], block.range_m[i]));
         const Eigen::Vector3d way = block.direction_W(i).cast<double>();
@@ -137,8 +138,8 @@ TEST(RayBundle, LooksAtRaysOfAPictureFromNearToWhatTheyHaveMet) {
 }
 
 TEST(RayBundle, LeavesOutWhatAPictureIsTakenFromWithin) {
-  GlanceBlock block{};
-  for (int i = 0; i < GlanceBlock::kRays; ++i) {
+  PrimaryRayPacket block{};
+  for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
     block.set_direction(i, {1, 0, 0});
     block.near_m[i] = 0.05f;
     block.far_m[i] = 10.0f;

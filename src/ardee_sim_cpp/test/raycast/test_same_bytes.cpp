@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray returns must not depend on threads, on near regions or on their timing.
+// What a ray returns must not depend on threads, on local scenes or on their timing.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -7,6 +7,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 /// A crumpled sheet of triangles, edges shared, everywhere overlapping its neighbours when placed
@@ -73,10 +74,10 @@ bool same(const std::vector<RayHit>& a, const std::vector<RayHit>& b) {
 
 RayOptions options(bool flatten, double radius_m, int threads, std::size_t budget = 512u << 20) {
   RayOptions result;
-  result.flatten = flatten;
-  result.flattened_radius_m = radius_m;
+  result.local_scenes = flatten;
+  result.local_scene_radius_m = radius_m;
   result.threads = threads;
-  result.flattened_budget_bytes = budget;
+  result.local_scene_budget_bytes = budget;
   return result;
 }
 
@@ -130,18 +131,19 @@ TEST(SameBytes, WhileRegionsFollowADrivingSensor) {
   }
 }
 
-/// Far from the first region's centre, then up and down within a metre: one more region is enough.
+/// Far from the first local scene's centre, then up and down within a metre: one more local scene
+/// is enough.
 TEST(Regions, AreNotMadeAgainWhereOneIsNear) {
   TestScene test(SceneKind::kVisual, options(true, 4.0, 1));
   test.scene.add_scenery(0, field(40, 0.4, {0, 0, 0}));
-  constexpr bool kAtOnce = true;  // for pictures, a region that is due is waited for
+  constexpr bool kAtOnce = true;  // for pictures, a local scene that is due is waited for
   test.scene.prepare({{2.0, 8.0, 0.3}}, kAtOnce);
-  const std::size_t before = test.scene.regions_made();
+  const std::size_t before = test.scene.local_scenes_made();
   for (int k = 0; k < 200; ++k) {
     test.scene.prepare({{9.5 - 0.02 * std::abs(k % 100 - 50), 8.0, 0.3}}, kAtOnce);
   }
-  EXPECT_GT(test.scene.regions_made(), before);
-  EXPECT_LE(test.scene.regions_made(), before + 2);
+  EXPECT_GT(test.scene.local_scenes_made(), before);
+  EXPECT_LE(test.scene.local_scenes_made(), before + 2);
 }
 
 TEST(SameBytes, AgainAfterRemovalAndReturn) {
@@ -247,9 +249,9 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
   for (const Eigen::Vector3f& direction : random_pattern(4000, 5).directions_S) {
     rays.push_back({eye_W, direction.cast<double>().normalized(), 30.0});
   }
-  std::vector<SurfacePoint> exact(rays.size()), quick(rays.size());
-  test.scene.look(rays.data(), rays.size(), exact.data());
-  test.scene.look_quickly(rays.data(), rays.size(), quick.data());
+  std::vector<SurfaceInteraction> exact(rays.size()), quick(rays.size());
+  test.scene.trace(rays.data(), rays.size(), exact.data());
+  test.scene.trace_approximately(rays.data(), rays.size(), quick.data());
   const Eigen::Vector3d sun = Eigen::Vector3d(0.3, -0.4, 1.0).normalized();
   int same_points = 0, hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -268,7 +270,8 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
   const auto exact_shadows = std::make_unique<bool[]>(shadow_rays.size());
   const auto quick_shadows = std::make_unique<bool[]>(shadow_rays.size());
   test.scene.find_shadows(shadow_rays.data(), shadow_rays.size(), exact_shadows.get());
-  test.scene.find_shadows_quickly(shadow_rays.data(), shadow_rays.size(), quick_shadows.get());
+  test.scene.find_shadows_approximately(shadow_rays.data(), shadow_rays.size(),
+                                        quick_shadows.get());
   int same_shadows = 0, dark = 0;
   for (std::size_t i = 0; i < shadow_rays.size(); ++i) {
     same_shadows += exact_shadows[i] == quick_shadows[i] ? 1 : 0;
@@ -280,33 +283,33 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
 
 TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
   const auto box = model_of(mesh_of({box_mesh("box", {0.5, 0.5, 0.5})}));
-  for (const bool pictures : {true, false}) {  // with a draft, and without
+  for (const bool pictures : {true, false}) {  // with a triangle scene, and without
     TestScene test(SceneKind::kVisual, options(true, 4.0, 1), 0, field(18, 0.8, {100, 50, 0}));
     const Eigen::Vector3d eye_W(107, 57, 0.7);
     test.scene.add_model(5000, box);
     test.scene.set_link_poses(5000, {{{107.5, 57, 0.7}, Eigen::Quaterniond::Identity()}});
     test.scene.prepare({eye_W}, pictures);
-    std::vector<GlanceBlock> blocks = blocks_of(random_pattern(3200, 5), 0.2f, 30.0f);
+    std::vector<PrimaryRayPacket> blocks = blocks_of(random_pattern(3200, 5), 0.2f, 30.0f);
     std::vector<SceneRay> whole;
-    for (const GlanceBlock& block : blocks) {
-      for (int i = 0; i < GlanceBlock::kRays; ++i) {
+    for (const PrimaryRayPacket& block : blocks) {
+      for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
         const Eigen::Vector3d way_W = block.direction_W(i).cast<double>();
         whole.push_back({eye_W + 0.2 * way_W, way_W, 29.8});
       }
     }
-    test.scene.glance(eye_W, blocks.data(), blocks.size());
-    std::vector<SurfacePoint> looks(whole.size());
-    test.scene.look_quickly(whole.data(), whole.size(), looks.data());
+    test.scene.trace_primary(eye_W, blocks.data(), blocks.size());
+    std::vector<SurfaceInteraction> looks(whole.size());
+    test.scene.trace_approximately(whole.data(), whole.size(), looks.data());
     int same_points = 0, of_model = 0;
     for (std::size_t k = 0; k < whole.size(); ++k) {
-      const GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-      const int i = static_cast<int>(k % GlanceBlock::kRays);
+      const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
+      const int i = static_cast<int>(k % PrimaryRayPacket::kRays);
       if (!looks[k].met() || !block.met(i)) {
         same_points += looks[k].met() == block.met(i) ? 1 : 0;
         continue;
       }
-      SurfacePoint closer;
-      test.scene.look_closer(eye_W, &whole[k], &block.triangle[i], 1, &closer);
+      SurfaceInteraction closer;
+      test.scene.interpolate_hits(eye_W, &whole[k], &block.triangle[i], 1, &closer);
       const double normals = block.normal_W(i).cast<double>().dot(looks[k].normal_W);
       const bool same =
           std::abs(looks[k].range_m - closer.range_m) < 1e-4 &&
@@ -334,10 +337,10 @@ TEST(QuickLooks, DoNotSlipBetweenTriangles) {
       diagonals.directions_S.emplace_back(Eigen::Vector3f(1, slope, sign * slope).normalized());
     }
   }
-  std::vector<GlanceBlock> blocks = blocks_of(diagonals, 0.05f, 30.0f);
-  test.scene.glance(Eigen::Vector3d::Zero(), blocks.data(), blocks.size());
-  for (const GlanceBlock& block : blocks) {
-    for (int i = 0; i < GlanceBlock::kRays; ++i) {
+  std::vector<PrimaryRayPacket> blocks = blocks_of(diagonals, 0.05f, 30.0f);
+  test.scene.trace_primary(Eigen::Vector3d::Zero(), blocks.data(), blocks.size());
+  for (const PrimaryRayPacket& block : blocks) {
+    for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
       EXPECT_NEAR(block.range_m[i], 3.0f / block.x_W[i], 1e-5f);
     }
   }

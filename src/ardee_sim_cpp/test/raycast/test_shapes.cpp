@@ -5,11 +5,12 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 using Eigen::Vector3d;
 
-/// Both ways to the same answer: near regions and instances.
+/// Both ways to the same answer: local scenes and instances.
 class Shapes : public ::testing::TestWithParam<bool> {
  protected:
   RayOptions options() const { return GetParam() ? RayOptions{} : instances_only(); }

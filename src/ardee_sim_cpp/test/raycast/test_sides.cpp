@@ -4,6 +4,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 /// A single quad facing +x.

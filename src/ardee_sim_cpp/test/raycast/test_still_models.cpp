@@ -8,10 +8,11 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 /// Models that could move, boxes of triangles on a grid about the eye and a row of them beyond its
-/// near region.
+/// local scene.
 class StillModels : public testing::Test {
  protected:
   static constexpr std::uint32_t kNear = 80;
@@ -40,32 +41,32 @@ class StillModels : public testing::Test {
     for (int k = 0; k < times; ++k) test.scene.prepare({eye_W}, true);
   }
 
-  /// Looks all round: pictures and shadows must be those of exact rays. Returns how many rays met
-  /// each model, by the draft or exactly.
+  /// MaterialLibrary all round: pictures and shadows must be those of exact rays. Returns how many
+  /// rays met each model, by the triangle scene or exactly.
   struct Seen {
     std::vector<int> drafted = std::vector<int>(200);
     std::vector<int> exact = std::vector<int>(200);
   };
-  Seen look() {
+  Seen trace() {
     prepare(1);
     const RayPattern pattern = random_pattern(16000, 5);
-    std::vector<GlanceBlock> blocks = blocks_of(pattern, 0.01f, 100.0f);
-    test.scene.glance(eye_W, blocks.data(), blocks.size());
+    std::vector<PrimaryRayPacket> blocks = blocks_of(pattern, 0.01f, 100.0f);
+    test.scene.trace_primary(eye_W, blocks.data(), blocks.size());
     std::vector<SceneRay> rays;
     for (const auto& direction_S : pattern.directions_S) {
       rays.push_back({eye_W, direction_S.cast<double>().normalized(), 100.0});
     }
     std::vector<RayHit> hits(rays.size());
-    test.scene.meet(rays.data(), rays.size(), hits.data());
+    test.scene.intersect(rays.data(), rays.size(), hits.data());
     Seen seen;
     for (std::size_t k = 0; k < rays.size(); ++k) {
-      const GlanceBlock& block = blocks[k / GlanceBlock::kRays];
-      const int i = static_cast<int>(k % GlanceBlock::kRays);
+      const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
+      const int i = static_cast<int>(k % PrimaryRayPacket::kRays);
       const bool met = hits[k].entity != kNoEntity;
       EXPECT_EQ(block.met(i), met);
       if (!met) continue;
       EXPECT_NEAR(block.range_m[i], hits[k].range_m, 1e-4f);
-      const bool exact = (block.surface[i] & GlanceBlock::kOutside) != 0;
+      const bool exact = (block.surface[i] & PrimaryRayPacket::kOutside) != 0;
       ++(exact ? seen.exact : seen.drafted)[hits[k].entity];
     }
     check_shadows(rays);
@@ -75,7 +76,7 @@ class StillModels : public testing::Test {
   void check_shadows(const std::vector<SceneRay>& rays) {
     std::unique_ptr<bool[]> quick(new bool[rays.size()]);
     std::unique_ptr<bool[]> exact(new bool[rays.size()]);
-    test.scene.find_shadows_quickly(rays.data(), rays.size(), quick.get());
+    test.scene.find_shadows_approximately(rays.data(), rays.size(), quick.get());
     test.scene.find_shadows(rays.data(), rays.size(), exact.get());
     EXPECT_TRUE(std::equal(quick.get(), quick.get() + rays.size(), exact.get()));
   }
@@ -91,7 +92,7 @@ class StillModels : public testing::Test {
 };
 
 TEST_F(StillModels, AreOfTheDraftUntilTheyMove) {
-  const Seen still = look();
+  const Seen still = trace();
   for (std::uint32_t k = 0; k < kNear; ++k) {
     EXPECT_GT(still.drafted[k], 0) << k;
     EXPECT_EQ(still.exact[k], 0) << k;
@@ -102,7 +103,7 @@ TEST_F(StillModels, AreOfTheDraftUntilTheyMove) {
   move(41, to_W);
   move(38, place(38) + Eigen::Vector3d(1e-3, 0, 0));
   test.scene.remove_model(30);
-  const Seen moved = look();
+  const Seen moved = trace();
   for (std::uint32_t k = 0; k < kNear; ++k) {
     const bool has_moved = k == 41 || k == 38;
     EXPECT_EQ(moved.drafted[k] > 0, !has_moved && k != 30) << k;
@@ -114,7 +115,7 @@ TEST_F(StillModels, AreOfTheDraftUntilTheyMove) {
 
 TEST_F(StillModels, AreAskedForByTheTreeWhileManyMove) {
   for (std::uint32_t k = 0; k < kNear; ++k) move(k, place(k) + Eigen::Vector3d(0, 0, 1e-3));
-  const Seen seen = look();
+  const Seen seen = trace();
   for (std::uint32_t k = 0; k < kNear; ++k) {
     EXPECT_EQ(seen.drafted[k], 0) << k;
     EXPECT_GT(seen.exact[k], 0) << k;
@@ -125,9 +126,9 @@ TEST_F(StillModels, JoinTheDraftWhereManyHaveComeToRest) {
   for (std::uint32_t k = 0; k < 20; ++k) {
     add(100 + k, {k - 9.5, 1.0, 3.0});
   }
-  EXPECT_GT(look().exact[110], 0);
+  EXPECT_GT(trace().exact[110], 0);
   prepare(120);
-  const Seen seen = look();
+  const Seen seen = trace();
   for (std::uint32_t k = 0; k < 20; ++k) {
     EXPECT_GT(seen.drafted[100 + k], 0) << k;
     EXPECT_EQ(seen.exact[100 + k], 0) << k;
@@ -135,7 +136,7 @@ TEST_F(StillModels, JoinTheDraftWhereManyHaveComeToRest) {
 }
 
 TEST_F(StillModels, AreSeenBeyondTheNearRegion) {
-  const Seen seen = look();
+  const Seen seen = trace();
   int far = 0;
   for (std::uint32_t k = kNear; k < kNear + kFar; ++k) {
     EXPECT_EQ(seen.drafted[k], 0) << k;
@@ -146,7 +147,7 @@ TEST_F(StillModels, AreSeenBeyondTheNearRegion) {
 
 TEST_F(StillModels, AreGoneWithTheLastOfThem) {
   for (std::uint32_t k = 0; k < kNear + kFar; ++k) test.scene.remove_model(k);
-  const Seen seen = look();
+  const Seen seen = trace();
   EXPECT_EQ(std::count(seen.drafted.begin(), seen.drafted.end(), 0), 200);
   EXPECT_EQ(std::count(seen.exact.begin(), seen.exact.end(), 0), 200);
 }

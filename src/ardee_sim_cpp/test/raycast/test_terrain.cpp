@@ -4,6 +4,7 @@
 #include "scenes.h"
 
 namespace ardee::test {
+using namespace raycast;
 namespace {
 
 std::shared_ptr<HeightGrid> rough_grid(int columns, int rows, double size_x_m, double size_y_m) {
@@ -37,7 +38,7 @@ TEST(Terrain, HeightsFromAboveAreThoseOfTheTriangles) {
   map.position_m = {1.0, -2.0, 0.5};
   for (const bool flatten : {true, false}) {
     RayOptions options;
-    options.flatten = flatten;
+    options.local_scenes = flatten;
     TestScene scene(SceneKind::kVisual, options);
     scene.scene.add_scenery(4, {placed(model_of(map))});
     Rng rng(mix_bits(5));
@@ -57,7 +58,7 @@ TEST(Terrain, NoRaySlipsThrough) {
   Heightmap map;
   map.grid = grid;
   RayOptions options;
-  options.flattened_radius_m = 3.0;
+  options.local_scene_radius_m = 3.0;
   TestScene scene(SceneKind::kCollision, options);
   scene.scene.add_scenery(
       0, {placed(model_of(map), Pose::from_xyz_rpy({100.3, -77.7, 1.1}, {0.02, 0.05, 0.7}))});

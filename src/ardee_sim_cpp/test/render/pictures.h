@@ -8,6 +8,8 @@
 #include "ardee_sim/render/renderer.h"
 
 namespace ardee::test {
+using namespace raycast;
+using namespace render;
 
 /// A matt surface that returns `share` of direct light, and none from all around.
 inline Material matt(float share) {
@@ -32,12 +34,12 @@ struct TestStage {
   }
 
   Image picture(const Camera& camera, const RenderOptions& options = {}) const {
-    Looks looks((Log()));
+    MaterialLibrary materials((Log()));
     RayScene rays(SceneKind::kVisual, {}, Log());
-    for (const Placement& placement : placements) looks.add(placement.model);
+    for (const Placement& placement : placements) materials.add(placement.model);
     rays.add_scenery(0, placements);
     rays.prepare({camera.X_WC.p});
-    return Renderer(rays, looks, scene, lights).render(camera, options);
+    return Renderer(rays, materials, scene, lights).render(camera, options);
   }
 
   Scene scene;

@@ -4,6 +4,7 @@
 #include "pictures.h"
 
 namespace ardee::test {
+using namespace render;
 namespace {
 
 TEST(Camera, DirectionsAndProjectionAreInverse) {

@@ -4,6 +4,7 @@
 #include "pictures.h"
 
 namespace ardee::test {
+using namespace render;
 namespace {
 
 /// Leaves turned in all directions about the vertical, each a strip that bends over.

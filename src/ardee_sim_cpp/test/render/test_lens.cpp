@@ -6,6 +6,7 @@
 #include "ardee_sim/render/camera.h"
 
 namespace ardee {
+using namespace render;
 namespace {
 
 Lens barrel() {
@@ -40,7 +41,7 @@ TEST(Lens, SkewShiftsRows) {
   EXPECT_NEAR(pixel.x(), 320.0 * 0.25 + 12.0 * 0.5 + 319.5, 1e-9);
   EXPECT_NEAR(pixel.y(), 320.0 * 0.5 + 239.5, 1e-9);
   EXPECT_NEAR((*lens.to_plane(pixel) - Eigen::Vector2d(0.25, 0.5)).norm(), 0.0, 1e-12);
-  const LensTable table(lens, 640, 480);  // whose pixels are counted from their corners
+  const UndistortionMap table(lens, 640, 480);  // whose pixels are counted from their corners
   EXPECT_NEAR((table.plane(pixel.x() + 0.5, pixel.y() + 0.5) - Eigen::Vector2d(0.25, 0.5)).norm(),
               0.0, 1e-12);
 }
@@ -50,7 +51,7 @@ TEST(Lens, BendsAsThePlumbBobModelSays) {
   lens.D = {0.1, 0.01, 0.002, 0.003, 0.001};
   const double x = 0.3, y = -0.2, r2 = 0.13;
   const double radial = 1 + 0.1 * r2 + 0.01 * r2 * r2 + 0.001 * r2 * r2 * r2;
-  const Eigen::Vector2d bent = lens.bend({x, y});
+  const Eigen::Vector2d bent = lens.distort({x, y});
   EXPECT_NEAR(bent.x(), x * radial + 2 * 0.002 * x * y + 0.003 * (r2 + 2 * x * x), 1e-15);
   EXPECT_NEAR(bent.y(), y * radial + 0.002 * (r2 + 2 * y * y) + 2 * 0.003 * x * y, 1e-15);
 }
@@ -58,8 +59,8 @@ TEST(Lens, BendsAsThePlumbBobModelSays) {
 TEST(Lens, BeyondTheFoldOfABarrelThereIsNoLight) {
   Lens lens;
   lens.D[0] = -0.5;  // x (1 - 0.5 x^2) has its greatest value of 0.544 at x = 0.816
-  EXPECT_TRUE(lens.straighten({0.54, 0.0}));
-  EXPECT_FALSE(lens.straighten({0.56, 0.0}));
+  EXPECT_TRUE(lens.undistort({0.54, 0.0}));
+  EXPECT_FALSE(lens.undistort({0.56, 0.0}));
 }
 
 TEST(Camera, ALensTableGivesTheWayThroughEachPixel) {
@@ -67,7 +68,7 @@ TEST(Camera, ALensTableGivesTheWayThroughEachPixel) {
   camera.width = 640;
   camera.height = 480;
   const Lens lens = barrel();
-  camera.lens = std::make_shared<LensTable>(lens, camera.width, camera.height);
+  camera.lens = std::make_shared<UndistortionMap>(lens, camera.width, camera.height);
   for (int row = 0; row < 480; row += 7) {
     for (int column = 0; column < 640; column += 5) {
       const Eigen::Vector3d point_W = 3.0 * camera.direction_W(column + 0.5, row + 0.5);

@@ -6,6 +6,7 @@
 #include "pictures.h"
 
 namespace ardee::test {
+using namespace render;
 namespace {
 
 Plane floor_of(double side_m) {

@@ -4,6 +4,7 @@
 #include "pictures.h"
 
 namespace ardee::test {
+using namespace render;
 namespace {
 
 /// Writes a picture whose colours `color_of(column, row)` gives, and returns its path.

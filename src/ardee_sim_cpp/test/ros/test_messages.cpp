@@ -8,6 +8,7 @@
 #include "ros/reading_to_message.h"
 
 namespace ardee::node {
+using namespace devices;
 namespace {
 
 TEST(Messages, OdometryHasBothCovariancesOnTheDiagonal) {

@@ -7,6 +7,7 @@
 #include "ros/odometry_frames.h"
 
 namespace ardee::node {
+using namespace devices;
 namespace {
 
 /// A robot at (3, 1), turned to the left, and what /tf_static says of it last.

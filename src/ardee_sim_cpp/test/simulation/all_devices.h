@@ -9,6 +9,8 @@
 #include "rover.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 
 /// A plugin of the model; its name is the library's.
 inline std::string model_device(const std::string& library, const std::string& keys) {

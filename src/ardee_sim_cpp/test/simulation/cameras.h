@@ -7,6 +7,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 
 /// A camera that stands still at its model's origin; `camera` goes into <camera>, `keys` into the
 /// plugin.

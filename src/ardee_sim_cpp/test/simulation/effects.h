@@ -31,7 +31,7 @@ inline std::string collision(const std::string& geometry, const std::string& mor
 inline std::string visual(const std::string& geometry, const std::string& more = "") {
   return "<visual name='v'><geometry>" + geometry + "</geometry>" + more + "</visual>";
 }
-inline std::string physics(const std::string& inside) {
+inline std::string physics_block(const std::string& inside) {
   return "<physics type='ode'>" + inside + "</physics>";
 }
 

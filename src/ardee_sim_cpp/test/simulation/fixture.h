@@ -11,6 +11,7 @@
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
+using namespace devices;
 
 /// Keeps all readings by topic.
 class Recorder : public ReadingSink {

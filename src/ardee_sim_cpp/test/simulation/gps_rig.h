@@ -7,6 +7,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 
 inline std::string gps(const std::string& keys) {
   return plugin("gazebo_ros_gps_with_dropout",

@@ -8,6 +8,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 
 /// A world without ground, of a gravity along z.
 inline std::string free_space(double gravity_m_per_s2) {
@@ -50,17 +51,17 @@ inline const Service& service(const Entity& robot, const std::string& name) {
   throw std::runtime_error("no service " + name);
 }
 
-inline const Tuning& tuning(const Entity& robot, const std::string& name) {
+inline const ParameterGroup& tuning(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
-    for (const Tuning& each : device->ports().tunings) {
+    for (const ParameterGroup& each : device->ports().tunings) {
       if (each.name == name) return each;
     }
   }
   throw std::runtime_error("no tuning " + name);
 }
 
-inline void set(const Tuning& tuning, const std::string& name, double value) {
-  for (const Tunable& each : tuning.parameters) {
+inline void set(const ParameterGroup& tuning, const std::string& name, double value) {
+  for (const TunableParameter& each : tuning.parameters) {
     if (each.name == name) return each.set(value);
   }
   throw std::runtime_error("no parameter " + name);

@@ -10,6 +10,8 @@
 #include "ardee_sim/devices/device.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 
 /// All that readings say, as bytes: what is equal in them is equal in each bit.
 class ReadingBytes {

@@ -7,6 +7,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 const std::string kBody =

@@ -6,6 +6,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace raycast;
 namespace {
 
 /// A world with one number, `{}`, in it.

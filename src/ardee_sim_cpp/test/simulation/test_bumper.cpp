@@ -6,6 +6,8 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 namespace {
 
 /// A deck of 8 kg that slides with friction 0.2, and a guard fixed before it whose front face is

@@ -9,6 +9,8 @@
 #include "cameras.h"
 
 namespace ardee {
+using namespace render;
+using namespace devices;
 namespace {
 
 const Pose kOneMetreUp = Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0});

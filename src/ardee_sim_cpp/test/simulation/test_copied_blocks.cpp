@@ -9,6 +9,7 @@
 #include "ray_posts.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 bool any_contains(const std::vector<std::string>& messages, const std::string& part) {

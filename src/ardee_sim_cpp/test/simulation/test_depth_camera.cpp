@@ -6,6 +6,7 @@
 #include "cameras.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr int kWidth = 80, kHeight = 60;

@@ -8,6 +8,7 @@
 #include "rover.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// A field of boards at all angles, 20 a metre: dense enough for rays to graze edges.
@@ -31,7 +32,7 @@ std::uint64_t hash_of_run(int threads, bool flatten, std::uint64_t seed) {
   SimulationOptions options;
   options.seed = seed;
   options.rays.threads = threads;
-  options.rays.flatten = flatten;
+  options.rays.local_scenes = flatten;
   TestWorld world(ground_plane() + field(), 0.005, options);
   const std::string lidar =
       "<link name='lidar'/><joint name='lidar_joint' type='fixed'><parent link='base'/>"

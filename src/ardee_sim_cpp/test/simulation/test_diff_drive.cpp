@@ -8,6 +8,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// A box on two balls as wheels (they touch in one point, so that the track is exact) of radius 0.1

@@ -11,6 +11,7 @@
 #include "reading_bytes.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// Elements whose effect has a test of its own, with a closed form or a file to go with it.

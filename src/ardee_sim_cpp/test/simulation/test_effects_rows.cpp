@@ -8,26 +8,26 @@ namespace {
 void add_world(std::vector<Effect>& rows) {
   const std::string falling = in_model("ball", in_link(""));
   const auto solver = [](const std::string& part) {
-    return physics("<ode><solver>{}</solver></ode>") + part;
+    return physics_block("<ode><solver>{}</solver></ode>") + part;
   };
   const auto constraints = [](const std::string& part) {
-    return physics("<ode><constraints>{}</constraints></ode>") + part;
+    return physics_block("<ode><constraints>{}</constraints></ode>") + part;
   };
   rows.insert(
       rows.end(),
       {{"world/gravity", "{}" + falling, "0 0 -9.8", "0 0 -1.6"},
-       {"physics/gravity", physics("{}") + falling, "0 0 -9.8", "0 0 -1.6"},
-       {"physics/max_step_size", physics("{}") + falling, "0.001", "0.002"},
+       {"physics/gravity", physics_block("{}") + falling, "0 0 -9.8", "0 0 -1.6"},
+       {"physics/max_step_size", physics_block("{}") + falling, "0.001", "0.002"},
        {"physics/@default",
-        physics("") +
+        physics_block("") +
             "<physics name='other' type='ode' {}><max_step_size>0.002</max_step_size>"
             "</physics>" +
             falling,
         "0", "1"},
-       {"physics/real_time_update_rate", physics("{}"), "100", "200"},
-       {"physics/update_rate", physics("{}"), "100", "200"},
-       {"physics/real_time_factor", physics("{}"), "1", "2"},
-       {"physics/max_contacts", physics("{}") + thrown(""), "20", "1"},
+       {"physics/real_time_update_rate", physics_block("{}"), "100", "200"},
+       {"physics/update_rate", physics_block("{}"), "100", "200"},
+       {"physics/real_time_factor", physics_block("{}"), "1", "2"},
+       {"physics/max_contacts", physics_block("{}") + thrown(""), "20", "1"},
        {"solver/dt", solver(falling), "0.001", "0.002"},
        {"solver/iters", solver(pile()), "5", "50"},
        {"solver/sor", solver(pile()), "1.3", "0.7"},
@@ -125,7 +125,7 @@ void add_models(std::vector<Effect>& rows) {
       rows.end(),
       {{"model/static", in_model("m", "{}" + in_link("")), "0", "1"},
        {"model/allow_auto_disable",
-        physics("<max_step_size>0.01</max_step_size>") + kFloor +
+        physics_block("<max_step_size>0.01</max_step_size>") + kFloor +
             in_model("cube", "{}" + in_link(collision(kCube)), "0 0 0.499 0 0 0"),
         "0", "1"},
        {"joint/gearbox_ratio",

@@ -8,6 +8,7 @@
 #include "rover.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr double kTurn_rad = 2.0 * M_PI;

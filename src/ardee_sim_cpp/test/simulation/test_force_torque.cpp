@@ -4,6 +4,8 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 namespace {
 
 constexpr double kWeight_N = 3.0 * 9.8;

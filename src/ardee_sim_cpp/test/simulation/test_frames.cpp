@@ -9,6 +9,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Frames = std::map<std::string, std::string>;

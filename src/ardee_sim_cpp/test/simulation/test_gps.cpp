@@ -6,6 +6,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;
@@ -157,7 +158,7 @@ TEST(Gps, reference_is_set_by_the_service_with_its_radii) {
 TEST(Gps, status_is_tuned_as_gnss) {
   TestWorld world(free_space(0.0), 0.01);
   Entity& robot = world.spawn(still(gps("<service>1</service>")), "ball");
-  const Tuning& status = tuning(robot, "/fix/status");
+  const ParameterGroup& status = tuning(robot, "/fix/status");
   set(status, "STATUS_SBAS_FIX", 1.0);
   set(status, "SERVICE_GALILEO", 1.0);
   world.run(0.3);

@@ -8,6 +8,7 @@
 #include "gps_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// GAZEBO_RESOURCE_PATH as long as this lives.

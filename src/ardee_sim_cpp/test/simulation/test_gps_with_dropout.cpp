@@ -8,6 +8,7 @@
 #include "gps_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;

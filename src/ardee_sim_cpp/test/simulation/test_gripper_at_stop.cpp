@@ -5,6 +5,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using control::RecordedGoal;

@@ -6,6 +6,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;

@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr double kStep_s = 0.001;

@@ -7,6 +7,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr double kStep_s = 0.001;

@@ -6,6 +6,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr const char* kGpu = "libgazebo_ros_gpu_laser.so";

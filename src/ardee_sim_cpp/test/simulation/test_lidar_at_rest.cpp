@@ -7,6 +7,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr double kTurn_rad = 2.0 * M_PI;

@@ -7,6 +7,7 @@
 #include "ray_posts.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr const char* kGpu = "libgazebo_ros_gpu_laser.so";
@@ -175,7 +176,7 @@ TEST(LidarOptics, SameBytesForAnyThreadsAndForTilesAndInstances) {
   const auto scan = [](int threads, bool flatten) {
     SimulationOptions options;
     options.rays.threads = threads;
-    options.rays.flatten = flatten;
+    options.rays.local_scenes = flatten;
     TestWorld world(room() + edge(2.2), 0.001, options);
     world.spawn(
         lidar(wide_beam(0.02, "<reflectivityRange>8</reflectivityRange>"), angles(401, -M_PI, M_PI))

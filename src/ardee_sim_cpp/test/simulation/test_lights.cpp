@@ -4,6 +4,7 @@
 #include "cameras.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// A white board in front of a camera, with a ball that throws its shadow on it; no light but that

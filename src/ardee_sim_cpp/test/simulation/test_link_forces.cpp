@@ -5,6 +5,8 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 namespace {
 
 /// A cube of 2 kg and 0.2 m that slides without friction; its centre of mass is 0.05 m up.

@@ -4,6 +4,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// Two wheels of 0.1 kg m^2 on a post, with a plugin.

@@ -7,6 +7,7 @@
 #include "motion_rig.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// Two links and a hinge between them, as a model "arm" within the robot's own link and joint of

@@ -10,6 +10,7 @@
 #include "reading_bytes.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Bytes = std::map<std::string, std::string>;

@@ -6,6 +6,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 /// A box in the air, without weight unless it has some.

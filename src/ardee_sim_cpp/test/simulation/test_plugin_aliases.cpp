@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 std::string receiver(const std::string& file, const std::string& keys) {

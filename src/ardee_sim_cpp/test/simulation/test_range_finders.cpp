@@ -8,6 +8,7 @@
 #include "ray_posts.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr const char* kRange = "libgazebo_ros_range.so";

@@ -6,6 +6,7 @@
 #include "cameras.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr double kWall_m = 3.0;

@@ -9,6 +9,7 @@
 #include "reading_bytes.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 const Pose kOnWheels = Pose::from_xyz_rpy({0, 0, 0.151}, {0, 0, 0});
@@ -17,8 +18,8 @@ const std::string kScene = ground_plane() + static_box("wall", "3 0 1 0 0 0", "0
 /// Changes whatever can be changed of a running robot.
 void tune_all(Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const Tuning& tuning : device->ports().tunings) {
-      for (const Tunable& each : tuning.parameters) {
+    for (const ParameterGroup& tuning : device->ports().tunings) {
+      for (const TunableParameter& each : tuning.parameters) {
         each.set(each.get() == each.high ? each.low : each.high);
       }
     }

@@ -7,6 +7,7 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;

@@ -9,6 +9,7 @@
 #include "rover.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 const Pose kOnWheels = Pose::from_xyz_rpy({0, 0, 0.151}, {0, 0, 0});

@@ -6,6 +6,8 @@
 #include "fixture.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 namespace {
 
 constexpr double kRadius_m = 0.1;

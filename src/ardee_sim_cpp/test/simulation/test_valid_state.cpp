@@ -11,6 +11,8 @@
 #include "reading_bytes.h"
 
 namespace ardee {
+using namespace physics;
+using namespace devices;
 namespace {
 
 using Eigen::Vector3d;

@@ -8,6 +8,7 @@
 #include "ray_posts.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 constexpr const char* kGpu = "libgazebo_ros_velodyne_gpu_laser.so";

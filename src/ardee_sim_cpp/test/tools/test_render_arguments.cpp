@@ -6,6 +6,8 @@
 #include "ardee_sim/tools/render_arguments.h"
 
 namespace ardee {
+using namespace raycast;
+using namespace render;
 namespace {
 
 RenderArguments parse(std::vector<const char*> words) {

@@ -9,6 +9,7 @@
 #include "ardee_sim/tools/support_markdown.h"
 
 namespace ardee {
+using namespace devices;
 namespace {
 
 TEST(SupportPage, IsWhatTheCodeSays) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/raycast/moving_models.h"
+#include "ardee_sim/raycast/scenery_store.h"
+#include "ardee_sim/raycast/triangle_scene.h"
+
+namespace ardee::raycast {
+
+/// What a local scene may take [bytes].
+struct LocalSceneBudget {
+  std::size_t entries;
+  std::size_t triangle_bytes = 0;  // 0: it is not for pictures
+};
+
+/// The primitives of all scenery in a square of ground, side by side in one Embree scene: a ray
+/// that starts in the square needs nothing else until it leaves it. For pictures, models that stay
+/// where they are count as scenery until they move.
+class LocalScene {
+ public:
+  /// Of one entry with its share of Embree's tree (measured: README).
+  static constexpr std::size_t kBytesPerEntry = 120;
+  /// Of a triangle of the triangle scene with its share of Embree's tree (nominal).
+  static constexpr std::size_t kBytesPerTriangle = 140;
+
+  /// The square is smaller than asked for where what is in it goes beyond the budget.
+  LocalScene(const EmbreeDevice& device, const SceneryStore& store, const StillInstances& still,
+             const Eigen::Vector2d& center_W, double half_size_m, const LocalSceneBudget& budget);
+
+  bool holds_all() const { return holds_all_; }
+  const Eigen::Vector2d& center_W() const { return center_W_; }
+  double half_size_m() const { return half_size_m_; }
+  /// How far inside the square a point lies (negative: outside), m.
+  double depth_m(const Eigen::Vector3d& point_W) const {
+    return half_size_m_ - (point_W.head<2>() - center_W_).cwiseAbs().maxCoeff();
+  }
+  /// Where a ray from inside leaves the square; infinity if there is no other scenery.
+  double exit_t(const Ray& ray_W) const;
+  /// All hits, each query up to its t_high (negative: not at all).
+  void intersect(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
+
+  bool is_for_pictures() const { return for_pictures_; }
+  /// The triangles, as seen from origin_W(); nullptr where they do not fit into the budget.
+  const TriangleScene* triangle_scene() const { return triangle_scene_.get(); }
+  const Eigen::Vector3d& origin_W() const { return origin_W_; }
+  /// What the triangle scene leaves out, as `meet` would.
+  bool has_rest() const { return rest_scene_ != nullptr; }
+  void intersect_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
+  /// Finds the models that a picture must meet beside the triangle scene and the rest.
+  void find_others(const MovingModels& moving);
+  const ModelList& others() const { return others_; }
+  /// Whether so many of them are in the tree of those that stay that it is the quicker way to them.
+  bool asks_tree() const { return asks_tree_; }
+  /// Whether so many of them have come to rest that another local scene is worth its making.
+  bool is_outdated() const { return outdated_; }
+  /// Whether one of them, or one that was taken into the triangle scene and has left, may stand in
+  /// the way from about a place (within `about_m`) to a lamp.
+  bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
+                 float about_m) const;
+  /// Where a picture's ray from inside leaves the square; infinity if nothing is beyond.
+  double picture_exit_t(const Ray& ray_W) const;
+
+  std::size_t bytes() const;
+  std::size_t triangles() const { return triangles_; }
+
+ private:
+  struct alignas(64) Frame {
+    BlockPlace place;
+    const TraceableInstance* placed;
+    const std::uint64_t* moved_at;  // null: it does not move
+  };
+  struct alignas(32) Entry {
+    float center[3];  // of the primitive, relative to origin_W_
+    std::uint32_t frame;
+    const TriangleBlock* block;  // null: another kind of primitive
+    std::uint32_t primitive;
+  };
+
+  /// The entries that are not in the triangle scene.
+  struct Rest {
+    const LocalScene* local;
+    std::vector<std::uint32_t> entries;
+  };
+
+  /// False if no query has to be asked.
+  bool find_segments(const RayQuery queries[kPacketRays], const double t_high[kPacketRays],
+                     RaySegment passages[kPacketRays]) const;
+  static void intersect_rest_entry(const RTCIntersectFunctionNArguments* args);
+  static void intersect_entry(const RTCIntersectFunctionNArguments* args);
+  void choose_size(const SceneryStore& store, const StillInstances& still,
+                   const LocalSceneBudget& budget);
+  void take_still(const StillInstances& still);
+  void add_triangle_scene(const EmbreeDevice& device, std::size_t budget_bytes);
+  void add(const TraceableInstance& placed, const std::uint64_t* moved_at = nullptr);
+  bool touches(const Bounds& box_W) const;
+  bool holds(const Bounds& box_W) const;
+  double border_t(const Ray& ray_W) const;
+  void entry_bounds(std::size_t index, float* lower, float* upper) const;
+
+  Eigen::Vector2d center_W_;
+  double half_size_m_;
+  bool holds_all_ = false;
+  Eigen::Vector3d origin_W_;
+  double half_height_m_ = 0.0;
+  double extent_m_ = 0.0;  // of coordinates relative to origin_W_
+  float slack_m_ = 0.0f;
+  std::size_t triangles_ = 0;
+  std::vector<StillInstance> still_;
+  std::vector<Frame> frames_;
+  std::vector<Entry> entries_;  // of scenery, then of what is still
+  std::unique_ptr<EmbreeScene> scene_;
+  bool for_pictures_;
+  std::unique_ptr<TriangleScene> triangle_scene_;
+  Rest rest_;
+  std::unique_ptr<EmbreeScene> rest_scene_;
+  const std::uint64_t time_;  // of what is still
+  ModelList others_;
+  std::vector<ShadowBall> gone_;  // where what was still is no more
+  bool models_beyond_ = false;
+  bool asks_tree_ = false;
+  bool outdated_ = false;
+};
+
+}  // namespace ardee::raycast

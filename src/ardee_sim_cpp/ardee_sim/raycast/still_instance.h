@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/raycast/traceable.h"
+
+namespace ardee::raycast {
+
+/// A link of a model that could move, where it stood at some time.
+struct StillInstance {
+  TraceableInstance placed;
+  std::shared_ptr<const std::vector<std::unique_ptr<Traceable>>> bodies;  // with that of `placed`
+  std::shared_ptr<const std::uint64_t> moved_at;  // later than that time: it stands there no more
+};
+
+struct StillInstances {
+  std::uint64_t time = 0;
+  std::vector<StillInstance> bodies;
+};
+
+}  // namespace ardee::raycast

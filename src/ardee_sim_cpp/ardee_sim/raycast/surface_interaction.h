@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+
+#include "ardee_sim/description/model.h"
+
+namespace ardee::raycast {
+
+constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
+constexpr std::uint32_t kAllLinks = 0xFFFFFFFFu;
+
+/// A ray with an origin of its own.
+struct SceneRay {
+  Eigen::Vector3d origin_W{0, 0, 0};
+  Eigen::Vector3d direction_W{1, 0, 0};  // unit
+  double reach_m = std::numeric_limits<double>::infinity();
+};
+
+/// What a ray met first, as a picture needs it. The pointers lead into the descriptions that the
+/// scene holds.
+struct SurfaceInteraction {
+  double range_m = std::numeric_limits<double>::infinity();  // +inf: nothing
+  std::uint32_t entity = kNoEntity;
+  std::uint32_t link = 0;   // index in the model's description
+  std::uint32_t shape = 0;  // index of the visual or collision in the link
+  std::uint32_t label = 0;
+  const Visual* visual = nullptr;      // null in a collision scene
+  const Material* material = nullptr;  // the visual's, else the mesh file's; null: none
+  bool two_sided = false;
+  Eigen::Vector3d normal_W{0, 0, 0};         // unit, towards the ray's origin
+  Eigen::Vector3d smooth_normal_W{0, 0, 0};  // of the vertices between, where there are any
+  Eigen::Vector3d point_S{0, 0, 0};          // in the shape's axes; a mesh's: in the body's
+  Eigen::Vector2d uv{0, 0};                  // v upwards from the texture's lower edge
+  double uv_per_m = 0.0;                     // how dense they lie; 0: there are none
+
+  bool met() const { return entity != kNoEntity; }
+};
+
+}  // namespace ardee::raycast

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/simulation/entity.h"
+
+namespace ardee {
+
+/// The visual and the collision scene of a simulation, each made when a sensor first needs it.
+class RaySceneSet : public devices::RaySceneProvider {
+ public:
+  RaySceneSet(const raycast::RayOptions& options,
+              const std::vector<std::unique_ptr<Entity>>& entities, Log log);
+
+  std::shared_ptr<void> register_eye(raycast::SceneKind kind, Eye eye) override;
+  const raycast::RayScene& now(raycast::SceneKind kind) override;
+  const raycast::RayScene& for_pictures() override;
+
+  void add(const Entity& entity);
+  void remove(const Entity& entity);
+  /// Something moved: the next use brings the scenes up to date.
+  void invalidate();
+
+ private:
+  struct View {
+    std::unique_ptr<raycast::RayScene> scene;
+    std::vector<std::weak_ptr<Eye>> eyes;
+    bool current = false;
+    std::map<std::uint32_t, std::uint64_t> rests;  // of models, by entity, when they were placed
+    bool pictures = false;
+  };
+  static void add_to(raycast::RayScene& scene, const Entity& entity);
+  View& view(raycast::SceneKind kind) { return views_[static_cast<std::size_t>(kind)]; }
+
+  raycast::RayOptions options_;
+  const std::vector<std::unique_ptr<Entity>>& entities_;
+  Log log_;
+  std::array<View, 2> views_;
+};
+
+}  // namespace ardee

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ardee_sim/description/world.h"
+#include "ardee_sim/devices/device.h"
+#include "ardee_sim/render/material_library.h"
+#include "ardee_sim/render/renderer.h"
+#include "ardee_sim/simulation/entity.h"
+
+namespace ardee {
+
+/// The pictures of a simulation, in the light of its world.
+class WorldCameraRenderer : public devices::CameraRenderer {
+ public:
+  WorldCameraRenderer(const World& world, int threads,
+                      const std::vector<std::unique_ptr<Entity>>& entities,
+                      devices::RaySceneProvider& scenes, Log log)
+      : world_(world), threads_(threads), entities_(entities), scenes_(scenes), materials_(log) {}
+
+  render::Frame take(const render::Camera& camera, const render::FrameParts& parts) override;
+  /// Models came or went: the next picture looks at them anew.
+  void forget() { current_ = false; }
+  /// The world's lights changed: the next picture is taken in the new light.
+  void relight() { renderer_.reset(); }
+
+ private:
+  void look_at_models();
+
+  const World& world_;
+  const int threads_;
+  const std::vector<std::unique_ptr<Entity>>& entities_;
+  devices::RaySceneProvider& scenes_;
+  render::MaterialLibrary materials_;
+  std::optional<render::Renderer> renderer_;  // of those looks
+  bool current_ = false;
+};
+
+}  // namespace ardee
