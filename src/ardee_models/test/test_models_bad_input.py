@@ -6,12 +6,12 @@ import sys
 import pytest
 import yaml
 
+from ardee_common.errors import GeneratorError
+from ardee_common.output import model_directory
 from ardee_models import crop_cli
 from ardee_models.config import config_dir
 from ardee_models.crops import make_crop
-from ardee_models.errors import GeneratorError
 from ardee_models.lookup import crop_model, terrain_model
-from ardee_models.output import model_directory
 
 
 def _params_file(tmp_path, change):

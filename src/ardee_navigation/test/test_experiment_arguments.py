@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation import run_experiment, simulation
 
 

@@ -9,7 +9,7 @@ from typing import Any, Optional
 
 import yaml
 
-from ardee_models.errors import GeneratorError, not_yaml
+from ardee_common.errors import GeneratorError, not_yaml
 
 
 def bounded(low: float, high: float, default: Any = dataclasses.MISSING) -> Any:

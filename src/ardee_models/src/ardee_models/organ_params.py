@@ -4,8 +4,8 @@
 from dataclasses import dataclass
 from typing import Tuple
 
+from ardee_common.errors import GeneratorError
 from ardee_models.config import bounded
-from ardee_models.errors import GeneratorError
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Tuple
 
+from ardee_common.errors import GeneratorError
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
-from ardee_models.errors import GeneratorError
 from ardee_models.organ_params import BraceRoots, Colours, Ears, Flowers, Panicle, Tassel, Tillers
 from ardee_models.stages import Stage, resolve_stage
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Tuple
 
+from ardee_common.errors import GeneratorError
 from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
-from ardee_models.errors import GeneratorError
 
 # What a range may rest on; the head of config/ranges.yaml says what each means
 MARKS = ("read", "computed", "derived", "nominal")

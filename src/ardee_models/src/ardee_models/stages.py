@@ -8,8 +8,8 @@ from typing import Dict, Optional, Sequence
 
 import numpy as np
 
+from ardee_common.errors import GeneratorError
 from ardee_models.config import bounded, from_mapping
-from ardee_models.errors import GeneratorError
 
 SEASONS = ("early", "mid", "late")
 

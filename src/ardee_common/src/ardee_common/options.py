@@ -7,7 +7,7 @@ import sys
 import typing
 from typing import Any, Dict, Iterator, Optional, Tuple
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _NONE = type(None)
 # Suffix of a name to the unit in messages and help; the longest that fits counts.

@@ -8,8 +8,8 @@ from typing import Any, Dict
 
 import yaml
 
-from ardee_models.errors import GeneratorError, not_yaml
-from ardee_models.options import kind_of, problem
+from ardee_common.errors import GeneratorError, not_yaml
+from ardee_common.options import kind_of, problem
 
 _MAX_BYTES = 64 << 20
 # YAML 1.1 takes 1e-4 (without a dot) for a text; people mean the number.
