@@ -2,9 +2,10 @@
 """YAML to data that remembers its lines, and to dataclasses: an unknown key is an error with file and line."""
 
 import dataclasses
+import difflib
 import re
 from pathlib import Path
-from typing import Any, Dict
+from typing import Any, Dict, Iterable
 
 import yaml
 
@@ -71,6 +72,13 @@ def read_yaml_lines(path: Path) -> Mapping:
     return data
 
 
+def unknown_key(mapping: Mapping, key: str, known: Iterable[str]) -> GeneratorError:
+    """Returns the error for a key that is not one of the known ones, with the nearest of them."""
+    near = difflib.get_close_matches(key, known, 1)
+    guess = f"; did you mean {near[0]!r}?" if near else ""
+    return mapping.error(key, f"unknown key {key!r}, known: {', '.join(known)}{guess}")
+
+
 def value_of(cls: type, field: dataclasses.Field, mapping: Mapping, key: str) -> Any:
     """The value of a key, checked against the field it is for."""
     value = mapping[key]
@@ -89,7 +97,7 @@ def build(cls: type, mapping: Mapping) -> Any:
     values = {}
     for key in mapping:
         if key not in fields:
-            raise mapping.error(key, f"unknown key {key!r}, known: {', '.join(fields)}")
+            raise unknown_key(mapping, key, fields)
         group = fields[key].metadata.get("group")
         if group is None:
             values[key] = value_of(cls, fields[key], mapping, key)
