@@ -33,6 +33,11 @@ def option(
     return dataclasses.field(default=default, metadata=metadata)
 
 
+def bounded(low: float, high: float, default: Any = dataclasses.MISSING) -> Any:
+    """Returns an option with inclusive limits, which a file must give where it has no default."""
+    return option(default, limits=(low, high))
+
+
 def unit_of(name: str) -> str:
     """Unit that the name of an option ends in, or nothing."""
     return next((unit for suffix, unit in _UNITS if name.endswith(suffix)), "")
@@ -88,6 +93,8 @@ def problem(cls: type, field: dataclasses.Field, value: Any) -> Optional[str]:
             return "a list"
         if items[-1] is not Ellipsis and len(items) != len(value):
             return f"{len(items)} values"
+        if not value and field.default is dataclasses.MISSING:
+            return "a list that is not empty"
         if items[0] in (int, float):
             problems = (_number_problem(v, items[0], limits, unit) for v in value)
             return next((p for p in problems if p), None)
