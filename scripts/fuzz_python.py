@@ -88,7 +88,8 @@ def change_line(data: bytes, draw: random.Random) -> bytes:
 
 def main() -> int:
     """`--target=NAME` comes first."""
-    sys.path[:0] = [str(file.parents[1] / "src") for file in FILES]
+    sources = {file.parents[1] / "src" for file in FILES} | {ROOT / "src/ardee_common/src"}
+    sys.path[:0] = sorted(map(str, sources))
     sys.path.append(str(ROOT / "pydeps_fuzz"))
     import atheris
 

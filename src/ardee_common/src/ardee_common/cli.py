@@ -5,7 +5,7 @@ import argparse
 from pathlib import Path
 from typing import Callable, NoReturn
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 
 class Parser(argparse.ArgumentParser):

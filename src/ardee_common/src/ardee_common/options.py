@@ -7,7 +7,7 @@ import sys
 import typing
 from typing import Any, Dict, Iterator, Optional, Tuple
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _NONE = type(None)
 # Suffix of a name to the unit in messages and help; the longest that fits counts.
@@ -31,6 +31,11 @@ def option(
     """Dataclass field with its help text, inclusive limits or choices, and the command's flag where it differs."""
     metadata = {"text": text, "limits": limits, "choices": choices, "flag": flag}
     return dataclasses.field(default=default, metadata=metadata)
+
+
+def bounded(low: float, high: float, default: Any = dataclasses.MISSING) -> Any:
+    """Returns an option with inclusive limits, which a file must give where it has no default."""
+    return option(default, limits=(low, high))
 
 
 def unit_of(name: str) -> str:
@@ -88,6 +93,8 @@ def problem(cls: type, field: dataclasses.Field, value: Any) -> Optional[str]:
             return "a list"
         if items[-1] is not Ellipsis and len(items) != len(value):
             return f"{len(items)} values"
+        if not value and field.default is dataclasses.MISSING:
+            return "a list that is not empty"
         if items[0] in (int, float):
             problems = (_number_problem(v, items[0], limits, unit) for v in value)
             return next((p for p in problems if p), None)
