@@ -8,7 +8,7 @@ import time
 import pytest
 from PIL import Image
 
-from ardee_bridge import jpeg
+from ardee_bridge.wire import jpeg
 
 
 def file_of(width, height, mode="RGB", **options):

@@ -17,8 +17,8 @@ from typing import IO, Any, Dict, List, NoReturn, Optional, Set, Tuple
 
 import numpy as np
 
-from ardee_bridge import codec
-from ardee_bridge.pairing import Message, Pairer
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.pairing import Message, Pairer
 from ardee_models.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.scenario_files import read_parameters, read_scenarios

@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT
+"""What both nodes share: settings from file and parameters, diagnostics, the loop. The clock is the wall's."""
+import argparse
+import http.client
+import signal
+import sys
+import threading
+import time
+import xmlrpc.client
+from pathlib import Path
+from typing import Any, Callable, Dict, NoReturn
+
+import rosgraph
+import rospkg
+import rospy
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.settings import SettingError
+
+DIAGNOSTICS_PERIOD_S = 1.0
+POLL_S = 0.2
+MASTER_PERIOD_S = 2.0
+# A thread that converts an image lets a small sensor's run after this time, not after Python's 5 ms.
+SWITCH_INTERVAL_S = 0.0005
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+_asked_to_end = threading.Event()
+
+
+def read_parameters(file_name: str) -> Dict[str, Any]:
+    """The package's settings file, with the node's private parameters over it."""
+    file = Path(rospkg.RosPack().get_path("ardee_bridge"), "config", file_name)
+    values = yaml.safe_load(file.read_text(encoding="utf-8"))
+    values.update(rospy.get_param("~", {}))
+    return values
+
+
+def start_diagnostics(counters: Counters) -> None:
+    """Publishes all counters once a second of wall time; WARN while something was dropped in the last second."""
+    publisher = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
+
+    def repeat() -> None:
+        before = 0
+        while not rospy.core.is_shutdown():
+            done, dropped = counters.done(), counters.dropped()
+            total = sum(dropped.values())
+            publisher.publish(_diagnostics(done, dropped, total - before))
+            before = total
+            rospy.rostime.wallsleep(DIAGNOSTICS_PERIOD_S)
+
+    threading.Thread(target=repeat, daemon=True).start()
+
+
+def _diagnostics(done: Dict[str, int], dropped: Dict[str, int], fresh: int) -> DiagnosticArray:
+    """`fresh`: how much was dropped in the last second."""
+    array = DiagnosticArray()
+    array.header.stamp = rospy.Time.now()
+    status = DiagnosticStatus(name=rospy.get_name(), hardware_id="UDP bridge")
+    status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
+    status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
+    pairs = sorted(done.items())
+    pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
+    status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
+    array.status.append(status)
+    return array
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def heed_arguments(name: str, about: str) -> None:
+    """Of the words that ROS leaves: -h and --help print what the node is `about` and end it, any other is refused."""
+    parser = _Parser(
+        prog=name,
+        usage="%(prog)s [-h] [_PARAMETER:=VALUE ...] [NAME:=OTHER_NAME ...]",
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.parse_args(rospy.myargv()[1:])
+
+
+class MasterWatch:
+    """Goes on while the ROS master is away, for topics need none; ends the node once another one is there instead.
+
+    rospy never registers anew: the new master and its nodes would not know of this node's topics. Its name alone they
+    may know, for a line of the log asks for a parameter in that name; so the master's process is compared, too.
+    """
+
+    def __init__(self) -> None:
+        self.is_forgotten = False
+        self._pid = rosgraph.Master(rospy.get_name()).getPid()
+        threading.Thread(target=self._repeat, daemon=True).start()
+
+    def _repeat(self) -> None:
+        name, is_away = rospy.get_name(), False
+        while not rospy.is_shutdown():
+            rospy.rostime.wallsleep(MASTER_PERIOD_S)
+            try:
+                master = rosgraph.Master(name)
+                master.lookupNode(name)
+                if master.getPid() != self._pid:
+                    self._end(name)
+                is_away = False
+            except rosgraph.MasterError:
+                self._end(name)
+            except (OSError, xmlrpc.client.Error, http.client.HTTPException):
+                if not is_away:
+                    print(f"{name}: the ROS master is away", file=sys.stderr, flush=True)
+                is_away = True
+
+    def _end(self, name: str) -> None:
+        if rospy.is_shutdown():
+            return
+        self.is_forgotten = True
+        print(f"{name}: the ROS master knows this node no more", file=sys.stderr, flush=True)
+        rospy.signal_shutdown("forgotten by the master")
+
+
+def enter(name: str, **options: Any) -> bool:
+    """rospy.init_node with these options, once there is a master; False: the node was ended first.
+
+    rospy itself waits for one only where no private parameter stands on the command line.
+    """
+    if not rosgraph.is_master_online():
+        uri = rosgraph.get_master_uri()
+        print(f"{name}: waiting for the ROS master at {uri}", file=sys.stderr, flush=True)
+        while not rosgraph.is_master_online():
+            time.sleep(POLL_S)
+    try:
+        rospy.init_node(name, disable_signals=True, **options)
+    except rospy.ROSInitException:
+        if not rospy.is_shutdown():
+            raise
+    _end_by_signals()
+    return not rospy.is_shutdown()
+
+
+def _end_by_signals() -> None:
+    """Instead of rospy's handlers: where they interrupt a call to the master, the first line of the log for one, they
+    wait for its lock for ever. The second signal ends the process as it is."""
+
+    def end(_: int, __: object) -> None:
+        _asked_to_end.set()
+        for number in SIGNALS:
+            signal.signal(number, signal.SIG_DFL)
+
+    for number in SIGNALS:
+        signal.signal(number, end)
+
+
+def loop(step: Callable[[float], None]) -> None:
+    """Call `step` again and again, with a time to wait [s], until the node is to end; then end it."""
+    while not rospy.is_shutdown() and not _asked_to_end.is_set():
+        step(POLL_S)
+    rospy.signal_shutdown("asked to end")
+
+
+def run(name: str, about: str, body: Callable[[], Callable[[float], None]]) -> int:
+    """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
+
+    `about` is the text of -h.
+
+    Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
+    """
+    heed_arguments(name, about)
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
+    if not enter(name, disable_rostime=True):
+        return 0
+    try:
+        watch = MasterWatch()
+        step = body()
+    except (SettingError, OSError) as error:
+        print(f"{rospy.get_name()}: {error}", file=sys.stderr)
+        return 2
+    loop(step)
+    return 3 if watch.is_forgotten else 0

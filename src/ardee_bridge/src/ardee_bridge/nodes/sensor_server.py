@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: MIT
+"""Sends sensor messages to whom they are for, and answers SET_PORT messages; without rospy."""
+import select
+import socket
+import threading
+import time
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
+
+from ardee_bridge.nodes import convert
+from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.settings import COMPRESSED, ServerSettings, Source
+from ardee_bridge.wire import chunks, codec
+from ardee_bridge.wire.pairing import Message, Pairer
+from ardee_bridge.wire.udp import Inbox, Sender
+
+_ALL_BIT = 1 << codec.DataType.ALL
+_TIME_BIT = 1 << codec.DataType.TIME
+
+
+class Target(NamedTuple):
+    """Who gets messages: address, data types wanted, one component or all, end of the lease (None: configured)."""
+
+    address: Sender
+    data_types: int
+    component_id: int
+    until_s: Optional[float]
+
+    def wants(self, data_type: int, component_id: int) -> bool:
+        """Does it get this sensor's messages?"""
+        return bool(self.data_types & (_ALL_BIT | 1 << data_type)) and self.component_id in (
+            codec.ALL_COMPONENTS,
+            component_id,
+        )
+
+
+class RateLimit:
+    """Lets through at most so many messages a second of simulated time, exact in the mean; 0: all.
+
+    Messages whose time stamp is left at 0 are all let through: nothing tells how many they are in a second.
+    """
+
+    def __init__(self, max_rate_hz: float) -> None:
+        self._period_s = 1.0 / max_rate_hz if max_rate_hz else 0.0
+        self._due_s = self._last_s = float("-inf")
+
+    def admits(self, stamp_s: float) -> bool:
+        """Is the message of this time let through?"""
+        if not self._period_s or stamp_s == self._last_s == 0.0:
+            return True
+        if stamp_s < self._last_s:  # the simulation was reset
+            self._due_s = float("-inf")
+        self._last_s = stamp_s
+        if stamp_s < self._due_s - 1e-6:
+            return False
+        is_late = stamp_s > self._due_s + self._period_s
+        self._due_s = (stamp_s if is_late else self._due_s) + self._period_s
+        return True
+
+
+class SensorServer:
+    """Targets, and the socket to them. `publish` may be called from any thread."""
+
+    def __init__(
+        self,
+        settings: ServerSettings,
+        opened: socket.socket,
+        counters: Counters,
+        on_targets: Callable[[], None] = lambda: None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._settings, self._socket, self._counters = settings, opened, counters
+        self._on_targets, self._clock = on_targets, clock
+        self._lock = threading.Lock()
+        self._pairer = Pairer()
+        self._inbox = Inbox(opened)
+        self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
+        self._sequences: Dict[str, int] = {}
+        self._targets: Dict[Sender, Target] = {}
+        # by component: stamp and form of its latest image
+        self._images: Dict[int, Tuple[Any, str]] = {}
+        for peer in settings.destinations:
+            address = (peer.address, peer.port)
+            self._targets[address] = Target(address, peer.data_types, codec.ALL_COMPONENTS, None)
+
+    # -- sensors
+
+    def wanted(self) -> Set[str]:
+        """Names of the sources that somebody wants."""
+        return {source.name for source in self._settings.sources if self._targets_of(source)}
+
+    def publish(self, source: Source, message: Any, velocity: Any = None) -> None:
+        """Sends a ROS message to all that want it."""
+        targets = self._targets_of(source)
+        if not targets:
+            return
+        try:
+            if not self._limits[source.name].admits(convert.stamp_s(message)):
+                return
+            messages = self._messages(source, message, velocity)
+        except ValueError as error:
+            what = "sensor messages that the wire cannot carry"
+            self._counters.drop(what, f"{source.topic}: {error}")
+            return
+        if messages:
+            stamp = _stamp(source, message)
+            for target in targets:
+                has_stamp = target.data_types & _TIME_BIT
+                self._send(target.address, [stamp, *messages] if has_stamp else messages)
+            self._counters.did(f"sent {source.name}")
+
+    def _messages(self, source: Source, message: Any, velocity: Any) -> List[codec.Datagrams]:
+        """Returns the messages of the wire; none for an image that was sent already."""
+        if source.image_format == COMPRESSED:
+            frame = convert.compressed_image(message)
+        elif source.kind == "image":
+            frame = convert.image(message, source.image_format, source.jpeg_quality)
+        elif source.kind == "point_cloud":
+            frame = convert.point_cloud(message)
+        else:
+            is_gps = source.kind == "gps"
+            reading = (
+                convert.gps(message, velocity) if is_gps else convert.SINGLES[source.kind](message)
+            )
+            data = reading.data
+            return [codec.encode(source.data_type, source.component_id, data, reading.count)]
+        if source.image_format in (COMPRESSED, "jpeg") and not self._is_first(source, message):
+            return []
+        sequence = self._sequences.get(source.name, 0)
+        self._sequences[source.name] = (sequence + 1) & 0x7FFFFFFF
+        frame.head.chunk.sequence = sequence
+        place = (source.data_type, source.component_id)
+        return chunks.split(*place, frame.head, frame.payload, source.chunk_bytes)
+
+    def _is_first(self, source: Source, message: Any) -> bool:
+        """Returns whether the image of this stamp was not sent in the camera's other form.
+
+        Drivers that leave the stamp at 0 lose one image when the form changes.
+        """
+        stamp = (message.header.stamp.secs, message.header.stamp.nsecs)
+        with self._lock:
+            before = self._images.get(source.component_id, (None, ""))
+            self._images[source.component_id] = (stamp, source.image_format)
+        return before[0] != stamp or before[1] == source.image_format
+
+    def _targets_of(self, source: Source) -> List[Target]:
+        return [
+            target
+            for target in list(self._targets.values())
+            if target.wants(source.data_type, source.component_id)
+        ]
+
+    def _send(self, address: Sender, messages: List[codec.Datagrams]) -> None:
+        """Sends headers and data back to back, whatever other threads send."""
+        refused: Dict[str, List[str]] = {}
+        with self._lock:
+            for pair in messages:
+                try:
+                    for datagram in pair:
+                        self._socket.sendto(datagram, socket.MSG_DONTWAIT, address)
+                except OSError as error:
+                    is_full = isinstance(error, BlockingIOError)
+                    kind = "to a full send buffer" if is_full else "that could not be sent"
+                    refused.setdefault(f"messages {kind}", []).append(error.strerror)
+        for kind, errors in refused.items():
+            where = f"{address[0]}:{address[1]}: {errors[-1]}"
+            self._counters.drop(kind, where, count=len(errors))
+
+    # -- clients
+
+    def receive(self, timeout_s: float) -> None:
+        """Wait so long for requests, and answer them; forget clients whose lease has ended."""
+        readable, _, _ = select.select([self._socket], [], [], timeout_s)
+        if readable:
+            for datagram, sender, _ in self._inbox.drain():
+                self._take(datagram, sender)
+            self._count_drops()
+        self._forget()
+
+    def _count_drops(self) -> None:
+        for reason, count, detail in self._pairer.take_drops():
+            self._counters.drop(f"requests: {reason}", detail, count)
+        if self._inbox.overflowed:
+            self._counters.raise_to("requests: receive buffer full", self._inbox.overflowed)
+
+    def _take(self, datagram: bytes, sender: Sender) -> None:
+        if not self._settings.allowed_clients.include(sender):
+            self._counters.drop("requests: sender not allowed", f"{sender[0]}:{sender[1]}")
+            return
+        message = self._pairer.feed(sender, datagram, self._clock())
+        if message is None:
+            return
+        if message.header.msg_type != codec.MessageType.SET_PORT:
+            self._counters.drop("requests: not SET_PORT", f"type {message.header.msg_type}")
+            return
+        self._set_port(message, sender)
+
+    def _set_port(self, message: Message, sender: Sender) -> None:
+        request = codec.SetPort.unpack(message.data)
+        if not 0 <= request.port <= 65535 or request.component_id < codec.ALL_COMPONENTS:
+            what = f"port {request.port}, component {request.component_id}"
+            self._counters.drop("requests: malformed SET_PORT", what)
+            return
+        address = (sender[0], request.port or sender[1])
+        if not self._register(address, request):
+            return
+        unsent = self._unsent(self._targets.get(address))
+        if unsent:
+            what = "requests: sensors that no source sends"
+            self._counters.drop(what, f"{address[0]}:{address[1]}: {', '.join(unsent)}")
+        self._counters.did("SET_PORT obeyed")
+        self._send(sender, [codec.encode_ack(message.header)])
+        self._on_targets()
+
+    def _register(self, address: Sender, request: codec.SetPort) -> bool:
+        known = self._targets.get(address)
+        is_configured = known is not None and known.until_s is None
+        if request.data_types == 0 and not is_configured:
+            self._targets.pop(address, None)
+            return True
+        clients = sum(target.until_s is not None for target in self._targets.values())
+        if known is None and clients >= self._settings.max_clients:
+            self._counters.drop("requests: too many clients", f"{address[0]}:{address[1]}")
+            return False
+        until_s = None if is_configured else self._clock() + self._settings.client_lease_s
+        self._targets[address] = Target(address, request.data_types, request.component_id, until_s)
+        return True
+
+    def _unsent(self, target: Optional[Target]) -> List[str]:
+        """Names of the data types that it wants and will not get, for lack of a source."""
+        if target is None:
+            return []
+        sources = self._settings.sources
+        sent = {
+            each.data_type for each in sources if target.wants(each.data_type, each.component_id)
+        }
+        if sent:
+            sent.add(codec.DataType.ALL)
+        wanted = {each for each in codec.DataType if target.data_types & 1 << each}
+        missing = wanted - sent - {codec.DataType.NONE, codec.DataType.TIME}
+        return [each.name.lower() for each in sorted(missing)]
+
+    def _forget(self) -> None:
+        now = self._clock()
+        ended = [
+            address
+            for address, target in self._targets.items()
+            if target.until_s is not None and target.until_s < now
+        ]
+        for address in ended:
+            del self._targets[address]
+            self._counters.did("clients forgotten")
+        if ended:
+            self._on_targets()
+
+    def clients(self) -> Tuple[Target, ...]:
+        """Everybody who gets messages."""
+        return tuple(self._targets.values())
+
+
+def _stamp(source: Source, message: Any) -> codec.Datagrams:
+    stamp, component_id = message.header.stamp, source.component_id
+    data = codec.TimeStamp(
+        sec=stamp.secs, nsec=stamp.nsecs, data_type=source.data_type, component_id=component_id
+    )
+    return codec.encode(codec.DataType.TIME, component_id, data.pack())
