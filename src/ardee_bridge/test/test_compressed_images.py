@@ -97,7 +97,7 @@ def test_the_camera_s_bytes_are_sent(bench, text):
         ("32FC1; compressedDepth png", None, "compressedDepth"),
         ("jpeg", b"", "0 bytes that are no JPEG file"),
         ("jpeg", b"\x89PNG\r\n", "no JPEG file"),
-        ("jpeg", b"\xff\xd8\xff", "3 bytes of JPEG"),
+        ("jpeg", b"\xff\xd8\xff", "3 bytes that are no JPEG file"),
     ],
 )
 def test_what_is_no_jpeg_is_dropped(bench, text, data, message):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """Obeys motion and control messages of its peers, and stops the robot when they cease; without rospy."""
-import select
 import socket
 import threading
 import time
@@ -8,11 +7,12 @@ from collections import deque
 from typing import Callable, Deque, Dict, NamedTuple, Optional
 
 from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.requests import Requests
 from ardee_bridge.nodes.settings import ControlSettings
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.layout import NO_VALUE
-from ardee_bridge.wire.pairing import Message, Pairer
-from ardee_bridge.wire.udp import Inbox, Sender
+from ardee_bridge.wire.pairing import Message
+from ardee_bridge.wire.udp import Sender
 
 
 class Motion(NamedTuple):
@@ -62,8 +62,7 @@ class ControlsClient:
     ) -> None:
         self._settings, self._socket, self._counters = settings, opened, counters
         self._move, self._pause_simulation, self._clock = move, pause_simulation, clock
-        self._pairer = Pairer()
-        self._inbox = Inbox(opened)
+        self._requests = Requests(opened, settings.peers, counters, clock, "sender is no peer")
         # One that was killed before may have left the robot driving, so the watchdog waits from the start.
         self._stop_at_s: Optional[float] = clock() + settings.watchdog_s
         self._is_stopped = False
@@ -74,11 +73,8 @@ class ControlsClient:
         """Wait so long at most, obey what has come, stop the robot when its commands have ceased."""
         if self._stop_at_s is not None:
             timeout_s = max(0.0, min(timeout_s, self._stop_at_s - self._clock()))
-        readable, _, _ = select.select([self._socket], [], [], timeout_s)
-        if readable:
-            for datagram, sender, age_s in self._inbox.drain():
-                self._take(datagram, sender, self._clock() - age_s)
-            self._count_drops()
+        for message, sender, at_s in self._requests.receive(timeout_s):
+            self._take(message, sender, at_s)
         while self._pending:
             self._tell(self._pending.popleft())
         if self._stop_at_s is not None and self._clock() >= self._stop_at_s:
@@ -99,19 +95,7 @@ class ControlsClient:
                 self._told = motion
                 self._move(motion)
 
-    def _count_drops(self) -> None:
-        for reason, count, detail in self._pairer.take_drops():
-            self._counters.drop(reason, detail, count)
-        if self._inbox.overflowed:
-            self._counters.raise_to("receive buffer full", self._inbox.overflowed)
-
-    def _take(self, datagram: bytes, sender: Sender, at_s: float) -> None:
-        if not self._settings.peers.include(sender):
-            self._counters.drop("sender is no peer", f"{sender[0]}:{sender[1]}")
-            return
-        message = self._pairer.feed(sender, datagram, at_s)
-        if message is None:
-            return
+    def _take(self, message: Message, sender: Sender, at_s: float) -> None:
         if message.header.msg_type == codec.MessageType.DATA_RCCOMMANDS:
             self._obey_motion(message, at_s)
         elif message.header.msg_type == codec.MessageType.CONTROL:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Which velocity goes with a GPS fix: they come on two topics, and on the wire in one message."""
+import threading
 from typing import Any, Callable, Optional, Tuple
 
 
@@ -21,9 +22,14 @@ class FixWithVelocity:
         self._waiting: Any = None
         self._latest_fix: Optional[Tuple[int, int]] = None
         self._comes_after = False
+        self._lock = threading.Lock()  # rospy reads each topic in a thread of its own
 
     def on_fix(self, fix: Any) -> None:
         """A sensor_msgs/NavSatFix has come."""
+        with self._lock:
+            self._take_fix(fix)
+
+    def _take_fix(self, fix: Any) -> None:
         if self._waiting is not None:
             self._comes_after = False
             self._send_waiting()
@@ -34,11 +40,12 @@ class FixWithVelocity:
 
     def on_velocity(self, velocity: Any) -> None:
         """A geometry_msgs/Vector3Stamped has come."""
-        self._velocity = velocity
-        if _stamp(velocity) == self._latest_fix:
-            self._comes_after = True
-        if self._waiting is not None and self._has_velocity_of(self._waiting):
-            self._send_waiting()
+        with self._lock:
+            self._velocity = velocity
+            if _stamp(velocity) == self._latest_fix:
+                self._comes_after = True
+            if self._waiting is not None and self._has_velocity_of(self._waiting):
+                self._send_waiting()
 
     def _has_velocity_of(self, fix: Any) -> bool:
         return self._velocity is not None and _stamp(self._velocity) == _stamp(fix)

@@ -44,27 +44,20 @@ def start_diagnostics(counters: Counters) -> None:
     def repeat() -> None:
         before = 0
         while not rospy.core.is_shutdown():
-            done, dropped = counters.done(), counters.dropped()
-            total = sum(dropped.values())
-            publisher.publish(_diagnostics(done, dropped, total - before))
-            before = total
+            dropped = counters.dropped()
+            fresh, before = sum(dropped.values()) - before, sum(dropped.values())
+            status = DiagnosticStatus(name=rospy.get_name(), hardware_id="UDP bridge")
+            status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
+            status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
+            pairs = sorted(counters.done().items())
+            pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
+            status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
+            array = DiagnosticArray(status=[status])
+            array.header.stamp = rospy.Time.now()
+            publisher.publish(array)
             rospy.rostime.wallsleep(DIAGNOSTICS_PERIOD_S)
 
     threading.Thread(target=repeat, daemon=True).start()
-
-
-def _diagnostics(done: Dict[str, int], dropped: Dict[str, int], fresh: int) -> DiagnosticArray:
-    """`fresh`: how much was dropped in the last second."""
-    array = DiagnosticArray()
-    array.header.stamp = rospy.Time.now()
-    status = DiagnosticStatus(name=rospy.get_name(), hardware_id="UDP bridge")
-    status.level = DiagnosticStatus.WARN if fresh else DiagnosticStatus.OK
-    status.message = f"dropped {fresh} in the last second" if fresh else "nothing dropped"
-    pairs = sorted(done.items())
-    pairs += [(f"dropped: {kind}", count) for kind, count in sorted(dropped.items())]
-    status.values = [KeyValue(kind, str(count)) for kind, count in pairs]
-    array.status.append(status)
-    return array
 
 
 class _Parser(argparse.ArgumentParser):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """Sends sensor messages to whom they are for, and answers SET_PORT messages; without rospy."""
-import select
 import socket
 import threading
 import time
@@ -8,10 +7,11 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge.nodes import convert
 from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.requests import Requests
 from ardee_bridge.nodes.settings import COMPRESSED, ServerSettings, Source
 from ardee_bridge.wire import chunks, codec
-from ardee_bridge.wire.pairing import Message, Pairer
-from ardee_bridge.wire.udp import Inbox, Sender
+from ardee_bridge.wire.pairing import Message
+from ardee_bridge.wire.udp import Sender
 
 _ALL_BIT = 1 << codec.DataType.ALL
 _TIME_BIT = 1 << codec.DataType.TIME
@@ -26,11 +26,9 @@ class Target(NamedTuple):
     until_s: Optional[float]
 
     def wants(self, data_type: int, component_id: int) -> bool:
-        """Does it get this sensor's messages?"""
-        return bool(self.data_types & (_ALL_BIT | 1 << data_type)) and self.component_id in (
-            codec.ALL_COMPONENTS,
-            component_id,
-        )
+        """Returns whether it gets this sensor's messages."""
+        is_component = self.component_id in (codec.ALL_COMPONENTS, component_id)
+        return is_component and bool(self.data_types & (_ALL_BIT | 1 << data_type))
 
 
 class RateLimit:
@@ -71,8 +69,9 @@ class SensorServer:
         self._settings, self._socket, self._counters = settings, opened, counters
         self._on_targets, self._clock = on_targets, clock
         self._lock = threading.Lock()
-        self._pairer = Pairer()
-        self._inbox = Inbox(opened)
+        self._requests = Requests(
+            opened, settings.allowed_clients, counters, clock, "sender not allowed", "requests: "
+        )
         self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
         self._sequences: Dict[str, int] = {}
         self._targets: Dict[Sender, Target] = {}
@@ -168,31 +167,14 @@ class SensorServer:
     # -- clients
 
     def receive(self, timeout_s: float) -> None:
-        """Wait so long for requests, and answer them; forget clients whose lease has ended."""
-        readable, _, _ = select.select([self._socket], [], [], timeout_s)
-        if readable:
-            for datagram, sender, _ in self._inbox.drain():
-                self._take(datagram, sender)
-            self._count_drops()
+        """Waits so long for requests, and answers them; forgets clients whose lease has ended."""
+        for message, sender, _ in self._requests.receive(timeout_s):
+            if message.header.msg_type == codec.MessageType.SET_PORT:
+                self._set_port(message, sender)
+            else:
+                what = f"type {message.header.msg_type}"
+                self._counters.drop("requests: not SET_PORT", what)
         self._forget()
-
-    def _count_drops(self) -> None:
-        for reason, count, detail in self._pairer.take_drops():
-            self._counters.drop(f"requests: {reason}", detail, count)
-        if self._inbox.overflowed:
-            self._counters.raise_to("requests: receive buffer full", self._inbox.overflowed)
-
-    def _take(self, datagram: bytes, sender: Sender) -> None:
-        if not self._settings.allowed_clients.include(sender):
-            self._counters.drop("requests: sender not allowed", f"{sender[0]}:{sender[1]}")
-            return
-        message = self._pairer.feed(sender, datagram, self._clock())
-        if message is None:
-            return
-        if message.header.msg_type != codec.MessageType.SET_PORT:
-            self._counters.drop("requests: not SET_PORT", f"type {message.header.msg_type}")
-            return
-        self._set_port(message, sender)
 
     def _set_port(self, message: Message, sender: Sender) -> None:
         request = codec.SetPort.unpack(message.data)
@@ -241,16 +223,11 @@ class SensorServer:
 
     def _forget(self) -> None:
         now = self._clock()
-        ended = [
-            address
-            for address, target in self._targets.items()
-            if target.until_s is not None and target.until_s < now
-        ]
-        for address in ended:
-            del self._targets[address]
-            self._counters.did("clients forgotten")
-        if ended:
-            self._on_targets()
+        for address, target in list(self._targets.items()):
+            if target.until_s is not None and target.until_s < now:
+                del self._targets[address]
+                self._counters.did("clients forgotten")
+                self._on_targets()
 
     def clients(self) -> Tuple[Target, ...]:
         """Everybody who gets messages."""

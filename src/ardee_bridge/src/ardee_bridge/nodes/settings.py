@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Settings of the two nodes: read from nested dictionaries (YAML, ROS parameters), checked key by key."""
 import ipaddress
-import math
 import re
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import MAX_PAYLOAD
@@ -46,71 +45,65 @@ class Reader:
         found = repr(self._values[key]) if key in self._values else "nothing"
         return SettingError(f"{self._path}{key}: found {found}, expected {expected}")
 
-    def _get(self, key: str, default: Any) -> Any:
+    def _take(
+        self, key: str, is_good: Callable[[Any], Any], expected: str, default: Any = _UNSET
+    ) -> Any:
         self._asked.add(key)
-        return self._values.get(key, default)
-
-    def text(self, key: str, default: Any = _UNSET) -> str:
-        """A string that is not empty, unless the default is."""
-        value = self._get(key, default)
-        if not isinstance(value, str) or not value and value != default:
-            raise self._fail(key, "a text")
+        value = self._values.get(key, default)
+        if not is_good(value):
+            raise self._fail(key, expected)
         return value
+
+    def text(self, key: str) -> str:
+        """Returns a string that is not empty."""
+        return self._take(key, lambda value: isinstance(value, str) and value, "a text")
 
     def name(self, key: str, default: Any = _UNSET) -> str:
-        """Name of a topic or service."""
-        value = self.text(key, default)
-        if value != default and not _NAME.fullmatch(value):
-            raise self._fail(key, "a ROS name such as ardee/gps")
-        return value
+        """Returns the name of a topic or service, or the default."""
+        if self._values.get(key, default) == default != _UNSET:
+            self._asked.add(key)
+            return default
+        self.text(key)
+        return self._take(key, _NAME.fullmatch, "a ROS name such as ardee/gps")
 
     def choice(self, key: str, choices: Any, default: Any = _UNSET) -> str:
-        """One of several words."""
-        value = self._get(key, default)
-        if not isinstance(value, str) or value not in choices:
-            raise self._fail(key, "one of " + ", ".join(choices))
-        return value
+        """Returns one of several words."""
+        expected = "one of " + ", ".join(choices)
+        return self._take(key, lambda v: isinstance(v, str) and v in choices, expected, default)
 
     def number(self, key: str, least: float, most: float, default: Any = _UNSET) -> float:
-        """A number within bounds."""
-        value = self._get(key, default)
-        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if not is_number or not math.isfinite(value) or not least <= value <= most:
-            raise self._fail(key, f"a number from {least:g} to {most:g}")
-        return value
+        """Returns a number within bounds."""
+        expected = f"a number from {least:g} to {most:g}"
+        return self._take(
+            key, lambda v: type(v) in (int, float) and least <= v <= most, expected, default
+        )
 
     def whole(self, key: str, least: int, most: int, default: Any = _UNSET) -> int:
-        """A whole number within bounds."""
-        value = self._get(key, default)
-        if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-            raise self._fail(key, f"a whole number from {least} to {most}")
-        return value
+        """Returns a whole number within bounds."""
+        expected = f"a whole number from {least} to {most}"
+        return self._take(key, lambda v: type(v) is int and least <= v <= most, expected, default)
 
-    def address(self, key: str, default: Any = _UNSET) -> str:
-        """An IPv4 address."""
-        value = self._get(key, default)
+    def address(self, key: str) -> str:
+        """Returns an IPv4 address."""
+        value = self._take(key, lambda v: True, "")
         try:
             return str(ipaddress.IPv4Address(value if isinstance(value, str) else ""))
         except ValueError:
             raise self._fail(key, "an IPv4 address such as 127.0.0.1") from None
 
     def items(self, key: str) -> List[Any]:
-        """A list."""
-        value = self._get(key, [])
-        if not isinstance(value, list):
-            raise self._fail(key, "a list")
-        return value
+        """Returns a list."""
+        return self._take(key, lambda value: isinstance(value, list), "a list", [])
 
     def selections(self, key: str) -> List[str]:
-        """A list of kinds of sensors; not to be left out, for nothing would be sent without it."""
-        expected = self._fail(key, "a list of " + ", ".join(SELECTIONS))
-        words = self._get(key, None)
-        if not isinstance(words, list):
-            raise expected
-        for word in words:
-            if not isinstance(word, str) or word not in SELECTIONS:
-                raise expected
-        return words
+        """Returns a list of kinds of sensors; not to be left out, for nothing would be sent without it."""
+
+        def is_good(words: Any) -> bool:
+            return isinstance(words, list) and all(
+                isinstance(word, str) and word in SELECTIONS for word in words
+            )
+
+        return self._take(key, is_good, "a list of " + ", ".join(SELECTIONS))
 
     def readers(self, key: str) -> List["Reader"]:
         """A list of dictionaries."""
@@ -139,12 +132,9 @@ class Reader:
 
 
 def _port(text: str) -> Optional[int]:
-    if not text:
-        return None
-    port = int(text)
-    if not 1 <= port <= 65535:
+    if text and not 1 <= int(text) <= 65535:
         raise ValueError(text)
-    return port
+    return int(text) if text else None
 
 
 class Peers(NamedTuple):
@@ -294,24 +284,6 @@ def kept_here(settings: ServerSettings) -> List[str]:
     return [each for each in addresses if ipaddress.IPv4Address(each).is_multicast]
 
 
-def _check_unique(sources: Tuple[Source, ...]) -> None:
-    """Sources are told apart by their names here, and by kind and component on the wire."""
-    places = [(source.data_type, source.component_id) for source in sources]
-    names = [source.name for source in sources]
-    for number, (name, place) in enumerate(zip(names, places)):
-        if name in names[:number]:
-            other = names.index(name)
-            raise SettingError(
-                f"sources[{number}].name: found {name!r}, which is sources[{other}]'s; expected one of its own"
-            )
-        if place in places[:number]:
-            other, kind = sources[places.index(place)].name, sources[number].kind
-            raise SettingError(
-                f"sources[{number}].component_id: found {place[1]}, which is {other}'s; "
-                f"expected one of its own among kind {kind}"
-            )
-
-
 def silent(peers: Peers) -> List[str]:
     """Those from whose address nothing ever comes: multicast groups, and the broadcast to all."""
     everybody = ipaddress.IPv4Address("255.255.255.255")
@@ -319,19 +291,38 @@ def silent(peers: Peers) -> List[str]:
     return [str(host) for host in hosts if host.is_multicast or host == everybody]
 
 
+def _check_distinct(values: Sequence[Any], complaint: Callable[[int, int], str]) -> None:
+    """Refuses a value that occurs twice; the complaint is of the later one, and names the first."""
+    for number, value in enumerate(values):
+        if value in values[:number]:
+            raise SettingError(complaint(number, values.index(value)))
+
+
+def _check_unique(sources: Tuple[Source, ...]) -> None:
+    """Sources are told apart by their names here, and by kind and component on the wire."""
+    _check_distinct(
+        [source.name for source in sources],
+        lambda number, other: f"sources[{number}].name: found {sources[number].name!r}, "
+        f"which is sources[{other}]'s; expected one of its own",
+    )
+    _check_distinct(
+        [(source.data_type, source.component_id) for source in sources],
+        lambda number, other: f"sources[{number}].component_id: found {sources[number].component_id}, "
+        f"which is {sources[other].name}'s; expected one of its own among kind {sources[number].kind}",
+    )
+
+
 def _check_destinations(destinations: Tuple[Destination, ...], own: Tuple[str, int]) -> None:
     """One selection for each address and port: the server keeps no more. None for the server itself."""
     places = [(peer.address, peer.port) for peer in destinations]
     if own in places:
-        raise SettingError(
-            f"peers[{places.index(own)}]: found {own[0]}:{own[1]}, which is the server's own; expected another's"
-        )
-    for number, place in enumerate(places):
-        if place in places[:number]:
-            raise SettingError(
-                f"peers[{number}]: found {place[0]}:{place[1]}, which is peers[{places.index(place)}]'s; "
-                "expected each address and port once, with all its data_types"
-            )
+        found = f"peers[{places.index(own)}]: found {own[0]}:{own[1]}"
+        raise SettingError(f"{found}, which is the server's own; expected another's")
+    _check_distinct(
+        places,
+        lambda number, other: "peers[%d]: found %s:%d, which is " % (number, *places[number])
+        + f"peers[{other}]'s; expected each address and port once, with all its data_types",
+    )
 
 
 def read_controls(values: Dict[str, Any]) -> ControlSettings:

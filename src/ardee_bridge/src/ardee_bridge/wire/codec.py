@@ -180,30 +180,7 @@ class Point(CStruct):
 
 
 # Everything that goes over the wire or into something that does, in the order of the C header.
-STRUCTS: Tuple[Type[CStruct], ...] = (
-    Header,
-    Xyz,
-    Quaternion,
-    Euler,
-    MotionData,
-    Ack,
-    OrientationData,
-    IMUData,
-    GPSData,
-    GyroData,
-    AccelerationData,
-    MotionCommands,
-    LidarData,
-    EncoderData,
-    BatteryData,
-    Control,
-    SetPort,
-    TimeStamp,
-    Chunk,
-    ImageChunk,
-    PointCloudChunk,
-    Point,
-)
+STRUCTS: Tuple[Type[CStruct], ...] = tuple(CStruct.__subclasses__())
 
 # (message type, data type) -> data struct, of all that has one.
 _M, _D = MessageType, DataType
