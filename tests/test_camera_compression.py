@@ -319,4 +319,4 @@ def test_a_compressing_node_beside_the_camera_comes_and_goes(
 
 def is_read(graph: RosGraph, topic: str) -> bool:
     """Returns whether the server is subscribed to the topic."""
-    return "/sensor_server_node" in graph.run("rostopic", "info", topic)
+    return f" * {topic} [" in graph.run("rosnode", "info", "/sensor_server_node")

@@ -4,8 +4,9 @@
 The parameters, such as _watchdog_s:=0.3, are the keys of config/controls_client.yaml in the package
 ardee_bridge; the defaults stand there.
 """
+import queue
 import threading
-from typing import Callable, Dict, Optional
+from typing import Callable, Dict
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -65,21 +66,18 @@ class SimulationPauser:
             False: rospy.ServiceProxy(settings.unpause_service, Empty),
         }
         self._counters = counters
-        self._changed = threading.Condition()
-        self._wanted: Optional[bool] = None
+        self._wanted: "queue.SimpleQueue[bool]" = queue.SimpleQueue()
         threading.Thread(target=self._serve, daemon=True).start()
 
     def want(self, paused: bool) -> None:
-        """The newest wish holds."""
-        with self._changed:
-            self._wanted = paused
-            self._changed.notify()
+        """Takes a wish; the newest holds."""
+        self._wanted.put(paused)
 
     def _serve(self) -> None:
         while True:
-            with self._changed:
-                self._changed.wait_for(lambda: self._wanted is not None)
-                paused, self._wanted = bool(self._wanted), None
+            paused = self._wanted.get()
+            while not self._wanted.empty():
+                paused = self._wanted.get()
             try:
                 self._services[paused]()
             except Exception as error:  # whatever it was, the next wish is to be heard

@@ -33,8 +33,8 @@ class Frame(NamedTuple):
     payload: codec.Buffer
 
 
-def _vector(v: Any) -> Vector:
-    return Vector(x=v.x, y=v.y, z=v.z)
+def _vector(v: Any, kind: Any = Vector) -> Any:
+    return kind(x=v.x, y=v.y, z=v.z)
 
 
 def _diagonal(matrix: Any) -> Vector:
@@ -63,14 +63,12 @@ def imu(message: Any) -> Reading:
 
 def gyro(message: Any) -> Reading:
     """Angular velocity of a sensor_msgs/Imu."""
-    v = message.angular_velocity
-    return Reading(codec.GyroData(x=v.x, y=v.y, z=v.z).to_raw().pack())
+    return Reading(_vector(message.angular_velocity, codec.GyroData).to_raw().pack())
 
 
 def acceleration(message: Any) -> Reading:
     """Specific force of a sensor_msgs/Imu."""
-    v = message.linear_acceleration
-    return Reading(codec.AccelerationData(x=v.x, y=v.y, z=v.z).to_raw().pack())
+    return Reading(_vector(message.linear_acceleration, codec.AccelerationData).to_raw().pack())
 
 
 def orientation(message: Any) -> Reading:
@@ -134,14 +132,10 @@ def battery(message: Any) -> Reading:
     return Reading(data.to_raw().pack())
 
 
-SINGLES: Dict[str, Callable[[Any], Reading]] = {
-    "imu": imu,
-    "gyro": gyro,
-    "acceleration": acceleration,
-    "orientation": orientation,
-    "lidar": lidar,
-    "encoder": encoder,
-    "battery": battery,
+# By the kind of sensor; of a GPS a velocity may be given, too.
+SINGLES: Dict[str, Callable[..., Reading]] = {
+    each.__name__: each
+    for each in (imu, gyro, acceleration, orientation, gps, lidar, encoder, battery)
 }
 
 # ROS encoding -> encoding on the wire, bytes a pixel, PIL's names of the mode and of the order of its bytes

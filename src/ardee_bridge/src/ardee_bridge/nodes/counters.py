@@ -21,10 +21,10 @@ class Counters:
         self._logged: Dict[str, float] = {}
         self._said: "Counter[str]" = Counter()
 
-    def did(self, kind: str, count: int = 1) -> None:
+    def did(self, kind: str) -> None:
         """Something went as it should."""
         with self._lock:
-            self._done[kind] += count
+            self._done[kind] += 1
 
     def drop(self, kind: str, detail: str = "", count: int = 1) -> None:
         """Something was dropped; `detail` is of this one, `kind` of all like it."""

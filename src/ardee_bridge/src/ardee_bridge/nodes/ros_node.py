@@ -128,21 +128,16 @@ def enter(name: str, **options: Any) -> bool:
     except rospy.ROSInitException:
         if not rospy.is_shutdown():
             raise
-    _end_by_signals()
-    return not rospy.is_shutdown()
 
-
-def _end_by_signals() -> None:
-    """Instead of rospy's handlers: where they interrupt a call to the master, the first line of the log for one, they
-    wait for its lock for ever. The second signal ends the process as it is."""
-
+    # Not rospy's handlers: where they interrupt a call to the master they wait for its lock for ever.
     def end(_: int, __: object) -> None:
         _asked_to_end.set()
         for number in SIGNALS:
-            signal.signal(number, signal.SIG_DFL)
+            signal.signal(number, signal.SIG_DFL)  # the second one ends the process as it is
 
     for number in SIGNALS:
         signal.signal(number, end)
+    return not rospy.is_shutdown()
 
 
 def loop(step: Callable[[float], None]) -> None:

@@ -116,12 +116,9 @@ class SensorServer:
         elif source.kind == "point_cloud":
             frame = convert.point_cloud(message)
         else:
-            is_gps = source.kind == "gps"
-            reading = (
-                convert.gps(message, velocity) if is_gps else convert.SINGLES[source.kind](message)
-            )
-            data = reading.data
-            return [codec.encode(source.data_type, source.component_id, data, reading.count)]
+            more = () if velocity is None else (velocity,)
+            reading = convert.SINGLES[source.kind](message, *more)
+            return [codec.encode(source.data_type, source.component_id, *reading)]
         if source.image_format in (COMPRESSED, "jpeg") and not self._is_first(source, message):
             return []
         sequence = self._sequences.get(source.name, 0)

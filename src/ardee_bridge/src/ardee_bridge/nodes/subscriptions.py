@@ -16,10 +16,7 @@ from ardee_bridge.nodes.settings import COMPRESSED, Source
 from ardee_msgs.msg import Battery, Encoder
 
 TYPES = {
-    "imu": Imu,
-    "gyro": Imu,
-    "acceleration": Imu,
-    "orientation": Imu,
+    **dict.fromkeys(("imu", "gyro", "acceleration", "orientation"), Imu),
     "gps": NavSatFix,
     "lidar": LaserScan,
     "encoder": Encoder,

@@ -41,27 +41,18 @@ class Whole(NamedTuple):
 
 
 class _Frame:
-    """Chunks of one image or cloud that have arrived so far."""
+    """Chunks of one image or cloud that have arrived so far; `key` is what they have in common."""
 
-    def __init__(self, head: ChunkHead) -> None:
-        self.key = _identity(head)
+    def __init__(self, key: Tuple[int, ...]) -> None:
+        self.key, self.size, self.done = key, 0, False
         self.parts: Dict[int, bytes] = {}
-        self.size = 0
-        self.done = False
-
-
-def _identity(head: ChunkHead) -> Tuple[int, ...]:
-    """What all chunks of a frame have in common."""
-    place = ("chunk.index", "chunk.offset")
-    return tuple(value for path, value in head.as_dict().items() if path not in place)
 
 
 class Assembler:
     """Puts chunks together; keeps one unfinished frame for each component, so a lost chunk loses its frame alone."""
 
     def __init__(self, max_components: int = 16) -> None:
-        self.lost_frames = 0
-        self.bad_chunks = 0
+        self.lost_frames = self.bad_chunks = 0
         self._frames: Dict[Tuple[int, int], _Frame] = {}
         self._max_components = max_components
 
@@ -92,15 +83,17 @@ class Assembler:
         return Whole(header.component_id, head, whole)
 
     def _frame_for(self, place: Tuple[int, int], head: ChunkHead) -> Optional[_Frame]:
+        not_common = ("chunk.index", "chunk.offset")
+        key = tuple(value for path, value in head.as_dict().items() if path not in not_common)
         frame = self._frames.get(place)
-        if frame is not None and frame.key == _identity(head):
+        if frame is not None and frame.key == key:
             return frame
         if frame is not None:
             self.lost_frames += not frame.done
         elif len(self._frames) >= self._max_components:
             self.bad_chunks += 1
             return None
-        self._frames[place] = _Frame(head)
+        self._frames[place] = _Frame(key)
         return self._frames[place]
 
 

@@ -237,14 +237,10 @@ def encode(
     data_type: DataType, component_id: int, data: bytes, count: Optional[int] = None
 ) -> Datagrams:
     """Header and data datagram of a sensor's message; `count` for measurements of several values."""
-    is_one = count is None
-    header = Header(
-        component_id=component_id,
-        msg_type=MESSAGE_TYPE_OF[data_type],
-        data_type=data_type,
-        measurement_type=MeasurementType.SINGLE if is_one else MeasurementType.MULTIPLE,
-        measurement_length=1 if is_one else count,
-    )
+    kind = MeasurementType.SINGLE if count is None else MeasurementType.MULTIPLE
+    header = Header(component_id=component_id, msg_type=MESSAGE_TYPE_OF[data_type])
+    header.data_type, header.measurement_type = data_type, kind
+    header.measurement_length = 1 if count is None else count
     return header.pack(), data
 
 
@@ -280,12 +276,8 @@ def encode_motion_si(speed_m_s: float, yaw_rate_rad_s: float) -> Datagrams:
     _require_finite("speed_m_s", speed_m_s)  # of which min and max would make full speed
     _require_finite("yaw_rate_rad_s", yaw_rate_rad_s)
 
-    def fraction(value: float, limit: float) -> float:
-        return max(-1.0, min(1.0, value / limit))
-
-    return encode_motion(
-        fraction(speed_m_s, MAX_SPEED_M_S), fraction(yaw_rate_rad_s, MAX_YAW_RATE_RAD_S)
-    )
+    shares = speed_m_s / MAX_SPEED_M_S, yaw_rate_rad_s / MAX_YAW_RATE_RAD_S
+    return encode_motion(*(max(-1.0, min(1.0, share)) for share in shares))
 
 
 def encode_control(code: ControlCode, request_id: int = 0) -> Datagrams:

@@ -59,7 +59,6 @@ class Leaf(NamedTuple):
     offset: int
     kind: Union[Scalar, Array]
     scale: Scale
-    limits: Tuple[int, int]
 
 
 S = TypeVar("S", bound="CStruct")
@@ -84,8 +83,7 @@ class CStruct:
         for name, kind in cls.FIELDS:
             offset = _padded(offset, kind.alignment)
             if isinstance(kind, (Scalar, Array)):
-                limits = kind.limits if isinstance(kind, Scalar) else kind.item.limits
-                leaves.append(Leaf(name, offset, kind, scale_of(cls.C_NAME, name), limits))
+                leaves.append(Leaf(name, offset, kind, scale_of(cls.C_NAME, name)))
             else:
                 for inner in kind.leaves:
                     path = f"{name}.{inner.path}"
@@ -108,10 +106,11 @@ class CStruct:
 
     def __init__(self, **values: Any) -> None:
         for name, kind in self.FIELDS:
-            default = 0 if isinstance(kind, Scalar) else () if isinstance(kind, Array) else None
-            setattr(self, name, values.pop(name) if name in values else default)
-            if getattr(self, name) is None:
-                setattr(self, name, kind())
+            if name in values:
+                setattr(self, name, values.pop(name))
+            else:
+                is_scalar, is_array = isinstance(kind, Scalar), isinstance(kind, Array)
+                setattr(self, name, 0 if is_scalar else () if is_array else kind())
         if values:
             known = ", ".join(name for name, _ in self.FIELDS)
             raise TypeError(f"{self.C_NAME} has no field {', '.join(values)}; it has {known}")
@@ -183,8 +182,8 @@ class CStruct:
         def raw(leaf: Leaf, value: Any) -> Any:
             per_unit = leaf.scale.counts_per_unit or 1
             if isinstance(leaf.kind, Array):
-                return tuple(_to_count(each, per_unit, leaf.limits) for each in value)
-            return _to_count(value, per_unit, leaf.limits)
+                return tuple(_to_count(each, per_unit, leaf.kind.item.limits) for each in value)
+            return _to_count(value, per_unit, leaf.kind.limits)
 
         return self._from_values(map(raw, self.leaves, self._values()))
 
