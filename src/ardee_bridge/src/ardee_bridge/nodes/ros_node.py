@@ -26,7 +26,7 @@ MASTER_PERIOD_S = 2.0
 SWITCH_INTERVAL_S = 0.0005
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
-_asked_to_end = threading.Event()
+_asked_to_end, _is_forgotten = threading.Event(), threading.Event()
 
 
 def read_parameters(file_name: str) -> Dict[str, Any]:
@@ -76,41 +76,35 @@ def heed_arguments(name: str, about: str) -> None:
     parser.parse_args(rospy.myargv()[1:])
 
 
-class MasterWatch:
+def watch_master() -> None:
     """Goes on while the ROS master is away, for topics need none; ends the node once another one is there instead.
 
     rospy never registers anew: the new master and its nodes would not know of this node's topics. Its name alone they
     may know, for a line of the log asks for a parameter in that name; so the master's process is compared, too.
     """
+    name = rospy.get_name()
+    master = rosgraph.Master(name)
+    pid = master.getPid()
 
-    def __init__(self) -> None:
-        self.is_forgotten = False
-        self._pid = rosgraph.Master(rospy.get_name()).getPid()
-        threading.Thread(target=self._repeat, daemon=True).start()
-
-    def _repeat(self) -> None:
-        name, is_away = rospy.get_name(), False
-        while not rospy.is_shutdown():
+    def repeat() -> None:
+        is_known, is_away = True, False
+        while is_known and not rospy.is_shutdown():
             rospy.rostime.wallsleep(MASTER_PERIOD_S)
             try:
-                master = rosgraph.Master(name)
                 master.lookupNode(name)
-                if master.getPid() != self._pid:
-                    self._end(name)
-                is_away = False
+                is_known, is_away = master.getPid() == pid, False
             except rosgraph.MasterError:
-                self._end(name)
+                is_known = False
             except (OSError, xmlrpc.client.Error, http.client.HTTPException):
                 if not is_away:
                     print(f"{name}: the ROS master is away", file=sys.stderr, flush=True)
                 is_away = True
+        if not rospy.is_shutdown():
+            _is_forgotten.set()
+            print(f"{name}: the ROS master knows this node no more", file=sys.stderr, flush=True)
+            rospy.signal_shutdown("forgotten by the master")
 
-    def _end(self, name: str) -> None:
-        if rospy.is_shutdown():
-            return
-        self.is_forgotten = True
-        print(f"{name}: the ROS master knows this node no more", file=sys.stderr, flush=True)
-        rospy.signal_shutdown("forgotten by the master")
+    threading.Thread(target=repeat, daemon=True).start()
 
 
 def enter(name: str, **options: Any) -> bool:
@@ -159,10 +153,10 @@ def run(name: str, about: str, body: Callable[[], Callable[[float], None]]) -> i
     if not enter(name, disable_rostime=True):
         return 0
     try:
-        watch = MasterWatch()
+        watch_master()
         step = body()
     except (SettingError, OSError) as error:
         print(f"{rospy.get_name()}: {error}", file=sys.stderr)
         return 2
     loop(step)
-    return 3 if watch.is_forgotten else 0
+    return 3 if _is_forgotten.is_set() else 0

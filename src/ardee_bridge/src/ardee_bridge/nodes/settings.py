@@ -95,22 +95,20 @@ class Reader:
         """Returns a list."""
         return self._take(key, lambda value: isinstance(value, list), "a list", [])
 
-    def selections(self, key: str) -> List[str]:
-        """Returns a list of kinds of sensors; not to be left out, for nothing would be sent without it."""
+    def selections(self, key: str) -> int:
+        """Returns kinds of sensors as SetPort.data_types; not to be left out, for nothing would be sent without it."""
 
         def is_good(words: Any) -> bool:
-            return isinstance(words, list) and all(
-                isinstance(word, str) and word in SELECTIONS for word in words
-            )
+            good = isinstance(words, list) and all(isinstance(word, str) for word in words)
+            return good and set(words) <= set(SELECTIONS)
 
-        return self._take(key, is_good, "a list of " + ", ".join(SELECTIONS))
+        words = self._take(key, is_good, "a list of " + ", ".join(SELECTIONS))
+        return codec.type_mask([SELECTIONS[word] for word in words])
 
     def readers(self, key: str) -> List["Reader"]:
-        """A list of dictionaries."""
-        return [
-            Reader(item, f"{self._path}{key}[{number}].")
-            for number, item in enumerate(self.items(key))
-        ]
+        """Returns a list of dictionaries."""
+        path = f"{self._path}{key}"
+        return [Reader(item, f"{path}[{number}].") for number, item in enumerate(self.items(key))]
 
     def networks(self, key: str) -> "Peers":
         """A list of addresses or networks, each with a port or without."""
@@ -218,7 +216,7 @@ class ControlSettings(NamedTuple):
 
 def _read_destination(reader: Reader, bind_address: str) -> Destination:
     address, port = reader.address("address"), reader.whole("port", 1, 65535)
-    words = reader.selections("data_types")
+    data_types = reader.selections("data_types")
     reader.finish()
     of_bind, of_peer = ipaddress.IPv4Address(bind_address), ipaddress.IPv4Address(address)
     if of_peer.is_unspecified:
@@ -228,7 +226,7 @@ def _read_destination(reader: Reader, bind_address: str) -> Destination:
             f"{reader._path}address: {address} cannot be reached from bind_address {bind_address}; "
             "expected the bind_address of an interface towards it, or 0.0.0.0"
         )
-    return Destination(address, port, codec.type_mask([SELECTIONS[word] for word in words]))
+    return Destination(address, port, data_types)
 
 
 def _read_source(reader: Reader) -> Source:

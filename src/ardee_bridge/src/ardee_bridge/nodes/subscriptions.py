@@ -4,7 +4,7 @@ import http.client
 import threading
 import time
 import xmlrpc.client
-from typing import AbstractSet, Any, Callable, Dict, Iterable, List, Optional, Tuple
+from typing import AbstractSet, Any, Callable, Dict, Iterable, List, Tuple
 
 import rospy
 from geometry_msgs.msg import Vector3Stamped
@@ -31,44 +31,32 @@ FRAME_BUFFER_BYTES = 1 << 20  # read at once of an image or cloud
 Topics = AbstractSet[Tuple[str, str]]  # names and types
 
 
-class _Camera:
-    """The form in which a camera's images are read, None until it is known."""
-
-    def __init__(self) -> None:
-        self.is_compressed: Optional[bool] = None
-        self._raw_alone_since_s: Optional[float] = None
-
-    def choose(self, has_compressed: bool, has_raw: bool, now_s: float) -> None:
-        """Prefers compressed images; keeps the form while nobody publishes."""
-        if has_compressed:
-            self.is_compressed, self._raw_alone_since_s = True, None
-        elif not has_raw:
-            self._raw_alone_since_s = None
-        elif self._raw_alone_since_s is None:
-            self._raw_alone_since_s = now_s
-        elif now_s - self._raw_alone_since_s >= PATIENCE_S:
-            self.is_compressed = False
-
-
 class CameraTopics:
     """Chooses between the JPEG images of a camera's own and its raw ones, which the server compresses."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
-        self._cameras: Dict[str, _Camera] = {}
+        self._chosen: Dict[str, Source] = {}  # by name
+        self._raw_alone_since_s: Dict[str, float] = {}
 
     def choose(self, cameras: Iterable[Source], published: Topics) -> List[Source]:
-        """Returns the wanted cameras whose form is known, each with the topic to read."""
-        cameras, now_s = list(cameras), self._clock()
-        self._cameras = {each.name: self._cameras.get(each.name, _Camera()) for each in cameras}
-        chosen = []
-        for source in cameras:
-            camera, own = self._cameras[source.name], source.of_camera()
-            has_compressed = (own.topic, CompressedImage._type) in published
-            camera.choose(has_compressed, (source.topic, Image._type) in published, now_s)
-            if camera.is_compressed is not None:
-                chosen.append(own if camera.is_compressed else source)
-        return chosen
+        """Returns the wanted cameras whose form is known, each with the topic to read.
+
+        Compressed images are preferred; while nobody publishes, the form stays.
+        """
+        wanted, now_s = {each.name: each for each in cameras}, self._clock()
+        for name in self._chosen.keys() - wanted.keys():
+            del self._chosen[name]
+        for name, source in wanted.items():
+            own = source.of_camera()
+            has_raw = (source.topic, Image._type) in published
+            if (own.topic, CompressedImage._type) in published:
+                self._chosen[name], has_raw = own, False
+            if not has_raw:
+                self._raw_alone_since_s.pop(name, None)
+            elif now_s - self._raw_alone_since_s.setdefault(name, now_s) >= PATIENCE_S:
+                self._chosen[name] = source
+        return list(self._chosen.values())
 
 
 class Subscriptions:
@@ -92,7 +80,7 @@ class Subscriptions:
             try:
                 self._follow(self._to_read())
             except (OSError, xmlrpc.client.Error, http.client.HTTPException):
-                pass  # the master is away, which MasterWatch tells
+                pass  # the master is away, which watch_master tells
             self._changed.wait(LOOK_S)
             self._changed.clear()
 
@@ -100,7 +88,7 @@ class Subscriptions:
         names = self._server.wanted()
         wanted = [source for source in self._sources if source.name in names]
         cameras = [source for source in wanted if source.image_format == "jpeg"]
-        topics = {(name, kind) for name, kind in _published()} if cameras else set()
+        topics = _published() if cameras else set()
         return set(wanted) - set(cameras) | set(self._cameras.choose(cameras, topics))
 
     def _follow(self, to_read: AbstractSet[Source]) -> None:
@@ -126,12 +114,12 @@ class Subscriptions:
         return [_subscriber(source.topic, kind, publish, buff_size=size)]
 
 
-def _published() -> List[List[str]]:
+def _published() -> Topics:
     """Returns names and types of all topics that somebody publishes."""
     code, text, topics = rospy.get_master().getPublishedTopics("/")
     if code != 1:
         raise xmlrpc.client.Error(text)
-    return topics
+    return set(map(tuple, topics))
 
 
 def _subscriber(topic: str, kind: Any, callback: Callable[[Any], None], **how: int) -> Any:
