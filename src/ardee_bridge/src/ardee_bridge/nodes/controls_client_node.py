@@ -12,14 +12,8 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
-from ardee_bridge.nodes import ros_node
-from ardee_bridge.nodes.controls import (
-    MOST_AT_ONCE,
-    STANDSTILL,
-    ControlsClient,
-    Motion,
-    what_was_obeyed,
-)
+from ardee_bridge.nodes import controls, ros_node
+from ardee_bridge.nodes.controls import STANDSTILL, ControlsClient, Motion
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.settings import ControlSettings, read_controls, silent
 from ardee_bridge.wire.udp import open_socket
@@ -27,6 +21,7 @@ from ardee_bridge.wire.udp import open_socket
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
 TELL_PERIOD_S = 1.0
+QUEUE = controls.MOST_AT_ONCE
 # Some 700 datagrams as Linux counts: in a flood a command waits behind no more, some 0.1 s.
 RECEIVE_BYTES = 256 << 10
 
@@ -35,7 +30,7 @@ class Mover:
     """Passes motions on to cmd_vel, and says once a second what was obeyed, from a thread of its own."""
 
     def __init__(self, topic: str, counters: Counters) -> None:
-        self._publisher = rospy.Publisher(topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True)
+        self._publisher = rospy.Publisher(topic, Twist, queue_size=QUEUE, tcp_nodelay=True)
         self._counters, self._latest = counters, STANDSTILL
         threading.Thread(target=self._tell, daemon=True).start()
 
@@ -50,7 +45,7 @@ class Mover:
         before: Dict[str, int] = {}
         while not rospy.core.is_shutdown():
             done = self._counters.done()
-            line = what_was_obeyed(done, before, self._latest)
+            line = controls.what_was_obeyed(done, before, self._latest)
             if line:
                 rospy.loginfo(line)
             before = done

@@ -25,10 +25,10 @@ class Target(NamedTuple):
     component_id: int
     until_s: Optional[float]
 
-    def wants(self, data_type: int, component_id: int) -> bool:
+    def wants(self, source: Source) -> bool:
         """Returns whether it gets this sensor's messages."""
-        is_component = self.component_id in (codec.ALL_COMPONENTS, component_id)
-        return is_component and bool(self.data_types & (_ALL_BIT | 1 << data_type))
+        is_component = self.component_id in (codec.ALL_COMPONENTS, source.component_id)
+        return is_component and bool(self.data_types & (_ALL_BIT | 1 << source.data_type))
 
 
 class RateLimit:
@@ -74,12 +74,10 @@ class SensorServer:
         )
         self._limits = {source.name: RateLimit(source.max_rate_hz) for source in settings.sources}
         self._sequences: Dict[str, int] = {}
-        self._targets: Dict[Sender, Target] = {}
         # by component: stamp and form of its latest image
         self._images: Dict[int, Tuple[Any, str]] = {}
-        for peer in settings.destinations:
-            address = (peer.address, peer.port)
-            self._targets[address] = Target(address, peer.data_types, codec.ALL_COMPONENTS, None)
+        peers = [((peer.address, peer.port), peer.data_types) for peer in settings.destinations]
+        self._targets = {at: Target(at, types, codec.ALL_COMPONENTS, None) for at, types in peers}
 
     # -- sensors
 
@@ -139,11 +137,7 @@ class SensorServer:
         return before[0] != stamp or before[1] == source.image_format
 
     def _targets_of(self, source: Source) -> List[Target]:
-        return [
-            target
-            for target in list(self._targets.values())
-            if target.wants(source.data_type, source.component_id)
-        ]
+        return [target for target in self.clients() if target.wants(source)]
 
     def _send(self, address: Sender, messages: List[codec.Datagrams]) -> None:
         """Sends headers and data back to back, whatever other threads send."""
@@ -169,8 +163,7 @@ class SensorServer:
             if message.header.msg_type == codec.MessageType.SET_PORT:
                 self._set_port(message, sender)
             else:
-                what = f"type {message.header.msg_type}"
-                self._counters.drop("requests: not SET_PORT", what)
+                self._counters.drop("requests: not SET_PORT", f"type {message.header.msg_type}")
         self._forget()
 
     def _set_port(self, message: Message, sender: Sender) -> None:
@@ -208,10 +201,7 @@ class SensorServer:
         """Names of the data types that it wants and will not get, for lack of a source."""
         if target is None:
             return []
-        sources = self._settings.sources
-        sent = {
-            each.data_type for each in sources if target.wants(each.data_type, each.component_id)
-        }
+        sent = {each.data_type for each in self._settings.sources if target.wants(each)}
         if sent:
             sent.add(codec.DataType.ALL)
         wanted = {each for each in codec.DataType if target.data_types & 1 << each}
@@ -232,8 +222,6 @@ class SensorServer:
 
 
 def _stamp(source: Source, message: Any) -> codec.Datagrams:
-    stamp, component_id = message.header.stamp, source.component_id
-    data = codec.TimeStamp(
-        sec=stamp.secs, nsec=stamp.nsecs, data_type=source.data_type, component_id=component_id
-    )
-    return codec.encode(codec.DataType.TIME, component_id, data.pack())
+    data = codec.TimeStamp(data_type=source.data_type, component_id=source.component_id)
+    data.sec, data.nsec = message.header.stamp.secs, message.header.stamp.nsecs
+    return codec.encode(codec.DataType.TIME, source.component_id, data.pack())

@@ -74,9 +74,8 @@ class Reader:
     def number(self, key: str, least: float, most: float, default: Any = _UNSET) -> float:
         """Returns a number within bounds."""
         expected = f"a number from {least:g} to {most:g}"
-        return self._take(
-            key, lambda v: type(v) in (int, float) and least <= v <= most, expected, default
-        )
+        kinds = (int, float)
+        return self._take(key, lambda v: type(v) in kinds and least <= v <= most, expected, default)
 
     def whole(self, key: str, least: int, most: int, default: Any = _UNSET) -> int:
         """Returns a whole number within bounds."""

@@ -275,7 +275,6 @@ def encode_motion_si(speed_m_s: float, yaw_rate_rad_s: float) -> Datagrams:
     """
     _require_finite("speed_m_s", speed_m_s)  # of which min and max would make full speed
     _require_finite("yaw_rate_rad_s", yaw_rate_rad_s)
-
     shares = speed_m_s / MAX_SPEED_M_S, yaw_rate_rad_s / MAX_YAW_RATE_RAD_S
     return encode_motion(*(max(-1.0, min(1.0, share)) for share in shares))
 
@@ -303,9 +302,8 @@ def type_mask(data_types: Sequence[DataType]) -> int:
 
 def encode_ack(request: Header) -> Datagrams:
     """The answer to a SET_PORT or CONTROL message."""
-    return _encode_request(
-        MessageType.ACK, request.component_id, Ack(sequence=request.component_id)
-    )
+    answered = request.component_id
+    return _encode_request(MessageType.ACK, answered, Ack(sequence=answered))
 
 
 def range_counts(ranges_m: Sequence[float], min_m: float, max_m: float) -> List[int]:

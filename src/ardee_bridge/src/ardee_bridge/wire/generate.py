@@ -20,11 +20,10 @@ def _between_marks(text: str, body: List[str]) -> str:
 
 def header_lines() -> List[str]:
     """Scale constants, then assertions of every size and offset."""
-    lines, seen = ["/* Integer on the wire / scale = physical value */"], set()
-    for row in SCALES:
-        if row.constant and row.constant not in seen:
-            seen.add(row.constant)
-            lines.append(f"#define {row.constant} {row.counts_per_unit} /* per {row.unit} */")
+    constants = {row.constant: row for row in reversed(SCALES) if row.constant}
+    lines = ["/* Integer on the wire / scale = physical value */"]
+    for row in reversed(list(constants.values())):
+        lines.append(f"#define {row.constant} {row.counts_per_unit} /* per {row.unit} */")
     lines.append("")
     for kind in codec.STRUCTS:
         lines.append(f"ARDEE_SIZE_({kind.C_NAME}, {kind.size});")
@@ -55,13 +54,9 @@ def scale_table() -> List[str]:
 
 def generated(package: Path) -> Dict[Path, str]:
     """File -> what it should hold, of the files that are partly generated."""
-    parts = {
-        package / "include" / "ardee_message.h": header_lines(),
-        package / "docs" / "wire_format.md": scale_table(),
-    }
-    return {
-        file: _between_marks(file.read_text(encoding="utf-8"), body) for file, body in parts.items()
-    }
+    parts = {"include/ardee_message.h": header_lines(), "docs/wire_format.md": scale_table()}
+    files = {package / name: body for name, body in parts.items()}
+    return {file: _between_marks(file.read_text("utf-8"), body) for file, body in files.items()}
 
 
 def main(package: Path) -> int:

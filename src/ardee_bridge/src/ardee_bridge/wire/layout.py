@@ -9,29 +9,21 @@ from ardee_bridge.wire.scales import Scale, scale_of
 
 
 class Scalar(NamedTuple):
-    """An integer type of C and its code in Python's struct module."""
+    """An integer type of C: its code in Python's struct module, size, least and greatest value."""
 
-    c_name: str
     code: str
     size: int
+    limits: Tuple[int, int]
 
     @property
     def alignment(self) -> int:
         return self.size
 
-    @property
-    def limits(self) -> Tuple[int, int]:
-        """Least and greatest value."""
-        bits = 8 * self.size
-        return (
-            (-(1 << bits - 1), (1 << bits - 1) - 1) if self.code.islower() else (0, (1 << bits) - 1)
-        )
 
-
-INT8 = Scalar("int8_t", "b", 1)
-UINT8 = Scalar("uint8_t", "B", 1)
-UINT16 = Scalar("uint16_t", "H", 2)
-INT32 = Scalar("int32_t", "i", 4)
+INT8 = Scalar("b", 1, (-(1 << 7), (1 << 7) - 1))
+UINT8 = Scalar("B", 1, (0, (1 << 8) - 1))
+UINT16 = Scalar("H", 2, (0, (1 << 16) - 1))
+INT32 = Scalar("i", 4, (-(1 << 31), (1 << 31) - 1))
 
 # An int32 field of this value has no value: NaN on the physical side.
 NO_VALUE = -(1 << 31)
