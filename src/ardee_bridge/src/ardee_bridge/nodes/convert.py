@@ -172,9 +172,8 @@ def image(message: Any, image_format: str, quality: int) -> Frame:
         picture = Image.frombuffer(mode, (width, height), bytes(payload), "raw", order, step, 1)
         picture.save(file, "JPEG", quality=quality)
         encoding, step, payload = codec.ImageEncoding.JPEG, 0, file.getvalue()
-    head = codec.ImageChunk(
-        chunk=_stamped(message), encoding=encoding, width=width, height=height, step=step
-    )
+    head = codec.ImageChunk(chunk=_stamped(message), encoding=encoding, step=step)
+    head.width, head.height = width, height
     return Frame(head, payload)
 
 
@@ -222,14 +221,9 @@ def _point_fields(message: Any) -> np.ndarray:
             raise ConvertError(f"{found}, expected it within the {message.point_step} of a point")
     order = ">" if message.is_bigendian else "<"
     try:
-        kind = np.dtype(
-            dict(
-                names=list(wanted),
-                formats=[order + _POINT_TYPES[f.datatype] for f in wanted.values()],
-                offsets=[f.offset for f in wanted.values()],
-                itemsize=message.point_step,
-            )
-        )
+        formats = [order + _POINT_TYPES[f.datatype] for f in wanted.values()]
+        places = dict(offsets=[f.offset for f in wanted.values()], itemsize=message.point_step)
+        kind = np.dtype(dict(names=list(wanted), formats=formats, **places))
         shape, strides = (message.height, message.width), (message.row_step, message.point_step)
         if message.row_step < message.width * message.point_step:
             raise ValueError("rows overlap")

@@ -38,13 +38,6 @@ class Counters:
             self._said[kind] = self._dropped[kind]
         self._warn(f"dropped {fresh}: {kind}{', ' + detail if detail else ''}")
 
-    def raise_to(self, kind: str, total: int) -> None:
-        """So many were dropped in all, by somebody else's count."""
-        with self._lock:
-            fresh = total - self._dropped[kind]
-        if fresh > 0:
-            self.drop(kind, count=fresh)
-
     def done(self) -> Dict[str, int]:
         """What went well so far, by kind."""
         with self._lock:

@@ -27,16 +27,13 @@ class FixWithVelocity:
     def on_fix(self, fix: Any) -> None:
         """A sensor_msgs/NavSatFix has come."""
         with self._lock:
-            self._take_fix(fix)
-
-    def _take_fix(self, fix: Any) -> None:
-        if self._waiting is not None:
-            self._comes_after = False
-            self._send_waiting()
-        self._waiting, self._latest_fix = fix, _stamp(fix)
-        has_fix = fix.status.status >= 0  # without one there is no velocity either
-        if not (has_fix and self._comes_after) or self._has_velocity_of(fix):
-            self._send_waiting()
+            if self._waiting is not None:
+                self._comes_after = False
+                self._send_waiting()
+            self._waiting, self._latest_fix = fix, _stamp(fix)
+            has_fix = fix.status.status >= 0  # without one there is no velocity either
+            if not (has_fix and self._comes_after) or self._has_velocity_of(fix):
+                self._send_waiting()
 
     def on_velocity(self, velocity: Any) -> None:
         """A geometry_msgs/Vector3Stamped has come."""

@@ -8,7 +8,7 @@ import threading
 import time
 import xmlrpc.client
 from pathlib import Path
-from typing import Any, Callable, Dict, NoReturn
+from typing import Any, Callable, Dict
 
 import rosgraph
 import rospkg
@@ -60,20 +60,17 @@ def start_diagnostics(counters: Counters) -> None:
     threading.Thread(target=repeat, daemon=True).start()
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}\n")
-
-
 def heed_arguments(name: str, about: str) -> None:
     """Of the words that ROS leaves: -h and --help print what the node is `about` and end it, any other is refused."""
-    parser = _Parser(
+    parser = argparse.ArgumentParser(
         prog=name,
         usage="%(prog)s [-h] [_PARAMETER:=VALUE ...] [NAME:=OTHER_NAME ...]",
         description=about,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.parse_args(rospy.myargv()[1:])
+    _, unknown = parser.parse_known_args(rospy.myargv()[1:])
+    if unknown:
+        parser.exit(2, f"{name}: unrecognized arguments: {' '.join(unknown)}\n")
 
 
 def watch_master() -> None:

@@ -34,11 +34,10 @@ def _make() -> Callable[[float], None]:
     here = "%s:%d" % opened.getsockname()
     rospy.loginfo("sensors leave %s for %s", here, peers or "whoever asks by SET_PORT")
     for group in kept_here(settings):
-        rospy.logwarn(
-            "messages to %s stay on this computer: found bind_address %s, expected that of an interface towards others",
-            group,
-            settings.bind_address,
+        found = (
+            f"messages to {group} stay on this computer: found bind_address {settings.bind_address}"
         )
+        rospy.logwarn(f"{found}, expected that of an interface towards others")
     if settings.realtime_priority:
         rospy.logwarn(
             "realtime_priority: found %d, which has no effect", settings.realtime_priority

@@ -7,20 +7,10 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tu
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import MAX_PAYLOAD
 
-KINDS = {
-    "imu": codec.DataType.IMU,
-    "gyro": codec.DataType.GYRO,
-    "acceleration": codec.DataType.ACCELERATION,
-    "orientation": codec.DataType.ORIENTATION,
-    "gps": codec.DataType.GPS,
-    "lidar": codec.DataType.LIDAR,
-    "encoder": codec.DataType.ENCODER,
-    "battery": codec.DataType.BATTERY,
-    "image": codec.DataType.IMAGE,
-    "point_cloud": codec.DataType.POINT_CLOUD,
-}
 # Too large for a datagram, and slow to convert.
 FRAME_KINDS = ("image", "point_cloud")
+_SMALL_KINDS = ("imu", "gyro", "acceleration", "orientation", "gps", "lidar", "encoder", "battery")
+KINDS = {kind: codec.DataType[kind.upper()] for kind in _SMALL_KINDS + FRAME_KINDS}
 # Of images that come as JPEG files: no setting, but what becomes of "jpeg" where a camera compresses by itself.
 COMPRESSED = "compressed"
 SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
@@ -258,7 +248,7 @@ def read_server(values: Dict[str, Any]) -> ServerSettings:
         bind_address=bind_address,
         port=reader.whole("port", 0, 65535),
         destinations=tuple(
-            _read_destination(item, bind_address) for item in reader.readers("peers")
+            _read_destination(each, bind_address) for each in reader.readers("peers")
         ),
         allowed_clients=reader.networks("allowed_clients"),
         max_clients=reader.whole("max_clients", 0, 1024),
