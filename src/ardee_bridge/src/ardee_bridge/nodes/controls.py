@@ -29,14 +29,9 @@ MOST_AT_ONCE = 64
 
 def to_motion(commands: codec.MotionCommands, settings: ControlSettings) -> Motion:
     """Listing A.19's limits: normalized / multiplier of the greatest speed and yaw rate, clamped to -1...1."""
-
-    def fraction(normalized: int) -> float:
-        return max(-1.0, min(1.0, normalized / commands.multiplier))
-
-    return Motion(
-        fraction(commands.normalized_speed) * settings.max_speed_m_s,
-        fraction(commands.normalized_yaw_rate) * settings.max_yaw_rate_rad_s,
-    )
+    shares = (commands.normalized_speed, commands.normalized_yaw_rate)
+    speed, yaw_rate = (max(-1.0, min(1.0, share / commands.multiplier)) for share in shares)
+    return Motion(speed * settings.max_speed_m_s, yaw_rate * settings.max_yaw_rate_rad_s)
 
 
 def what_was_obeyed(done: Dict[str, int], before: Dict[str, int], latest: Motion) -> str:

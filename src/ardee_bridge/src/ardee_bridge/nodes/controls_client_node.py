@@ -13,7 +13,7 @@ from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
 from ardee_bridge.nodes import controls, ros_node
-from ardee_bridge.nodes.controls import STANDSTILL, ControlsClient, Motion
+from ardee_bridge.nodes.controls import MOST_AT_ONCE, STANDSTILL, ControlsClient, Motion
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.settings import ControlSettings, read_controls, silent
 from ardee_bridge.wire.udp import open_socket
@@ -21,7 +21,6 @@ from ardee_bridge.wire.udp import open_socket
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
 TELL_PERIOD_S = 1.0
-QUEUE = controls.MOST_AT_ONCE
 # Some 700 datagrams as Linux counts: in a flood a command waits behind no more, some 0.1 s.
 RECEIVE_BYTES = 256 << 10
 
@@ -30,7 +29,7 @@ class Mover:
     """Passes motions on to cmd_vel, and says once a second what was obeyed, from a thread of its own."""
 
     def __init__(self, topic: str, counters: Counters) -> None:
-        self._publisher = rospy.Publisher(topic, Twist, queue_size=QUEUE, tcp_nodelay=True)
+        self._publisher = rospy.Publisher(topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True)
         self._counters, self._latest = counters, STANDSTILL
         threading.Thread(target=self._tell, daemon=True).start()
 

@@ -82,14 +82,13 @@ def gps(message: Any, velocity: Any = None) -> Reading:
     Without a fix the receiver says nothing new of its velocity: position and velocity have no value then.
     """
     has_fix = message.status.status >= 0
-    has_velocity = velocity is not None and has_fix
     nothing = Vector(x=math.nan, y=math.nan, z=math.nan)
     stamp_ms = message.header.stamp.secs * 1000 + message.header.stamp.nsecs // 1_000_000
     data = codec.GPSData(
         latitude=message.latitude if has_fix else math.nan,
         longitude=message.longitude if has_fix else math.nan,
         altitude=message.altitude if has_fix else math.nan,
-        velocity=_vector(velocity) if has_velocity else nothing,
+        velocity=_vector(velocity) if has_fix and velocity is not None else nothing,
         covariance=_diagonal(message.position_covariance),
         covariance_type=message.position_covariance_type,
         service=message.status.service,

@@ -22,8 +22,6 @@ from ardee_bridge.nodes.settings import SettingError
 DIAGNOSTICS_PERIOD_S = 1.0
 POLL_S = 0.2
 MASTER_PERIOD_S = 2.0
-# A thread that converts an image lets a small sensor's run after this time, not after Python's 5 ms.
-SWITCH_INTERVAL_S = 0.0005
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 _asked_to_end, _is_forgotten = threading.Event(), threading.Event()
@@ -139,14 +137,11 @@ def loop(step: Callable[[float], None]) -> None:
 
 
 def run(name: str, about: str, body: Callable[[], Callable[[float], None]]) -> int:
-    """Start a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
+    """Starts a node; `body` makes what is then called again and again with a time to wait [s]. Returns the exit code.
 
-    `about` is the text of -h.
-
-    Simulated time may stand still or be gone: nothing here waits for it, so /clock is not subscribed to.
+    `about` is the text of -h. Simulated time may stand still or be gone: /clock is not subscribed to.
     """
     heed_arguments(name, about)
-    sys.setswitchinterval(SWITCH_INTERVAL_S)
     if not enter(name, disable_rostime=True):
         return 0
     try:

@@ -3,6 +3,7 @@
 import socket
 import threading
 import time
+from collections import Counter
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Set, Tuple
 
 from ardee_bridge.nodes import convert
@@ -141,7 +142,7 @@ class SensorServer:
 
     def _send(self, address: Sender, messages: List[codec.Datagrams]) -> None:
         """Sends headers and data back to back, whatever other threads send."""
-        refused: Dict[str, List[str]] = {}
+        refused: "Counter[Tuple[str, str]]" = Counter()
         with self._lock:
             for pair in messages:
                 try:
@@ -150,10 +151,9 @@ class SensorServer:
                 except OSError as error:
                     is_full = isinstance(error, BlockingIOError)
                     kind = "to a full send buffer" if is_full else "that could not be sent"
-                    refused.setdefault(f"messages {kind}", []).append(error.strerror)
-        for kind, errors in refused.items():
-            where = f"{address[0]}:{address[1]}: {errors[-1]}"
-            self._counters.drop(kind, where, count=len(errors))
+                    refused[f"messages {kind}", error.strerror] += 1
+        for (kind, why), count in refused.items():
+            self._counters.drop(kind, f"{address[0]}:{address[1]}: {why}", count)
 
     # -- clients
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Subscriptions of the sensor server: to the topics that somebody wants, and of a camera's two to the better one."""
+import functools
 import http.client
 import threading
 import time
@@ -27,7 +28,6 @@ TYPES = {
 # A publisher makes its topics known one after the other: so long must compressed images be missing beside raw ones.
 PATIENCE_S = 1.0
 LOOK_S = 0.5  # between two looks at the publishers of cameras
-FRAME_BUFFER_BYTES = 1 << 20  # read at once of an image or cloud
 Topics = AbstractSet[Tuple[str, str]]  # names and types
 
 
@@ -110,8 +110,7 @@ class Subscriptions:
             ]
         is_compressed = source.image_format == COMPRESSED
         kind = CompressedImage if is_compressed else TYPES[source.kind]
-        size = FRAME_BUFFER_BYTES if source.is_frame else rospy.impl.tcpros_base.DEFAULT_BUFF_SIZE
-        return [_subscriber(source.topic, kind, publish, buff_size=size)]
+        return [_subscriber(source.topic, kind, publish)]
 
 
 def _published() -> Topics:
@@ -122,5 +121,4 @@ def _published() -> Topics:
     return set(map(tuple, topics))
 
 
-def _subscriber(topic: str, kind: Any, callback: Callable[[Any], None], **how: int) -> Any:
-    return rospy.Subscriber(topic, kind, callback, tcp_nodelay=True, **how)
+_subscriber = functools.partial(rospy.Subscriber, tcp_nodelay=True)

@@ -29,37 +29,35 @@ ALL_COMPONENTS = -1
 DEFAULT_MULTIPLIER = 1_000_000
 
 
-def _int32(*names: str) -> Tuple[Tuple[str, object], ...]:
-    return tuple((name, INT32) for name in names)
+def _int32(names: str) -> Tuple[Tuple[str, object], ...]:
+    return tuple((name, INT32) for name in names.split())
 
 
 class Header(CStruct):
     """First datagram of a message."""
 
     C_NAME = "Ardee_Msg_Data_Header"
-    FIELDS = _int32(
-        "component_id", "msg_type", "data_type", "measurement_type", "measurement_length"
-    )
+    FIELDS = _int32("component_id msg_type data_type measurement_type measurement_length")
 
 
 class Xyz(CStruct):
     C_NAME = "XYZ_INT"
-    FIELDS = _int32("x", "y", "z")
+    FIELDS = _int32("x y z")
 
 
 class Quaternion(CStruct):
     C_NAME = "ORIENTATION_QUATERNION_BASE_INT"
-    FIELDS = _int32("x", "y", "z", "w")
+    FIELDS = _int32("x y z w")
 
 
 class Euler(CStruct):
     C_NAME = "ORIENTATION_EULER_BASE_INT"
-    FIELDS = _int32("roll", "pitch", "yaw")
+    FIELDS = _int32("roll pitch yaw")
 
 
 class MotionData(CStruct):
     C_NAME = "MOTION_DATA_INT"
-    FIELDS = _int32("x", "y", "z") + (("covariance", Xyz), ("bias", Xyz), ("offset", Xyz))
+    FIELDS = _int32("x y z") + (("covariance", Xyz), ("bias", Xyz), ("offset", Xyz))
 
 
 class Ack(CStruct):
@@ -71,7 +69,7 @@ class Ack(CStruct):
 
 class OrientationData(CStruct):
     C_NAME = "Ardee_Msg_OrientationData"
-    FIELDS = _int32("x", "y", "z", "w") + (("covariance", Euler), ("bias", Quaternion))
+    FIELDS = _int32("x y z w") + (("covariance", Euler), ("bias", Quaternion))
 
 
 class IMUData(CStruct):
@@ -81,7 +79,7 @@ class IMUData(CStruct):
 
 class GPSData(CStruct):
     C_NAME = "Ardee_Msg_GPSData"
-    FIELDS = _int32("time", "latitude", "longitude", "altitude") + (
+    FIELDS = _int32("time latitude longitude altitude") + (
         ("velocity", Xyz),
         ("covariance", Xyz),
         ("covariance_type", UINT8),
@@ -92,38 +90,39 @@ class GPSData(CStruct):
 
 class GyroData(CStruct):
     C_NAME = "Ardee_Msg_GyroData"
-    FIELDS = _int32("x", "y", "z")
+    FIELDS = _int32("x y z")
 
 
 class AccelerationData(CStruct):
     C_NAME = "Ardee_Msg_AccelerationData"
-    FIELDS = _int32("x", "y", "z")
+    FIELDS = _int32("x y z")
 
 
 class MotionCommands(CStruct):
     """Speeds as fractions normalized / multiplier of the robot's limits."""
 
     C_NAME = "Ardee_Msg_MotionCommands"
-    FIELDS = _int32("normalized_speed", "normalized_yaw_rate", "multiplier")
+    FIELDS = _int32("normalized_speed normalized_yaw_rate multiplier")
 
 
 class LidarData(CStruct):
     """A scan; the header's measurement_length says how many of the slots are beams."""
 
     C_NAME = "Ardee_Msg_LidarData"
-    FIELDS = _int32(
-        "angle_min", "angle_max", "dAngle", "scan_time", "dTime", "range_min", "range_max"
-    ) + (("ranges", Array(INT32, LIDAR_SLOTS)), ("intensities", Array(INT32, LIDAR_SLOTS)))
+    FIELDS = _int32("angle_min angle_max dAngle scan_time dTime range_min range_max") + (
+        ("ranges", Array(INT32, LIDAR_SLOTS)),
+        ("intensities", Array(INT32, LIDAR_SLOTS)),
+    )
 
 
 class EncoderData(CStruct):
     C_NAME = "Ardee_Msg_EncoderData"
-    FIELDS = _int32("id", "position", "speed", "qpps")
+    FIELDS = _int32("id position speed qpps")
 
 
 class BatteryData(CStruct):
     C_NAME = "Ardee_Msg_BatteryData"
-    FIELDS = _int32("voltage", "vmax", "vmin")
+    FIELDS = _int32("voltage vmax vmin")
 
 
 class Control(CStruct):
@@ -141,28 +140,28 @@ class SetPort(CStruct):
     """
 
     C_NAME = "Ardee_Ext_SetPort"
-    FIELDS = _int32("port", "data_types", "component_id")
+    FIELDS = _int32("port data_types component_id")
 
 
 class TimeStamp(CStruct):
     """Extension: simulated time of the message that follows, and which that is."""
 
     C_NAME = "Ardee_Ext_Time"
-    FIELDS = _int32("sec", "nsec", "data_type", "component_id")
+    FIELDS = _int32("sec nsec data_type component_id")
 
 
 class Chunk(CStruct):
     """Extension: place of a datagram's payload in an image or cloud of `total` bytes."""
 
     C_NAME = "Ardee_Ext_Chunk"
-    FIELDS = _int32("sec", "nsec", "sequence", "index", "count", "offset", "total")
+    FIELDS = _int32("sec nsec sequence index count offset total")
 
 
 class ImageChunk(CStruct):
     """Extension: goes before the payload of an image's datagram; step: bytes a row, 0 for JPEG."""
 
     C_NAME = "Ardee_Ext_ImageChunk"
-    FIELDS = (("chunk", Chunk),) + _int32("encoding", "width", "height", "step")
+    FIELDS = (("chunk", Chunk),) + _int32("encoding width height step")
 
 
 class PointCloudChunk(CStruct):
@@ -176,7 +175,7 @@ class Point(CStruct):
     """Extension: a point of a cloud."""
 
     C_NAME = "Ardee_Ext_Point"
-    FIELDS = _int32("x", "y", "z", "intensity")
+    FIELDS = _int32("x y z intensity")
 
 
 # Everything that goes over the wire or into something that does, in the order of the C header.
@@ -249,17 +248,17 @@ def _encode_request(msg_type: MessageType, component_id: int, data: CStruct) -> 
     return header.pack(), data.pack()
 
 
-def _require_finite(name: str, value: float) -> None:
-    if not math.isfinite(value):
-        raise ValueError(f"{name}: found {value}, expected a finite number")
+def _require_finite(**values: float) -> None:
+    for name, value in values.items():
+        if not math.isfinite(value):
+            raise ValueError(f"{name}: found {value}, expected a finite number")
 
 
 def encode_motion(
     speed: float, yaw_rate: float, multiplier: int = DEFAULT_MULTIPLIER, component_id: int = 0
 ) -> Datagrams:
     """A motion command: speed and yaw rate as fractions -1...1 of the limits; ValueError unless both are finite."""
-    _require_finite("speed", speed)
-    _require_finite("yaw_rate", yaw_rate)
+    _require_finite(speed=speed, yaw_rate=yaw_rate)
     commands = MotionCommands(
         normalized_speed=round(speed * multiplier),
         normalized_yaw_rate=round(yaw_rate * multiplier),
@@ -273,8 +272,8 @@ def encode_motion_si(speed_m_s: float, yaw_rate_rad_s: float) -> Datagrams:
 
     ValueError unless both are finite.
     """
-    _require_finite("speed_m_s", speed_m_s)  # of which min and max would make full speed
-    _require_finite("yaw_rate_rad_s", yaw_rate_rad_s)
+    # min and max would make full speed of NaN
+    _require_finite(speed_m_s=speed_m_s, yaw_rate_rad_s=yaw_rate_rad_s)
     shares = speed_m_s / MAX_SPEED_M_S, yaw_rate_rad_s / MAX_YAW_RATE_RAD_S
     return encode_motion(*(max(-1.0, min(1.0, share)) for share in shares))
 

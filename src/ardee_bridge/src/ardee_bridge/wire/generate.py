@@ -41,8 +41,7 @@ def _offset_lines(kind: Type[codec.CStruct]) -> List[str]:
 
 def scale_table() -> List[str]:
     """The table of scales in Markdown."""
-    lines = ["| struct | field | counts per unit | unit | constant | meaning |"]
-    lines.append("|---|---|---|---|---|---|")
+    lines = ["| struct | field | counts per unit | unit | constant | meaning |", "|---" * 6 + "|"]
     for row in SCALES:
         field = f"`{row.path}`" if row.path else "all"
         scale = f"{row.counts_per_unit:,}" if row.counts_per_unit else "plain integer"

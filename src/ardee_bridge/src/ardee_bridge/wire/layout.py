@@ -98,11 +98,9 @@ class CStruct:
 
     def __init__(self, **values: Any) -> None:
         for name, kind in self.FIELDS:
-            if name in values:
-                setattr(self, name, values.pop(name))
-            else:
-                is_scalar, is_array = isinstance(kind, Scalar), isinstance(kind, Array)
-                setattr(self, name, 0 if is_scalar else () if is_array else kind())
+            default = 0 if isinstance(kind, Scalar) else () if isinstance(kind, Array) else None
+            value = values.pop(name, default)
+            setattr(self, name, kind() if value is None else value)
         if values:
             known = ", ".join(name for name, _ in self.FIELDS)
             raise TypeError(f"{self.C_NAME} has no field {', '.join(values)}; it has {known}")
