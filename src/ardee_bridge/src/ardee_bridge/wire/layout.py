@@ -14,10 +14,7 @@ class Scalar(NamedTuple):
     code: str
     size: int
     limits: Tuple[int, int]
-
-    @property
-    def alignment(self) -> int:
-        return self.size
+    alignment = property(lambda self: self.size)
 
 
 INT8 = Scalar("b", 1, (-(1 << 7), (1 << 7) - 1))
@@ -34,14 +31,8 @@ class Array(NamedTuple):
 
     item: Scalar
     length: int
-
-    @property
-    def alignment(self) -> int:
-        return self.item.alignment
-
-    @property
-    def size(self) -> int:
-        return self.item.size * self.length
+    alignment = property(lambda self: self.item.alignment)
+    size = property(lambda self: self.item.size * self.length)
 
 
 class Leaf(NamedTuple):
