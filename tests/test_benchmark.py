@@ -9,6 +9,7 @@ from typing import Dict
 import benchmark_bridge
 import benchmark_field
 import benchmark_table
+from bench.capture import Capture
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 
@@ -17,6 +18,15 @@ def run(*arguments: str) -> subprocess.CompletedProcess:
     """The benchmark, in the workspace that the tests run in."""
     command = ["/usr/bin/python3", str(SCRIPTS / "benchmark_run.py"), *arguments]
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def may_capture() -> bool:
+    """Returns whether packets can be captured here."""
+    try:
+        Capture("/anyone").close()
+    except OSError:
+        return False
+    return True
 
 
 def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
@@ -41,8 +51,9 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
         assert name in done.stdout
         assert spread["sent"] > 0 and f"{spread['lost']} of {spread['sent']} lost" in done.stdout
     assert "beside cameras, point_cloud message to datagram" in bridge
-    # Six measurements, each with its floor; the controls, which are the same in all, once.
-    assert sum("bare forwarder" in name for name in bridge) == 6
+    # Six measurements, each with its floor, or three without the right to capture packets; the controls, which are
+    # the same in all, once.
+    assert sum("bare forwarder" in name for name in bridge) == (6 if may_capture() else 3)
     assert sum("cmd_vel" in name for name in bridge) == 1
 
 
