@@ -19,8 +19,6 @@ import numpy as np
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Message, Pairer
-from ardee_bridge.wire import codec
-from ardee_bridge.wire.pairing import Message, Pairer
 from ardee_common.cli import Parser
 from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower

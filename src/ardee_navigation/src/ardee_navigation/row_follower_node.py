@@ -22,7 +22,6 @@ from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ardee_bridge.nodes.ros_node import enter, heed_arguments, loop
-from ardee_bridge.nodes.ros_node import enter, heed_arguments, loop
 from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
