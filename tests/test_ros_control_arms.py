@@ -155,7 +155,7 @@ def positions(graph: RosGraph, kind: str) -> List[float]:
 
 
 def next_message(topic: str, kind: str) -> Any:
-    """What is published within the next 50 steps."""
+    """Returns what is published within the next 50 steps."""
     import roslib.message
     import rospy
 

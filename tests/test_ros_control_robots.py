@@ -58,8 +58,8 @@ def _truth(graph: RosGraph, robot: str) -> Tuple[float, float]:
 
 
 def _drives(controller: str, robot: str, commands: List[Tuple[float, float]]) -> List[Any]:
-    """For each command (speed, turn): the odometry and the true pose at its end, and those after a stop. The simulation
-    is paused and takes the steps that it is told, so that the times are as commanded."""
+    """Returns for each command (speed, turn) the odometry and the true pose at its end, and those after a stop. The
+    simulation is paused and takes the steps that it is told, so that the times are as commanded."""
     import rospy
     from geometry_msgs.msg import Twist, Vector3
     from nav_msgs.msg import Odometry

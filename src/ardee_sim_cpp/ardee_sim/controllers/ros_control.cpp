@@ -135,7 +135,7 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
 
 void RosControl::add_steer_bot(DeviceContext& context) {
   const std::string path = resolve_topic("steer_bot_hardware_gazebo", params_.robot_namespace);
-  steer_bot_.emplace(context.parameter(path), robot_.model());
+  steer_bot_.emplace(context.parameter(path), robot_.model(), context.log);
   const std::vector<Joint>& joints = robot_.model().joints;
   for (const auto& [name, interface] : steer_bot_->joints()) {
     JointHandle& handle = add_handle(name, interface);
@@ -232,6 +232,7 @@ void RosControl::reset(TimeNs now_ns) {
   was_stopped_ = false;
   waiting_.clear();
   for (JointActuator& each : actuators_) each.reset(robot_.dynamics());
+  if (steer_bot_) steer_bot_->reset(hardware_);
   sensors_.reset(now_ns);
   manager_->reset(now_ns);
 }

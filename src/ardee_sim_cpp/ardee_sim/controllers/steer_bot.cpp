@@ -28,17 +28,19 @@ std::vector<std::string> car_joints(const Setting& settings, const std::string& 
   return names;
 }
 
-/// Whether knuckles stand as Ackermann has it. What is no truth value, as 'true' in quotes, is not
-/// taken, here as there.
-bool is_linked(const Setting& settings) {
+/// Whether knuckles stand as Ackermann has it. What is no truth value, as 'true' in quotes, does
+/// not count, here as there.
+bool is_linked(const Setting& settings, Log& log) {
   const Setting given = settings.at("enable_ackermann_link");
-  const bool* value = std::get_if<bool>(&given.value());
-  return value == nullptr || *value;
+  if (const bool* value = std::get_if<bool>(&given.value())) return *value;
+  if (given)
+    log.warn(given.path() + ": found no truth value, expected true or false; true is taken");
+  return true;
 }
 
 }  // namespace
 
-SteerBot::SteerBot(const Setting& settings, const Model& model)
+SteerBot::SteerBot(const Setting& settings, const Model& model, Log& log)
     : rear_wheel_(settings.text("rear_wheel")),
       front_steer_(settings.text("front_steer")),
       has_rear_wheel_(has_joint(model, rear_wheel_)),
@@ -51,8 +53,12 @@ SteerBot::SteerBot(const Setting& settings, const Model& model)
       wheels_.push_back(joint);
     }
   }
+  if (wheels_.empty()) {
+    log.warn(settings.path() +
+             ": found neither virtual_rear_wheels nor virtual_front_wheels, expected joints");
+  }
   double half_track_m = 0.0;
-  if (is_linked(settings)) {
+  if (is_linked(settings, log)) {
     wheel_base_m_ =
         positive(settings.number("wheel_separation_h"), settings.at("wheel_separation_h"));
     half_track_m = 0.5 * settings.number("wheel_separation_w");
@@ -61,6 +67,17 @@ SteerBot::SteerBot(const Setting& settings, const Model& model)
     const double y_m = joint_origin(model, joint, settings.at("virtual_front_steers")).y();
     joints_[joint] = JointInterface::kPosition;
     knuckles_.push_back({joint, std::copysign(half_track_m, y_m)});
+  }
+}
+
+void SteerBot::reset(Hardware& hardware) const {
+  if (!has_rear_wheel_) {
+    JointHandle& wheel = hardware.at(rear_wheel_);
+    wheel.position = wheel.velocity = wheel.command = 0.0;
+  }
+  if (!has_front_steer_) {
+    JointHandle& steer = hardware.at(front_steer_);
+    steer.position = steer.command = 0.0;
   }
 }
 

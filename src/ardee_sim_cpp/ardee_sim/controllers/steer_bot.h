@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardee_sim/controllers/hardware.h"
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/description/setting.h"
 
 namespace ardee::control {
@@ -18,13 +19,15 @@ class SteerBot {
   static constexpr char kType[] = "steer_bot_hardware_gazebo/SteerBotHardwareGazebo";
 
   /// Throws Error if a parameter is missing or wrong, or names a joint that the car has not.
-  SteerBot(const Setting& settings, const Model& model);
+  SteerBot(const Setting& settings, const Model& model, Log& log);
 
   /// The bicycle's and the car's.
   const std::map<std::string, JointInterface>& joints() const { return joints_; }
   /// Commands to the car those of the bicycle. A joint of the bicycle that the car has not does at
   /// once what is commanded.
   void follow(Hardware& hardware, double dt_s) const;
+  /// Joints of the bicycle that the car has not are as at the beginning.
+  void reset(Hardware& hardware) const;
 
  private:
   struct Knuckle {

@@ -22,8 +22,8 @@ class SteerBotTest : public testing::Test {
     }
     rig.add_wheel("rear", {0, 0, 0}, Sphere{0.1});
   }
-  SteerBot make() const { return {settings_of(parameters), rig.model}; }
-  Hardware follow(double wheel, double steer) const {
+  SteerBot make() { return {settings_of(parameters), rig.model, rig.log}; }
+  Hardware follow(double wheel, double steer) {
     const SteerBot bot = make();
     Hardware hardware;
     for (const auto& [name, interface] : bot.joints()) hardware[name].interface = interface;
@@ -67,7 +67,27 @@ TEST_F(SteerBotTest, WithoutTheLinkKnucklesTurnAlike) {
   EXPECT_NEAR(car.at("knuckle_right").command, 0.3, 1e-12);
 }
 
+TEST_F(SteerBotTest, AWheelThatTheCarHasNotRollsAndIsReset) {
+  parameters["rear_wheel"] = std::string("virtual");
+  const SteerBot bot = make();
+  Hardware hardware;
+  for (const auto& [name, interface] : bot.joints()) hardware[name].interface = interface;
+  hardware.at("virtual").command = 3.0;
+  hardware.at("steer").command = 0.3;
+  for (int i = 0; i < 100; ++i) bot.follow(hardware, 0.01);
+  EXPECT_NEAR(hardware.at("virtual").position, 3.0, 1e-12);
+  EXPECT_EQ(hardware.at("virtual").velocity, 3.0);
+  bot.reset(hardware);
+  EXPECT_EQ(hardware.at("virtual").position, 0.0);
+  EXPECT_EQ(hardware.at("virtual").command, 0.0);
+  EXPECT_EQ(hardware.at("steer").position, 0.0);
+}
+
 TEST_F(SteerBotTest, SaysWhatIsWrong) {
+  parameters["enable_ackermann_link"] = std::string("false");
+  make();
+  EXPECT_EQ(rig.messages, std::vector<std::string>{"/base/enable_ackermann_link: found no truth "
+                                                   "value, expected true or false; true is taken"});
   const auto why = [this] { return message_of([this] { make(); }); };
   parameters["virtual_rear_wheels"] = names({"knee"});
   EXPECT_EQ(
