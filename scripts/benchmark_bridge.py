@@ -2,11 +2,14 @@
 """Latency and losses of the UDP bridge on loopback, as lines below the table."""
 import json
 import math
+import pathlib
 import statistics
 import subprocess
 from typing import Any, Callable, Dict, List, Sequence
 
-P99_BUDGET_MS = 2.0
+PROGRAM = pathlib.Path(__file__).resolve().parents[1] / "tests" / "bench" / "latency_benchmark"
+# Of small sensors and commands, and of images and clouds.
+P99_BUDGET_MS, FRAMES_P99_BUDGET_MS = 5.0, 20.0
 # The floor, measured beside the bridge: it has no budget.
 FLOOR = "bare forwarder"
 # A simulated robot's frames are few where its cameras are to be drawn first: 3 depth images a second on 2 cores.
@@ -18,10 +21,12 @@ NOTHING = dict(p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan, sent=0, lost=0
 def measure(
     seconds: float, loss_s: float, repeat: int, say: Callable[[str], None]
 ) -> Dict[str, Any]:
-    """What ardee_bridge's own benchmark measures in so many seconds: small messages at full rates, a simulated robot's.
+    """Returns the figures of tests/bench/latency_benchmark, run for so many seconds.
 
-    And for `loss_s` those of all sensors at once, cameras and a 3D lidar among them, with the images as JPEG and as
-    they are, of both: is a message lost? Beside each of them the floor. All of it as often as `repeat` says.
+    They are of small messages at full rates, and of a simulated robot's. For `loss_s` all sensors send at once, cameras
+    and a 3D lidar among them, with the images as JPEG and as they are, of both: is a message lost? Beside each of them
+    the floor. All of it is repeated as often as `repeat` says. The simulated robot is left out where packets cannot be
+    captured, which takes CAP_NET_RAW and CAP_NET_ADMIN.
     """
     frames_s = max(loss_s, LEAST_FRAMES_S)
     sensors = ("--only", "sensors")
@@ -38,7 +43,13 @@ def measure(
         figures = {}  # type: Dict[str, Any]
         for prefix, (run_s, *options) in runs.items():
             say(f"bridge: {prefix}{run_s:g} s, {number} of {repeat}")
-            found = _run(run_s, *options)
+            try:
+                found = _run(run_s, *options)
+            except RuntimeError as error:
+                if "packets cannot be captured" not in str(error):
+                    raise
+                say(f"bridge: left out: {error}")
+                continue
             figures.update((prefix + name, f) for name, f in found.items())
         repetitions.append(figures)
     return medians(repetitions)
@@ -67,7 +78,7 @@ def _or_nan(choose: Callable[[List[float]], float], values: List[float]) -> floa
 
 
 def _run(seconds: float, *options: str) -> Dict[str, Any]:
-    command = ["rosrun", "ardee_bridge", "latency_benchmark", "--json", "--seconds", str(seconds)]
+    command = [str(PROGRAM), "--json", "--seconds", str(seconds)]
     command += options
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as process:
@@ -88,8 +99,10 @@ def lines(figures: Dict[str, Any]) -> List[str]:
     for name, f in figures.items():
         least, most = (f"{value:.2f}" for value in f["p99_range_ms"])
         tails = "" if least == most else f" of {least} to {most}"
-        budget = "" if FLOOR in name else f" (<= {P99_BUDGET_MS:.2f})"
-        missed = budget and not f["p99_ms"] <= P99_BUDGET_MS  # so is one of no message at all
+        is_frame = "image message" in name or "point_cloud message" in name
+        budget_ms = FRAMES_P99_BUDGET_MS if is_frame else P99_BUDGET_MS
+        budget = "" if FLOOR in name else f" (<= {budget_ms:.2f})"
+        missed = budget and not f["p99_ms"] <= budget_ms  # so is one of no message at all
         mark = " !" if f["lost"] or missed else ""
         found.append(
             f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f}{tails} ms{budget}, "

@@ -12,7 +12,7 @@ from typing import Callable, Dict, List, Tuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("src/*/fuzz/targets.py"))
-PACKAGES = [file.parents[1].name for file in FILES]
+PACKAGES = ["ardee_common", *(file.parents[1].name for file in FILES)]
 
 # Where numbers, and what is made of them, have their limits; and what means something in YAML.
 VALUES = (
@@ -88,7 +88,7 @@ def change_line(data: bytes, draw: random.Random) -> bytes:
 
 def main() -> int:
     """`--target=NAME` comes first."""
-    sys.path[:0] = [str(file.parents[1] / "src") for file in FILES]
+    sys.path[:0] = [str(ROOT / "src" / package / "src") for package in PACKAGES]
     sys.path.append(str(ROOT / "pydeps_fuzz"))
     import atheris
 

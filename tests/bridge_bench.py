@@ -46,22 +46,6 @@ def resident_mb(pid: int) -> float:
     return int(re.search(r"VmRSS:\s+(\d+) kB", status).group(1)) / 1e3
 
 
-def _read(path: pathlib.Path) -> bytes:
-    """A file of /proc; empty if its thread or process has ended meanwhile."""
-    try:
-        return path.read_bytes()
-    except OSError:
-        return b""
-
-
-def frame_processes(server: int) -> Set[int]:
-    """Those for images and clouds that a sensor server, by its process, has started and that run."""
-    children = pathlib.Path(f"/proc/{server}/task").glob("*/children")
-    pids = [int(pid) for path in children for pid in _read(path).split()]
-    words = {pid: _read(pathlib.Path(f"/proc/{pid}/cmdline")).split(b"\0") for pid in pids}
-    return {pid for pid in pids if b"ardee_bridge.frames" in words[pid]}
-
-
 class State(NamedTuple):
     """Where the robot is and how fast, by its odometry."""
 
@@ -155,13 +139,6 @@ class Bench:
         """End it as a crash does."""
         os.killpg(self.simulator.pid, signal.SIGKILL)
         self.simulator.wait()
-
-    def kill_frame_processes(self) -> Set[int]:
-        """End the server's processes for images and clouds as a crash does: which they were."""
-        found = frame_processes(self.server.pid)
-        for pid in found:
-            os.kill(pid, signal.SIGKILL)
-        return found
 
     def c_client(self, *arguments: str) -> subprocess.Popen:
         """The client in C, driving if told so."""
@@ -260,7 +237,7 @@ def finish_once_heard(
 ) -> Dict[str, Tuple[int, str]]:
     """What a client reports, started with a time to run [s], and with a longer one until it got all that is wanted.
 
-    How long a server takes to start its processes for frames depends on what else the machine does.
+    How long a server takes to find a camera's topics depends on what else the machine does.
     """
     for seconds in (5, 20, 80):
         found = finish(start(str(seconds)), seconds + 60.0)
@@ -272,9 +249,9 @@ def finish_once_heard(
 def feed_until_killed(pipe: Any) -> None:
     """Body of a process that publishes what the robot of the tests does not carry, at the devices' rates."""
     import rospy
+    from bench import latency_messages
 
-    from ardee_bridge import latency_messages
-    from ardee_bridge.subscriptions import TYPES
+    from ardee_bridge.nodes.subscriptions import TYPES
 
     rospy.init_node("feeder", anonymous=True, disable_signals=True, disable_rostime=True)
     rates_hz = {"imu": 100, "gps": 20, "battery": 5, "fr": 100, "fl": 100, "camera": 5, "depth": 5}

@@ -9,6 +9,7 @@ from typing import Dict
 import benchmark_bridge
 import benchmark_field
 import benchmark_table
+from bench.capture import Capture
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 
@@ -17,6 +18,15 @@ def run(*arguments: str) -> subprocess.CompletedProcess:
     """The benchmark, in the workspace that the tests run in."""
     command = ["/usr/bin/python3", str(SCRIPTS / "benchmark_run.py"), *arguments]
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def may_capture() -> bool:
+    """Returns whether packets can be captured here."""
+    try:
+        Capture("/anyone").close()
+    except OSError:
+        return False
+    return True
 
 
 def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
@@ -41,8 +51,9 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
         assert name in done.stdout
         assert spread["sent"] > 0 and f"{spread['lost']} of {spread['sent']} lost" in done.stdout
     assert "beside cameras, point_cloud message to datagram" in bridge
-    # Six measurements, each with its floor; the controls, which are the same in all, once.
-    assert sum("bare forwarder" in name for name in bridge) == 6
+    # Six measurements, each with its floor, or three without the right to capture packets; the controls, which are
+    # the same in all, once.
+    assert sum("bare forwarder" in name for name in bridge) == (6 if may_capture() else 3)
     assert sum("cmd_vel" in name for name in bridge) == 1
 
 
@@ -77,11 +88,18 @@ def spread_of(p99_ms: float, lost: int = 0) -> Dict[str, float]:
 
 
 def test_the_floor_has_no_budget() -> None:
-    late = benchmark_bridge.medians([{"": spread_of(2.5)}])[""]
+    late = benchmark_bridge.medians([{"": spread_of(7.5)}])[""]
     names = ("imu message to datagram", "simulated bare forwarder message to datagram")
     imu, floor = benchmark_bridge.lines({name: late for name in names})
-    assert "99th percentile 2.50 ms (<= 2.00), most" in imu and imu.endswith("lost !")
-    assert "99th percentile 2.50 ms, most" in floor and floor.endswith("0 of 100 lost")
+    assert "99th percentile 7.50 ms (<= 5.00), most" in imu and imu.endswith("lost !")
+    assert "99th percentile 7.50 ms, most" in floor and floor.endswith("0 of 100 lost")
+
+
+def test_images_and_clouds_have_a_budget_of_their_own() -> None:
+    late = benchmark_bridge.medians([{"": spread_of(19.0)}, {"": spread_of(19.0)}])[""]
+    names = ("beside cameras, raw image message to datagram", "point_cloud message to datagram")
+    for line in benchmark_bridge.lines({name: late for name in names}):
+        assert "(<= 20.00)" in line and line.endswith(" lost")
 
 
 def test_a_bridge_row_without_messages_is_missed() -> None:
@@ -102,5 +120,5 @@ def test_repeated_bridge_rows_are_medians_over_all_losses() -> None:
         p50_ms=0.5, p99_ms=1.1, p99_range_ms=[0.9, 4.0], max_ms=4.5, sent=300, lost=1
     )
     (line,) = benchmark_bridge.lines(found)
-    assert "99th percentile 1.10 of 0.90 to 4.00 ms (<= 2.00), most 4.50 ms" in line
+    assert "99th percentile 1.10 of 0.90 to 4.00 ms (<= 5.00), most 4.50 ms" in line
     assert line.endswith("1 of 300 lost !")

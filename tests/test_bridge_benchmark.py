@@ -1,28 +1,35 @@
 # SPDX-License-Identifier: MIT
-"""The bridge's benchmark on a simulated robot, with the rights to capture packets and without them."""
+"""The bridge's benchmark, on messages of its own and on a simulated robot."""
 import json
-import os
-from typing import Tuple
+import pathlib
+from typing import Any, Dict
 
 import pytest
+from bench.capture import Capture
 from ros_graph import RosGraph
 
-from ardee_bridge.capture import Capture
+PROGRAM = pathlib.Path(__file__).resolve().parent / "bench" / "latency_benchmark"
+SENSORS = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud", "jpeg image", "raw image"}
+ROWS = {f"{name} message to datagram" for name in SENSORS | {"bare forwarder"}}
 
-WITHOUT_RIGHT = ("setpriv", "--bounding-set", "-net_raw", "--inh-caps", "-net_raw")
 
-
-def measured(graph: RosGraph, before: Tuple[str, ...], by: str) -> None:
-    """With so a command before it and such rows."""
-    command = (*before, "rosrun", "ardee_bridge", "latency_benchmark", "--json", "--simulator")
-    arguments = ("--only", "sensors", "--seconds", "10", "--cameras")
-    kinds = json.loads(graph.run(*command, *arguments, timeout_s=240.0).splitlines()[-1])
-    names = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud"}
-    names |= {"jpeg image", "raw image"}
-    rows = {f"{by}{name}" for name in names} | {"bare forwarder"}
-    assert set(kinds) == {f"{row} message to datagram" for row in rows}
-    for figures in kinds.values():
+def measured(graph: RosGraph, *arguments: str) -> Dict[str, Any]:
+    """Returns its figures by row."""
+    output = graph.run(str(PROGRAM), "--json", *arguments, timeout_s=240.0)
+    found = json.loads(output.splitlines()[-1])
+    for figures in found.values():
         assert figures["sent"] > 0 and 0 < figures["p50_ms"] <= figures["max_ms"]
+    return found
+
+
+def test_everything_is_measured(graph: RosGraph) -> None:
+    assert set(measured(graph, "--seconds", "1", "--cameras")) == ROWS | {"datagram to cmd_vel"}
+
+
+@pytest.mark.parametrize("only", ["sensors", "controls"])
+def test_one_half_is_left_out(graph: RosGraph, only: str) -> None:
+    kinds = measured(graph, "--seconds", "0.5", "--only", only)
+    assert kinds and {"cmd_vel" in name for name in kinds} == {only == "controls"}
 
 
 def test_every_sensor_of_a_simulated_robot_is_timed_by_its_packets(graph: RosGraph) -> None:
@@ -30,9 +37,5 @@ def test_every_sensor_of_a_simulated_robot_is_timed_by_its_packets(graph: RosGra
         Capture("/anyone").close()
     except OSError as error:
         pytest.skip(f"packets cannot be captured here: {error}")
-    measured(graph, (), "")
-
-
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give the right away")
-def test_every_sensor_of_a_simulated_robot_is_timed_by_a_witness(graph: RosGraph) -> None:
-    measured(graph, WITHOUT_RIGHT, "witnessed ")
+    arguments = ("--simulator", "--only", "sensors", "--seconds", "10", "--cameras")
+    assert set(measured(graph, *arguments)) == ROWS

@@ -7,7 +7,7 @@ from typing import Any, List
 from bridge_bench import free_port, start_in
 from ros_graph import Process, RosGraph, wait_until
 
-from ardee_bridge import codec
+from ardee_bridge.wire import codec
 
 NODES = ("sensor_server_node", "controls_client_node")
 

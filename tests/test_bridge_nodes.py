@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The bridge's nodes by all their names, alone and from the launch file, and what they say to bad settings."""
-import json
-import os
 import pathlib
 import re
 import signal
-import time
-from typing import List
 
 import pytest
 from bridge_bench import free_port
@@ -93,24 +89,10 @@ def test_ctrl_c_amid_the_imports_ends_it_without_a_word(
     assert (node.wait(20.0), node.output()) == (-signal.SIGINT, "")
 
 
-def policies(pid: int) -> List[int]:
-    """Of the threads of a process: how they are scheduled, the first thread's first."""
-    threads = sorted(int(path.name) for path in pathlib.Path(f"/proc/{pid}/task").iterdir())
-    return [os.sched_getscheduler(thread) & ~os.SCHED_RESET_ON_FORK for thread in threads]
-
-
-@pytest.mark.parametrize("priority", [0, 1])
-def test_what_sends_the_small_sensors_goes_first_where_that_is_granted(
-    shared_graph: RosGraph, priority: int
-) -> None:
-    parameters = ("_port:=0", f"_realtime_priority:={priority}")
+def test_a_priority_is_accepted_and_said_to_have_no_effect(shared_graph: RosGraph) -> None:
+    parameters = ("_port:=0", "_realtime_priority:=1")
     node = shared_graph.spawn("rosrun", "ardee_bridge", "sensor_server_node", *parameters)
-    wait_until(lambda: "sensors leave" in node.output(), "it sends")
-    time.sleep(1.0)
-    is_granted = priority and "no real-time priority is granted" not in node.output()
-    found = policies(node.pid)
-    assert found[0] == os.SCHED_OTHER  # strangers' datagrams keep this one busy
-    assert (os.SCHED_RR in found) == bool(is_granted)
+    wait_until(lambda: "realtime_priority: found 1, which has no effect" in node.output(), "a line")
     node.interrupt()
     assert node.wait(20.0) == 0, node.output()
     shared_graph.run("rosparam", "delete", "/sensor_server_node")
@@ -162,28 +144,3 @@ def test_the_launch_file_starts_both_with_its_arguments(graph: RosGraph) -> None
     found = graph.run("rosparam", "get", "/udp_control_node")
     assert "watchdog_s: 0.25" in found and re.search(r"peers:\n- 127\.0\.0\.1", found)
     assert "multicast_ttl: 3" in graph.run("rosparam", "get", "/sim_sensor_node")
-
-
-def test_the_benchmark_measures_everything(graph: RosGraph) -> None:
-    command = (
-        "rosrun",
-        "ardee_bridge",
-        "latency_benchmark",
-        "--json",
-        "--seconds",
-        "1",
-        "--cameras",
-    )
-    kinds = json.loads(graph.run(*command, timeout_s=120.0))
-    names = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud"}
-    names |= {"jpeg image", "raw image", "bare forwarder"}
-    assert set(kinds) == {f"{name} message to datagram" for name in names} | {"datagram to cmd_vel"}
-    for figures in kinds.values():
-        assert figures["sent"] > 0 and 0 < figures["p50_ms"] <= figures["max_ms"]
-
-
-@pytest.mark.parametrize("only", ["sensors", "controls"])
-def test_the_benchmark_leaves_one_half_out(graph: RosGraph, only: str) -> None:
-    command = ("rosrun", "ardee_bridge", "latency_benchmark", "--json", "--seconds", "0.5")
-    kinds = json.loads(graph.run(*command, "--only", only, timeout_s=120.0))
-    assert kinds and {"cmd_vel" in name for name in kinds} == {only == "controls"}

@@ -13,11 +13,12 @@ from PIL import Image as Picture
 from ros_graph import Process, RosGraph, wait_until
 from test_cameras import HEIGHT, WIDTH, sensor
 
-from ardee_bridge import codec
-from ardee_bridge.chunks import Assembler, Whole
-from ardee_bridge.pairing import Pairer
-from ardee_bridge.udp import open_socket
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.chunks import Assembler, Whole
+from ardee_bridge.wire.pairing import Pairer
+from ardee_bridge.wire.udp import open_socket
 
+COMPRESSED = "/fed/camera/compressed"
 BOX = (
     '<model name="{name}"><static>true</static><pose>{pose} 0 0 0</pose><link name="link"><visual name="v">'
     "<geometry><box><size>1 {size} 1.2</size></box></geometry>"
@@ -258,7 +259,7 @@ def test_the_camera_s_bytes_arrive(graph: RosGraph, client: Client) -> None:
         assert frame.payload == jpeg_of(stamp_ns(frame))
         assert (frame.head.width, frame.head.height, frame.component_id) == (64, 48, 2)
     assert not any(is_of_server(frame) for frame in client.frames)
-    assert "/sensor_server_node_jpeg_2" not in graph.run("rosnode", "list").split()
+    assert not is_read(graph, "/fed/camera")
     finish(publisher, pipe)
 
 
@@ -302,13 +303,13 @@ def test_a_compressing_node_beside_the_camera_comes_and_goes(
     for _ in range(2):
         republish = graph.spawn("rosrun", "image_transport", "republish", *arguments)
         wait_until(
-            lambda: client.take() or is_compressed_read(graph),
+            lambda: client.take() or is_read(graph, COMPRESSED),
             "the server reads what it compresses",
         )
         client.wait_for(is_of_server, 20)
         republish.stop()
         wait_until(
-            lambda: client.take() or not is_compressed_read(graph), "raw ones are read again"
+            lambda: client.take() or not is_read(graph, COMPRESSED), "raw ones are read again"
         )
         client.wait_for(is_of_server, 20)
     finish(camera, camera_pipe)
@@ -316,7 +317,6 @@ def test_a_compressing_node_beside_the_camera_comes_and_goes(
     assert len(set(stamps)) == len(stamps)
 
 
-def is_compressed_read(graph: RosGraph) -> bool:
-    """Is the server's process for frames subscribed to the camera's compressed images?"""
-    about = graph.run("rostopic", "info", "/fed/camera/compressed")
-    return "sensor_server_node_frames" in about
+def is_read(graph: RosGraph, topic: str) -> bool:
+    """Returns whether the server is subscribed to the topic."""
+    return f" * {topic} [" in graph.run("rosnode", "info", "/sensor_server_node")

@@ -11,7 +11,7 @@ import pytest
 from bridge_bench import free_port, start_in
 from ros_graph import RosGraph, wait_until
 
-from ardee_bridge import codec
+from ardee_bridge.wire import codec
 
 PERIOD_S = 0.01
 HELD_BUTTON = 0

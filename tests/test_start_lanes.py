@@ -19,7 +19,7 @@ def way_driven_m(world: str, folder: str) -> float:
     """Along its lane, by a robot that its true pose keeps in the middle."""
     import rospy
 
-    from ardee_models.strict_yaml import build, read_yaml_lines
+    from ardee_common.config import build, read_yaml_lines
     from ardee_navigation.scenario_files import Scenario, Start
     from ardee_navigation.scenarios import prepare
     from ardee_navigation.simulation import Simulation, robot_urdf

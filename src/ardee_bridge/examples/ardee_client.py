@@ -16,9 +16,9 @@ from typing import Any, Dict, List, Tuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "src"))
 
-from ardee_bridge import codec  # noqa: E402
-from ardee_bridge.chunks import Assembler, points_si  # noqa: E402
-from ardee_bridge.pairing import Message, Pairer  # noqa: E402
+from ardee_bridge.wire import codec  # noqa: E402
+from ardee_bridge.wire.chunks import Assembler, points_si  # noqa: E402
+from ardee_bridge.wire.pairing import Message, Pairer  # noqa: E402
 
 COMMAND_PERIOD_S = 0.05
 ASK_AGAIN_S = 5.0

@@ -5,12 +5,12 @@ from typing import Callable, Dict, Iterator, List, Tuple
 
 import yaml
 
-from ardee_bridge import chunks, codec
-from ardee_bridge.controls import ControlsClient, Motion
-from ardee_bridge.counters import Counters
-from ardee_bridge.pairing import MAX_SENDERS, Pairer
-from ardee_bridge.settings import SettingError, read_controls, read_server
-from ardee_bridge.udp import open_socket
+from ardee_bridge.nodes.controls import ControlsClient, Motion
+from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.settings import SettingError, read_controls, read_server
+from ardee_bridge.wire import chunks, codec
+from ardee_bridge.wire.pairing import MAX_SENDERS, Pairer
+from ardee_bridge.wire.udp import open_socket
 
 _SETTINGS = dict(
     bind_address="127.0.0.1",
@@ -34,7 +34,7 @@ def codec_of_all_structs(data: bytes) -> None:
     raw = kind.unpack(data[1 : 1 + kind.size].ljust(kind.size, b"\0"))
     _check(kind.unpack(raw.pack()) == raw, f"{raw}: packed and unpacked it is another")
     physical = raw.to_si()
-    _check(kind.unpack(physical.pack_si()) == physical.to_raw(), f"{physical}: packed in two ways")
+    _check(physical.to_raw() == kind.unpack(physical.to_raw().pack()), f"{physical}: not packed")
     if isinstance(raw, codec.Header):
         codec.data_size(raw)
     if isinstance(raw, codec.LidarData):
@@ -64,7 +64,13 @@ def _events(data: bytes) -> Iterator[Tuple[int, bytes]]:
             at += what
         elif what < 200:
             kind = _KINDS[what % len(_KINDS)]
-            header = codec.Header.pack_values(sender, *kind, what % 2, 1 + what % 2 * 30)
+            header = codec.Header(
+                component_id=sender,
+                msg_type=kind[0],
+                data_type=kind[1],
+                measurement_type=what % 2,
+                measurement_length=1 + what % 2 * 30,
+            ).pack()
             size = codec.data_size(codec.Header.unpack(header)) or codec.DATA_STRUCTS[kind].size
             yield sender, header
             yield sender, data[at : at + size].ljust(size, b"\1")

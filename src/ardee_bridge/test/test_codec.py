@@ -7,9 +7,9 @@ import sys
 
 import pytest
 
-from ardee_bridge import codec
-from ardee_bridge.layout import INT32, NO_VALUE, Array
-from ardee_bridge.scales import SCALES
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.layout import INT32, NO_VALUE, Array
+from ardee_bridge.wire.scales import SCALES
 
 
 def random_raw(kind, rng):
@@ -179,7 +179,7 @@ def test_rows_with_the_same_constant_agree():
 def test_only_the_standard_library_is_imported(package):
     code = (
         "import sys; sys.path.insert(0, sys.argv[1]); "
-        "import ardee_bridge.codec, ardee_bridge.pairing, ardee_bridge.chunks; "
+        "import ardee_bridge.wire.codec, ardee_bridge.wire.pairing, ardee_bridge.wire.chunks; "
         "bad = {'rospy', 'numpy', 'genpy', 'PIL', 'yaml'} & set(sys.modules); "
         "sys.exit(str(bad) if bad else 0)"
     )

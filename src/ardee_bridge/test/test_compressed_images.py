@@ -6,14 +6,13 @@ import pytest
 from PIL import Image as Picture
 from sensor_msgs.msg import CompressedImage, Image
 
-from ardee_bridge import chunks, codec
-from ardee_bridge.camera_topics import PATIENCE_S, REFRESH_S, CameraTopics
-from ardee_bridge.counters import Counters
-from ardee_bridge.pairing import Pairer
-from ardee_bridge.reader import Watch
-from ardee_bridge.sensor_server import SensorServer
-from ardee_bridge.settings import read_server
-from ardee_bridge.udp import PairLock, open_socket
+from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.sensor_server import SensorServer
+from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.nodes.subscriptions import PATIENCE_S, CameraTopics
+from ardee_bridge.wire import chunks, codec
+from ardee_bridge.wire.pairing import Pairer
+from ardee_bridge.wire.udp import open_socket
 
 DROPPED = "sensor messages that the wire cannot carry"
 
@@ -38,7 +37,7 @@ def raw(secs):
 
 
 class Bench:
-    """Two servers that share a lock, as processes do: one of compressed images, one of raw ones; and their target."""
+    """A server of a camera, and its target."""
 
     def __init__(self):
         self._target, self._socket = open_socket("127.0.0.1", 0), open_socket("127.0.0.1", 0)
@@ -47,26 +46,16 @@ class Bench:
         port = self._target.getsockname()[1]
         peers = [dict(address="127.0.0.1", port=port, data_types=["all"])]
         values = dict(bind_address="127.0.0.1", port=0, allowed_clients=[], max_clients=0)
-        values.update(client_lease_s=1.0, multicast_ttl=0, realtime_priority=0)
+        values.update(client_lease_s=1.0, multicast_ttl=0)
         settings = read_server(dict(values, sources=sources, peers=peers))
         self.raw, self.said = settings.sources[0], []
         self.compressed = self.raw.of_camera()
         self.counters = Counters(self.said.append)
-        lock = PairLock.make()
-        self._servers = [
-            SensorServer(
-                settings._replace(sources=(source,)),
-                self._socket,
-                self.counters,
-                lock=PairLock(lock.file, is_shared=True),
-            )
-            for source in (self.compressed, self.raw)
-        ]
+        self._server = SensorServer(settings, self._socket, self.counters)
 
     def publish(self, message):
         is_compressed = isinstance(message, CompressedImage)
-        source = self.compressed if is_compressed else self.raw
-        self._servers[0 if is_compressed else 1].publish(source, message)
+        self._server.publish(self.compressed if is_compressed else self.raw, message)
         return self.counters.done().get("sent front", 0)
 
     def next_frame(self):
@@ -108,7 +97,7 @@ def test_the_camera_s_bytes_are_sent(bench, text):
         ("32FC1; compressedDepth png", None, "compressedDepth"),
         ("jpeg", b"", "0 bytes that are no JPEG file"),
         ("jpeg", b"\x89PNG\r\n", "no JPEG file"),
-        ("jpeg", b"\xff\xd8\xff", "3 bytes of JPEG"),
+        ("jpeg", b"\xff\xd8\xff", "3 bytes that are no JPEG file"),
     ],
 )
 def test_what_is_no_jpeg_is_dropped(bench, text, data, message):
@@ -132,89 +121,70 @@ def test_images_of_one_form_may_have_the_same_stamp(bench):
 
 
 class Publishers:
-    """In the reader's place: who publishes what, as the test says; and a clock."""
+    """What is published, as the test says, and the choice that is made of it; with a clock."""
 
-    def __init__(self):
-        self.watches, self.now_s, self.refreshed = [], 0.0, []
-
-    def watch_publishers(self, name, kind):
-        self.watches.append(Watch(name, kind, len(self.watches)))
-        return self.watches[-1]
-
-    def refresh(self, watch):
-        self.refreshed.append(watch)
-
-    def end_watch(self, watch):
-        self.watches.remove(watch)
+    def __init__(self, camera):
+        self.now_s, self.published, self._camera = 0.0, set(), camera
+        self._topics = CameraTopics(lambda: self.now_s)
 
     def publish(self, *topics):
-        for watch in self.watches:
-            watch.hear(["http://a:1"] if watch.name in topics else [])
+        kinds = {"/front": Image._type, "/front/compressed": CompressedImage._type}
+        self.published = {(topic, kinds[topic]) for topic in topics}
+
+    def choice(self):
+        found = {source.topic for source in self._topics.choose([self._camera], self.published)}
+        return {"/front/compressed": "compressed", "/front": "raw"}[found.pop()] if found else ""
+
+    def nobody_wants_it(self):
+        return self._topics.choose([], self.published)
 
 
 @pytest.fixture
-def publishers():
-    return Publishers()
+def publishers(bench):
+    return Publishers(bench.raw)
 
 
-@pytest.fixture
-def topics(bench, publishers):
-    return CameraTopics([bench.raw], publishers, lambda: publishers.now_s)
-
-
-def choice(topics):
-    found = topics.choice({"front"})
-    return "compressed" * bool(found.compressed) + "raw" * bool(found.raw)
-
-
-def test_only_wanted_cameras_are_watched(topics, publishers):
-    assert topics.choice(set()) == (frozenset(), frozenset()) and publishers.watches == []
-    assert choice(topics) == ""
-    names = {(watch.name, watch.kind) for watch in publishers.watches}
-    compressed = ("/front/compressed", "sensor_msgs/CompressedImage")
-    assert names == {compressed, ("/front", "sensor_msgs/Image")}
-    topics.choice(set())
-    assert publishers.watches == []
-
-
-def test_compressed_images_are_preferred_and_raw_ones_taken_when_there_are_no_others(
-    topics, publishers
-):
-    assert choice(topics) == ""
+def test_only_wanted_cameras_are_chosen_and_each_anew(publishers):
     publishers.publish("/front", "/front/compressed")
-    assert choice(topics) == "compressed"
+    assert publishers.nobody_wants_it() == []
+    assert publishers.choice() == "compressed"
+    assert publishers.nobody_wants_it() == []
+    publishers.publish()
+    assert publishers.choice() == ""
+
+
+def test_a_topic_of_another_type_is_no_camera_s(publishers):
+    publishers.published = {("/front/compressed", "std_msgs/String")}
+    assert publishers.choice() == ""
+
+
+def test_compressed_images_are_preferred_and_raw_ones_taken_when_there_are_no_others(publishers):
+    assert publishers.choice() == ""
+    publishers.publish("/front", "/front/compressed")
+    assert publishers.choice() == "compressed"
     publishers.publish("/front")
-    assert choice(topics) == "compressed"
+    assert publishers.choice() == "compressed"
     publishers.now_s += PATIENCE_S
-    assert choice(topics) == "raw"
+    assert publishers.choice() == "raw"
     publishers.publish("/front", "/front/compressed")
-    assert choice(topics) == "compressed"
+    assert publishers.choice() == "compressed"
 
 
-def test_a_publisher_that_announces_raw_images_first(topics, publishers):
-    choice(topics)
+def test_a_publisher_that_announces_raw_images_first(publishers):
     publishers.publish("/front")
-    assert choice(topics) == ""
+    assert publishers.choice() == ""
     publishers.now_s += 0.9 * PATIENCE_S
-    assert choice(topics) == ""
+    assert publishers.choice() == ""
     publishers.publish("/front", "/front/compressed")
     publishers.now_s += PATIENCE_S
-    assert choice(topics) == "compressed"
+    assert publishers.choice() == "compressed"
 
 
-def test_a_publisher_that_goes_and_comes_back(topics, publishers):
-    choice(topics)
+def test_a_publisher_that_goes_and_comes_back(publishers):
     publishers.publish("/front/compressed", "/front")
-    assert choice(topics) == "compressed"
+    assert publishers.choice() == "compressed"
     publishers.publish()
     publishers.now_s += 10 * PATIENCE_S
-    assert choice(topics) == "compressed"
+    assert publishers.choice() == "compressed"
     publishers.publish("/front")
-    assert choice(topics) == "compressed"
-
-
-def test_the_master_is_asked_again_and_again(topics, publishers):
-    for _ in range(3):
-        publishers.now_s += 0.5 * REFRESH_S
-        choice(topics)
-    assert publishers.refreshed == publishers.watches
+    assert publishers.choice() == "compressed"

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import Imu, LaserScan
 
-from ardee_bridge import codec, convert
-from ardee_bridge.layout import NO_VALUE
+from ardee_bridge.nodes import convert
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.layout import NO_VALUE
 from ardee_msgs.msg import Battery, Encoder
 
 

@@ -5,9 +5,10 @@ import math
 from geometry_msgs.msg import Vector3, Vector3Stamped
 from sensor_msgs.msg import NavSatFix
 
-from ardee_bridge import codec, convert
-from ardee_bridge.fix_velocity import FixWithVelocity
-from ardee_bridge.layout import NO_VALUE
+from ardee_bridge.nodes import convert
+from ardee_bridge.nodes.fix_velocity import FixWithVelocity
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.layout import NO_VALUE
 
 
 def test_gps():

@@ -6,8 +6,8 @@ import subprocess
 
 import pytest
 
-from ardee_bridge import codec, generate
-from ardee_bridge.scales import SCALES
+from ardee_bridge.wire import codec, generate
+from ardee_bridge.wire.scales import SCALES
 
 COMPILERS = {
     "c11": ["gcc", "-std=c11", "-x", "c"],

@@ -3,7 +3,7 @@
 import pytest
 import yaml
 
-from ardee_bridge.settings import SettingError, read_controls, read_server
+from ardee_bridge.nodes.settings import SettingError, read_controls, read_server
 
 
 def shipped(package, name):

@@ -2,8 +2,8 @@
 """The pairing rule under loss, doubling, change of places and garbage; chunks likewise."""
 import random
 
-from ardee_bridge import chunks, codec
-from ardee_bridge.pairing import MAX_SENDERS, WINDOW_S, Pairer
+from ardee_bridge.wire import chunks, codec
+from ardee_bridge.wire.pairing import MAX_SENDERS, WINDOW_S, Pairer
 
 
 def random_bytes(rng, count):
@@ -121,7 +121,7 @@ def test_random_bytes_never_raise_and_are_all_counted():
 def frame(payload, chunk_bytes, sequence=0):
     head = codec.ImageChunk(chunk=codec.Chunk(sec=3, sequence=sequence), width=7, height=9)
     pairs = chunks.split(codec.DataType.IMAGE, 2, head, payload, chunk_bytes)
-    return [(codec.Header.unpack(b"".join(header)), b"".join(data)) for header, data in pairs]
+    return [(codec.Header.unpack(header), data) for header, data in pairs]
 
 
 def test_chunks_in_any_order_and_doubled():
@@ -137,19 +137,18 @@ def test_chunks_in_any_order_and_doubled():
         assert assembler.lost_frames == assembler.bad_chunks == 0
 
 
-def test_chunks_say_their_place_and_show_the_payload_itself():
-    payload = bytearray(b"a" * 300 + b"b" * 300 + b"c" * 7)
+def test_chunks_say_their_place():
+    payload = b"a" * 300 + b"b" * 300 + b"c" * 7
     head = codec.PointCloudChunk(chunk=codec.Chunk(sec=3, nsec=4, sequence=5))
     pairs = list(chunks.split(codec.DataType.POINT_CLOUD, 0, head, payload, 300))
-    payload[:] = payload.upper()  # nothing was copied
-    found = [codec.PointCloudChunk.unpack(data[0]).chunk for _, data in pairs]
+    found = [codec.PointCloudChunk.unpack(data[:28]).chunk for _, data in pairs]
     places = [(0, 0), (1, 300), (2, 600)]
     assert found == [
         codec.Chunk(sec=3, nsec=4, sequence=5, index=i, count=3, offset=at, total=607)
         for i, at in places
     ]
-    assert [bytes(data[1]) for _, data in pairs] == [b"A" * 300, b"B" * 300, b"C" * 7]
-    lengths = [codec.Header.unpack(header[0]).measurement_length for header, _ in pairs]
+    assert [data[28:] for _, data in pairs] == [b"a" * 300, b"b" * 300, b"c" * 7]
+    lengths = [codec.Header.unpack(header).measurement_length for header, _ in pairs]
     assert lengths == [300, 300, 7]
 
 
@@ -164,7 +163,7 @@ def test_a_lost_chunk_loses_its_frame_alone():
 def test_an_empty_cloud_is_a_frame():
     head = codec.PointCloudChunk()
     ((header, data),) = chunks.split(codec.DataType.POINT_CLOUD, 0, head, b"", 1600)
-    whole = chunks.Assembler().feed(codec.Header.unpack(b"".join(header)), b"".join(data))
+    whole = chunks.Assembler().feed(codec.Header.unpack(header), data)
     assert whole is not None and chunks.points_si(whole.payload) == []
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import PointCloud2, PointField
 
-from ardee_bridge import chunks, convert
+from ardee_bridge.nodes import convert
+from ardee_bridge.wire import chunks
 
 
 def cloud(points, height=1, pad=0):
@@ -46,7 +47,7 @@ def test_point_cloud(height, pad):
     ],
 )
 def test_the_numbers_of_clouds_are_found_wherever_they_are(offsets, step, order):
-    count = 3 * convert._BLOCK_POINTS + 1
+    count = 24_577
     names = ("x", "y", "z", "intensity")[: len(offsets)]
     kind = np.dtype(
         dict(names=names, formats=[order + "f4"] * len(names), offsets=offsets, itemsize=step)

@@ -3,8 +3,8 @@
 import pytest
 import yaml
 
-from ardee_bridge import codec
-from ardee_bridge.settings import SettingError, kept_here, read_controls, read_server, silent
+from ardee_bridge.nodes.settings import SettingError, kept_here, read_controls, read_server, silent
+from ardee_bridge.wire import codec
 
 
 def shipped(package, name):

@@ -10,10 +10,10 @@ import sys
 import pytest
 from sensor_msgs.msg import Image, Imu
 
-from ardee_bridge.counters import Counters
-from ardee_bridge.sensor_server import SensorServer
-from ardee_bridge.settings import read_server
-from ardee_bridge.udp import open_socket
+from ardee_bridge.nodes.counters import Counters
+from ardee_bridge.nodes.sensor_server import SensorServer
+from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.wire.udp import open_socket
 
 CLONE_NEWNET = 0x40000000  # <sched.h>
 PORT, GROUP = 30000, "239.7.7.7"
@@ -90,7 +90,7 @@ def clients(package, tmp_path_factory):
 def settings_for(peer, source):
     """Of a server that sends to this peer from this source."""
     values = dict(bind_address=SIMULATOR, port=0, allowed_clients=[TARGET], max_clients=0)
-    values.update(client_lease_s=30.0, multicast_ttl=1, realtime_priority=0)
+    values.update(client_lease_s=30.0, multicast_ttl=1)
     peers = [dict(address=peer, port=PORT, data_types=[source["kind"]])]
     return read_server(dict(values, peers=peers, sources=[source]))
 

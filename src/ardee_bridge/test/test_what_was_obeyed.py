@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the controls client says in its terminal of the commands that it gets (thesis 4.6.1)."""
-from ardee_bridge.controls import STANDSTILL, Motion, what_was_obeyed
+from ardee_bridge.nodes.controls import STANDSTILL, Motion, what_was_obeyed
 
 
 def test_counts_since_the_last_line_and_the_latest_motion():

@@ -5,8 +5,8 @@ import tempfile
 from pathlib import Path
 from typing import Callable, Dict
 
-from ardee_models.errors import GeneratorError
-from ardee_models.strict_yaml import read_yaml_lines
+from ardee_common.config import read_yaml_lines
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain_recipe import read_recipe
 
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")

@@ -9,6 +9,7 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(PACKAGE / "src"))
+sys.path.insert(0, str(PACKAGE.parent / "ardee_common" / "src"))
 
 
 def folder_hash(folder: Path) -> str:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from ardee_common.errors import GeneratorError
 from ardee_models import crop_report
-from ardee_models.errors import GeneratorError
 from ardee_models.ranges import MARKS, check_metrics, load_ranges
 from ardee_models.variants import load_variants
 

@@ -6,10 +6,10 @@ import re
 import numpy as np
 import pytest
 
+from ardee_common.errors import GeneratorError
 from ardee_models.assemble import assemble
 from ardee_models.crop_cli import stages_help
 from ardee_models.detail import LEVELS
-from ardee_models.errors import GeneratorError
 from ardee_models.params import known_species, load_params, load_species
 from ardee_models.plan import grow
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
 from ardee_models.terrain import Terrain, TerrainParams, generate_terrain, ridge_profile
 from ardee_models.writers.terrain import write_terrain

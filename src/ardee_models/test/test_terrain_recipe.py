@@ -7,8 +7,8 @@ import xml.etree.ElementTree as ElementTree
 import numpy as np
 import pytest
 
+from ardee_common.errors import GeneratorError
 from ardee_models import terrain_cli
-from ardee_models.errors import GeneratorError
 from ardee_models.terrain_features import follow
 from ardee_models.terrain_recipe import (
     Clods,

@@ -4,5 +4,5 @@ import sys
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1]
-for name in ("ardee_bridge", "ardee_models", "ardee_world", "ardee_navigation"):
+for name in ("ardee_bridge", "ardee_common", "ardee_models", "ardee_world", "ardee_navigation"):
     sys.path.insert(0, str(PACKAGE.parent / name / "src"))

@@ -7,7 +7,7 @@ from typing import Dict, List
 import numpy as np
 import pytest
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation.comparison import compare, mean_interval, poisson_interval, read_runs
 
 NAMES = "run,seed,end,way_m,lateral_rms_m,lateral_max_m,share_near,heading_rms_rad,width_m,interventions"

@@ -4,22 +4,30 @@ import sys
 
 import pytest
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation import run_experiment, simulation
+
+HINT = " (--help lists all arguments)"
 
 
 @pytest.mark.parametrize(
     "words, message",
     [
-        (["--runs", "x"], "argument --runs: found x, expected a whole number from 1 to 10000"),
-        (["--runs", "0"], "argument --runs: found 0, expected a whole number from 1 to 10000"),
+        (
+            ["--runs", "x"],
+            "argument --runs: found x, expected a whole number from 1 to 10000" + HINT,
+        ),
+        (
+            ["--runs", "0"],
+            "argument --runs: found 0, expected a whole number from 1 to 10000" + HINT,
+        ),
         (
             ["--seed", "1.5"],
-            "argument --seed: found 1.5, expected a whole number from 0 to 2147483647",
+            "argument --seed: found 1.5, expected a whole number from 0 to 2147483647" + HINT,
         ),
         (
             ["--runs", "2", "--seed", "2147483647"],
-            "--seed and --runs: found a last seed above 2147483647, the largest",
+            "--seed and --runs: found a last seed above 2147483647, the largest" + HINT,
         ),
         (
             ["--output", __file__],

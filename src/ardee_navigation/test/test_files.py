@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import yaml
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.node_settings import Settings, read_settings
 from ardee_navigation.scenario_files import Start, read_parameters, read_scenarios

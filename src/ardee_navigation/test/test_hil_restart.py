@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
-from ardee_bridge import codec
+from ardee_bridge.wire import codec
 from ardee_navigation.hil_row_follower import Target
 from ardee_navigation.lbirnt import Parameters
 

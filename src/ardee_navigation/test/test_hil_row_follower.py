@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
-from ardee_bridge import codec
+from ardee_bridge.wire import codec
 from ardee_navigation.hil_row_follower import Clock, Target, _arguments
 from ardee_navigation.lbirnt import Parameters
 
@@ -61,7 +61,7 @@ def test_a_bad_address_is_one_line(words: str, why: str, capsys: pytest.CaptureF
     option, address = words.split()
     with pytest.raises(SystemExit) as ended:
         _arguments([option, address])
-    line = f"hil_row_follower: argument {option}: found {address!r}, expected {why}\n"
+    line = f"hil_row_follower: argument {option}: found {address!r}, expected {why} (--help lists all arguments)\n"
     assert ended.value.code == 2 and capsys.readouterr().err == line
 
 

@@ -8,7 +8,7 @@ from typing import List
 import numpy as np
 import pytest
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation.contacts import LENGTH_M, WIDTH_M, Contacts, depths_m
 from ardee_navigation.truth import Field, Polyline, Pose, Stalks, lane_of, read_field
 

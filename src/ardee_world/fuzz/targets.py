@@ -5,7 +5,7 @@ import tempfile
 from pathlib import Path
 from typing import Callable, Dict, Optional
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS

@@ -8,6 +8,7 @@ import pytest
 
 PACKAGE = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(PACKAGE / "src"))
+sys.path.insert(0, str(PACKAGE.parent / "ardee_common" / "src"))
 sys.path.insert(0, str(PACKAGE.parent / "ardee_models" / "src"))
 
 import numpy as np  # noqa: E402

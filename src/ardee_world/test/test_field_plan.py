@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
+from ardee_common.geodesy import to_degrees
 from ardee_world.config import Plots
-from ardee_world.geodesy import to_degrees
 from ardee_world.layout import to_world
 from ardee_world.plots import plan_centres, row_positions, row_starts
 

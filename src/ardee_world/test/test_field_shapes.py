@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_world.config import FieldConfig, Plots, RowShape
 from ardee_world.expression import parse_expression
 from ardee_world.layout import generate

@@ -9,7 +9,7 @@ from PIL import Image
 from scipy import stats
 from scipy.spatial.transform import Rotation
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
 from ardee_world.config import Clutter, FieldConfig, Plots, RowShape, Stand
 from ardee_world.layout import generate

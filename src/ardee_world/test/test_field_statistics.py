@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
 from ardee_world.config import FieldConfig, Plots
 from ardee_world.layout import generate, to_world

@@ -1,2 +1,3 @@
 # SPDX-License-Identifier: MIT
-"""UDP bridge between a simulated robot and target hardware without ROS."""
+"""Sends the sensors of a robot to target computers over UDP, and drives it by their commands."""
+from ardee_bridge.wire import chunks, codec, pairing  # noqa: F401

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
-from ardee_models.output import model_directory, write_file
+from ardee_common.errors import GeneratorError
+from ardee_common.output import model_directory, write_file
 from ardee_models.terrain import TerrainParams, generate_terrain
 from ardee_models.textures import media_textures
 from ardee_models.variants import build_crops

@@ -9,8 +9,8 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ardee_models.cli import Parser
-from ardee_models.errors import GeneratorError
+from ardee_common.cli import Parser
+from ardee_common.errors import GeneratorError
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.splat import Part, draw, read_dae
 

@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 from typing import Optional, Sequence
 
-from ardee_models.cli import Parser, seed_number
+from ardee_common.cli import Parser, seed_number
+from ardee_common.errors import GeneratorError
 from ardee_models.crops import make_crop
-from ardee_models.errors import GeneratorError
 from ardee_models.lookup import search_path
 from ardee_models.params import known_species, load_species
 from ardee_models.stages import describe_stages

@@ -7,12 +7,12 @@ import json
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_models.cli import Parser
+from ardee_common.cli import Parser
+from ardee_common.errors import GeneratorError
+from ardee_common.output import write_file
 from ardee_models.contact_sheet import draw_contact_sheet
-from ardee_models.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.metrics import METRICS_FILE
-from ardee_models.output import write_file
 from ardee_models.ranges import MARKS, Check, check_metrics, load_ranges
 from ardee_models.stages import SEASONS
 from ardee_models.variants import load_variants

@@ -7,11 +7,11 @@ from typing import Dict, Optional, Tuple
 
 import numpy as np
 
+from ardee_common.output import check_name
 from ardee_models.assemble import assemble
 from ardee_models.cylinder import Cylinder, fit_cylinder
 from ardee_models.detail import LEVELS
 from ardee_models.metrics import measure
-from ardee_models.output import check_name
 from ardee_models.params import CropParams, load_params
 from ardee_models.plan import Plan, grow
 from ardee_models.plant import Plant

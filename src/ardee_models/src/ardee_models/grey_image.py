@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 MAX_SIDE_PX = 16384
 

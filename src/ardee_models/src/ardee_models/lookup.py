@@ -11,7 +11,7 @@ from typing import List, Sequence
 import numpy as np
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain import Terrain
 from ardee_models.writers.crop import METRICS_FILE
 

@@ -4,8 +4,8 @@
 from dataclasses import dataclass
 from typing import Tuple
 
-from ardee_models.config import bounded
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded
 
 
 @dataclass(frozen=True)
@@ -86,6 +86,8 @@ class Colours:
     head_ripe: Tuple[float, ...] = bounded(0, 255)
 
     def __post_init__(self) -> None:
-        for name, colour in vars(self).items():
+        for name, given in list(vars(self).items()):
+            colour = tuple(map(float, given))
+            object.__setattr__(self, name, colour)
             if len(colour) != 3:
                 raise GeneratorError(f"colours.{name}: found {colour}, expected red, green, blue")

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Tuple
 
-from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
-from ardee_models.errors import GeneratorError
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded
+from ardee_models.config_dir import config_dir
 from ardee_models.organ_params import BraceRoots, Colours, Ears, Flowers, Panicle, Tassel, Tillers
 from ardee_models.stages import Stage, resolve_stage
 
@@ -129,7 +131,7 @@ def load_species(species: str, path: Optional[Path] = None) -> tuple:
                 f"unknown species {species!r}, known: {', '.join(known_species())}"
             )
         path = config_dir() / "species" / f"{species}.yaml"
-    data = from_mapping(SpeciesFile, read_yaml(path), str(path))
+    data = build(SpeciesFile, read_yaml_lines(path))
     if data.architecture.leaves.venation not in ("parallel", "pinnate"):
         raise GeneratorError(
             f"{path}.architecture.leaves.venation: found {data.architecture.leaves.venation!r},"

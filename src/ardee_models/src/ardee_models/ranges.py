@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List, Mapping, Optional, Tuple
 
-from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
-from ardee_models.errors import GeneratorError
+from ardee_common.config import build_list, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded
+from ardee_models.config_dir import config_dir
 
 # What a range may rest on; the head of config/ranges.yaml says what each means
 MARKS = ("read", "computed", "derived", "nominal")
@@ -43,15 +45,15 @@ class Check:
 def load_ranges(path: Optional[Path] = None) -> tuple:
     """Ranges by species and metric, and the text of each source."""
     path = path or config_dir() / "ranges.yaml"
-    data = read_yaml(path)
+    data = read_yaml_lines(path)
     sources = data.pop("sources", {})
     ranges: Dict[str, Dict[str, List[Range]]] = {}
     for species, metrics in data.items():
         if not isinstance(metrics, dict):
             raise GeneratorError(f"{path}: {species}: found {metrics!r}, expected metrics")
-        for metric, rows in metrics.items():
+        for metric in metrics:
             where = f"{path}: {species}.{metric}"
-            parsed = [from_mapping(Range, row, f"{where}[{i}]") for i, row in enumerate(rows or [])]
+            parsed = list(build_list(Range, metrics, metric))
             for row in parsed:
                 if row.mark not in MARKS:
                     raise GeneratorError(

@@ -9,7 +9,7 @@ import collada
 import numpy as np
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _SAMPLES_PER_PIXEL = 2.2  # mean points on a pixel of a triangle seen from the front
 # steps of a sequence that fills the unit square evenly: 1/g and 1/g^2 with g^3 = g + 1

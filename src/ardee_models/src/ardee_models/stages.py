@@ -8,8 +8,9 @@ from typing import Dict, Optional, Sequence
 
 import numpy as np
 
-from ardee_models.config import bounded, from_mapping
-from ardee_models.errors import GeneratorError
+from ardee_common.config import Mapping, build_group
+from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded
 
 SEASONS = ("early", "mid", "late")
 
@@ -45,10 +46,10 @@ _COUNTERS = {
 }
 
 
-def _rows(data: dict, where: str) -> Dict[str, Stage]:
+def _rows(data: Mapping, where: str) -> Dict[str, Stage]:
     rows = {}
-    for name, entry in data.items():
-        row = rows[str(name)] = from_mapping(Stage, entry, f"{where}.{name}")
+    for name in data:
+        row = rows[name] = build_group(Stage, data, name)
         if row.season not in SEASONS:
             raise GeneratorError(
                 f"{where}.{name}.season: found {row.season!r}, expected {' '.join(SEASONS)}"

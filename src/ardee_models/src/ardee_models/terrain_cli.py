@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ardee_models.cli import Parser, run, seed_number
-from ardee_models.errors import GeneratorError
-from ardee_models.options import check
+from ardee_common.cli import Parser, run, seed_number
+from ardee_common.errors import GeneratorError
+from ardee_common.options import check
 from ardee_models.terrain import Terrain, TerrainParams, generate_terrain
 from ardee_models.terrain_dem import dem_terrain
 from ardee_models.terrain_features import follow

@@ -11,7 +11,7 @@ from PIL import Image
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 from scipy.ndimage import binary_dilation
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.grey_image import MAX_SIDE_PX
 from ardee_models.terrain import Terrain
 from ardee_models.terrain_image import Say, fitting_samples, level_at_origin, resample

@@ -7,7 +7,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import find_model, resource, sdf_root, terrain_model
 from ardee_models.terrain import Ground
 from ardee_models.terrain_mesh import MeshOptions, read_mesh

@@ -7,7 +7,7 @@ from typing import Callable, Optional
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.grey_image import read_grey
 from ardee_models.terrain import Terrain
 from ardee_models.terrain_recipe import SAMPLES

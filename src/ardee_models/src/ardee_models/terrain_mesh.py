@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain_surface import MeshGround
 
 UPS = ("auto", "y", "z")

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Tuple
 
-from ardee_models.errors import GeneratorError
-from ardee_models.options import check, option
-from ardee_models.strict_yaml import build, read_yaml_lines
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_common.options import check, option
 
 _ANGLE = (-360.0, 360.0)
 _FAR = (-10_000.0, 10_000.0)

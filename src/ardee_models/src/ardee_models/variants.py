@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, Optional, Sequence
 
-from ardee_models.config import bounded, config_dir, from_mapping, read_yaml
+from ardee_common.config import build_group, read_yaml_lines
+from ardee_common.options import bounded
+from ardee_models.config_dir import config_dir
 from ardee_models.crops import make_crop
 
 
@@ -23,10 +25,8 @@ class Variant:
 def load_variants(path: Optional[Path] = None) -> Dict[str, Variant]:
     """Variants by model name."""
     path = path or config_dir() / "variants.yaml"
-    return {
-        name: from_mapping(Variant, entry, f"{path}: {name}")
-        for name, entry in read_yaml(path).items()
-    }
+    mapping = read_yaml_lines(path)
+    return {name: build_group(Variant, mapping, name) for name in mapping}
 
 
 def _make(name: str, variant: Variant, models: Path) -> Path:

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_navigation.comparison import compare, read_runs
 
 

@@ -12,7 +12,7 @@ from typing import Dict, List, NamedTuple, Sequence, Tuple
 import numpy as np
 from scipy import stats
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 CONFIDENCE = 0.95
 _LARGEST_BYTES = 16 << 20

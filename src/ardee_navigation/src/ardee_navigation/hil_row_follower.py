@@ -17,9 +17,10 @@ from typing import IO, Any, Dict, List, NoReturn, Optional, Set, Tuple
 
 import numpy as np
 
-from ardee_bridge import codec
-from ardee_bridge.pairing import Message, Pairer
-from ardee_models.errors import GeneratorError
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.pairing import Message, Pairer
+from ardee_common.cli import Parser
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.scenario_files import read_parameters, read_scenarios
 
@@ -151,11 +152,6 @@ def _line(time_s: float, output: Output) -> Dict[str, Any]:
     }
 
 
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}\n")
-
-
 def _address(text: str, least_port: int = 0) -> Address:
     host, _, port = text.rpartition(":")
     try:
@@ -178,7 +174,7 @@ def _own_address(*others: Address) -> Address:
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
-    parser = _Parser(prog="hil_row_follower", description=__doc__.splitlines()[0])
+    parser = Parser(prog="hil_row_follower", description=__doc__.splitlines()[0])
     parser.add_argument("--sensors", type=_peer, default="127.0.0.1:30001", help="[%(default)s]")
     parser.add_argument("--controls", type=_peer, default="127.0.0.1:35555", help="[%(default)s]")
     parser.add_argument(

@@ -6,7 +6,7 @@ from typing import Any
 
 from rosgraph.names import is_legal_name
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _EXPECTED = {str: "a text", bool: "true or false"}
 _TOPICS = ("scan", "odom", "cmd")

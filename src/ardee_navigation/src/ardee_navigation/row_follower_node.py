@@ -21,8 +21,8 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ardee_bridge.ros_node import enter, heed_arguments, loop
-from ardee_models.errors import GeneratorError
+from ardee_bridge.nodes.ros_node import enter, heed_arguments, loop
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
 from ardee_navigation.node_settings import Settings, read_settings

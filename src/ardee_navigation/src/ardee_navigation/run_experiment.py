@@ -10,17 +10,13 @@ from typing import Any, List, NoReturn, Optional
 
 from tqdm import tqdm
 
-from ardee_models.errors import GeneratorError
+from ardee_common.cli import Parser
+from ardee_common.errors import GeneratorError
 from ardee_navigation.record import Record
 from ardee_navigation.scenario_files import Scenario, read_parameters
 from ardee_navigation.scenarios import known_scenarios, prepare
 
 LARGEST_SEED = 2**31 - 1
-
-
-class _Parser(argparse.ArgumentParser):
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message}\n")
 
 
 def _whole(text: str, least: int, most: int) -> int:
@@ -54,7 +50,7 @@ def _seed(text: str) -> int:
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
     names = sorted(known_scenarios())
-    parser = _Parser(
+    parser = Parser(
         prog="run_experiment",
         description="Let the row follower drive fields of a scenario and write a report; run r has the seed SEED + r.",
     )

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Optional
 
-from ardee_models.errors import GeneratorError
-from ardee_models.strict_yaml import Mapping, build, read_yaml_lines
+from ardee_common.config import Mapping, build, read_yaml_lines
+from ardee_common.errors import GeneratorError
 from ardee_navigation.lbirnt import Parameters
 
 STAND_M = 0.175  # base_footprint above the ground (terrasentia_description)

@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 import numpy as np
 import rospkg
 
-from ardee_models.errors import GeneratorError
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
-from ardee_models.strict_yaml import build, read_yaml_lines
 from ardee_models.terrain_files import ground_model
 from ardee_navigation.scenario_files import STAND_M, Scenario, Start, read_scenarios
 from ardee_navigation.truth import Field, Pose, read_field

@@ -22,7 +22,7 @@ from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import LaserScan
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_msgs.srv import Step
 from ardee_navigation.truth import Pose
 from gazebo_msgs.msg import ModelState

@@ -8,7 +8,7 @@ from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _LARGEST_BYTES = 1 << 30
 _LANE_VERTEX_M = 0.25

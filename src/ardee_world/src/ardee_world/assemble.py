@@ -6,10 +6,10 @@ import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_models.cli import Parser, run
-from ardee_models.errors import GeneratorError
+from ardee_common.cli import Parser, run
+from ardee_common.errors import GeneratorError
+from ardee_common.output import model_directory, write_file
 from ardee_models.lookup import find_model, search_path
-from ardee_models.output import model_directory, write_file
 from ardee_models.terrain import Ground
 from ardee_models.terrain_files import ground_model
 from ardee_models.writers.metadata import model_config

@@ -5,9 +5,9 @@ import argparse
 from pathlib import Path
 from typing import Dict, List, Sequence
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
+from ardee_common.output import write_file
 from ardee_models.lookup import find_model
-from ardee_models.output import write_file
 from ardee_models.terrain_features import follow
 from ardee_models.terrain_recipe import read_recipe
 from ardee_models.writers.terrain import write_terrain

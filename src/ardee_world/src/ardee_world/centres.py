@@ -7,7 +7,7 @@ from typing import Sequence
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_world.config import FAR_M, MAX_PLANTS
 from ardee_world.plots import Plan, Row
 

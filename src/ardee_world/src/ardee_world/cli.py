@@ -7,10 +7,10 @@ import typing
 from pathlib import Path
 from typing import Any, Dict, Optional
 
-from ardee_models.cli import Parser, run, seed_number
-from ardee_models.errors import GeneratorError
+from ardee_common.cli import Parser, run, seed_number
+from ardee_common.errors import GeneratorError
+from ardee_common.options import kind_of, plain_name, scalar_fields, unit_of
 from ardee_models.lookup import crop_model, search_path
-from ardee_models.options import kind_of, plain_name, scalar_fields, unit_of
 from ardee_models.terrain_files import ground_model
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS

@@ -9,7 +9,7 @@ from typing import Callable
 
 import numpy as np
 
-from ardee_models.output import model_directory
+from ardee_common.output import model_directory
 from ardee_models.writers.crop import METRICS_FILE
 from ardee_models.writers.metadata import model_config
 from ardee_world import clutter_shapes

@@ -7,8 +7,8 @@ from typing import Optional, Tuple
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
-from ardee_models.options import check, option
+from ardee_common.errors import GeneratorError
+from ardee_common.options import check, option
 
 MAX_PLANTS = 5_000_000
 FAR_M = 1e5

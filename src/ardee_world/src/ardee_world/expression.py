@@ -7,7 +7,7 @@ from typing import Callable
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 _MAX_LENGTH = 500
 _BINARY = {

@@ -6,7 +6,7 @@ from typing import Iterator, List, Tuple
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_world.config import MAX_PLANTS, Plots, RowShape
 from ardee_world.curves import Line, left_of
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, Optional, Tuple
 
-from ardee_models.errors import GeneratorError
-from ardee_models.options import kind_of, option, scalar_fields
-from ardee_models.strict_yaml import Mapping, read_yaml_lines, value_of
+from ardee_common.config import Mapping, read_yaml_lines, unknown_key, value_of
+from ardee_common.errors import GeneratorError
+from ardee_common.options import kind_of, option, scalar_fields
 from ardee_world.config import GROUPS, FieldConfig
 
 LARGEST_SDF = 20_000  # plants and clutter; a larger field is a stream if nothing is said
@@ -72,7 +72,7 @@ def yaml_values(path: Path) -> Values:
     values: Values = {}
     for key, raw in mapping.items():
         if key not in known:
-            raise mapping.error(key, f"unknown key {key!r}, known: {', '.join(sorted(known))}")
+            raise unknown_key(mapping, key, sorted(known))
         if key == "centers" and not isinstance(raw, str):
             values[key] = raw
         else:

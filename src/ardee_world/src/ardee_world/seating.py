@@ -7,7 +7,7 @@ from typing import List, Optional, Tuple
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain import Ground
 from ardee_world.layout import to_world
 from ardee_world.writers.instances import HEADER

@@ -7,7 +7,7 @@ from typing import Optional
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_world.config import Stand
 from ardee_world.plots import Plan
 from ardee_world.streams import Streams

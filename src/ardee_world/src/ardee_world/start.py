@@ -8,8 +8,8 @@ from typing import Optional
 
 import numpy as np
 
-from ardee_models.errors import GeneratorError
-from ardee_models.strict_yaml import build, read_yaml_lines
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain import Ground
 from ardee_world.curves import Line
 from ardee_world.layout import Layout

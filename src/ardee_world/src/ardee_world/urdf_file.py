@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Tuple
 from xml.parsers import expat
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 
 # Listing A.22, line 131
 SEPARATOR = "123456789end123456789"

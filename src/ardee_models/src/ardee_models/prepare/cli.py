@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from ardee_models.cli import Parser, positive_number
+from ardee_common.cli import Parser, positive_number
+from ardee_common.errors import GeneratorError
 from ardee_models.crop_cli import default_output
-from ardee_models.errors import GeneratorError
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.params import known_species, load_species
 from ardee_models.prepare.read import read_mesh

@@ -14,7 +14,7 @@ from typing import List, Optional
 import numpy as np
 from PIL import Image
 
-from ardee_models.errors import GeneratorError
+from ardee_common.errors import GeneratorError
 from ardee_models.plant import Mesh
 
 _FORMATS = {".dae", ".obj", ".stl", ".ply", ".glb", ".gltf", ".off", ".3mf"}

@@ -8,9 +8,9 @@ from typing import Dict, List, Optional, Sequence
 import numpy as np
 from PIL import Image
 
+from ardee_common.errors import GeneratorError
+from ardee_common.output import check_name, model_directory
 from ardee_models.cylinder import Cylinder, fit_cylinder, fit_stalk_among_leaves
-from ardee_models.errors import GeneratorError
-from ardee_models.output import check_name, model_directory
 from ardee_models.plant import Mesh
 from ardee_models.prepare.read import UserPart
 from ardee_models.prepare.split import plant_of_vertices

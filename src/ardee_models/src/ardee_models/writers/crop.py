@@ -8,10 +8,10 @@ from typing import Dict, Sequence, Tuple
 import numpy as np
 from PIL import Image
 
+from ardee_common.output import model_directory
 from ardee_models.cylinder import Cylinder
 from ardee_models.detail import LEVELS
 from ardee_models.metrics import METRICS_FILE
-from ardee_models.output import model_directory
 from ardee_models.plant import Plant
 from ardee_models.writers.collada_file import write_collada
 from ardee_models.writers.crop_sdf import Visual, material_script, model_sdf

@@ -7,7 +7,7 @@ from typing import Optional
 import numpy as np
 from PIL import Image
 
-from ardee_models.output import model_directory
+from ardee_common.output import model_directory
 from ardee_models.terrain import Terrain
 from ardee_models.terrain_recipe import Look, Surface
 from ardee_models.writers.metadata import model_config

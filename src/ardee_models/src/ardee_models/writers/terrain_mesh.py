@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from ardee_common.output import model_directory
 from ardee_models import textures
-from ardee_models.output import model_directory
 from ardee_models.terrain_recipe import Surface
 from ardee_models.terrain_surface import MeshGround
 from ardee_models.writers.metadata import model_config

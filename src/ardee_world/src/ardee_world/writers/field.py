@@ -5,7 +5,7 @@ import shutil
 from pathlib import Path
 from typing import Optional
 
-from ardee_models.output import model_directory
+from ardee_common.output import model_directory
 from ardee_models.terrain import Ground
 from ardee_models.writers.metadata import model_config
 from ardee_world.layout import Layout

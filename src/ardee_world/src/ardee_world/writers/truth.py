@@ -7,7 +7,7 @@ from typing import Dict, Iterator, List
 
 import numpy as np
 
-from ardee_world.geodesy import to_degrees
+from ardee_common.geodesy import to_degrees
 from ardee_world.layout import Layout, to_world
 
 Columns = Dict[str, list]

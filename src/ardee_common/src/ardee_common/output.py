@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Output that is whole or not there: written to a temporary place, then renamed."""
+
+import contextlib
+import os
+import re
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Iterator
+
+from ardee_common.errors import GeneratorError
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+
+
+def check_name(name: str) -> str:
+    """A model name that is safe as a folder and in XML."""
+    if not _NAME.fullmatch(name):
+        raise GeneratorError(
+            f"name {name!r}: expected letters, digits, '_', '-', '.', the first a letter or digit"
+        )
+    return name
+
+
+def _swap(temporary: Path, target: Path) -> None:
+    """Put `temporary` in the place of `target`; if that fails, `target` is as it was."""
+    if not target.exists():
+        os.rename(temporary, target)
+        return
+    retired = Path(tempfile.mkdtemp(prefix=f".{target.name}.old-", dir=target.parent))
+    os.rename(target, retired / target.name)
+    try:
+        os.rename(temporary, target)
+    except OSError:
+        os.rename(retired / target.name, target)
+        raise
+    finally:
+        shutil.rmtree(retired)
+
+
+@contextlib.contextmanager
+def model_directory(parent: Path, name: str) -> Iterator[Path]:
+    """A temporary folder that becomes parent/name when the block ends well; otherwise nothing changes."""
+    target = parent / check_name(name)
+    if target.exists() and not (target / "model.config").is_file():
+        raise GeneratorError(
+            f"{target}: exists and is not a model directory (no model.config); not overwritten"
+        )
+    try:
+        parent.mkdir(parents=True, exist_ok=True)
+        temporary = Path(tempfile.mkdtemp(prefix=f".{name}.new-", dir=parent))
+    except OSError as error:
+        raise GeneratorError(f"{parent}: cannot be written: {error.strerror}") from error
+    try:
+        temporary.chmod(0o755)
+        yield temporary
+        _swap(temporary, target)
+    except OSError as error:
+        raise GeneratorError(f"{target}: cannot be written: {error.strerror}") from error
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+
+
+def write_file(path: Path, data: bytes) -> None:
+    """Replace one file in one step."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.new")
+    temporary.write_bytes(data)
+    os.replace(temporary, path)

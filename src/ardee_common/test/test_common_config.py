@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""The configuration reader names the line, the unknown key and the nearest known one."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_common.options import option
+
+
+@dataclass(frozen=True)
+class Ditch:
+    """Options of the test."""
+
+    depth_m: float = option(0.5, limits=(0.0, 10.0))
+    count: int = option(1, limits=(1, 9))
+
+
+def read(folder: Path, text: str) -> Ditch:
+    """Returns what the reader makes of a file of this text."""
+    file = folder / "ditch.yaml"
+    file.write_text(text)
+    return build(Ditch, read_yaml_lines(file))
+
+
+def test_a_good_file(tmp_path: Path) -> None:
+    assert read(tmp_path, "depth_m: 1e-1\n") == Ditch(0.1, 1)
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        (
+            "count: 2\ndepht_m: 1\n",
+            ":2: unknown key 'depht_m', known: depth_m, count; did you mean 'depth_m'?",
+        ),
+        ("xyz: 1\n", ":1: unknown key 'xyz', known: depth_m, count"),
+        ("\ndepth_m: 11\n", ":2: depth_m: found 11, expected 0 to 10 m"),
+        ("count: 1\ncount: 2\n", ":2: found key 'count' a second time, first in line 1"),
+    ],
+)
+def test_bad_files(text: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(GeneratorError) as refused:
+        read(tmp_path, text)
+    assert str(refused.value) == f"{tmp_path}/ditch.yaml{message}"

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: MIT
+"""What the bridge's measurements on loopback share: how long do messages take, and is any lost?
+
+A datagram's time is the kernel's, of its arrival at the receiver's socket. Nodes, publishers and receivers are
+processes of their own, around a ROS master of their own.
+"""
+import contextlib
+import json
+import math
+import os
+import select
+import signal
+import socket
+import subprocess
+import time
+from multiprocessing import get_context
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple, Union
+
+from bench import kernel_clock, priority
+
+from ardee_bridge.nodes.settings import KINDS, Source
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.pairing import Message
+from ardee_bridge.wire.udp import BUFFER_BYTES, MAX_DATAGRAM, open_socket
+
+MASTER = (
+    "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
+    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
+)
+START_LIMIT_S = 30.0
+# Time for the last messages to arrive.
+SETTLE_S = 0.5
+# Nothing for so long: no message is on its way any more, however busy the machine.
+SILENCE_S = 3.0
+# Larger datagrams are parts of frames, of which only the head is looked at.
+SO_RCVBUFFORCE = 33  # Linux's number, which Python's socket module does not name
+CHUNKED = (codec.ImageChunk, codec.PointCloudChunk)
+KEPT_WHOLE_BYTES, KEPT_BYTES = 16384, 64
+
+Key = Tuple[int, int]  # data type, component id
+
+
+class Stream(NamedTuple):
+    """A sensor: kind, topic, component id, rate, format of images."""
+
+    kind: str
+    topic: str
+    component_id: int
+    rate_hz: float
+    image_format: str = ""
+
+    @property
+    def key(self) -> Key:
+        return (int(KINDS[self.kind]), self.component_id)
+
+
+def row_of(kind: str, image_format: str) -> str:
+    """In the table: kind of sensor, of images the format too."""
+    return f"{image_format} {kind}" if image_format else kind
+
+
+class Datagram(NamedTuple):
+    """What came, of a large one only the beginning; its size, and when [ns]."""
+
+    beginning: bytes
+    size: int
+    at_ns: int
+
+    def data(self) -> bytes:
+        """All of it; what was not kept is zero."""
+        return self.beginning.ljust(self.size, b"\0")
+
+
+class Spread(NamedTuple):
+    """Latencies [ms], and how many messages were sent and lost."""
+
+    p50_ms: float
+    p99_ms: float
+    max_ms: float
+    sent: int
+    lost: int
+
+
+def spread(latencies_ns: Sequence[int], sent: int) -> Spread:
+    """Percentiles by the nearest rank."""
+    ordered = sorted(latencies_ns)
+    if not ordered:
+        return Spread(math.nan, math.nan, math.nan, sent, sent)
+
+    def at(share: float) -> float:
+        return ordered[max(0, math.ceil(share * len(ordered)) - 1)] / 1e6
+
+    return Spread(at(0.5), at(0.99), ordered[-1] / 1e6, sent, sent - len(ordered))
+
+
+@contextlib.contextmanager
+def own_master() -> Iterator[Dict[str, str]]:
+    """Environment of a ROS master of one's own."""
+    env = dict(os.environ, ROS_IP="127.0.0.1")
+    env.pop("ROS_HOSTNAME", None)
+    with subprocess.Popen(
+        ["/usr/bin/python3", "-c", MASTER],
+        env=env,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    ) as master:
+        try:
+            yield dict(env, ROS_MASTER_URI=master.stdout.readline().strip())
+        finally:
+            master.stdin.close()
+
+
+@contextlib.contextmanager
+def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subprocess.Popen]:
+    """A node of this package while the block runs."""
+    command = ["rosrun", "ardee_bridge", name, *parameters]
+    process = subprocess.Popen(
+        command,
+        env=env,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+        _, complaints = process.communicate(timeout=START_LIMIT_S)
+        if process.returncode != 0:
+            print(complaints)
+
+
+def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tuple[Any, Any]:
+    """Start body(pipe, *args) in a process of its own: the process and our end of the pipe."""
+    context = get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_enter, args=(env, body, theirs, args), daemon=True)
+    process.start()
+    theirs.close()
+    return process, ours
+
+
+def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple[Any, ...]) -> None:
+    os.environ.update(env)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        body(pipe, *args)
+    except OSError as error:
+        pipe.send(error)
+
+
+def hear(pipe: Any, limit_s: float) -> Any:
+    """What a process says; the error that it ended with is raised."""
+    if not pipe.poll(limit_s):
+        raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
+    said = pipe.recv()
+    if isinstance(said, Exception):
+        raise said
+    return said
+
+
+def answer(process: Any, pipe: Any, word: str, limit_s: float) -> Any:
+    """What a process says at its end, which this word tells it."""
+    with contextlib.suppress(BrokenPipeError):  # it has ended, and said why
+        pipe.send(word)
+    said = hear(pipe, limit_s)
+    process.join(START_LIMIT_S)
+    return said
+
+
+def is_followed(message: Message) -> bool:
+    """Is it a chunk that is not its frame's last?"""
+    kind = codec.data_struct(message.header)
+    if kind not in CHUNKED:
+        return False
+    chunk = kind.unpack(message.data[: kind.size]).chunk
+    return chunk.index < chunk.count - 1
+
+
+def receive_datagrams(pipe: Any) -> List[Datagram]:
+    """Say one's port, receive until told to end, "at once" or when nothing comes any more: what came, and when [ns].
+
+    The receiver is to be another computer, which takes no time of this one's: where it can, it only looks from time to
+    time, and keeps nobody from a processor who goes first. To wake it is work for the sender, up to 50 us a datagram on
+    a virtual machine. Each datagram has the kernel's time of its arrival, however late it is looked at.
+    """
+    with open_socket("127.0.0.1", 0) as opened:
+        only_looks = _make_room(opened) and priority.go_next()
+        if not only_looks:
+            priority.hurry()
+        kernel_clock.use(opened)
+        kernel_clock.wait()
+        pipe.send(opened.getsockname()[1])
+        room, kept, word = memoryview(bytearray(MAX_DATAGRAM)), [], ""
+        while word != "at once":
+            if pipe.poll():
+                word = pipe.recv()
+            if only_looks:
+                time.sleep(kernel_clock.LOOK_S)
+            limit_s = SILENCE_S if word else 0.0 if only_looks else 0.05
+            if select.select([opened], [], [], limit_s)[0]:
+                kept.extend(_arrived(opened, room))
+            elif word:
+                break
+        return kept
+
+
+def _make_room(opened: socket.socket) -> bool:
+    """Does the socket hold several frames now, which come between two looks?"""
+    with contextlib.suppress(PermissionError):
+        opened.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, BUFFER_BYTES)
+    return opened.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) >= BUFFER_BYTES
+
+
+def _arrived(opened: socket.socket, room: memoryview) -> Iterator[Datagram]:
+    """What is there; the room is for one datagram."""
+    with contextlib.suppress(BlockingIOError):
+        while True:
+            size, extras, _, _ = opened.recvmsg_into([room], 256, socket.MSG_DONTWAIT)
+            beginning = bytes(room[: size if size <= KEPT_WHOLE_BYTES else KEPT_BYTES])
+            yield Datagram(beginning, size, kernel_clock.arrival_ns(extras) or 0)
+
+
+def server_arguments(peer: str, sources: Sequence[Union[Stream, Source]]) -> List[str]:
+    """Parameters of a sensor server of these sources."""
+    items = []
+    for source in sources:
+        values = dict(name=source.topic, kind=source.kind, topic=source.topic)
+        values["component_id"] = source.component_id
+        if source.image_format:
+            values["format"] = source.image_format
+        if isinstance(source, Source) and source.velocity_topic:
+            values["velocity_topic"] = source.velocity_topic
+        items.append(values)
+    return [
+        "_port:=0",
+        f"_peers:=[{peer}]",
+        f"_sources:={json.dumps(items)}",
+    ]

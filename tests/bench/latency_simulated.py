@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""Measures the bridge on the sensors of a simulated robot: from a message's arrival at a ROS socket to its datagram's.
+
+Both times are the kernel's: the first is that of a captured packet, the second the receiver's. A message is found
+again by its stamp, which the wire carries as a time stamp message.
+"""
+import contextlib
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+from typing import Any, Dict, Iterator, List, Set
+
+import rosgraph
+from bench import capture, latency, latency_floor
+from bench.capture import Times
+
+from ardee_bridge.nodes.settings import KINDS, Source
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.pairing import Pairer
+
+START_LIMIT_S = 120.0
+WARM_UP_S = 6.0  # beside programs that keep all processors busy, too
+WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
+SENSORS = Path(__file__).resolve().with_name("benchmark_sensors.urdf.xacro")
+ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
+
+
+@contextlib.contextmanager
+def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
+    process = subprocess.Popen(
+        command,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        yield
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            if process.poll() is None:
+                os.killpg(process.pid, number)
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(20.0)
+
+
+def _wait_for(env: Dict[str, str], name: str) -> None:
+    """Until this node is there."""
+    master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
+    deadline = time.monotonic() + START_LIMIT_S
+    while True:
+        with contextlib.suppress(rosgraph.MasterError):
+            master.lookupNode(name)
+            return
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"{name} does not start")
+        time.sleep(0.2)
+
+
+def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Times]:
+    """When each sensor's message arrived, by its time stamp; of frames the last chunk."""
+    pairer, stamps = Pairer(), {}  # type: Pairer, Dict[latency.Key, int]
+    arrivals = {}  # type: Dict[latency.Key, Times]
+    for datagram in kept:
+        message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
+        if message is None:
+            continue
+        key = (message.header.data_type, message.header.component_id)
+        if message.header.data_type == codec.DataType.TIME:
+            time_of = codec.TimeStamp.unpack(message.data)
+            key = (time_of.data_type, time_of.component_id)
+            stamps[key] = time_of.sec * 10**9 + time_of.nsec
+        elif key in stamps and not latency.is_followed(message):
+            arrivals.setdefault(key, {})[stamps.pop(key)] = datagram.at_ns
+    return arrivals
+
+
+def receive(pipe: Any) -> None:
+    """Body of the receiver: says its port, receives until told to end, then says what came when."""
+    kept = latency.receive_datagrams(pipe)
+    pipe.send(_arrivals(kept))
+
+
+def _within(stamps: Times, begin_ns: int, end_ns: int) -> Times:
+    return {stamp: at_ns for stamp, at_ns in stamps.items() if begin_ns <= at_ns <= end_ns}
+
+
+def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
+    """Of a kind of sensor, over its components; from the first to the last message that both ends have."""
+    found, sent = [], 0
+    for before, after in zip(published, arrived):
+        both = sorted(before.keys() & after.keys())
+        if both:
+            sent += sum(both[0] <= stamp <= both[-1] for stamp in before)
+            found += [after[stamp] - before[stamp] for stamp in both]
+    return latency.spread(found, sent)
+
+
+def _topic(source: Source) -> str:
+    """Where the sensor server reads it: the robot's cameras compress their images themselves."""
+    return "/" + (source.of_camera() if source.image_format == "jpeg" else source).topic
+
+
+def _published(env: Dict[str, str]) -> Set[str]:
+    """Topics that somebody publishes."""
+    master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
+    return {topic for topic, _ in master.getSystemState()[0]}
+
+
+def _await_robot(env: Dict[str, str], topics: List[str]) -> None:
+    """Until it publishes all of these, which it makes known one after the other."""
+    deadline = time.monotonic() + START_LIMIT_S
+    for topic in topics:
+        while topic not in _published(env):
+            if time.monotonic() > deadline:
+                raise TimeoutError(f"the simulated robot does not publish {topic}")
+            time.sleep(0.2)
+
+
+def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[str, latency.Spread]:
+    """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given.
+
+    And the bare forwarder's in the same time.
+    """
+    sources = [
+        source._replace(image_format=image_format) if source.image_format == "jpeg" else source
+        for source in sources
+        if image_format or not source.is_frame
+    ]
+    with contextlib.ExitStack() as stack:
+        env = stack.enter_context(latency.own_master())
+        floor = stack.enter_context(latency_floor.running())
+        receiver, from_receiver = latency.in_process(env, receive)
+        wanted = "[all, time]" if image_format else "[imu, gps, lidar, encoder, battery, time]"
+        peer = f"{{address: 127.0.0.1, port: {latency.hear(from_receiver, START_LIMIT_S)}, data_types: {wanted}}}"
+        stack.enter_context(
+            _launched(
+                env,
+                *WORLD,
+                "world:=scenario_2_corn.world",
+                "headless:=true",
+                "realtime_priority:=1",
+            )
+        )
+        _wait_for(env, "/gazebo")  # a second roslaunch needs the run id of the first
+        carried = f"sensors:={SENSORS}"
+        robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
+        stack.enter_context(_launched(env, *robot))
+        topics = {source.name: _topic(source) for source in sources}
+        _await_robot(env, list(topics.values()))
+        # all masters' nodes share the loopback that packets are captured on
+        name = f"/latency_server_{os.getpid()}"
+        watcher, from_watcher = latency.in_process(env, capture.watch, name)
+        said = latency.hear(from_watcher, START_LIMIT_S)
+        if said != "listening":
+            raise OSError(f"packets cannot be captured: {said}")
+        server = latency.server_arguments(peer, sources)
+        named = f"__name:={name[1:]}"
+        stack.enter_context(latency.node(env, "sensor_server_node", named, *server))
+        time.sleep(WARM_UP_S)
+        begin_ns = time.time_ns()
+        end_ns = begin_ns + round(seconds * 1e9)
+        time.sleep(seconds + latency.SETTLE_S)
+        bare = floor(begin_ns, end_ns)
+        watched = latency.answer(watcher, from_watcher, "end", START_LIMIT_S)
+        unread = [topic for topic in topics.values() if topic not in watched]
+        if unread:
+            raise TimeoutError(f"{name} does not read {', '.join(unread)}")
+        time.sleep(latency.SETTLE_S)
+        patience_s = START_LIMIT_S + seconds
+        arrived = latency.answer(receiver, from_receiver, "at once", patience_s)
+    published = {name: _within(watched[topic], begin_ns, end_ns) for name, topic in topics.items()}
+    found = _by_row(sources, published, arrived)
+    return {**found, latency_floor.NAME: bare}
+
+
+def _by_row(
+    sources: List[Source], published: Dict[str, Times], arrived: Dict[latency.Key, Times]
+) -> Dict[str, latency.Spread]:
+    found = {}
+    for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
+        like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
+        before = [published[source.name] for source in like]
+        keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
+        found[row] = _spread(before, [arrived.get(key, {}) for key in keys])
+    return found
