@@ -8,7 +8,7 @@ namespace {
 
 /// From higher up, floats would be too coarse.
 constexpr double kHighest_m = 1000.0;
-/// Cells begin so far inside a local scene, for their rays start off the surface.
+/// Texels begin so far inside a local scene, for their rays start off the surface.
 constexpr double kOffBorder_m = 1e-2;
 /// Of a ray that needs nothing more.
 constexpr double kDone = -1.0;
@@ -212,8 +212,8 @@ std::uint64_t ApproximateTracer::find_texels(const Eigen::Vector3d& eye_W,
   return triangle_scene.number();
 }
 
-void ApproximateTracer::look_at(const SurfaceTexel& texel, SceneRay& ray,
-                                SurfaceInteraction& point) const {
+void ApproximateTracer::trace_texel(const SurfaceTexel& texel, SceneRay& ray,
+                                    SurfaceInteraction& point) const {
   Eigen::Vector3f at;
   local_->triangle_scene()->fill(texel, at, point);
   point.range_m = 1.0;
@@ -221,8 +221,8 @@ void ApproximateTracer::look_at(const SurfaceTexel& texel, SceneRay& ray,
   ray.origin_W = local_->origin_W() + at.cast<double>() + point.normal_W;
 }
 
-void ApproximateTracer::interpolate_hits(const SceneRay& ray, std::uint32_t triangle,
-                                         SurfaceInteraction& point) const {
+void ApproximateTracer::interpolate_hit(const SceneRay& ray, std::uint32_t triangle,
+                                        SurfaceInteraction& point) const {
   local_->triangle_scene()->fill(
       {(ray.origin_W - local_->origin_W()).cast<float>(), ray.direction_W.cast<float>(), triangle},
       point);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ardee_sim/raycast/local_scene_cache.h"
+#include "ardee_sim/raycast/local_scene.h"
 #include "ardee_sim/raycast/moving_models.h"
+#include "ardee_sim/raycast/primary_ray_packet.h"
+#include "ardee_sim/raycast/scene_ray.h"
+#include "ardee_sim/raycast/surface_texel.h"
 
 namespace ardee::raycast {
 
 /// Writes what ray `i` of the block with that number has met exactly, from its near_m on.
 void write_exact_hit(const RayHit& hit, std::size_t number, int i, PrimaryRayPacket& block);
 
-/// MaterialLibrary for pictures by the triangle scene of the local scene that the rays start in:
-/// what is nearest among its triangles is decided in floats. All else on a ray's way is met
-/// exactly.
+/// Traces rays for pictures by the triangle scene of the local scene that they start in: floats
+/// decide what is nearest among its triangles. All else on a ray's way is met exactly.
 class ApproximateTracer {
  public:
   ApproximateTracer(const LocalScene* local, const SceneryStore& scenery,
@@ -28,9 +30,9 @@ class ApproximateTracer {
   /// Any number of blocks of rays from such a point.
   void trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPacket* blocks,
                      std::size_t count) const;
-  /// What a ray that was glanced at has met in the triangle scene.
-  void interpolate_hits(const SceneRay& ray, std::uint32_t triangle,
-                        SurfaceInteraction& point) const;
+  /// What a ray of trace_primary() has hit in the triangle scene.
+  void interpolate_hit(const SceneRay& ray, std::uint32_t triangle,
+                       SurfaceInteraction& point) const;
 
   /// The texels where rays of blocks from such a point have met the triangle scene; none where they
   /// met something else, or where rays from the texel might not start in it. Returns the triangle
@@ -39,7 +41,7 @@ class ApproximateTracer {
                             const TexelRequest* requests, std::size_t count,
                             SurfaceTexel* texels) const;
   /// A ray from a metre off the texel's middle, along its normal, and what it meets.
-  void look_at(const SurfaceTexel& texel, SceneRay& ray, SurfaceInteraction& point) const;
+  void trace_texel(const SurfaceTexel& texel, SceneRay& ray, SurfaceInteraction& point) const;
 
  private:
   /// False if a ray starts outside.

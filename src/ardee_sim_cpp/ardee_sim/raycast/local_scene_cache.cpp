@@ -46,7 +46,7 @@ std::unique_ptr<LocalScene> LocalSceneCache::make(const StillInstances& still,
                                       budget);
 }
 
-/// CameraRenderer alone take them for scenery.
+/// Pictures alone take them for scenery.
 StillInstances LocalSceneCache::still_instances() const {
   return for_pictures_ ? moving_.still_instances() : StillInstances{};
 }
@@ -96,7 +96,7 @@ void LocalSceneCache::keep(std::unique_ptr<LocalScene> local) {
 
 void LocalSceneCache::collect() {
   if (!next_.valid()) return;
-  // Scans are the same in any local scene. CameraRenderer are not quite, where floats decide: there
+  // Scans are the same in any local scene. Pictures are not quite, where floats decide: there
   // the time at which a local scene comes must not depend on how fast the machine is.
   const bool ready = next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!ready && !for_pictures_) return;

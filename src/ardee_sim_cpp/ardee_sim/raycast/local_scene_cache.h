@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ardee_sim/raycast/local_scene.h"
+#include "ardee_sim/raycast/ray_options.h"
 
 namespace ardee::raycast {
 

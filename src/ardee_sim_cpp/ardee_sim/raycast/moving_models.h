@@ -7,6 +7,7 @@
 
 #include "ardee_sim/raycast/moving_model.h"
 #include "ardee_sim/raycast/place_tree.h"
+#include "ardee_sim/raycast/scene_kind.h"
 #include "ardee_sim/raycast/still_instance.h"
 
 namespace ardee::raycast {

@@ -6,9 +6,9 @@
 
 namespace ardee::raycast {
 
-/// Sixteen rays of a picture, which all start at the eye, and the little of what they meet that
-/// tells whether neighbours see one surface; `RayScene::interpolate_hits` tells the rest. Lists of
-/// each number, for they are worked on side by side.
+/// Sixteen rays of a picture from its eye, and what tells of their hits whether neighbours see one
+/// surface; `PictureTracer::interpolate_hits` tells the rest. One list a number, for vector
+/// instructions.
 struct PrimaryRayPacket {
   static constexpr int kRays = 16;
   /// In place of a surface: nothing was met.

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/raycast/ray_hit.h"
+#include "ardee_sim/raycast/surface_interaction.h"
 #include "ardee_sim/raycast/traceable.h"
 
 namespace ardee::raycast {

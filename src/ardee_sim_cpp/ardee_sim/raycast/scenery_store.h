@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/description/scenery.h"
 #include "ardee_sim/raycast/place_tree.h"
+#include "ardee_sim/raycast/scene_kind.h"
 
 namespace ardee::raycast {
 

@@ -6,18 +6,9 @@
 #include <limits>
 
 #include "ardee_sim/description/model.h"
+#include "ardee_sim/raycast/ray_hit.h"
 
 namespace ardee::raycast {
-
-constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
-constexpr std::uint32_t kAllLinks = 0xFFFFFFFFu;
-
-/// A ray with an origin of its own.
-struct SceneRay {
-  Eigen::Vector3d origin_W{0, 0, 0};
-  Eigen::Vector3d direction_W{1, 0, 0};  // unit
-  double reach_m = std::numeric_limits<double>::infinity();
-};
 
 /// What a ray met first, as a picture needs it. The pointers lead into the descriptions that the
 /// scene holds.

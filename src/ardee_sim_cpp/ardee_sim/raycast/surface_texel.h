@@ -21,7 +21,7 @@ struct SurfaceTexel {
   bool none() const { return triangle == kNone; }
 };
 
-/// Where a ray of a glance has met a triangle of a triangle scene, and how wide the texel there may
+/// Where a primary ray has hit a triangle of a triangle scene, and how wide the texel there may
 /// be.
 struct TexelRequest {
   std::uint32_t triangle;

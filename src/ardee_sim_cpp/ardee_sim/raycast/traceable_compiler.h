@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "ardee_sim/description/model.h"
-#include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/raycast/scene_kind.h"
 #include "ardee_sim/raycast/traceable.h"
 
 namespace ardee::raycast {

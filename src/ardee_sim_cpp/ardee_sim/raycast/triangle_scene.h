@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "ardee_sim/raycast/primary_ray_packet.h"
 #include "ardee_sim/raycast/ray_query.h"
 #include "ardee_sim/raycast/surface_texel.h"
 

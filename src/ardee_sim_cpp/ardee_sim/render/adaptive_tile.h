@@ -13,11 +13,11 @@
 
 namespace ardee::render {
 
-/// The light of a tile's pixels, one ray through the middle of each, as quickly as it can be
-/// had. All pixels are glanced at; of a lattice of them the light is worked out, which is then made
-/// finer step by step: a pixel whose neighbours on the coarser lattice are of its own surface and
-/// of one light takes theirs. The others are looked at themselves. The room of one tile is used for
-/// the next.
+/// The light of a tile's pixels, one ray through the middle of each, as quickly as it can be had.
+/// The primary rays of all pixels are traced; a coarse grid of pixels is shaded, and the grid is
+/// then made finer step by step: a pixel whose neighbours on the coarser grid are of its own
+/// surface and of one light takes theirs, and the others are shaded. The room of one tile is used
+/// for the next.
 class AdaptiveTile {
  public:
   /// Up to so many pixels each way.

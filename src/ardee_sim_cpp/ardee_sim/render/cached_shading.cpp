@@ -9,10 +9,10 @@
 namespace ardee::render {
 namespace {
 
-/// Cells are at most so many pixels wide, and at least half as many.
+/// Texels are at most so many pixels wide, and at least half as many.
 constexpr float kMost_px = 1.5f;
 
-/// Of all that the light of a draft's texels depends on, beside what the store is of.
+/// Of all that the light of a triangle scene's texels depends on, beside what the cache is of.
 std::uint64_t seed_of(std::uint64_t draft, const RenderOptions& options) {
   std::uint64_t bits;
   std::memcpy(&bits, &options.max_range_m, sizeof bits);

@@ -9,8 +9,8 @@
 
 namespace ardee::render {
 
-/// The light of what was glanced at, texel by texel: a camera sees most texels again and again, and
-/// only what is not in the store is shaded. The room of one call is used for the next.
+/// The light of what primary rays have hit, texel by texel: a camera sees most texels again and
+/// again, and only what is not in the cache is shaded. The room of one call is used for the next.
 class CachedShading {
  public:
   /// How wide the texel may be that a pixel sees a metre away, straight on.

@@ -21,7 +21,7 @@ struct SurfaceColor {
   float opacity = 1.0f;
 };
 
-/// The looks of models, their textures loaded once. Reading is safe from many threads.
+/// The materials of models, their textures loaded once. Reading is safe from many threads.
 class MaterialLibrary {
  public:
   explicit MaterialLibrary(Log log) : log_(std::move(log)) {}
@@ -40,7 +40,7 @@ class MaterialLibrary {
     const std::vector<const Texture*>* layers = nullptr;
   };
 
-  /// The look of a point, seen so that a pixel covers `footprint_m` of it.
+  /// The colour of a point, seen so that a pixel covers `footprint_m` of it.
   SurfaceColor at(const raycast::SurfaceInteraction& point, double footprint_m,
                   LookupCache& memo) const;
 

@@ -84,7 +84,7 @@ Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
   once.samples = 1;
   const TileShading shading{rays_, materials_, scene_, lights_, camera, once, store_};
   for_each_tile(camera, options.threads, [&](const TileArea& area, TileWorker& worker) {
-    shoot_tile(shading, area, parts, worker, frame);
+    render_frame_tile(shading, area, parts, worker, frame);
   });
   return frame;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "ardee_sim/description/world.h"
-#include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/raycast/picture_tracer.h"
 #include "ardee_sim/readers/image.h"
 #include "ardee_sim/render/camera.h"
 #include "ardee_sim/render/frame.h"
@@ -15,18 +15,18 @@
 
 namespace ardee::render {
 
-/// CameraRenderer of a scene: the same world and camera give the same bytes, whatever the threads.
+/// Draws pictures of a scene: the same world and camera give the same bytes, whatever the threads.
 class Renderer {
  public:
   /// Called with the share that is done, from several threads; false stops the work.
   using Progress = std::function<bool(double)>;
 
-  /// `rays` (of the visual scene, prepared) and `looks` are kept by reference.
-  Renderer(const raycast::RayScene& rays, const MaterialLibrary& materials, const Scene& scene,
+  /// `rays` (of the visual scene, prepared) and `materials` are kept by reference.
+  Renderer(const raycast::PictureTracer& rays, const MaterialLibrary& materials, const Scene& scene,
            std::vector<Light> lights)
       : rays_(rays), materials_(materials), scene_(scene), lights_(std::move(lights)) {}
 
-  const raycast::RayScene& rays() const { return rays_; }
+  const raycast::PictureTracer& rays() const { return rays_; }
 
   /// Eight bits of red, green, blue and opacity. Empty if `progress` stopped it.
   Image render(const Camera& camera, const RenderOptions& options,
@@ -42,7 +42,7 @@ class Renderer {
   static void for_each_tile(const Camera& camera, int threads,
                             const std::function<void(const TileArea&, TileWorker&)>& work);
 
-  const raycast::RayScene& rays_;
+  const raycast::PictureTracer& rays_;
   const MaterialLibrary& materials_;
   const Scene scene_;
   const std::vector<Light> lights_;

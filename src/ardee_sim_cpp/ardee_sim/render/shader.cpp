@@ -15,7 +15,7 @@ constexpr double kOffset_m = 1e-4;
 /// So many transparent surfaces one behind the other are looked through.
 constexpr int kMaxLayers = 8;
 constexpr float kOpaque = 0.999f;
-/// So many looks go through all that is known of them while it is in the fastest memory.
+/// So many samples are shaded together, while all that is known of them is in the fastest memory.
 constexpr std::size_t kAtOnce = 64;
 
 /// Share of the light on the far side of a two-sided sheet that comes through, beside what it
@@ -44,7 +44,7 @@ void Shader::begin(const TileShading& shading) {
     const bool distant = light.type == Light::Type::kDirectional;
     distant_.push_back(distant ? illuminate(light, Eigen::Vector3d::Zero()) : std::nullopt);
   }
-  memo_ = {};
+  lookup_cache_ = {};
   clear();
 }
 
@@ -154,7 +154,7 @@ void Shader::shade(const raycast::SurfaceInteraction& point, std::size_t i, int 
   const double slant = std::max(std::abs(point.smooth_normal_W.dot(ray.direction_W)), kLeastSlant);
   const double footprint_m =
       of_texel ? sample.footprint_m : sample.travelled_m * pixel_rad_ / std::sqrt(slant);
-  const SurfaceColor look = s_->materials.at(point, footprint_m, memo_);
+  const SurfaceColor look = s_->materials.at(point, footprint_m, lookup_cache_);
   const bool last = layer + 1 == kMaxLayers;
   const float opacity = last || look.opacity > kOpaque ? 1.0f : look.opacity;
   sample.see_through = of_texel && opacity < 1.0f;

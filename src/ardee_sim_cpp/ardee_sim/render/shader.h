@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ardee_sim/description/world.h"
-#include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/raycast/picture_tracer.h"
 #include "ardee_sim/render/camera.h"
 #include "ardee_sim/render/lights.h"
 #include "ardee_sim/render/material_library.h"
@@ -19,19 +19,20 @@ struct RenderOptions {
   bool shadows = true;
   int threads = 0;  // 0: all cores
   double max_range_m = 1e5;
-  /// RayScene::trace_approximately, and fewer looks where a surface is even (shoot only).
+  /// Rays by PictureTracer::trace_approximately, and fewer of them where a surface is even
+  /// (render_frame only).
   bool approximate = false;
 };
 
 /// All that the shading of a part of a picture needs.
 struct TileShading {
-  const raycast::RayScene& rays;
+  const raycast::PictureTracer& rays;
   const MaterialLibrary& materials;
   const Scene& scene;
   const std::vector<Light>& lights;
   const Camera& camera;
   const RenderOptions& options;
-  RadianceCache& store;  // of this scene, these lights and looks
+  RadianceCache& store;  // of this scene, these lights and materials
 };
 
 /// Of the first lamps, a bit each: whether they shine on a place.
@@ -44,7 +45,7 @@ struct LampKnowledge {
 /// that a pixel covers grows beyond all bounds.
 constexpr double kLeastSlant = 0.05;
 
-/// One look through a pixel: what it has gathered, and what of the light is still to come.
+/// One ray through a pixel: the light that it has brought, and the share that is still to come.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};
   float transmittance = 1.0f;
@@ -55,30 +56,29 @@ struct Sample {
   bool see_through = false;  // a texel that cannot be looked at without what is behind
 };
 
-/// Sends looks through a picture and gathers their light in waves: what all of them meet, which of
-/// these points lie in shadow, what is behind transparent surfaces.
+/// Shades rays in waves: what all of them hit, which of these points lie in shadow, what is behind
+/// transparent surfaces.
 class Shader {
  public:
   /// Begins a picture's part; the room of the one before is used again.
   void begin(const TileShading& shading);
 
-  /// A look through (x, y) in pixels; one without a ray where the lens lets no light through.
+  /// Adds a sample through (x, y) in pixels; it has no ray where the lens lets no light through.
   void enqueue(double x_px, double y_px);
-  /// One whose first meeting was glanced at by a ray of a block, where some lamps' shadows are
-  /// known.
+  /// Adds a sample whose first hit a primary ray has found, where some lamps' shadows are known.
   void enqueue(const raycast::PrimaryRayPacket& glances, int ray, const LampKnowledge& lamps);
-  /// One straight at a texel's middle, `footprint_m` about it: what it gathers depends on nothing
-  /// else. Cells and other looks are not gathered together.
+  /// Adds a sample straight at a texel's middle, `footprint_m` about it: its light depends on
+  /// nothing else. Texels and other samples are not shaded together.
   void enqueue(const raycast::SurfaceTexel& texel, double footprint_m);
   /// Whether moving models may shade what is about a place.
   bool may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const;
-  /// Forgets the materials.
+  /// Forgets the samples.
   void clear();
-  /// The light of all looks that were sent since the last call.
+  /// Shades all samples that were added since the last call.
   void flush();
 
   const std::vector<Sample>& samples() const { return samples_; }
-  /// Rays of the looks that were sent, and the sample of each.
+  /// Rays of the samples that were added, and the sample of each.
   const std::vector<raycast::SceneRay>& rays() const { return rays_; }
   const std::vector<std::uint32_t>& owners() const { return owners_; }
 
@@ -105,7 +105,7 @@ class Shader {
   double pixel_rad_ = 0.0;
   std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> triangles_;       // that each ray has met by a glance; or empty
+  std::vector<std::uint32_t> triangles_;       // that each primary ray has hit; or empty
   std::vector<raycast::SurfaceTexel> texels_;  // that each ray looks at; or empty
   std::vector<raycast::SceneRay> rays_;
   std::vector<std::uint32_t> owners_;                // the sample of each ray
@@ -116,7 +116,7 @@ class Shader {
   std::vector<Waiting> waiting_;
   std::unique_ptr<bool[]> in_shadow_;
   std::size_t room_for_shadows_ = 0;
-  MaterialLibrary::LookupCache memo_;
+  MaterialLibrary::LookupCache lookup_cache_;
 };
 
 }  // namespace ardee::render

@@ -21,7 +21,7 @@ double mirrored_bits(unsigned number) {
 class Tile {
  public:
   Tile(const TileShading& shading, const TileArea& area, TileWorker& worker)
-      : s_(shading), area_(area), shader_(worker.shader), quick_(worker.quick) {
+      : s_(shading), area_(area), shader_(worker.shader), adaptive_(worker.adaptive) {
     shader_.begin(shading);
   }
 
@@ -48,7 +48,7 @@ class Tile {
     if (parts.depth || parts.ids) write_hits(parts, frame);
     if (approximate) {
       shader_.clear();
-      quick_.shade(s_, area_, shader_, frame);
+      adaptive_.shade(s_, area_, shader_, frame);
     }
     if (approximate || !parts.light) return;
     shader_.flush();
@@ -113,7 +113,7 @@ class Tile {
   const TileShading& s_;
   const TileArea area_;
   Shader& shader_;
-  AdaptiveTile& quick_;
+  AdaptiveTile& adaptive_;
 };
 
 }  // namespace
@@ -123,8 +123,8 @@ void shade_tile(const TileShading& shading, const TileArea& area, TileWorker& wo
   Tile(shading, area, worker).shade(image);
 }
 
-void shoot_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
-                TileWorker& worker, Frame& frame) {
+void render_frame_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
+                       TileWorker& worker, Frame& frame) {
   Tile(shading, area, worker).render_frame(parts, frame);
 }
 

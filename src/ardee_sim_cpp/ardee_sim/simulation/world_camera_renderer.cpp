@@ -3,7 +3,7 @@
 
 namespace ardee {
 
-void WorldCameraRenderer::look_at_models() {
+void WorldCameraRenderer::load_materials() {
   materials_.clear();
   for (const auto& entity : entities_) {
     materials_.add(entity->robot->shared_model());
@@ -19,12 +19,13 @@ void WorldCameraRenderer::look_at_models() {
 
 render::Frame WorldCameraRenderer::take(const render::Camera& camera,
                                         const render::FrameParts& parts) {
-  if (parts.light && !current_) look_at_models();
+  if (parts.light && !current_) load_materials();
   render::RenderOptions options;
   options.threads = threads_;
   options.approximate = true;
-  const raycast::RayScene& rays =
+  const raycast::RayScene& scene =
       parts.light ? scenes_.for_pictures() : scenes_.now(raycast::SceneKind::kVisual);
+  const raycast::PictureTracer& rays = scene.pictures();
   if (!renderer_ || &renderer_->rays() != &rays) {
     renderer_.emplace(rays, materials_, world_.scene, world_.lights);
   }

@@ -22,20 +22,20 @@ class WorldCameraRenderer : public devices::CameraRenderer {
       : world_(world), threads_(threads), entities_(entities), scenes_(scenes), materials_(log) {}
 
   render::Frame take(const render::Camera& camera, const render::FrameParts& parts) override;
-  /// Models came or went: the next picture looks at them anew.
+  /// Models came or went: the next picture loads their materials anew.
   void forget() { current_ = false; }
   /// The world's lights changed: the next picture is taken in the new light.
   void relight() { renderer_.reset(); }
 
  private:
-  void look_at_models();
+  void load_materials();
 
   const World& world_;
   const int threads_;
   const std::vector<std::unique_ptr<Entity>>& entities_;
   devices::RaySceneProvider& scenes_;
   render::MaterialLibrary materials_;
-  std::optional<render::Renderer> renderer_;  // of those looks
+  std::optional<render::Renderer> renderer_;  // of those materials
   bool current_ = false;
 };
 

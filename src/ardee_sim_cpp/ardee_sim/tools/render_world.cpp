@@ -98,7 +98,7 @@ int draw(const RenderArguments& arguments) {
   fill(rays, materials, world, robot, arguments.robot_W);
   const render::Camera camera = camera_of(arguments, world, rays);
   rays.prepare({camera.X_WC.p});
-  const render::Renderer renderer(rays, materials, world.scene, world.lights);
+  const render::Renderer renderer(rays.pictures(), materials, world.scene, world.lights);
   render::RenderOptions options;
   options.samples = arguments.samples;
   options.shadows = arguments.shadows;

@@ -167,14 +167,14 @@ TEST_P(Directions, OfScansMeetTheWall) {
 
 TEST_P(Directions, OfPicturesMeetTheWall) {
   std::vector<SurfaceInteraction> points(rays_.size());
-  room_.scene.trace(rays_.data(), rays_.size(), points.data());
+  room_.scene.pictures().trace(rays_.data(), rays_.size(), points.data());
   for (std::size_t k = 0; k < rays_.size(); ++k) expect_range(k, points[k].range_m);
-  room_.scene.trace_approximately(rays_.data(), rays_.size(), points.data());
+  room_.scene.pictures().trace_approximately(rays_.data(), rays_.size(), points.data());
   for (std::size_t k = 0; k < rays_.size(); ++k) expect_range(k, points[k].range_m);
   RayPattern pattern;
   for (const SceneRay& ray : rays_) pattern.directions_S.push_back(ray.direction_W.cast<float>());
   std::vector<PrimaryRayPacket> blocks = blocks_of(pattern, 0.0f, 100.0f);
-  room_.scene.trace_primary(kEye_W, blocks.data(), blocks.size());
+  room_.scene.pictures().trace_primary(kEye_W, blocks.data(), blocks.size());
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
     expect_range(k, static_cast<double>(block.range_m[k % PrimaryRayPacket::kRays]));
@@ -189,9 +189,10 @@ TEST_P(Directions, OfShadowsEndAtTheWall) {
     }
     for (const bool quickly : {false, true}) {
       if (quickly) {
-        room_.scene.find_shadows_approximately(rays_.data(), rays_.size(), shadows.get());
+        room_.scene.pictures().find_shadows_approximately(rays_.data(), rays_.size(),
+                                                          shadows.get());
       } else {
-        room_.scene.find_shadows(rays_.data(), rays_.size(), shadows.get());
+        room_.scene.pictures().find_shadows(rays_.data(), rays_.size(), shadows.get());
       }
       for (std::size_t k = 0; k < rays_.size(); ++k) {
         ASSERT_EQ(shadows[k], reaches) << "towards " << rays_[k].direction_W.transpose();

@@ -209,7 +209,7 @@ TEST(Models, LinksOfTheCamerasOwnRobotAreInItsPicture) {
         blocks[k].far_m[i] = 100.0f;
       }
     }
-    test.scene.trace_primary(Vector3d::Zero(), blocks.data(), blocks.size());
+    test.scene.pictures().trace_primary(Vector3d::Zero(), blocks.data(), blocks.size());
     int of_arm = 0;
     for (const PrimaryRayPacket& block : blocks) {
       for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {

@@ -250,8 +250,8 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
     rays.push_back({eye_W, direction.cast<double>().normalized(), 30.0});
   }
   std::vector<SurfaceInteraction> exact(rays.size()), quick(rays.size());
-  test.scene.trace(rays.data(), rays.size(), exact.data());
-  test.scene.trace_approximately(rays.data(), rays.size(), quick.data());
+  test.scene.pictures().trace(rays.data(), rays.size(), exact.data());
+  test.scene.pictures().trace_approximately(rays.data(), rays.size(), quick.data());
   const Eigen::Vector3d sun = Eigen::Vector3d(0.3, -0.4, 1.0).normalized();
   int same_points = 0, hits = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -269,9 +269,9 @@ TEST(QuickLooks, MeetWhatExactOnesMeet) {
   EXPECT_GE(same_points, 3996);  // floats may decide between two things micrometres apart
   const auto exact_shadows = std::make_unique<bool[]>(shadow_rays.size());
   const auto quick_shadows = std::make_unique<bool[]>(shadow_rays.size());
-  test.scene.find_shadows(shadow_rays.data(), shadow_rays.size(), exact_shadows.get());
-  test.scene.find_shadows_approximately(shadow_rays.data(), shadow_rays.size(),
-                                        quick_shadows.get());
+  test.scene.pictures().find_shadows(shadow_rays.data(), shadow_rays.size(), exact_shadows.get());
+  test.scene.pictures().find_shadows_approximately(shadow_rays.data(), shadow_rays.size(),
+                                                   quick_shadows.get());
   int same_shadows = 0, dark = 0;
   for (std::size_t i = 0; i < shadow_rays.size(); ++i) {
     same_shadows += exact_shadows[i] == quick_shadows[i] ? 1 : 0;
@@ -297,9 +297,9 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
         whole.push_back({eye_W + 0.2 * way_W, way_W, 29.8});
       }
     }
-    test.scene.trace_primary(eye_W, blocks.data(), blocks.size());
+    test.scene.pictures().trace_primary(eye_W, blocks.data(), blocks.size());
     std::vector<SurfaceInteraction> looks(whole.size());
-    test.scene.trace_approximately(whole.data(), whole.size(), looks.data());
+    test.scene.pictures().trace_approximately(whole.data(), whole.size(), looks.data());
     int same_points = 0, of_model = 0;
     for (std::size_t k = 0; k < whole.size(); ++k) {
       const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
@@ -309,7 +309,7 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
         continue;
       }
       SurfaceInteraction closer;
-      test.scene.interpolate_hits(eye_W, &whole[k], &block.triangle[i], 1, &closer);
+      test.scene.pictures().interpolate_hits(eye_W, &whole[k], &block.triangle[i], 1, &closer);
       const double normals = block.normal_W(i).cast<double>().dot(looks[k].normal_W);
       const bool same =
           std::abs(looks[k].range_m - closer.range_m) < 1e-4 &&
@@ -338,7 +338,7 @@ TEST(QuickLooks, DoNotSlipBetweenTriangles) {
     }
   }
   std::vector<PrimaryRayPacket> blocks = blocks_of(diagonals, 0.05f, 30.0f);
-  test.scene.trace_primary(Eigen::Vector3d::Zero(), blocks.data(), blocks.size());
+  test.scene.pictures().trace_primary(Eigen::Vector3d::Zero(), blocks.data(), blocks.size());
   for (const PrimaryRayPacket& block : blocks) {
     for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
       EXPECT_NEAR(block.range_m[i], 3.0f / block.x_W[i], 1e-5f);

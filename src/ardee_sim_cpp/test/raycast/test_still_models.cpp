@@ -41,7 +41,7 @@ class StillModels : public testing::Test {
     for (int k = 0; k < times; ++k) test.scene.prepare({eye_W}, true);
   }
 
-  /// MaterialLibrary all round: pictures and shadows must be those of exact rays. Returns how many
+  /// Looks all round: pictures and shadows must be those of exact rays. Returns how many
   /// rays met each model, by the triangle scene or exactly.
   struct Seen {
     std::vector<int> drafted = std::vector<int>(200);
@@ -51,13 +51,13 @@ class StillModels : public testing::Test {
     prepare(1);
     const RayPattern pattern = random_pattern(16000, 5);
     std::vector<PrimaryRayPacket> blocks = blocks_of(pattern, 0.01f, 100.0f);
-    test.scene.trace_primary(eye_W, blocks.data(), blocks.size());
+    test.scene.pictures().trace_primary(eye_W, blocks.data(), blocks.size());
     std::vector<SceneRay> rays;
     for (const auto& direction_S : pattern.directions_S) {
       rays.push_back({eye_W, direction_S.cast<double>().normalized(), 100.0});
     }
     std::vector<RayHit> hits(rays.size());
-    test.scene.intersect(rays.data(), rays.size(), hits.data());
+    test.scene.pictures().intersect(rays.data(), rays.size(), hits.data());
     Seen seen;
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
@@ -76,14 +76,14 @@ class StillModels : public testing::Test {
   void check_shadows(const std::vector<SceneRay>& rays) {
     std::unique_ptr<bool[]> quick(new bool[rays.size()]);
     std::unique_ptr<bool[]> exact(new bool[rays.size()]);
-    test.scene.find_shadows_approximately(rays.data(), rays.size(), quick.get());
-    test.scene.find_shadows(rays.data(), rays.size(), exact.get());
+    test.scene.pictures().find_shadows_approximately(rays.data(), rays.size(), quick.get());
+    test.scene.pictures().find_shadows(rays.data(), rays.size(), exact.get());
     EXPECT_TRUE(std::equal(quick.get(), quick.get() + rays.size(), exact.get()));
   }
 
   bool may_be_shaded(const Eigen::Vector3d& under_W) const {
     const Eigen::Vector3f at_W = (under_W - Eigen::Vector3d(0, 0, 1)).cast<float>();
-    return test.scene.may_be_shaded(eye_W, at_W, {0, 0, 1}, 0.0f);
+    return test.scene.pictures().may_be_shaded(eye_W, at_W, {0, 0, 1}, 0.0f);
   }
 
   const Eigen::Vector3d eye_W{0.1, 0.2, 1.0};

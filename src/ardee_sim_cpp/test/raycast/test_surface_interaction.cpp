@@ -11,7 +11,7 @@ SurfaceInteraction trace(const RayScene& scene, const Eigen::Vector3d& from,
                          const Eigen::Vector3d& way) {
   const SceneRay ray{from, way.normalized(), 100.0};
   SurfaceInteraction point;
-  scene.trace(&ray, 1, &point);
+  scene.pictures().trace(&ray, 1, &point);
   return point;
 }
 
@@ -19,7 +19,7 @@ SurfaceInteraction trace_approximately(const RayScene& scene, const Eigen::Vecto
                                        const Eigen::Vector3d& way) {
   const SceneRay ray{from, way.normalized(), 100.0};
   SurfaceInteraction point;
-  scene.trace_approximately(&ray, 1, &point);
+  scene.pictures().trace_approximately(&ray, 1, &point);
   return point;
 }
 
@@ -27,7 +27,7 @@ bool shadow(const RayScene& scene, const Eigen::Vector3d& from, const Eigen::Vec
             double reach_m = 100.0) {
   const SceneRay ray{from, way.normalized(), reach_m};
   bool found = false;
-  scene.find_shadows(&ray, 1, &found);
+  scene.pictures().find_shadows(&ray, 1, &found);
   return found;
 }
 

@@ -35,7 +35,7 @@ std::vector<Placement> shards() {
 struct Glances {
   Glances(const RayScene& scene, const Eigen::Vector3d& eye_W, int count)
       : eye(eye_W), blocks(blocks_of(random_pattern(count, 11), 0.01f, 30.0f)) {
-    scene.trace_primary(eye, blocks.data(), blocks.size());
+    scene.pictures().trace_primary(eye, blocks.data(), blocks.size());
   }
 
   /// Requests for all rays, with `width_m` of texels.
@@ -68,8 +68,8 @@ TEST(SurfaceTexels, LieWhereRaysHaveMetThem) {
   for (const float width_m : {0.001f, 0.01f, 0.07f}) {
     const std::vector<TexelRequest> requests = glances.requests(width_m);
     std::vector<SurfaceTexel> texels(requests.size());
-    EXPECT_NE(test.scene.find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
-                                     texels.data()),
+    EXPECT_NE(test.scene.pictures().find_texels(eye_W, glances.blocks.data(), requests.data(),
+                                                requests.size(), texels.data()),
               0u);
     int met = 0;
     for (std::size_t k = 0; k < requests.size(); ++k) {
@@ -81,7 +81,7 @@ TEST(SurfaceTexels, LieWhereRaysHaveMetThem) {
       EXPECT_GT(2.0 * size_m, width_m);
       SceneRay ray;
       SurfaceInteraction point;
-      test.scene.trace_texels(eye_W, &texels[k], 1, &ray, &point);
+      test.scene.pictures().trace_texels(eye_W, &texels[k], 1, &ray, &point);
       const Eigen::Vector3d way_W = glances.direction_W(k);
       const Eigen::Vector3d at_W = eye_W + static_cast<double>(requests[k].range_m) * way_W;
       const Eigen::Vector3d middle_W = ray.origin_W + point.range_m * ray.direction_W;
@@ -107,8 +107,8 @@ TEST(SurfaceTexels, AreAsManyAsTheAreaHolds) {
   const Glances glances(test.scene, eye_W, 1600000);
   const std::vector<TexelRequest> requests = glances.requests(0.04f);  // of 1/32 m
   std::vector<SurfaceTexel> texels(requests.size());
-  test.scene.find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
-                         texels.data());
+  test.scene.pictures().find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
+                                    texels.data());
   std::set<std::tuple<std::uint32_t, std::uint32_t>> seen;
   for (const SurfaceTexel& texel : texels) {
     if (texel.none()) continue;
@@ -130,8 +130,8 @@ TEST(SurfaceTexels, AreNoneWhereSomethingElseIsMet) {
   const Glances glances(test.scene, eye_W, 3200);
   const std::vector<TexelRequest> requests = glances.requests(0.01f);
   std::vector<SurfaceTexel> texels(requests.size());
-  test.scene.find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
-                         texels.data());
+  test.scene.pictures().find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
+                                    texels.data());
   int of_box = 0;
   for (std::size_t k = 0; k < requests.size(); ++k) {
     const bool outside = (requests[k].triangle & PrimaryRayPacket::kOutside) != 0;
@@ -140,10 +140,10 @@ TEST(SurfaceTexels, AreNoneWhereSomethingElseIsMet) {
   }
   EXPECT_GT(of_box, 100);
   const Eigen::Vector3f up(0, 0, 1);
-  EXPECT_TRUE(test.scene.may_be_shaded(eye_W, {40.7f, -30.1f, 0.0f}, up, 0.0f));
-  EXPECT_FALSE(test.scene.may_be_shaded(eye_W, {40.7f, -30.1f, 4.0f}, up, 0.0f));
-  EXPECT_FALSE(test.scene.may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.0f));
-  EXPECT_TRUE(test.scene.may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.7f));
+  EXPECT_TRUE(test.scene.pictures().may_be_shaded(eye_W, {40.7f, -30.1f, 0.0f}, up, 0.0f));
+  EXPECT_FALSE(test.scene.pictures().may_be_shaded(eye_W, {40.7f, -30.1f, 4.0f}, up, 0.0f));
+  EXPECT_FALSE(test.scene.pictures().may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.0f));
+  EXPECT_TRUE(test.scene.pictures().may_be_shaded(eye_W, {41.7f, -30.1f, 0.0f}, up, 0.7f));
 }
 
 TEST(SurfaceTexels, AreNoneWithoutADraft) {
@@ -153,8 +153,8 @@ TEST(SurfaceTexels, AreNoneWithoutADraft) {
   const Glances glances(test.scene, eye_W, 320);
   const std::vector<TexelRequest> requests = glances.requests(0.01f);
   std::vector<SurfaceTexel> texels(requests.size());
-  EXPECT_EQ(test.scene.find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
-                                   texels.data()),
+  EXPECT_EQ(test.scene.pictures().find_texels(eye_W, glances.blocks.data(), requests.data(),
+                                              requests.size(), texels.data()),
             0u);
   for (const SurfaceTexel& texel : texels) EXPECT_TRUE(texel.none());
 }

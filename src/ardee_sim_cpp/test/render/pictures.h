@@ -39,7 +39,7 @@ struct TestStage {
     for (const Placement& placement : placements) materials.add(placement.model);
     rays.add_scenery(0, placements);
     rays.prepare({camera.X_WC.p});
-    return Renderer(rays, materials, scene, lights).render(camera, options);
+    return Renderer(rays.pictures(), materials, scene, lights).render(camera, options);
   }
 
   Scene scene;

@@ -9,7 +9,8 @@ using namespace raycast;
 using namespace render;
 namespace {
 
-/// Boxes of triangles, which are in the draft, on a floor, which is not; a stick of a pixel or two.
+/// Boxes of triangles, which are in the triangle scene, on a floor, which is not; a stick of a
+/// pixel or two.
 TestStage boxes() {
   TestStage stage;
   Plane floor;
@@ -55,7 +56,7 @@ Pair render_frame(const TestStage& stage, const Camera& camera, bool shadows) {
   for (const Placement& placement : stage.placements) materials.add(placement.model);
   rays.add_scenery(0, stage.placements);
   rays.prepare({camera.X_WC.p}, true);
-  const Renderer renderer(rays, materials, stage.scene, stage.lights);
+  const Renderer renderer(rays.pictures(), materials, stage.scene, stage.lights);
   RenderOptions options;
   options.shadows = shadows;
   FrameParts light;
@@ -111,7 +112,7 @@ class Studio {
       : materials_((Log())), rays_(SceneKind::kVisual, {}, Log()) {
     for (const Placement& placement : stage.placements) materials_.add(placement.model);
     rays_.add_scenery(0, stage.placements);
-    renderer_.emplace(rays_, materials_, stage.scene, stage.lights);
+    renderer_.emplace(rays_.pictures(), materials_, stage.scene, stage.lights);
   }
 
   void replace_scenery(const TestStage& stage) {

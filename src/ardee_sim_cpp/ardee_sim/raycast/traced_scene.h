@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "ardee_sim/core/log.h"
+#include "ardee_sim/raycast/local_scene_cache.h"
+#include "ardee_sim/raycast/moving_models.h"
+#include "ardee_sim/raycast/ray_options.h"
+#include "ardee_sim/raycast/scene_ray.h"
+#include "ardee_sim/raycast/scenery_store.h"
+
+namespace ardee::raycast {
+
+/// All that rays may meet, and how packets of exact rays go through it: what RayScene and
+/// PictureTracer share.
+struct TracedScene {
+  TracedScene(SceneKind kind, const RayOptions& options, Log log);
+
+  /// Rays of one origin, in packets of up to kPacketRays: within `local` (null: none) first, and
+  /// beyond it only those that leave it without a hit.
+  void trace(RayQuery queries[kPacketRays], int count, const LocalScene* local) const;
+  /// Rays of any origins, up to kPacketRays, from their start.
+  void trace(const SceneRay* rays, int count, RayQuery::Purpose purpose, std::uint32_t own_entity,
+             std::uint32_t own_link, RayQuery queries[kPacketRays]) const;
+  /// Throws Error where scenery has changed since the last commit.
+  void require_committed() const;
+
+  EmbreeDevice device;
+  AlphaMasks masks;
+  SceneryStore scenery;
+  MovingModels moving;
+  LocalSceneCache local_scenes;
+};
+
+}  // namespace ardee::raycast
