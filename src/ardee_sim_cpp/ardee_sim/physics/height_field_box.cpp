@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kRidgeHeight =
-    1e-4;  // m: how far the ground must rise above its world_info to count as a ridge
+    1e-4;  // m: how far the ground must rise above its surroundings to count as a ridge
 constexpr int kMaxEdgePoints = 64;
 
 Vector3d corner(const Box& box, int index) {

@@ -14,12 +14,6 @@ namespace {
 
 constexpr TimeNs kPutBackSilence_ns = 1000000000;
 
-/// Forwards to nobody while no sink is set.
-class NoSink : public devices::ReadingSink {
- public:
-  void on_reading(const devices::Output&, const devices::Reading&) override {}
-};
-
 void require_in_world(const std::string& name, const Pose& X_WM) {
   if (limits::is_valid(X_WM)) return;
   throw Error("'" + name + "': found a pose that is not finite or farther than " +
@@ -45,7 +39,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
     : world_(world),
       options_(options),
       log_(std::move(log_sink)),
-      registry_(known_plugins()),
+      registry_(options.registry != nullptr ? *options.registry : known_plugins()),
       physics_(world.physics, log_),
       scenes_(options.rays, entities_, log_),
       pictures_(world_, options.rays.threads, entities_, scenes_, log_),
@@ -276,10 +270,8 @@ void Simulation::advance_clock() {
 }
 
 void Simulation::sample_devices() {
-  NoSink nobody;
-  devices::ReadingSink& sink = sink_ ? *sink_ : nobody;
   for (const auto& [name, entity] : by_name_) {
-    for (const auto& device : entity->devices) device->after_step(now_ns_, sink);
+    for (const auto& device : entity->devices) device->after_step(now_ns_, latest_);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/registry.h"
 #include "ardee_sim/simulation/entity.h"
+#include "ardee_sim/simulation/handles.h"
 #include "ardee_sim/simulation/joint_efforts.h"
 #include "ardee_sim/simulation/ray_scene_set.h"
 #include "ardee_sim/simulation/world_camera_renderer.h"
@@ -27,6 +28,9 @@ struct SimulationOptions {
   std::function<Setting(const std::string& name)> parameter =
       devices::no_parameter;                         // of DeviceContext
   std::vector<devices::PluginAlias> plugin_aliases;  // added to the built-in ones
+  /// What plugins there are; null: known_plugins(). One with more is made by adding to a copy of
+  /// that.
+  std::shared_ptr<const devices::Registry> registry;
 };
 
 struct SpawnRequest {
@@ -64,7 +68,32 @@ class Simulation {
   ~Simulation();
 
   /// Receives all readings from now on; nullptr: nobody.
-  void set_sink(devices::ReadingSink* sink) { sink_ = sink; }
+  void set_sink(devices::ReadingSink* sink) { latest_.hand_on_to(sink); }
+
+  /// The topic of a robot that takes commands of type T (Twist, double, devices::JointTrajectory,
+  /// ...), for command(). Throws Error, which lists those there are, if it is none.
+  template <typename T>
+  CommandPort<T> command_port(const std::string& topic) const {
+    return {input(topic, devices::command_kind<T>()).topic};
+  }
+  /// Throws Error if the robot does not take that value, or is gone.
+  template <typename T>
+  void command(const CommandPort<T>& port, const T& value) {
+    input(port.topic, devices::command_kind<T>()).on_command(value);
+  }
+  /// The topic of a robot that gives readings of type T (devices::LidarReading, ...), for latest();
+  /// its device measures from now on. Throws Error, which lists those there are, if it is none.
+  template <typename T>
+  ReadingPort<T> reading_port(const std::string& topic) {
+    ReadingPort<T> port;
+    port.latest_ = keep_latest(topic, devices::reading_kind<T>());
+    return port;
+  }
+  /// What was measured last, or null; valid until the next step.
+  template <typename T>
+  const T* latest(const ReadingPort<T>& port) const {
+    return *port.latest_ ? std::get_if<T>(&**port.latest_) : nullptr;
+  }
 
   /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then
   /// leaves nothing behind.
@@ -116,6 +145,9 @@ class Simulation {
   devices::RaySceneProvider& scenes() { return scenes_; }
 
  private:
+  devices::Input& input(const std::string& topic, std::size_t kind) const;
+  std::shared_ptr<const LatestReadings::Latest> keep_latest(const std::string& topic,
+                                                            std::size_t kind);
   void apply_commands();
   void clear_commands(const devices::Robot& robot);
   void run_controllers();
@@ -146,7 +178,7 @@ class Simulation {
   JointEfforts joint_efforts_;
   std::vector<std::unique_ptr<Entity>> entities_;  // gone before what their devices refer to
   std::map<std::string, Entity*> by_name_;         // the order in which they act and measure
-  devices::ReadingSink* sink_ = nullptr;
+  LatestReadings latest_;
   TimeNs now_ns_ = 0;
   TimeNs step_ns_ = 0;
   std::uint64_t step_count_ = 0;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "ardee_sim/simulation/handles.h"
+
+#include "ardee_sim/simulation/simulation.h"
+
+namespace ardee {
+namespace {
+
+/// "cmd_vel" and "/cmd_vel" are one topic.
+std::string whole(const std::string& topic) {
+  return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
+}
+
+/// Calls `found(port)` for each of the ports that `list` gives of all devices, and says their
+/// topics.
+template <typename List, typename Found>
+std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, List list,
+                          Found found) {
+  std::string topics;
+  for (const auto& entity : entities) {
+    for (const auto& device : entity->devices) {
+      for (auto& port : list(device->ports())) {
+        topics += (topics.empty() ? "" : ", ") + port.topic;
+        found(port);
+      }
+    }
+  }
+  return topics.empty() ? "none" : topics;
+}
+
+}  // namespace
+
+std::shared_ptr<const LatestReadings::Latest> LatestReadings::keep(const std::string& topic,
+                                                                   std::size_t kind) {
+  Kept& kept = kept_[topic];
+  auto latest = kept.latest.lock();
+  if (latest == nullptr || kept.kind != kind) {
+    latest = std::make_shared<Latest>();
+    kept = {kind, latest};
+  }
+  return latest;
+}
+
+void LatestReadings::on_reading(const devices::Output& output, const devices::Reading& reading) {
+  const auto found = kept_.find(output.topic);
+  if (found != kept_.end() && found->second.kind == reading.index()) {
+    if (const auto latest = found->second.latest.lock()) {
+      *latest = reading;
+    } else {
+      kept_.erase(found);
+    }
+  }
+  if (next_ != nullptr) next_->on_reading(output, reading);
+}
+
+devices::Input& Simulation::input(const std::string& topic, std::size_t kind) const {
+  devices::Input* found = nullptr;
+  const std::string known = for_each_port(
+      entities_, [](devices::Ports & ports) -> auto& { return ports.inputs; },
+      [&](devices::Input& input) {
+        if (input.topic == whole(topic) && input.kind == kind) found = &input;
+      });
+  if (found == nullptr) {
+    throw Error("found no topic '" + whole(topic) +
+                "' that takes such commands, expected one of: " + known);
+  }
+  return *found;
+}
+
+std::shared_ptr<const LatestReadings::Latest> Simulation::keep_latest(const std::string& topic,
+                                                                      std::size_t kind) {
+  bool found = false;
+  const std::string known = for_each_port(
+      entities_, [](devices::Ports & ports) -> auto& { return ports.outputs; },
+      [&](devices::Output& output) {
+        if (output.topic != whole(topic) || output.kind != kind) return;
+        output.demanded = true;
+        found = true;
+      });
+  if (!found) {
+    throw Error("found no topic '" + whole(topic) +
+                "' that gives such readings, expected one of: " + known);
+  }
+  return latest_.keep(whole(topic), kind);
+}
+
+}  // namespace ardee

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# What a program that links ardee_sim::ardee_sim needs beside it.
+include(CMakeFindDependencyMacro)
+find_dependency(PkgConfig)
+find_dependency(Eigen3)
+find_dependency(TBB)
+find_dependency(embree 3)
+find_dependency(yaml-cpp)
+foreach(library ODE=ode TINYXML2=tinyxml2 ASSIMP=assimp MAGICKPP=Magick++ PNG=libpng TIFF=libtiff-4)
+  string(REPLACE = ";" pair ${library})
+  list(GET pair 0 name)
+  list(GET pair 1 package)
+  pkg_check_modules(${name} REQUIRED IMPORTED_TARGET ${package})
+endforeach()
+include(${CMAKE_CURRENT_LIST_DIR}/ardee_simTargets.cmake)
