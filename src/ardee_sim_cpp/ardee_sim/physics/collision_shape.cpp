@@ -126,38 +126,52 @@ Pose shape_pose(const Collision& collision, const Pose& X_WC, double scale) {
   return X_WC * Pose{scale * heightmap->position_m, Eigen::Quaterniond::Identity()};
 }
 
+/// Gives a shape that knows its collision, scale and pose what the contacts are found by.
+struct ShapeFactory::Make {
+  ShapeFactory& factory;
+  CollisionShape& shape;
+
+  void operator()(const Box& box) const {
+    const Eigen::Vector3d size = shape.scale * box.size_m;
+    put(dCreateBox(nullptr, size.x(), size.y(), size.z()));
+  }
+  void operator()(const Sphere& sphere) const {
+    put(dCreateSphere(nullptr, shape.scale * sphere.radius_m));
+  }
+  void operator()(const Cylinder& cylinder) const {
+    put(dCreateCylinder(nullptr, shape.scale * cylinder.radius_m, shape.scale * cylinder.length_m));
+  }
+  /// ODE's planes have no pose.
+  void operator()(const Plane& plane) const {
+    const Eigen::Vector3d normal = shape.X_WS.q * plane.normal.normalized();
+    shape.geom.reset(
+        dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), normal.dot(shape.X_WS.p)));
+  }
+  void operator()(const Mesh& mesh) const {
+    shape.mesh = factory.meshes_.get(mesh, shape.scale);
+    put(dCreateTriMesh(nullptr, shape.mesh->data.get(), nullptr, nullptr, nullptr));
+  }
+  void operator()(const Heightmap& heightmap) const {
+    std::weak_ptr<const HeightField>& slot = factory.fields_[heightmap.grid.get()];
+    shape.field = slot.lock();
+    if (shape.field) return;
+    shape.field = std::make_shared<const HeightField>(heightmap.grid);
+    slot = shape.field;
+  }
+
+  void put(dGeomID geom) const {
+    shape.geom.reset(geom);
+    place(geom, shape.X_WS);
+  }
+};
+
 CollisionShape ShapeFactory::make(const Collision& collision, const Pose& X_WC, double scale) {
   CollisionShape shape;
   shape.collision = &collision;
   shape.scale = scale;
   shape.X_WS = shape_pose(collision, X_WC, scale);
   shape.bounds = shape_bounds(collision.geometry, scale, shape.X_WS);
-  if (const auto* box = std::get_if<Box>(&collision.geometry)) {
-    const Eigen::Vector3d size = scale * box->size_m;
-    shape.geom.reset(dCreateBox(nullptr, size.x(), size.y(), size.z()));
-  } else if (const auto* sphere = std::get_if<Sphere>(&collision.geometry)) {
-    shape.geom.reset(dCreateSphere(nullptr, scale * sphere->radius_m));
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&collision.geometry)) {
-    shape.geom.reset(
-        dCreateCylinder(nullptr, scale * cylinder->radius_m, scale * cylinder->length_m));
-  } else if (const auto* plane = std::get_if<Plane>(&collision.geometry)) {
-    const Eigen::Vector3d normal = shape.X_WS.q * plane->normal.normalized();
-    shape.geom.reset(
-        dCreatePlane(nullptr, normal.x(), normal.y(), normal.z(), normal.dot(shape.X_WS.p)));
-    return shape;
-  } else if (const auto* mesh = std::get_if<Mesh>(&collision.geometry)) {
-    shape.mesh = meshes_.get(*mesh, scale);
-    shape.geom.reset(dCreateTriMesh(nullptr, shape.mesh->data.get(), nullptr, nullptr, nullptr));
-  } else if (const auto* heightmap = std::get_if<Heightmap>(&collision.geometry)) {
-    std::weak_ptr<const HeightField>& slot = fields_[heightmap->grid.get()];
-    shape.field = slot.lock();
-    if (!shape.field) {
-      shape.field = std::make_shared<const HeightField>(heightmap->grid);
-      slot = shape.field;
-    }
-    return shape;
-  }
-  place(shape.geom.get(), shape.X_WS);
+  std::visit(Make{*this, shape}, collision.geometry);
   return shape;
 }
 

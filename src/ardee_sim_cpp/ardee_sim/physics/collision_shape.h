@@ -45,6 +45,7 @@ class ShapeFactory {
   CollisionShape make(const Collision& collision, const Pose& X_WC, double scale);
 
  private:
+  struct Make;
   MeshCache meshes_;
   std::map<const HeightGrid*, std::weak_ptr<const HeightField>> fields_;
 };

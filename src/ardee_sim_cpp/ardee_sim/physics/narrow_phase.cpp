@@ -34,29 +34,45 @@ void keep_nearest(const Eigen::Vector3d& center, int max_contacts, GroundContact
   contacts.front().share = share;
 }
 
-/// Works in the field's own frame and unscaled metres: the shape is shrunk by the field's scale
-/// instead.
+/// Finds where a shape reaches below a field, in the field's own frame and unscaled metres: the
+/// shape is shrunk by the field's scale instead.
+struct OnField {
+  const CollisionShape& shape;
+  const HeightField& field;
+  const Pose& X_FS;
+  double shrink;
+  int max_contacts;
+  GroundContacts& contacts;
+
+  void operator()(const Sphere& sphere) const {
+    collide_sphere(field, X_FS.p, shape.scale * shrink * sphere.radius_m, contacts);
+  }
+  void operator()(const Cylinder& cylinder) const {
+    const double scale = shape.scale * shrink;
+    collide_cylinder(field, X_FS, {scale * cylinder.radius_m, scale * cylinder.length_m}, contacts);
+    if (max_contacts < kLeastOfCylinder) keep_nearest(X_FS.p, max_contacts, contacts);
+  }
+  void operator()(const Box& box) const {
+    collide_box(field, X_FS, {shape.scale * shrink * box.size_m}, contacts);
+  }
+  /// The mesh's vertices carry the shape's own scale already.
+  void operator()(const Mesh&) const {
+    collide_vertices(field, X_FS, shrink, *shape.mesh->tree, contacts);
+  }
+  /// Ground does not touch ground.
+  void operator()(const Plane&) const {}
+  void operator()(const Heightmap&) const {}
+};
+
 void collide_field(const CollisionShape& shape, const CollisionShape& ground, int max_contacts,
                    std::vector<ContactPoint>& points) {
   if (!shape.geom) return;
-  const HeightField& field = *ground.field;
   const double shrink = 1.0 / ground.scale;
   Pose X_FS = ground.X_WS.inverse() * geom_pose(shape.geom.get());
   X_FS.p *= shrink;
   GroundContacts contacts;
-  const double scale = shape.scale * shrink;
-  if (const auto* sphere = std::get_if<Sphere>(&shape.collision->geometry)) {
-    collide_sphere(field, X_FS.p, scale * sphere->radius_m, contacts);
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.collision->geometry)) {
-    const Cylinder scaled{scale * cylinder->radius_m, scale * cylinder->length_m};
-    collide_cylinder(field, X_FS, scaled, contacts);
-    if (max_contacts < kLeastOfCylinder) keep_nearest(X_FS.p, max_contacts, contacts);
-  } else if (const auto* box = std::get_if<Box>(&shape.collision->geometry)) {
-    collide_box(field, X_FS, {scale * box->size_m}, contacts);
-  } else if (shape.mesh) {
-    // The mesh's vertices carry the shape's own scale already.
-    collide_vertices(field, X_FS, shrink, *shape.mesh->tree, contacts);
-  }
+  std::visit(OnField{shape, *ground.field, X_FS, shrink, max_contacts, contacts},
+             shape.collision->geometry);
   reduce_contacts(contacts, static_cast<std::size_t>(max_contacts));
   for (const GroundContact& contact : contacts) {
     points.push_back({ground.X_WS * (ground.scale * contact.position),
