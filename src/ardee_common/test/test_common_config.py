@@ -45,3 +45,16 @@ def test_bad_files(text: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(GeneratorError) as refused:
         read(tmp_path, text)
     assert str(refused.value) == f"{tmp_path}/ditch.yaml{message}"
+
+
+def test_a_few_aliases_are_read(tmp_path: Path) -> None:
+    assert read(tmp_path, "depth_m: &depth 2\ncount: *depth\n") == Ditch(2.0, 2)
+
+
+def test_aliases_of_aliases_are_refused(tmp_path: Path) -> None:
+    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
+    with pytest.raises(
+        GeneratorError, match="found aliases that stand for more than 100000 values, expected fewer"
+    ):
+        read(tmp_path, "\n".join(lines))

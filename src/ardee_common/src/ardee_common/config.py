@@ -15,6 +15,7 @@ from ardee_common.options import kind_of, problem
 # libyaml's safe loader where PyYAML was built with it: ten times as fast, the same data
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MAX_BYTES = 64 << 20
+_MAX_REPEATED = 100_000  # values that aliases may stand for, beside those that are written out
 # YAML 1.1 takes 1e-4 (without a dot) for a text; people mean the number.
 _EXPONENT = re.compile(r"[-+]?\d+[eE][-+]?\d+")
 
@@ -31,26 +32,40 @@ class Mapping(dict):
         return GeneratorError(f"{self.path}:{self.line.get(key, self.own_line)}: {message}")
 
 
-def _plain(node: yaml.Node, path: Path, loader: yaml.SafeLoader, depth: int = 0) -> Any:
-    line = node.start_mark.line + 1
-    if depth > 20:
-        raise GeneratorError(f"{path}:{line}: found more than 20 levels, expected fewer")
-    if isinstance(node, yaml.MappingNode):
-        made = Mapping(path, line)
+class _Converter:
+    """Makes plain data of the nodes of a file; aliases may stand for a bounded number of values."""
+
+    def __init__(self, path: Path, loader: yaml.SafeLoader, most_values: int) -> None:
+        self._path, self._loader, self._values_left = path, loader, most_values
+
+    def convert(self, node: yaml.Node, depth: int = 0) -> Any:
+        """Returns the data of a node."""
+        line = node.start_mark.line + 1
+        if depth > 20:
+            raise GeneratorError(f"{self._path}:{line}: found more than 20 levels, expected fewer")
+        self._values_left -= 1
+        if self._values_left < 0:
+            found = f"found aliases that stand for more than {_MAX_REPEATED} values"
+            raise GeneratorError(f"{self._path}:{line}: {found}, expected fewer")
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node, depth)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.convert(item, depth + 1) for item in node.value]
+        if not node.style and _EXPONENT.fullmatch(node.value):
+            return float(node.value)
+        return self._loader.construct_object(node)
+
+    def _mapping(self, node: yaml.MappingNode, depth: int) -> Mapping:
+        made = Mapping(self._path, node.start_mark.line + 1)
         for key_node, value_node in node.value:
-            key, at = str(loader.construct_object(key_node)), key_node.start_mark.line + 1
+            key, at = str(self._loader.construct_object(key_node)), key_node.start_mark.line + 1
             if key in made:
                 raise GeneratorError(
-                    f"{path}:{at}: found key {key!r} a second time, first in line {made.line[key]}"
+                    f"{self._path}:{at}: found key {key!r} a second time, first in line {made.line[key]}"
                 )
             made.line[key] = at
-            made[key] = _plain(value_node, path, loader, depth + 1)
+            made[key] = self.convert(value_node, depth + 1)
         return made
-    if isinstance(node, yaml.SequenceNode):
-        return [_plain(item, path, loader, depth + 1) for item in node.value]
-    if not node.style and _EXPONENT.fullmatch(node.value):
-        return float(node.value)
-    return loader.construct_object(node)
 
 
 def read_yaml_lines(path: Path) -> Mapping:
@@ -58,10 +73,12 @@ def read_yaml_lines(path: Path) -> Mapping:
     try:
         if path.stat().st_size > _MAX_BYTES:
             raise GeneratorError(f"{path}: found more than {_MAX_BYTES} bytes, expected fewer")
-        loader = _LOADER(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        loader = _LOADER(text)
         try:
             node = loader.get_single_node()
-            data = _plain(node, path, loader) if node is not None else None
+            converter = _Converter(path, loader, len(text) + _MAX_REPEATED)
+            data = converter.convert(node) if node is not None else None
         finally:
             loader.dispose()
     except OSError as error:
