@@ -47,16 +47,16 @@ class Stream(NamedTuple):
     topic: str
     component_id: int
     rate_hz: float
-    image_format: str = ""
+    format: str = ""
 
     @property
     def key(self) -> Key:
         return (int(KINDS[self.kind]), self.component_id)
 
 
-def row_of(kind: str, image_format: str) -> str:
+def row_of(kind: str, format: str) -> str:
     """In the table: kind of sensor, of images the format too."""
-    return f"{image_format} {kind}" if image_format else kind
+    return f"{format} {kind}" if format else kind
 
 
 class Datagram(NamedTuple):
@@ -232,8 +232,8 @@ def server_arguments(peer: str, sources: Sequence[Union[Stream, Source]]) -> Lis
     for source in sources:
         values = dict(name=source.topic, kind=source.kind, topic=source.topic)
         values["component_id"] = source.component_id
-        if source.image_format:
-            values["format"] = source.image_format
+        if source.format:
+            values["format"] = source.format
         if isinstance(source, Source) and source.velocity_topic:
             values["velocity_topic"] = source.velocity_topic
         items.append(values)

@@ -5,6 +5,7 @@ Both times are the kernel's: the first is that of a captured packet, the second 
 again by its stamp, which the wire carries as a time stamp message.
 """
 import contextlib
+import dataclasses
 import os
 import signal
 import subprocess
@@ -101,7 +102,7 @@ def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
 
 def _topic(source: Source) -> str:
     """Where the sensor server reads it: the robot's cameras compress their images themselves."""
-    return "/" + (source.of_camera() if source.image_format == "jpeg" else source).topic
+    return "/" + (source.of_camera() if source.format == "jpeg" else source).topic
 
 
 def _published(env: Dict[str, str]) -> Set[str]:
@@ -126,7 +127,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
     And the bare forwarder's in the same time.
     """
     sources = [
-        source._replace(image_format=image_format) if source.image_format == "jpeg" else source
+        dataclasses.replace(source, format=image_format) if source.format == "jpeg" else source
         for source in sources
         if image_format or not source.is_frame
     ]
@@ -181,8 +182,8 @@ def _by_row(
     sources: List[Source], published: Dict[str, Times], arrived: Dict[latency.Key, Times]
 ) -> Dict[str, latency.Spread]:
     found = {}
-    for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
-        like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
+    for row in dict.fromkeys(latency.row_of(s.kind, s.format) for s in sources):
+        like = [s for s in sources if latency.row_of(s.kind, s.format) == row]
         before = [published[source.name] for source in like]
         keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
         found[row] = _spread(before, [arrived.get(key, {}) for key in keys])

@@ -5,7 +5,7 @@ import dataclasses
 import difflib
 import re
 from pathlib import Path
-from typing import Any, Dict, Iterable
+from typing import Any, Dict, Iterable, Union
 
 import yaml
 
@@ -21,15 +21,18 @@ _EXPONENT = re.compile(r"[-+]?\d+[eE][-+]?\d+")
 
 
 class Mapping(dict):
-    """A YAML mapping; `line[key]` is where its key stands."""
+    """A mapping that knows its place: a file, where `line[key]` is the line of a key, or a path of keys."""
 
-    def __init__(self, path: Path, line: int) -> None:
+    def __init__(self, place: Union[Path, str], own_line: int = 0) -> None:
         super().__init__()
-        self.path, self.own_line, self.line = path, line, {}  # type: Path, int, Dict[str, int]
+        self.place, self.own_line = place, own_line
+        self.line: Dict[str, int] = {}
 
     def error(self, key: str, message: str) -> GeneratorError:
-        """An error at a key."""
-        return GeneratorError(f"{self.path}:{self.line.get(key, self.own_line)}: {message}")
+        """Returns an error at a key, or about the whole mapping."""
+        line = self.line.get(key, self.own_line)
+        where = f"{self.place}:{line}: " if line else f"{self.place}: " if self.place else ""
+        return GeneratorError(f"{where}{message}")
 
 
 class _Converter:
@@ -99,8 +102,14 @@ def unknown_key(mapping: Mapping, key: str, known: Iterable[str]) -> GeneratorEr
 
 
 def value_of(cls: type, field: dataclasses.Field, mapping: Mapping, key: str) -> Any:
-    """The value of a key, checked against the field it is for."""
+    """Returns the value of a key, checked against the field that it is for, and converted."""
     value = mapping[key]
+    if "convert" in field.metadata:
+        try:
+            return field.metadata["convert"](value)
+        except ValueError:
+            expected = field.metadata["expected"]
+            raise mapping.error(key, f"{key}: found {value!r}, expected {expected}") from None
     expected = problem(cls, field, value)
     if expected:
         raise mapping.error(key, f"{key}: found {value!r}, expected {expected}")
@@ -128,11 +137,30 @@ def build(cls: type, mapping: Mapping) -> Any:
     for name, field in fields.items():
         is_needed = field.default is field.default_factory is dataclasses.MISSING
         if is_needed and name not in values:
-            raise GeneratorError(f"{mapping.path}:{mapping.own_line}: missing key {name!r}")
+            raise mapping.error("", f"missing key {name!r}")
     try:
         return cls(**values)
-    except GeneratorError as error:  # from a check of its own
-        raise GeneratorError(f"{mapping.path}:{mapping.own_line}: {error}") from error
+    except (GeneratorError, ValueError) as error:  # from a check of its own
+        raise mapping.error("", str(error)) from error
+
+
+def from_values(cls: type, values: Any) -> Any:
+    """Returns a dataclass of options from values that stand in no file, such as ROS parameters."""
+    if not isinstance(values, dict):
+        raise GeneratorError(f"found {values!r}, expected a mapping of keys to values")
+    return build(cls, _placed(values, ""))
+
+
+def _placed(value: Any, place: str) -> Any:
+    """Returns the value with all its mappings told their places, such as peers[0]."""
+    if isinstance(value, dict):
+        made = Mapping(place)
+        for key, item in value.items():
+            made[str(key)] = _placed(item, f"{place}.{key}" if place else str(key))
+        return made
+    if isinstance(value, list):
+        return [_placed(item, f"{place}[{number}]") for number, item in enumerate(value)]
+    return value
 
 
 def build_group(group: type, mapping: Mapping, key: str) -> Any:
@@ -154,4 +182,4 @@ def _items(mapping: Mapping, key: str) -> list:
 def _group(group: type, mapping: Mapping, key: str, value: Any) -> Any:
     if not isinstance(value, Mapping):
         raise mapping.error(key, f"{key}: found {value!r}, expected a mapping of keys to values")
-    return build(group, value)
+    return build(group if isinstance(group, type) else group(value), value)

@@ -3,10 +3,9 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional
+from typing import Dict, Optional
 
-from ardee_common.config import Mapping, build, read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.config import build, build_group, read_yaml_lines
 from ardee_navigation.lbirnt import Parameters
 
 STAND_M = 0.175  # base_footprint above the ground (terrasentia_description)
@@ -37,24 +36,12 @@ class Start:
     yaw_rad: float = dataclasses.field(default=0.0, metadata={"limits": (-7.0, 7.0)})
 
 
-def _whole(cls: type, mapping: Mapping, name: str = "") -> Any:
-    """What a mapping says, where its values go together."""
-    try:
-        return build(cls, mapping)
-    except ValueError as error:
-        where = f"{mapping.path}:{mapping.own_line}: " + (f"{name}: " if name else "")
-        raise GeneratorError(f"{where}{error}") from None
-
-
 def read_scenarios(path: Path) -> Dict[str, Scenario]:
     """Name to scenario of a file."""
     mapping = read_yaml_lines(path)
-    for name, entry in mapping.items():
-        if not isinstance(entry, Mapping):
-            raise mapping.error(name, f"{name}: found {entry!r}, expected a mapping")
-    return {name: _whole(Scenario, entry, name) for name, entry in mapping.items()}
+    return {name: build_group(Scenario, mapping, name) for name in mapping}
 
 
 def read_parameters(path: Path) -> Parameters:
     """Parameters of the row follower from a YAML file with any of their names as keys."""
-    return _whole(Parameters, read_yaml_lines(path))
+    return build(Parameters, read_yaml_lines(path))

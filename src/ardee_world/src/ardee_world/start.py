@@ -9,7 +9,6 @@ from typing import Optional
 import numpy as np
 
 from ardee_common.config import build, read_yaml_lines
-from ardee_common.errors import GeneratorError
 from ardee_models.terrain import Ground
 from ardee_world.curves import Line
 from ardee_world.layout import Layout
@@ -69,8 +68,4 @@ def read_start(path: Path) -> Start:
     """The start pose of a file; the default without one."""
     if not path.is_file():
         return Start()
-    mapping = read_yaml_lines(path)
-    try:
-        return build(Start, mapping)
-    except ValueError as error:
-        raise GeneratorError(f"{path}:{mapping.own_line}: {error}") from None
+    return build(Start, read_yaml_lines(path))
