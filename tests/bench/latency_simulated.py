@@ -7,8 +7,6 @@ again by its stamp, which the wire carries as a time stamp message.
 import contextlib
 import dataclasses
 import os
-import signal
-import subprocess
 import time
 from pathlib import Path
 from typing import Any, Dict, Iterator, List, Set
@@ -20,6 +18,7 @@ from bench.capture import Times
 from ardee_bridge.nodes.settings import KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
+from ardee_common.process import start_child, stop_child
 
 START_LIMIT_S = 120.0
 WARM_UP_S = 6.0  # beside programs that keep all processors busy, too
@@ -30,22 +29,11 @@ ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "
 
 @contextlib.contextmanager
 def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
-    process = subprocess.Popen(
-        command,
-        env=env,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
+    child = start_child(command, env)
     try:
         yield
     finally:
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            if process.poll() is None:
-                os.killpg(process.pid, number)
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(20.0)
+        stop_child(child)
 
 
 def _wait_for(env: Dict[str, str], name: str) -> None:
