@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 from ardee_common.errors import GeneratorError
 
 _NONE = type(None)
-_KINDS = {str: "a text", bool: "true or false"}
+_KINDS = {str: "a text", bool: "true or false", dict: "a mapping of keys to values"}
 # Names of the ROS graph (wiki.ros.org/Names), relative ones among them.
 _ROS_NAME = re.compile(r"[~/]?[A-Za-z]\w*(/\w+)*", re.ASCII)
 # Suffix of a name to the unit in messages and help; the longest that fits counts.
