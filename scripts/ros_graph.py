@@ -10,7 +10,7 @@ import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
-from ardee_common.process import RosMaster, start_child, stop_child
+from ardee_common.process import RosMaster, heed_ctrl_c, start_child, stop_child
 
 Probe = Callable[..., Any]
 PROBES = get_context("forkserver")  # its server has imported once what each probe would import anew
@@ -38,11 +38,6 @@ def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0)
         if time.monotonic() > deadline:
             raise TimeoutError(f"waited {timeout_s} s in vain: {what}")
         time.sleep(0.05)
-
-
-def heed_ctrl_c() -> None:
-    """In the child: Ctrl-C works, though whoever started all this may ignore it, as a shell's background jobs do."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 class Process:

@@ -4,7 +4,7 @@ import signal
 import subprocess
 from pathlib import Path
 
-from ardee_common.process import start_child, stop_child
+from ardee_common.process import heed_ctrl_c, start_child, stop_child
 
 
 def test_both_outputs_are_in_the_log(tmp_path: Path) -> None:
@@ -14,9 +14,8 @@ def test_both_outputs_are_in_the_log(tmp_path: Path) -> None:
 
 
 def test_a_child_ends_with_what_it_waits_for() -> None:
-    child = start_child(
-        ["sh", "-c", "echo ready; sleep 60; true"], stdout=subprocess.PIPE, text=True
-    )
+    options = dict(stdout=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c)
+    child = start_child(["sh", "-c", "echo ready; sleep 60; true"], **options)
     assert child.stdout.readline() == "ready\n"
     stop_child(child)
     assert child.returncode == -signal.SIGINT

@@ -14,6 +14,11 @@ _MASTER = (
 )
 
 
+def heed_ctrl_c() -> None:
+    """Makes Ctrl-C end a child whose parents ignore it, as a shell's background jobs do: a preexec_fn of Popen."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def start_child(
     command: Sequence[str],
     env: Optional[Dict[str, str]] = None,
