@@ -15,6 +15,8 @@ from PIL import Image
 from report_page import chosen, contact_sheet, page, with_unit
 from xacro_runner import expand, ros_environment, run_xacro
 
+from ardee_common.errors import GeneratorError
+
 POST = PACKAGE / "robots/show_sensor.urdf.xacro"
 ONE_OF_A_KIND = sorted({load(device)["kind"]: device for device in devices()}.values()) + [
     "encoder"
@@ -121,7 +123,7 @@ def test_a_place_that_cannot_be_written_is_said_before_any_picture(
     (tmp_path / "a_file").write_text("")
     folder = tmp_path / place
     expected = re.escape(f"found --output {folder} (") + ".*expected a folder that can be written"
-    with pytest.raises(report_page.ReportError, match=expected):
+    with pytest.raises(GeneratorError, match=expected):
         report_page.write_report(folder, ["sonar"], tmp_path)
     assert not drawn
 
@@ -138,7 +140,7 @@ def test_what_is_asked_for_is_checked_first():
     assert chosen([]) == devices()
     assert chosen(["sonar"]) == ["sonar"]
     assert chosen(["imu_terra", "gps_with_mast"]) == ["imu_terra", "gps_with_mast", "imu", "gps"]
-    with pytest.raises(ValueError, match="unknown sensor 'sonnar'"):
+    with pytest.raises(GeneratorError, match="unknown sensor 'sonnar'"):
         chosen(["sonnar"])
 
 

@@ -62,7 +62,7 @@ def run(
     args = parser.parse_args(arguments)
     try:
         result = work(args)
-    except GeneratorError as error:
+    except (GeneratorError, OSError) as error:
         parser.exit(2, f"{parser.prog}: {error}\n")
     if result is not None:
         print(result)
