@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Child processes, each with a session of its own, that end with whatever started them."""
+"""Starts and stops child processes, each in a session of its own, and a ROS master among them."""
 import os
 import signal
 import subprocess
