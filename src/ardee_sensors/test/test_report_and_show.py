@@ -182,7 +182,7 @@ def test_two_words_for_a_sensor_are_refused_as_one_name():
 def test_ctrl_c_amid_the_imports_ends_it_without_a_word(script: str, tmp_path: pathlib.Path):
     """What each imports of others is here a module that sends it the signal."""
     interrupt = "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
-    for name in ("roslib", "yaml"):
+    for name in ("roslib", "ardee_common"):
         (tmp_path / f"{name}.py").write_text(interrupt)
     command = ["/usr/bin/python3", str(PACKAGE / "scripts" / script), "sonar"]
     environment = dict(ros_environment(), PYTHONPATH=str(tmp_path))
