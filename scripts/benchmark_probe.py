@@ -4,7 +4,6 @@
 Speaks JSON, an object a line: {"ready"}, {"first_scan_s"}, {"drive"}. Messages are counted as they come off the network
 and decoded only where they are needed, so that the figures are the simulator's and not this node's.
 """
-import argparse
 import json
 import math
 import pathlib
@@ -16,6 +15,7 @@ import rospy
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
 
+from ardee_common.cli import Parser
 from gazebo_msgs.srv import SpawnModel
 
 SPAWN = "/gazebo/spawn_urdf_model"
@@ -139,7 +139,7 @@ def measure(driver: Driver, pid: int, window_s: float) -> Dict[str, Any]:
 
 def main() -> None:
     """Ready, spawn, first scan, and with --pid-file's process as the simulator a drive."""
-    parser = argparse.ArgumentParser()
+    parser = Parser()
     parser.add_argument("--urdf", type=pathlib.Path, required=True)
     parser.add_argument("--start", type=float, nargs=4, required=True, help="x y z yaw [m, rad]")
     parser.add_argument("--lane-m", type=float, required=True)

@@ -14,6 +14,8 @@ import benchmark_field
 import benchmark_measure
 import benchmark_table
 
+from ardee_common.cli import Parser, number_in, whole_in
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
 KINDS = ("start", "physics", "lidar", "camera", "rtf", "bridge")
@@ -36,29 +38,21 @@ def kinds(text: str) -> List[str]:
     return found
 
 
-def positive(text: str) -> int:
-    """argparse type: a whole number from 1."""
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"found {value}, expected a whole number from 1")
-    return value
-
-
 def options() -> argparse.Namespace:
     """The command line of scripts/benchmark."""
-    parser = argparse.ArgumentParser(prog="scripts/benchmark")
-    parser.add_argument("--plants", type=positive, nargs="+", default=SIZES)
+    parser = Parser(prog="scripts/benchmark")
+    parser.add_argument("--plants", type=whole_in(1), nargs="+", default=SIZES)
     parser.add_argument("--only", type=kinds, default=list(KINDS))
-    parser.add_argument("--repeat", type=positive, default=3)
+    parser.add_argument("--repeat", type=whole_in(1), default=3)
     parser.add_argument("--json", type=pathlib.Path)
-    parser.add_argument("--window-s", type=float, default=8.0, help="wall time of a drive with ROS")
-    parser.add_argument("--loss-s", type=float, default=60.0, help="of the bridge beside cameras")
+    parser.add_argument(
+        "--window-s", type=number_in(0.5, 100.0), default=8.0, help="wall time of a drive with ROS"
+    )
+    parser.add_argument(
+        "--loss-s", type=number_in(0.5, 86400.0), default=60.0, help="of the bridge beside cameras"
+    )
     parser.add_argument("--brief", action="store_true", help="to see that all of it works")
     found = parser.parse_args()
-    if not 0.5 <= found.window_s <= 100.0:
-        parser.error(f"--window-s: found {found.window_s}, expected 0.5 to 100")
-    if not 0.5 <= found.loss_s <= 86400.0:
-        parser.error(f"--loss-s: found {found.loss_s}, expected 0.5 to 86400")
     if found.json and not found.json.resolve().parent.is_dir():
         parser.error(f"--json: the folder of {found.json} does not exist")
     return found

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The demo itself, in a workspace that is built and sourced: field, world, robot, drive, summary."""
 import argparse
-import math
 import os
 import pathlib
 import shutil
@@ -14,6 +13,8 @@ from typing import Any, Callable, List, Optional
 import demo_field
 import demo_report
 from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.cli import Parser, number_in, seed_number
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 OUTPUT = ROOT / "demo_output"
@@ -166,15 +167,10 @@ def heading(text: str) -> None:
 
 def options() -> argparse.Namespace:
     """The command line of scripts/demo."""
-    parser = argparse.ArgumentParser(prog="scripts/demo")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--speed-m-s", type=float, default=0.6)
-    found = parser.parse_args()
-    if found.seed < 0:
-        parser.error(f"--seed: found {found.seed}, expected a whole number from 0")
-    if not 0.05 <= found.speed_m_s <= 2.0 or not math.isfinite(found.speed_m_s):
-        parser.error(f"--speed-m-s: found {found.speed_m_s}, expected 0.05 to 2")
-    return found
+    parser = Parser(prog="scripts/demo")
+    parser.add_argument("--seed", type=seed_number, default=0)
+    parser.add_argument("--speed-m-s", type=number_in(0.05, 2.0), default=0.6)
+    return parser.parse_args()
 
 
 def stop_here(number: int, _frame: Any) -> None:

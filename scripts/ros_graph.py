@@ -10,10 +10,8 @@ import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
-MASTER = (
-    "import sys, rosmaster.master as m; x = m.Master(int(sys.argv[1])); x.start();"
-    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
-)
+from ardee_common.process import RosMaster, heed_ctrl_c, start_child, stop_child
+
 Probe = Callable[..., Any]
 PROBES = get_context("forkserver")  # its server has imported once what each probe would import anew
 PROBES.set_forkserver_preload(["numpy", "pytest", "rospy", "tf2_ros"])
@@ -42,26 +40,12 @@ def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0)
         time.sleep(0.05)
 
 
-def heed_ctrl_c() -> None:
-    """In the child: Ctrl-C works, though whoever started all this may ignore it, as a shell's background jobs do."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 class Process:
     """A process of the graph, with its output in a file."""
 
     def __init__(self, command: List[str], env: Dict[str, str], log: pathlib.Path) -> None:
         self.command, self.log = command, log
-        with log.open("wb") as output:
-            self._popen = subprocess.Popen(
-                command,
-                env=env,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-                preexec_fn=heed_ctrl_c,
-            )
+        self._popen = start_child(command, env, log, preexec_fn=heed_ctrl_c)
         self.pid = self._popen.pid
 
     def output(self) -> str:
@@ -86,14 +70,7 @@ class Process:
 
     def stop(self) -> None:
         """End it: by Ctrl-C, and ever harder if that does not help."""
-        for sig, patience_s in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
-            if self.exit_code() is not None:
-                return
-            os.killpg(self.pid, sig)
-            try:
-                self._popen.wait(patience_s)
-            except subprocess.TimeoutExpired:
-                pass
+        stop_child(self._popen)
 
 
 class RosGraph:
@@ -117,21 +94,12 @@ class RosGraph:
 
     def start_master(self) -> None:
         """Start the master: on a port that the kernel picks, a later one on the port of the first."""
-        port = self.uri.rstrip("/").rpartition(":")[2] or "0"
+        port = self.uri.rstrip("/").rpartition(":")[2] or 0
         # alive() finds what speaks to a master by this variable; the first master has none of this graph either
         env = {name: value for name, value in self.env.items() if name != "ROS_MASTER_URI"}
         # The master complains of each node that goes without a word, as probes and killed nodes do: into a file.
-        with (self.folder / "master.log").open("ab") as complaints:
-            self._master = subprocess.Popen(
-                ["/usr/bin/python3", "-c", MASTER, port],
-                env=env,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=complaints,
-                text=True,
-                start_new_session=True,
-            )
-        self.uri = self._master.stdout.readline().strip()
+        self._master = RosMaster(env, port, self.folder / "master.log")
+        self.uri = self._master.uri
 
     def spawn(self, *command: str, **env: str) -> Process:
         """Start a command, with more environment if wanted."""
@@ -190,8 +158,8 @@ class RosGraph:
 
     def close(self) -> Dict[int, str]:
         """End everything; returns what was still there after all was asked to stop."""
-        for process in reversed(self.processes):
-            process.stop()
+        for child in reversed(self.processes):
+            child.stop()
         deadline = time.monotonic() + 5.0
         while self.alive() and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -206,10 +174,4 @@ class RosGraph:
 
     def end_master(self) -> None:
         """End the master alone."""
-        self._master.stdin.close()
-        try:
-            self._master.wait(5)
-        except subprocess.TimeoutExpired:
-            self._master.kill()
-            self._master.wait()
-        self._master.stdout.close()
+        self._master.stop()

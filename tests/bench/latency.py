@@ -22,11 +22,8 @@ from ardee_bridge.nodes.settings import KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Message
 from ardee_bridge.wire.udp import BUFFER_BYTES, MAX_DATAGRAM, open_socket
+from ardee_common.process import RosMaster, start_child
 
-MASTER = (
-    "import sys, rosmaster.master as m; x = m.Master(0); x.start();"
-    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
-)
 START_LIMIT_S = 30.0
 # Time for the last messages to arrive.
 SETTLE_S = 0.5
@@ -47,16 +44,16 @@ class Stream(NamedTuple):
     topic: str
     component_id: int
     rate_hz: float
-    image_format: str = ""
+    format: str = ""
 
     @property
     def key(self) -> Key:
         return (int(KINDS[self.kind]), self.component_id)
 
 
-def row_of(kind: str, image_format: str) -> str:
+def row_of(kind: str, format: str) -> str:
     """In the table: kind of sensor, of images the format too."""
-    return f"{image_format} {kind}" if image_format else kind
+    return f"{format} {kind}" if format else kind
 
 
 class Datagram(NamedTuple):
@@ -98,40 +95,25 @@ def own_master() -> Iterator[Dict[str, str]]:
     """Environment of a ROS master of one's own."""
     env = dict(os.environ, ROS_IP="127.0.0.1")
     env.pop("ROS_HOSTNAME", None)
-    with subprocess.Popen(
-        ["/usr/bin/python3", "-c", MASTER],
-        env=env,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        start_new_session=True,
-    ) as master:
-        try:
-            yield dict(env, ROS_MASTER_URI=master.stdout.readline().strip())
-        finally:
-            master.stdin.close()
+    master = RosMaster(env)
+    try:
+        yield dict(env, ROS_MASTER_URI=master.uri)
+    finally:
+        master.stop()
 
 
 @contextlib.contextmanager
 def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subprocess.Popen]:
     """A node of this package while the block runs."""
     command = ["rosrun", "ardee_bridge", name, *parameters]
-    process = subprocess.Popen(
-        command,
-        env=env,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    child = start_child(command, env, stderr=subprocess.PIPE, text=True)
     try:
-        yield process
+        yield child
     finally:
-        if process.poll() is None:
-            os.killpg(process.pid, signal.SIGINT)
-        _, complaints = process.communicate(timeout=START_LIMIT_S)
-        if process.returncode != 0:
+        if child.poll() is None:
+            os.killpg(child.pid, signal.SIGINT)
+        _, complaints = child.communicate(timeout=START_LIMIT_S)
+        if child.returncode != 0:
             print(complaints)
 
 
@@ -232,8 +214,8 @@ def server_arguments(peer: str, sources: Sequence[Union[Stream, Source]]) -> Lis
     for source in sources:
         values = dict(name=source.topic, kind=source.kind, topic=source.topic)
         values["component_id"] = source.component_id
-        if source.image_format:
-            values["format"] = source.image_format
+        if source.format:
+            values["format"] = source.format
         if isinstance(source, Source) and source.velocity_topic:
             values["velocity_topic"] = source.velocity_topic
         items.append(values)

@@ -108,7 +108,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     ]
     raw = {}  # type: Dict[int, Tuple[Any, Any]]
     for index, stream in enumerate(streams):
-        if stream.image_format == "jpeg":  # as a camera's driver, which offers both
+        if stream.format == "jpeg":  # as a camera's driver, which offers both
             raw[index] = publishers[index], messages[index]
             messages[index] = latency_messages.compressed(messages[index])
             publishers[index] = rospy.Publisher(
@@ -181,7 +181,7 @@ def _by_kind(
 ) -> Dict[str, Spread]:
     latencies, sent = {}, {}  # type: Dict[str, List[int]], Dict[str, int]
     for stream in streams:
-        row = row_of(stream.kind, stream.image_format)
+        row = row_of(stream.kind, stream.format)
         published, arrived = times[stream.key], arrivals.get(stream.key, {})
         sent[row] = sent.get(row, 0) + len(published)
         latencies.setdefault(row, []).extend(

@@ -5,12 +5,11 @@ Both times are the kernel's: the first is that of a captured packet, the second 
 again by its stamp, which the wire carries as a time stamp message.
 """
 import contextlib
+import dataclasses
 import os
-import signal
-import subprocess
 import time
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Set
+from typing import Any, Dict, Iterator, List
 
 import rosgraph
 from bench import capture, latency, latency_floor
@@ -19,6 +18,7 @@ from bench.capture import Times
 from ardee_bridge.nodes.settings import KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
+from ardee_common.process import start_child, stop_child
 
 START_LIMIT_S = 120.0
 WARM_UP_S = 6.0  # beside programs that keep all processors busy, too
@@ -29,22 +29,11 @@ ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "
 
 @contextlib.contextmanager
 def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
-    process = subprocess.Popen(
-        command,
-        env=env,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
+    child = start_child(command, env)
     try:
         yield
     finally:
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-            if process.poll() is None:
-                os.killpg(process.pid, number)
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(20.0)
+        stop_child(child)
 
 
 def _wait_for(env: Dict[str, str], name: str) -> None:
@@ -101,23 +90,22 @@ def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
 
 def _topic(source: Source) -> str:
     """Where the sensor server reads it: the robot's cameras compress their images themselves."""
-    return "/" + (source.of_camera() if source.image_format == "jpeg" else source).topic
+    return "/" + (source.of_camera() if source.format == "jpeg" else source).topic
 
 
-def _published(env: Dict[str, str]) -> Set[str]:
-    """Topics that somebody publishes."""
+def _await_topics(env: Dict[str, str], topics: List[str], reader: str = "") -> None:
+    """Returns once somebody publishes all of these or, if a reader is named, once it has subscribed to them."""
     master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
-    return {topic for topic, _ in master.getSystemState()[0]}
-
-
-def _await_robot(env: Dict[str, str], topics: List[str]) -> None:
-    """Until it publishes all of these, which it makes known one after the other."""
     deadline = time.monotonic() + START_LIMIT_S
-    for topic in topics:
-        while topic not in _published(env):
-            if time.monotonic() > deadline:
-                raise TimeoutError(f"the simulated robot does not publish {topic}")
-            time.sleep(0.2)
+    missing = set(topics)
+    while missing:
+        published, subscribed, _ = master.getSystemState()
+        listed = subscribed if reader else published
+        missing -= {topic for topic, nodes in listed if not reader or reader in nodes}
+        if missing and time.monotonic() > deadline:
+            verb = f"{reader} does not read" if reader else "the simulated robot does not publish"
+            raise TimeoutError(f"{verb} {', '.join(sorted(missing))}")
+        time.sleep(0.2)
 
 
 def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[str, latency.Spread]:
@@ -126,7 +114,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
     And the bare forwarder's in the same time.
     """
     sources = [
-        source._replace(image_format=image_format) if source.image_format == "jpeg" else source
+        dataclasses.replace(source, format=image_format) if source.format == "jpeg" else source
         for source in sources
         if image_format or not source.is_frame
     ]
@@ -150,7 +138,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
         robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
         stack.enter_context(_launched(env, *robot))
         topics = {source.name: _topic(source) for source in sources}
-        _await_robot(env, list(topics.values()))
+        _await_topics(env, list(topics.values()))
         # all masters' nodes share the loopback that packets are captured on
         name = f"/latency_server_{os.getpid()}"
         watcher, from_watcher = latency.in_process(env, capture.watch, name)
@@ -160,6 +148,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
         server = latency.server_arguments(peer, sources)
         named = f"__name:={name[1:]}"
         stack.enter_context(latency.node(env, "sensor_server_node", named, *server))
+        _await_topics(env, list(topics.values()), name)
         time.sleep(WARM_UP_S)
         begin_ns = time.time_ns()
         end_ns = begin_ns + round(seconds * 1e9)
@@ -181,8 +170,8 @@ def _by_row(
     sources: List[Source], published: Dict[str, Times], arrived: Dict[latency.Key, Times]
 ) -> Dict[str, latency.Spread]:
     found = {}
-    for row in dict.fromkeys(latency.row_of(s.kind, s.image_format) for s in sources):
-        like = [s for s in sources if latency.row_of(s.kind, s.image_format) == row]
+    for row in dict.fromkeys(latency.row_of(s.kind, s.format) for s in sources):
+        like = [s for s in sources if latency.row_of(s.kind, s.format) == row]
         before = [published[source.name] for source in like]
         keys = [(int(KINDS[source.kind]), source.component_id) for source in like]
         found[row] = _spread(before, [arrived.get(key, {}) for key in keys])

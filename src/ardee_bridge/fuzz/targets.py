@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Targets of scripts/fuzz in this package: each takes any bytes and raises only what is a finding."""
 import socket
+import tempfile
+from pathlib import Path
 from typing import Callable, Dict, Iterator, List, Tuple
-
-import yaml
 
 from ardee_bridge.nodes.controls import ControlsClient, Motion
 from ardee_bridge.nodes.counters import Counters
-from ardee_bridge.nodes.settings import SettingError, read_controls, read_server
+from ardee_bridge.nodes.settings import ControlSettings, ServerSettings
 from ardee_bridge.wire import chunks, codec
 from ardee_bridge.wire.pairing import MAX_SENDERS, Pairer
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import build, from_values, read_yaml_lines
+from ardee_common.errors import GeneratorError
 
 _SETTINGS = dict(
     bind_address="127.0.0.1",
@@ -24,6 +26,8 @@ _SETTINGS = dict(
 )
 _KINDS = tuple(codec.DATA_STRUCTS)
 _STEP_S = 0.01
+_FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
+_FILE = Path(_FOLDER.name) / "input.yaml"
 
 
 def codec_of_all_structs(data: bytes) -> None:
@@ -87,7 +91,7 @@ class _Bench:
         self.socket = open_socket("127.0.0.1", 0)
         self.senders = [open_socket("127.0.0.1", 0) for _ in range(4)]
         peers = [f"127.0.0.1:{sender.getsockname()[1]}" for sender in self.senders[:3]]
-        self.settings = read_controls(dict(_SETTINGS, peers=peers))
+        self.settings = from_values(ControlSettings, dict(_SETTINGS, peers=peers))
 
     def run(self, data: bytes) -> None:
         """Let the client receive what the bytes say, each datagram a moment after the one before."""
@@ -154,16 +158,14 @@ def frames(data: bytes) -> None:
 
 
 def settings(data: bytes) -> None:
-    """Settings of both nodes, as a YAML file or the parameter server has them."""
-    try:
-        values = yaml.safe_load(data)
-    except (yaml.YAMLError, ValueError, RecursionError):
-        return
-    for read in (read_server, read_controls):
-        try:
-            read(values)
-        except SettingError:
-            pass
+    """Settings of both nodes, from a YAML file and from the parameter server."""
+    _FILE.write_bytes(data)
+    for kind in (ServerSettings, ControlSettings):
+        for read in (build, from_values):
+            try:
+                read(kind, read_yaml_lines(_FILE))
+            except GeneratorError:
+                pass
 
 
 TARGETS: Dict[str, Callable[[bytes], None]] = {

@@ -8,11 +8,12 @@ from sensor_msgs.msg import CompressedImage, Image
 
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.sensor_server import SensorServer
-from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.nodes.settings import ServerSettings
 from ardee_bridge.nodes.subscriptions import PATIENCE_S, CameraTopics
 from ardee_bridge.wire import chunks, codec
 from ardee_bridge.wire.pairing import Pairer
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import from_values
 
 DROPPED = "sensor messages that the wire cannot carry"
 
@@ -47,7 +48,7 @@ class Bench:
         peers = [dict(address="127.0.0.1", port=port, data_types=["all"])]
         values = dict(bind_address="127.0.0.1", port=0, allowed_clients=[], max_clients=0)
         values.update(client_lease_s=1.0, multicast_ttl=0)
-        settings = read_server(dict(values, sources=sources, peers=peers))
+        settings = from_values(ServerSettings, dict(values, sources=sources, peers=peers))
         self.raw, self.said = settings.sources[0], []
         self.compressed = self.raw.of_camera()
         self.counters = Counters(self.said.append)

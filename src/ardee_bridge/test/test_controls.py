@@ -8,9 +8,10 @@ import pytest
 
 from ardee_bridge.nodes.controls import STANDSTILL, ControlsClient, Motion, to_motion
 from ardee_bridge.nodes.counters import Counters
-from ardee_bridge.nodes.settings import read_controls
+from ardee_bridge.nodes.settings import ControlSettings
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import from_values
 
 STAMPS_BEGIN_S = 0.2  # so long after a first socket asked, Linux begins to take times of arrival
 VALUES = dict(
@@ -31,7 +32,7 @@ class Bench:
 
     def __init__(self, **values):
         self.now_s, self.motions, self.pauses, self.warnings = 0.0, [], [], []
-        settings = read_controls(dict(VALUES, **values))
+        settings = from_values(ControlSettings, dict(VALUES, **values))
         self.server = open_socket(settings.bind_address, settings.port)
         self.peer = open_socket("127.0.0.1", 0)
         self.peer.settimeout(5.0)
@@ -68,7 +69,7 @@ def test_limits(speed, yaw_rate, multiplier, expected):
     commands = codec.MotionCommands(
         normalized_speed=speed, normalized_yaw_rate=yaw_rate, multiplier=multiplier
     )
-    assert to_motion(commands, read_controls(VALUES)) == pytest.approx(expected)
+    assert to_motion(commands, from_values(ControlSettings, VALUES)) == pytest.approx(expected)
 
 
 def test_a_command_moves_and_its_end_stops(bench):

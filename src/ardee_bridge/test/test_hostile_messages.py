@@ -7,9 +7,10 @@ from sensor_msgs.msg import Image, Imu, PointCloud2, PointField
 
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.sensor_server import SensorServer
-from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.nodes.settings import ServerSettings
 from ardee_bridge.wire import chunks, codec
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import from_values
 
 DROPPED = "sensor messages that the wire cannot carry"
 SIZES = (0, 1, 2, 3, 12, 16, 255, 65500, 65501, 2**31 - 1, 2**31, 2**32 - 1)
@@ -30,7 +31,7 @@ class Bench:
         peers = [dict(address="127.0.0.1", port=port, data_types=["all", "time"])]
         values = dict(bind_address="127.0.0.1", port=0, allowed_clients=[], max_clients=0)
         values.update(client_lease_s=1.0, multicast_ttl=0)
-        settings = read_server(dict(values, sources=sources, peers=peers))
+        settings = from_values(ServerSettings, dict(values, sources=sources, peers=peers))
         self._sources = {source.name: source for source in settings.sources}
         self.counters = Counters(self.said.append)
         self._server = SensorServer(settings, self._socket, self.counters)

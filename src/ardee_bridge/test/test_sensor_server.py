@@ -10,10 +10,11 @@ from sensor_msgs.msg import Image, Imu
 from ardee_bridge.nodes import convert
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.sensor_server import RateLimit, SensorServer
-from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.nodes.settings import ServerSettings
 from ardee_bridge.wire import chunks, codec
 from ardee_bridge.wire.pairing import Pairer
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import from_values
 from ardee_msgs.msg import Battery
 
 D = codec.DataType
@@ -39,7 +40,9 @@ class Bench:
 
     def __init__(self, peers=(), **values):
         self.now_s, self.sockets, self.changes = 0.0, [], 0
-        self.settings = read_server(dict(VALUES, sources=SOURCES, peers=list(peers), **values))
+        self.settings = from_values(
+            ServerSettings, dict(VALUES, sources=SOURCES, peers=list(peers), **values)
+        )
         self.server_socket = open_socket("127.0.0.1", 0)
         self.counters = Counters(lambda text: None)
         self.server = SensorServer(

@@ -12,8 +12,9 @@ from sensor_msgs.msg import Image, Imu
 
 from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.sensor_server import SensorServer
-from ardee_bridge.nodes.settings import read_server
+from ardee_bridge.nodes.settings import ServerSettings
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.config import from_values
 
 CLONE_NEWNET = 0x40000000  # <sched.h>
 PORT, GROUP = 30000, "239.7.7.7"
@@ -92,7 +93,7 @@ def settings_for(peer, source):
     values = dict(bind_address=SIMULATOR, port=0, allowed_clients=[TARGET], max_clients=0)
     values.update(client_lease_s=30.0, multicast_ttl=1)
     peers = [dict(address=peer, port=PORT, data_types=[source["kind"]])]
-    return read_server(dict(values, peers=peers, sources=[source]))
+    return from_values(ServerSettings, dict(values, peers=peers, sources=[source]))
 
 
 def sent_to(peer, hosts, command):

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The configuration reader names the line, the unknown key and the nearest known one."""
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Tuple
 
 import pytest
 
-from ardee_common.config import build, read_yaml_lines
+from ardee_common.config import build, from_values, read_yaml_lines
 from ardee_common.errors import GeneratorError
-from ardee_common.options import option
+from ardee_common.options import option, ros_name
 
 
 @dataclass(frozen=True)
@@ -45,3 +46,54 @@ def test_bad_files(text: str, message: str, tmp_path: Path) -> None:
     with pytest.raises(GeneratorError) as refused:
         read(tmp_path, text)
     assert str(refused.value) == f"{tmp_path}/ditch.yaml{message}"
+
+
+def test_a_few_aliases_are_read(tmp_path: Path) -> None:
+    assert read(tmp_path, "depth_m: &depth 2\ncount: *depth\n") == Ditch(2.0, 2)
+
+
+def test_aliases_of_aliases_are_refused(tmp_path: Path) -> None:
+    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
+    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
+    with pytest.raises(
+        GeneratorError, match="found aliases that stand for more than 100000 values, expected fewer"
+    ):
+        read(tmp_path, "\n".join(lines))
+
+
+@pytest.mark.parametrize("text", ["", "- 1\n", "a: [", "\x00"])
+def test_files_that_are_no_mapping(text: str, tmp_path: Path) -> None:
+    with pytest.raises(GeneratorError, match="ditch.yaml"):
+        read(tmp_path, text)
+
+
+@dataclass(frozen=True)
+class Field:
+    """Groups of options, and an option with a form of its own."""
+
+    topic: str = ros_name()
+    ditches: Tuple[Ditch, ...] = field(default=(), metadata={"group": Ditch})
+
+
+def test_values_that_stand_in_no_file() -> None:
+    made = from_values(Field, {"topic": "/a/b", "ditches": [{}, {"count": 2}]})
+    assert made == Field("/a/b", (Ditch(), Ditch(count=2)))
+
+
+@pytest.mark.parametrize(
+    "values, message",
+    [
+        (5, "found 5, expected a mapping of keys to values"),
+        ({}, "missing key 'topic'"),
+        ({"topic": "a b"}, "topic: found 'a b', expected a ROS name such as ardee/gps"),
+        (
+            {"topic": "a", "ditches": [{}, {"cuont": 1}]},
+            "ditches[1]: unknown key 'cuont', known: depth_m, count; did you mean 'count'?",
+        ),
+        ({"topic": "a", "ditches": {}}, "ditches: found {}, expected a list"),
+    ],
+)
+def test_bad_values_that_stand_in_no_file(values: Any, message: str) -> None:
+    with pytest.raises(GeneratorError) as refused:
+        from_values(Field, values)
+    assert str(refused.value) == message

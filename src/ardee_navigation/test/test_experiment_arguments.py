@@ -15,15 +15,15 @@ HINT = " (--help lists all arguments)"
     [
         (
             ["--runs", "x"],
-            "argument --runs: found x, expected a whole number from 1 to 10000" + HINT,
+            "argument --runs: found 'x', expected a whole number from 1 to 10000" + HINT,
         ),
         (
             ["--runs", "0"],
-            "argument --runs: found 0, expected a whole number from 1 to 10000" + HINT,
+            "argument --runs: found '0', expected a whole number from 1 to 10000" + HINT,
         ),
         (
             ["--seed", "1.5"],
-            "argument --seed: found 1.5, expected a whole number from 0 to 2147483647" + HINT,
+            "argument --seed: found '1.5', expected a whole number from 0 to 2147483647" + HINT,
         ),
         (
             ["--runs", "2", "--seed", "2147483647"],

@@ -4,7 +4,8 @@ import pathlib
 import re
 from typing import Any, Dict, List, NamedTuple
 
-import yaml
+from ardee_common.config import read_yaml_lines
+from ardee_common.errors import GeneratorError
 
 
 def _package_folder() -> pathlib.Path:
@@ -40,15 +41,15 @@ def devices() -> List[str]:
 
 
 def device_file(device: str, folder: pathlib.Path = CONFIG) -> pathlib.Path:
-    """The device's file; a ValueError names the known devices."""
+    """The device's file; a GeneratorError names the known devices."""
     if device not in devices():
-        raise ValueError(f"unknown sensor '{device}'; expected one of: {', '.join(devices())}")
+        raise GeneratorError(f"unknown sensor '{device}'; expected one of: {', '.join(devices())}")
     return folder / f"{device}.yaml"
 
 
 def load(device: str) -> Dict[str, Any]:
     """The device's file as a dictionary."""
-    return yaml.safe_load(device_file(device).read_text())
+    return read_yaml_lines(device_file(device))
 
 
 def read_numbers(path: pathlib.Path) -> List[Number]:
@@ -59,7 +60,7 @@ def read_numbers(path: pathlib.Path) -> List[Number]:
             continue
         match = LINE.match(line)
         if not match:
-            raise ValueError(
+            raise GeneratorError(
                 f"{path}:{number}: found {line!r}, expected `key: value  # comment [mark]`"
             )
         if match["key"] in TEXTS:
@@ -72,7 +73,7 @@ def read_numbers(path: pathlib.Path) -> List[Number]:
 
 def sources() -> Dict[str, str]:
     """What each mark means; of a mark of several words (`thesis A.12`) the first is looked up."""
-    return yaml.safe_load((CONFIG / "sources.yaml").read_text())
+    return read_yaml_lines(CONFIG / "sources.yaml")
 
 
 def expected_topics(device: str, name: str) -> Dict[str, List[str]]:

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """Write the meshes of the sensors: `make_meshes.py [folder]`, by default the package's meshes folder."""
-import argparse
 import pathlib
 
 import mesh_cameras
@@ -9,6 +8,8 @@ import mesh_lidars
 import mesh_parts
 from device_numbers import PACKAGE
 from mesh_shapes import write_all
+
+from ardee_common.cli import Parser
 
 
 def meshes() -> dict:
@@ -18,7 +19,7 @@ def meshes() -> dict:
 
 def main() -> None:
     """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=PACKAGE / "meshes")
     write_all(meshes(), parser.parse_args().folder)
 

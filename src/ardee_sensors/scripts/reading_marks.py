@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Markers of readings that rviz has no display for: fixes, inertial units, encoders, batteries."""
-import math
 from typing import Any, Callable, Dict, List, Sequence, Tuple
 
 from geometry_msgs.msg import Point, Quaternion
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker
+
+from ardee_common.geodesy import to_metres
 
 WORLD = "world"
 TEXT_HEIGHT_M = 0.045  # of a capital letter
@@ -16,10 +17,6 @@ FORCE_SCALE_M = 0.025  # length of an arrow, for each m/s2
 RATE_SCALE_M = 0.3  # for each rad/s
 MOST_DOTS = 300
 RED, GREEN, WHITE = (0.9, 0.2, 0.1), (0.2, 0.8, 0.3), (1.0, 1.0, 1.0)
-# WGS-84: NIMA TR8350.2, third edition
-EQUATOR_M = 6378137.0
-FLATTENING = 1 / 298.257223563
-ECCENTRICITY_2 = FLATTENING * (2 - FLATTENING)
 
 
 def _marker(number: int, kind: int, frame: str, color: Tuple[float, float, float]) -> Marker:
@@ -54,18 +51,10 @@ def _three(vector: Any, digits: int) -> str:
 
 
 def local_m(fix: Any, numbers: Dict[str, Any]) -> Point:
-    """East, north, up of a fix from the reference in the numbers, on the ellipsoid's radii there."""
-    latitude_rad = math.radians(numbers["reference_latitude_deg"])
-    squared = 1 - ECCENTRICITY_2 * math.sin(latitude_rad) ** 2
-    across_m = EQUATOR_M / math.sqrt(squared)
-    along_m = across_m * (1 - ECCENTRICITY_2) / squared
-    return Point(
-        math.radians(fix.longitude - numbers["reference_longitude_deg"])
-        * across_m
-        * math.cos(latitude_rad),
-        math.radians(fix.latitude - numbers["reference_latitude_deg"]) * along_m,
-        fix.altitude - numbers["reference_altitude_m"],
-    )
+    """Returns east, north, up of a fix from the reference in the numbers."""
+    origin_deg = numbers["reference_latitude_deg"], numbers["reference_longitude_deg"]
+    east_m, north_m = to_metres(fix.latitude, fix.longitude, origin_deg)
+    return Point(east_m, north_m, fix.altitude - numbers["reference_altitude_m"])
 
 
 class FixMarks:

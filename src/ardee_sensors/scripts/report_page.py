@@ -11,6 +11,8 @@ from typing import List, Tuple
 from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
 from PIL import Image, ImageDraw
 
+from ardee_common.errors import GeneratorError
+
 POST_HEIGHT_M = 0.6
 WORLD = """<?xml version="1.0"?>
 <sdf version="1.5"><world name="table">
@@ -61,14 +63,10 @@ UNITS = {
 }
 
 
-class ReportError(Exception):
-    """The report cannot be made; the message says why."""
-
-
 def _run(command: List[str]) -> str:
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
-        raise ReportError(f"{' '.join(command[:3])} failed: {done.stderr.strip()}")
+        raise GeneratorError(f"{' '.join(command[:3])} failed: {done.stderr.strip()}")
     return done.stdout
 
 
@@ -116,7 +114,9 @@ def _source_text(number: Number, known: dict) -> str:
 def _explained_mark(number: Number, mark: str, known: dict) -> str:
     first, _, rest = mark.partition(" ")
     if first not in known:
-        raise ReportError(f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}")
+        raise GeneratorError(
+            f"{number.key}: unknown mark [{mark}]; expected one of {sorted(known)}"
+        )
     meaning = html.escape(known[first])
     return f'<a href="#source-{first}" title="{meaning}">{html.escape(first)}</a> {rest}'.strip()
 
@@ -170,12 +170,12 @@ def page(shown: List[str]) -> str:
 
 
 def make_writable(folder: pathlib.Path) -> None:
-    """The folder is there and takes a file, or a ReportError says why not: before minutes of drawing."""
+    """The folder is there and takes a file, or a GeneratorError says why not: before minutes of drawing."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
-        raise ReportError(
+        raise GeneratorError(
             f"found --output {folder} ({error.strerror}), expected a folder that can be written"
         ) from None
 

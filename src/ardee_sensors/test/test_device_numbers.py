@@ -6,6 +6,8 @@ import pathlib
 import pytest
 from device_numbers import CONFIG, SHARED, TEXTS, devices, load, read_numbers, sources
 
+from ardee_common.errors import GeneratorError
+
 COUNTS = ("samples", "vertical_samples", "sub_rays")
 OF_FULL_SCALE = ("noise_std",)  # of an image's channels: no unit
 MIXED = ("noise",)  # of an IMU's quaternion, rad/s and m/s2 alike
@@ -88,12 +90,12 @@ def test_every_source_is_cited():
 def test_a_line_that_is_no_number_is_named(tmp_path: pathlib.Path):
     bad = tmp_path / "bad.yaml"
     bad.write_text("rate_hz: 40  # [N]\nrate hz 30\n")
-    with pytest.raises(ValueError, match=r"bad.yaml:2: found 'rate hz 30'"):
+    with pytest.raises(GeneratorError, match=r"bad.yaml:2: found 'rate hz 30'"):
         read_numbers(bad)
 
 
 def test_an_unknown_device_is_refused_with_the_known_ones():
     with pytest.raises(
-        ValueError, match="unknown sensor 'hokuyo'; expected one of: .*hokuyo_ust10lx"
+        GeneratorError, match="unknown sensor 'hokuyo'; expected one of: .*hokuyo_ust10lx"
     ):
         load("hokuyo")

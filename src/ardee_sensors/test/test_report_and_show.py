@@ -15,6 +15,8 @@ from PIL import Image
 from report_page import chosen, contact_sheet, page, with_unit
 from xacro_runner import expand, ros_environment, run_xacro
 
+from ardee_common.errors import GeneratorError
+
 POST = PACKAGE / "robots/show_sensor.urdf.xacro"
 ONE_OF_A_KIND = sorted({load(device)["kind"]: device for device in devices()}.values()) + [
     "encoder"
@@ -121,7 +123,7 @@ def test_a_place_that_cannot_be_written_is_said_before_any_picture(
     (tmp_path / "a_file").write_text("")
     folder = tmp_path / place
     expected = re.escape(f"found --output {folder} (") + ".*expected a folder that can be written"
-    with pytest.raises(report_page.ReportError, match=expected):
+    with pytest.raises(GeneratorError, match=expected):
         report_page.write_report(folder, ["sonar"], tmp_path)
     assert not drawn
 
@@ -138,7 +140,7 @@ def test_what_is_asked_for_is_checked_first():
     assert chosen([]) == devices()
     assert chosen(["sonar"]) == ["sonar"]
     assert chosen(["imu_terra", "gps_with_mast"]) == ["imu_terra", "gps_with_mast", "imu", "gps"]
-    with pytest.raises(ValueError, match="unknown sensor 'sonnar'"):
+    with pytest.raises(GeneratorError, match="unknown sensor 'sonnar'"):
         chosen(["sonnar"])
 
 
@@ -180,7 +182,7 @@ def test_two_words_for_a_sensor_are_refused_as_one_name():
 def test_ctrl_c_amid_the_imports_ends_it_without_a_word(script: str, tmp_path: pathlib.Path):
     """What each imports of others is here a module that sends it the signal."""
     interrupt = "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
-    for name in ("roslib", "yaml"):
+    for name in ("roslib", "ardee_common"):
         (tmp_path / f"{name}.py").write_text(interrupt)
     command = ["/usr/bin/python3", str(PACKAGE / "scripts" / script), "sonar"]
     environment = dict(ros_environment(), PYTHONPATH=str(tmp_path))

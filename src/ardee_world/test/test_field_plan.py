@@ -4,7 +4,6 @@
 import numpy as np
 import pytest
 
-from ardee_common.geodesy import to_degrees
 from ardee_world.config import Plots
 from ardee_world.layout import to_world
 from ardee_world.plots import plan_centres, row_positions, row_starts
@@ -54,14 +53,3 @@ def test_plots_are_spaced_as_asked():
 def test_row_shorter_than_a_spacing_holds_one_stalk():
     assert Plots(row_length_m=0.1).stalks_per_row() == 1
     assert Plots(row_length_m=0.332).stalks_per_row() == 3
-
-
-def test_degrees_against_the_length_of_a_degree():
-    # WGS-84: one degree of latitude is 111,132.95 - 559.85 cos(2 phi) m, of longitude 111,412.88 cos(phi) - ...
-    lat = to_degrees(np.array([0.0]), np.array([111.0]), (40.0, -88.0))[0, 0] - 40.0
-    lon = to_degrees(np.array([85.0]), np.array([0.0]), (40.0, -88.0))[0, 1] + 88.0
-    phi = np.radians(40.0)
-    per_latitude = 111132.92 - 559.82 * np.cos(2 * phi) + 1.175 * np.cos(4 * phi)
-    per_longitude = 111412.84 * np.cos(phi) - 93.5 * np.cos(3 * phi)
-    assert lat == pytest.approx(111.0 / per_latitude, rel=1e-5)
-    assert lon == pytest.approx(85.0 / per_longitude, rel=1e-5)

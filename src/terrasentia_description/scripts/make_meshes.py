@@ -4,13 +4,14 @@
 
 The shapes are our own; their dimensions are those of config/ts*_config.urdf.xacro, where the sources are.
 """
-import argparse
 import pathlib
 from dataclasses import dataclass
 
 import numpy as np
 import robot_bodies as bodies
 from robot_bodies import shapes
+
+from ardee_common.cli import Parser
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1]
 
@@ -127,7 +128,7 @@ def meshes() -> dict:
 
 def main() -> None:
     """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = Parser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=PACKAGE / "meshes")
     folder = parser.parse_args().folder
     for generation, parts in meshes().items():

@@ -8,6 +8,9 @@ import subprocess
 
 import pytest
 
+from ardee_common.config import from_values
+from ardee_common.errors import GeneratorError
+
 SCRIPT = pathlib.Path(__file__).resolve().parents[1] / "scripts/keyboard_teleop"
 
 
@@ -73,9 +76,9 @@ def test_without_a_key_there_is_none(teleop):
 
 @pytest.mark.parametrize("value", ["fast", -0.1, float("nan"), float("inf"), None])
 def test_a_parameter_that_is_no_number_is_named(teleop, value):
-    assert teleop.number("speed", 1) == 1.0
-    with pytest.raises(ValueError, match="~speed: found .*, expected a number from 0"):
-        teleop.number("speed", value)
+    assert from_values(teleop.Settings, {"speed": 1}) == teleop.Settings(speed=1.0)
+    with pytest.raises(GeneratorError, match="speed: found .*, expected at least 0"):
+        from_values(teleop.Settings, {"speed": value})
 
 
 @pytest.mark.parametrize("word", ["-h", "--help"])

@@ -5,7 +5,7 @@ import dataclasses
 import difflib
 import re
 from pathlib import Path
-from typing import Any, Dict, Iterable
+from typing import Any, Dict, Iterable, Union
 
 import yaml
 
@@ -15,42 +15,60 @@ from ardee_common.options import kind_of, problem
 # libyaml's safe loader where PyYAML was built with it: ten times as fast, the same data
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _MAX_BYTES = 64 << 20
+_MAX_REPEATED = 100_000  # values that aliases may stand for, beside those that are written out
 # YAML 1.1 takes 1e-4 (without a dot) for a text; people mean the number.
 _EXPONENT = re.compile(r"[-+]?\d+[eE][-+]?\d+")
 
 
 class Mapping(dict):
-    """A YAML mapping; `line[key]` is where its key stands."""
+    """A mapping that knows its place: a file, where `line[key]` is the line of a key, or a path of keys."""
 
-    def __init__(self, path: Path, line: int) -> None:
+    def __init__(self, place: Union[Path, str], own_line: int = 0) -> None:
         super().__init__()
-        self.path, self.own_line, self.line = path, line, {}  # type: Path, int, Dict[str, int]
+        self.place, self.own_line = place, own_line
+        self.line: Dict[str, int] = {}
 
     def error(self, key: str, message: str) -> GeneratorError:
-        """An error at a key."""
-        return GeneratorError(f"{self.path}:{self.line.get(key, self.own_line)}: {message}")
+        """Returns an error at a key, or about the whole mapping."""
+        line = self.line.get(key, self.own_line)
+        where = f"{self.place}:{line}: " if line else f"{self.place}: " if self.place else ""
+        return GeneratorError(f"{where}{message}")
 
 
-def _plain(node: yaml.Node, path: Path, loader: yaml.SafeLoader, depth: int = 0) -> Any:
-    line = node.start_mark.line + 1
-    if depth > 20:
-        raise GeneratorError(f"{path}:{line}: found more than 20 levels, expected fewer")
-    if isinstance(node, yaml.MappingNode):
-        made = Mapping(path, line)
+class _Converter:
+    """Makes plain data of the nodes of a file; aliases may stand for a bounded number of values."""
+
+    def __init__(self, path: Path, loader: yaml.SafeLoader, most_values: int) -> None:
+        self._path, self._loader, self._values_left = path, loader, most_values
+
+    def convert(self, node: yaml.Node, depth: int = 0) -> Any:
+        """Returns the data of a node."""
+        line = node.start_mark.line + 1
+        if depth > 20:
+            raise GeneratorError(f"{self._path}:{line}: found more than 20 levels, expected fewer")
+        self._values_left -= 1
+        if self._values_left < 0:
+            found = f"found aliases that stand for more than {_MAX_REPEATED} values"
+            raise GeneratorError(f"{self._path}:{line}: {found}, expected fewer")
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node, depth)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.convert(item, depth + 1) for item in node.value]
+        if not node.style and _EXPONENT.fullmatch(node.value):
+            return float(node.value)
+        return self._loader.construct_object(node)
+
+    def _mapping(self, node: yaml.MappingNode, depth: int) -> Mapping:
+        made = Mapping(self._path, node.start_mark.line + 1)
         for key_node, value_node in node.value:
-            key, at = str(loader.construct_object(key_node)), key_node.start_mark.line + 1
+            key, at = str(self._loader.construct_object(key_node)), key_node.start_mark.line + 1
             if key in made:
                 raise GeneratorError(
-                    f"{path}:{at}: found key {key!r} a second time, first in line {made.line[key]}"
+                    f"{self._path}:{at}: found key {key!r} a second time, first in line {made.line[key]}"
                 )
             made.line[key] = at
-            made[key] = _plain(value_node, path, loader, depth + 1)
+            made[key] = self.convert(value_node, depth + 1)
         return made
-    if isinstance(node, yaml.SequenceNode):
-        return [_plain(item, path, loader, depth + 1) for item in node.value]
-    if not node.style and _EXPONENT.fullmatch(node.value):
-        return float(node.value)
-    return loader.construct_object(node)
 
 
 def read_yaml_lines(path: Path) -> Mapping:
@@ -58,10 +76,12 @@ def read_yaml_lines(path: Path) -> Mapping:
     try:
         if path.stat().st_size > _MAX_BYTES:
             raise GeneratorError(f"{path}: found more than {_MAX_BYTES} bytes, expected fewer")
-        loader = _LOADER(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        loader = _LOADER(text)
         try:
             node = loader.get_single_node()
-            data = _plain(node, path, loader) if node is not None else None
+            converter = _Converter(path, loader, len(text) + _MAX_REPEATED)
+            data = converter.convert(node) if node is not None else None
         finally:
             loader.dispose()
     except OSError as error:
@@ -82,8 +102,14 @@ def unknown_key(mapping: Mapping, key: str, known: Iterable[str]) -> GeneratorEr
 
 
 def value_of(cls: type, field: dataclasses.Field, mapping: Mapping, key: str) -> Any:
-    """The value of a key, checked against the field it is for."""
+    """Returns the value of a key, checked against the field that it is for, and converted."""
     value = mapping[key]
+    if "convert" in field.metadata:
+        try:
+            return field.metadata["convert"](value)
+        except ValueError:
+            expected = field.metadata["expected"]
+            raise mapping.error(key, f"{key}: found {value!r}, expected {expected}") from None
     expected = problem(cls, field, value)
     if expected:
         raise mapping.error(key, f"{key}: found {value!r}, expected {expected}")
@@ -111,11 +137,30 @@ def build(cls: type, mapping: Mapping) -> Any:
     for name, field in fields.items():
         is_needed = field.default is field.default_factory is dataclasses.MISSING
         if is_needed and name not in values:
-            raise GeneratorError(f"{mapping.path}:{mapping.own_line}: missing key {name!r}")
+            raise mapping.error("", f"missing key {name!r}")
     try:
         return cls(**values)
-    except GeneratorError as error:  # from a check of its own
-        raise GeneratorError(f"{mapping.path}:{mapping.own_line}: {error}") from error
+    except (GeneratorError, ValueError) as error:  # from a check of its own
+        raise mapping.error("", str(error)) from error
+
+
+def from_values(cls: type, values: Any) -> Any:
+    """Returns a dataclass of options from values that stand in no file, such as ROS parameters."""
+    if not isinstance(values, dict):
+        raise GeneratorError(f"found {values!r}, expected a mapping of keys to values")
+    return build(cls, _placed(values, ""))
+
+
+def _placed(value: Any, place: str) -> Any:
+    """Returns the value with all its mappings told their places, such as peers[0]."""
+    if isinstance(value, dict):
+        made = Mapping(place)
+        for key, item in value.items():
+            made[str(key)] = _placed(item, f"{place}.{key}" if place else str(key))
+        return made
+    if isinstance(value, list):
+        return [_placed(item, f"{place}[{number}]") for number, item in enumerate(value)]
+    return value
 
 
 def build_group(group: type, mapping: Mapping, key: str) -> Any:
@@ -137,4 +182,4 @@ def _items(mapping: Mapping, key: str) -> list:
 def _group(group: type, mapping: Mapping, key: str, value: Any) -> Any:
     if not isinstance(value, Mapping):
         raise mapping.error(key, f"{key}: found {value!r}, expected a mapping of keys to values")
-    return build(group, value)
+    return build(group if isinstance(group, type) else group(value), value)

@@ -1,23 +1,37 @@
 # SPDX-License-Identifier: MIT
-"""Local metres to latitude and longitude."""
+"""Local metres to latitude and longitude and back, by the radii of curvature of WGS-84; good to mm within 1 km."""
 
 from typing import Tuple
 
 import numpy as np
 
+# NIMA TR8350.2, third edition
 _WGS84_A_M = 6378137.0
 _WGS84_F = 1.0 / 298.257223563
+
+
+def _metres_per_degree(latitude_deg: float) -> Tuple[float, float]:
+    """Returns the lengths of a degree to the north and to the east."""
+    e2 = 2.0 * _WGS84_F - _WGS84_F**2
+    latitude = np.radians(latitude_deg)
+    squared = 1.0 - e2 * np.sin(latitude) ** 2
+    normal = _WGS84_A_M / np.sqrt(squared)
+    return np.radians(normal * (1.0 - e2) / squared), np.radians(normal * np.cos(latitude))
 
 
 def to_degrees(
     east_m: np.ndarray, north_m: np.ndarray, origin_deg: Tuple[float, float]
 ) -> np.ndarray:
-    """(n, 2) latitude and longitude by the radii of curvature of WGS-84 at the origin; good to mm within 1 km."""
-    latitude, longitude = origin_deg
-    e2 = 2.0 * _WGS84_F - _WGS84_F**2
-    sine = np.sin(np.radians(latitude))
-    normal = _WGS84_A_M / np.sqrt(1.0 - e2 * sine**2)
-    meridian = normal * (1.0 - e2) / (1.0 - e2 * sine**2)
-    lat = latitude + np.degrees(np.asarray(north_m) / meridian)
-    lon = longitude + np.degrees(np.asarray(east_m) / (normal * np.cos(np.radians(latitude))))
-    return np.column_stack((lat, lon))
+    """Returns (n, 2) latitudes and longitudes."""
+    north, east = _metres_per_degree(origin_deg[0])
+    latitude = origin_deg[0] + np.asarray(north_m) / north
+    longitude = origin_deg[1] + np.asarray(east_m) / east
+    return np.column_stack((latitude, longitude))
+
+
+def to_metres(
+    latitude_deg: float, longitude_deg: float, origin_deg: Tuple[float, float]
+) -> Tuple[float, float]:
+    """Returns the metres east and north of the origin."""
+    north, east = _metres_per_degree(origin_deg[0])
+    return (longitude_deg - origin_deg[1]) * east, (latitude_deg - origin_deg[0]) * north

@@ -3,13 +3,17 @@
 
 import dataclasses
 import math
+import re
 import sys
 import typing
-from typing import Any, Dict, Iterator, Optional, Tuple
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 from ardee_common.errors import GeneratorError
 
 _NONE = type(None)
+_KINDS = {str: "a text", bool: "true or false", dict: "a mapping of keys to values"}
+# Names of the ROS graph (wiki.ros.org/Names), relative ones among them.
+_ROS_NAME = re.compile(r"[~/]?[A-Za-z]\w*(/\w+)*", re.ASCII)
 # Suffix of a name to the unit in messages and help; the longest that fits counts.
 _UNITS = (
     ("_per_m2", "1/m^2"),
@@ -36,6 +40,24 @@ def option(
 def bounded(low: float, high: float, default: Any = dataclasses.MISSING) -> Any:
     """Returns an option with inclusive limits, which a file must give where it has no default."""
     return option(default, limits=(low, high))
+
+
+def converted(
+    convert: Callable[[Any], Any], expected: str, default: Any = dataclasses.MISSING
+) -> Any:
+    """Dataclass field that `convert` makes of the value in a file; it raises ValueError unless that is `expected`."""
+    return dataclasses.field(default=default, metadata={"convert": convert, "expected": expected})
+
+
+def ros_name(default: Any = dataclasses.MISSING) -> Any:
+    """Dataclass field for the name of a topic or a service, or the default."""
+
+    def checked(value: Any) -> str:
+        if value != default and not (isinstance(value, str) and _ROS_NAME.fullmatch(value)):
+            raise ValueError(value)
+        return value
+
+    return converted(checked, "a ROS name such as ardee/gps", default)
 
 
 def unit_of(name: str) -> str:
@@ -101,7 +123,7 @@ def problem(cls: type, field: dataclasses.Field, value: Any) -> Optional[str]:
         return None if all(isinstance(v, items[0]) for v in value) else "a list of texts"
     if metadata.get("choices") and value not in metadata["choices"]:
         return "one of " + ", ".join(metadata["choices"])
-    return None if isinstance(value, kind) else kind.__name__
+    return None if isinstance(value, kind) else _KINDS.get(kind, kind.__name__)
 
 
 def scalar_fields(cls: type) -> Iterator[dataclasses.Field]:

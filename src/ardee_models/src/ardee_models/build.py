@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from ardee_common.errors import GeneratorError
+from ardee_common.cli import Parser, run
 from ardee_common.output import model_directory, write_file
 from ardee_models.terrain import TerrainParams, generate_terrain
 from ardee_models.textures import media_textures
@@ -46,22 +46,21 @@ def copy_static(source: Path, models: Path) -> None:
             shutil.copytree(model, folder, dirs_exist_ok=True)
 
 
+def _build(args: argparse.Namespace) -> None:
+    copy_static(args.static, args.share / "models")
+    build_crops(args.share / "models")
+    build_terrains(args.share / "models")
+    build_media(args.share / "media")
+
+
 def main() -> int:
     """`python3 -m ardee_models.build --share DIR --static DIR`."""
-    parser = argparse.ArgumentParser(prog="ardee_models.build", description=__doc__)
+    parser = Parser(prog="ardee_models.build", description=__doc__)
     parser.add_argument(
         "--share", type=Path, required=True, help="folder to fill with models/ and media/"
     )
     parser.add_argument("--static", type=Path, required=True, help="folder of hand-kept models")
-    args = parser.parse_args()
-    try:
-        copy_static(args.static, args.share / "models")
-        build_crops(args.share / "models")
-        build_terrains(args.share / "models")
-        build_media(args.share / "media")
-    except GeneratorError as error:
-        parser.exit(2, f"{parser.prog}: {error}\n")
-    return 0
+    return run(parser, _build)
 
 
 if __name__ == "__main__":

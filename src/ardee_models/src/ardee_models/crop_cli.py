@@ -6,8 +6,7 @@ import os
 from pathlib import Path
 from typing import Optional, Sequence
 
-from ardee_common.cli import Parser, seed_number
-from ardee_common.errors import GeneratorError
+from ardee_common.cli import Parser, run, seed_number
 from ardee_models.crops import make_crop
 from ardee_models.lookup import search_path
 from ardee_models.params import known_species, load_species
@@ -56,13 +55,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _make(args: argparse.Namespace) -> Path:
+    output = args.output or default_output()
+    return make_crop(args.species, args.stage, args.seed, args.name, output, args.params)
+
+
 def generate_crop_main(arguments: Optional[Sequence[str]] = None) -> int:
     """`generate_crop --species corn --stage V8 --seed 7 --name my_corn`: prints the path written."""
-    try:
-        parser = _parser()
-        args = parser.parse_args(arguments)
-        output = args.output or default_output()
-        print(make_crop(args.species, args.stage, args.seed, args.name, output, args.params))
-    except GeneratorError as error:
-        Parser(prog="generate_crop").exit(2, f"generate_crop: {error}\n")
-    return 0
+    return run(_parser(), _make, arguments)

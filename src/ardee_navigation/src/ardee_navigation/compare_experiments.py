@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Command `compare_experiments`: what one experiment's runs differ by from another's over the same seeds."""
 import argparse
-import sys
 from pathlib import Path
 
-from ardee_common.errors import GeneratorError
+from ardee_common.cli import Parser, run
 from ardee_navigation.comparison import compare, read_runs
+
+
+def _compare(args: argparse.Namespace) -> str:
+    return compare(read_runs(args.one), read_runs(args.other), (str(args.one), str(args.other)))
 
 
 def main() -> int:
     """Exit code: 2 for bad input."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="compare_experiments",
         description="Pair the runs of two experiments by seed; print mean differences with 95 %% intervals.",
     )
@@ -20,10 +23,4 @@ def main() -> int:
     parser.add_argument(
         "other", type=Path, metavar="OTHER", help="another; differences are OTHER - ONE"
     )
-    args = parser.parse_args()
-    try:
-        print(compare(read_runs(args.one), read_runs(args.other), (str(args.one), str(args.other))))
-    except GeneratorError as error:
-        print(f"compare_experiments: {error}", file=sys.stderr)
-        return 2
-    return 0
+    return run(parser, _compare)

@@ -4,7 +4,6 @@ import contextlib
 import dataclasses
 import json
 import os
-import signal
 import socket
 import subprocess
 import tempfile
@@ -12,13 +11,14 @@ import threading
 import time
 from collections import deque
 from pathlib import Path
-from typing import Callable, Deque, Dict, List, Optional, Union
+from typing import Callable, Deque, List, Optional, Union
 
 import rospy
 import yaml
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
+from ardee_common.process import start_child, stop_child
 from ardee_navigation.answers import Answers
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.record import Record
@@ -29,7 +29,6 @@ from ardee_navigation.trial import Judge, Seen
 SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 ANSWER_WITHIN_S = 5.0  # of a scan; the first one waits for the bridge to start
 START_WITHIN_S = 30.0
-_ENDING = ((signal.SIGINT, 10.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
 
 
 def _free_ports(count: int) -> List[int]:
@@ -51,46 +50,15 @@ class Bridge:
         self.sensors_port, self.controls_port = _free_ports(2)
         server = ["sensor_server_node", f"_port:={self.sensors_port}", "_peers:=[]"]
         client = ["controls_client_node", f"_port:={self.controls_port}"]
-        self._nodes = [Process(["rosrun", "ardee_bridge", *node]) for node in (server, client)]
+        self._nodes = [start_child(["rosrun", "ardee_bridge", *node]) for node in (server, client)]
 
     def stop(self) -> None:
         """End them."""
         for node in self._nodes:
-            node.stop()
+            stop_child(node)
 
 
-class Process:
-    """A child that ends with the run."""
-
-    def __init__(
-        self,
-        command: List[str],
-        stdout: Optional[int] = subprocess.DEVNULL,
-        environment: Optional[Dict[str, str]] = None,
-    ) -> None:
-        self.popen = subprocess.Popen(
-            command,
-            stdin=subprocess.DEVNULL,
-            stdout=stdout,
-            stderr=subprocess.DEVNULL,
-            text=True,
-            env=environment,
-            start_new_session=True,
-        )
-
-    def stop(self) -> None:
-        """By Ctrl-C, and ever harder if that does not help."""
-        for number, patience_s in _ENDING:
-            if self.popen.poll() is not None:
-                return
-            os.killpg(self.popen.pid, number)
-            try:
-                self.popen.wait(patience_s)
-            except subprocess.TimeoutExpired:
-                continue
-
-
-class Follower(Process):
+class Follower:
     """The process without ROS: its environment knows no master; it says on its standard output what it did."""
 
     def __init__(self, parameters: Path, bridge: Bridge) -> None:
@@ -98,16 +66,26 @@ class Follower(Process):
         command += ["--sensors", f"127.0.0.1:{bridge.sensors_port}"]
         command += ["--controls", f"127.0.0.1:{bridge.controls_port}"]
         environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
-        super().__init__([*command, f"--parameters={parameters}"], subprocess.PIPE, environment)
+        self._child = start_child(
+            [*command, f"--parameters={parameters}"],
+            environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
         self._answers = Answers()
         threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self) -> None:
-        for line in self.popen.stdout:
+        for line in self._child.stdout:
             self._answers.put(json.loads(line))
 
+    def stop(self) -> None:
+        """Ends it."""
+        stop_child(self._child)
+
     def _check(self) -> None:
-        if self.popen.poll() is not None:
+        if self._child.poll() is not None:
             raise SimulationError("hil_row_follower has ended")
 
     def answer(self, time_s: float, patience_s: float) -> Optional[dict]:
@@ -184,7 +162,7 @@ def _drive(
     progress: Callable[[float], None],
 ) -> Record:
     bridge = Bridge()
-    processes = [bridge]  # type: List[Union[Bridge, Process]]
+    processes = [bridge]  # type: List[Union[Bridge, Follower]]
     latency = Latency()
     simulation.on_scan = latency.on_scan
     try:

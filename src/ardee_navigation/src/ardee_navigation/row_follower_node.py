@@ -7,11 +7,11 @@ Parameters:
   _parameters:=FILE   they are those of this YAML file instead
   _drive:=true        false: send no commands, only show
 """
-import sys
 import threading
 import time
+from dataclasses import dataclass
 from pathlib import Path as FilePath
-from typing import List, Optional
+from typing import Callable, List, Optional
 
 import numpy as np
 import rospy
@@ -21,11 +21,11 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ardee_bridge.nodes.ros_node import enter, heed_arguments, loop
+from ardee_common import ros_node
 from ardee_common.errors import GeneratorError
+from ardee_common.options import option, ros_name
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 from ardee_navigation.lbirnt.lines import Line
-from ardee_navigation.node_settings import Settings, read_settings
 from ardee_navigation.scenario_files import read_parameters
 from ardee_navigation.scenarios import known_scenarios
 from ardee_navigation.silence import Silence
@@ -73,6 +73,18 @@ def markers(header: Header, output: Output, parameters: Parameters) -> MarkerArr
     )
     made = [line_marker(header, *line, parameters) for line in lines]
     return MarkerArray([*made, points_marker(header, list(output.sides))])
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Topics; the file or scenario that the technique's parameters are in; whether to drive or only to show."""
+
+    scan: str = ros_name("ardee/hokuyo")
+    odom: str = ros_name("odom")
+    cmd: str = ros_name("cmd_vel")
+    scenario: str = option("")
+    parameters: str = option("")
+    drive: bool = option(True)
 
 
 class Node:
@@ -150,28 +162,24 @@ class Node:
 
 
 def _parameters(settings: Settings) -> Parameters:
-    """Those of the file ~parameters, else those of the scenario ~scenario, else the defaults."""
+    """Returns those of the file, else those of the scenario, else the defaults."""
     if settings.parameters:
         return read_parameters(FilePath(settings.parameters))
     if not settings.scenario:
         return Parameters()
     known, name = known_scenarios(), settings.scenario
     if name not in known:
-        raise GeneratorError(f"~scenario: found {name!r}, expected one of {', '.join(known)}")
+        raise GeneratorError(f"scenario: found {name!r}, expected one of {', '.join(known)}")
     return known[name].parameters
+
+
+def _make() -> Callable[[float], None]:
+    settings = ros_node.read_parameters(Settings)
+    node = Node(settings, _parameters(settings))
+    rospy.on_shutdown(node.stop)
+    return node.watch
 
 
 def main() -> int:
     """Exit code: 2 for bad parameters."""
-    heed_arguments("row_follower", __doc__)
-    if not enter("row_follower"):
-        return 0
-    try:
-        settings = read_settings(rospy.get_param("~", {}))
-        node = Node(settings, _parameters(settings))
-    except GeneratorError as error:
-        print(f"row_follower: {error}", file=sys.stderr)
-        return 2
-    rospy.on_shutdown(node.stop)
-    loop(node.watch)
-    return 0
+    return ros_node.run("row_follower", __doc__, _make)

@@ -10,25 +10,13 @@ from typing import Any, List, NoReturn, Optional
 
 from tqdm import tqdm
 
-from ardee_common.cli import Parser
+from ardee_common.cli import Parser, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_navigation.record import Record
 from ardee_navigation.scenario_files import Scenario, read_parameters
 from ardee_navigation.scenarios import known_scenarios, prepare
 
 LARGEST_SEED = 2**31 - 1
-
-
-def _whole(text: str, least: int, most: int) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        value = least - 1
-    if not least <= value <= most:
-        raise argparse.ArgumentTypeError(
-            f"found {text}, expected a whole number from {least} to {most}"
-        )
-    return value
 
 
 def _make_folder(output: Path) -> None:
@@ -40,14 +28,6 @@ def _make_folder(output: Path) -> None:
         ) from None
 
 
-def _positive(text: str) -> int:
-    return _whole(text, 1, 10_000)
-
-
-def _seed(text: str) -> int:
-    return _whole(text, 0, LARGEST_SEED)
-
-
 def _arguments(argv: List[str]) -> argparse.Namespace:
     names = sorted(known_scenarios())
     parser = Parser(
@@ -57,8 +37,10 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
     parser.add_argument(
         "--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names)
     )
-    parser.add_argument("--runs", type=_positive, default=10, help="[%(default)s]")
-    parser.add_argument("--seed", type=_seed, default=1, help="of the first run [%(default)s]")
+    parser.add_argument("--runs", type=whole_in(1, 10_000), default=10, help="[%(default)s]")
+    parser.add_argument(
+        "--seed", type=whole_in(0, LARGEST_SEED), default=1, help="of the first run [%(default)s]"
+    )
     parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
     parser.add_argument(
         "--parameters", type=Path, help="YAML file of the row follower's parameters"

@@ -9,7 +9,6 @@ before it serves a later request.
 import math
 import os
 import queue
-import signal
 import subprocess
 import time
 import warnings
@@ -23,6 +22,7 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import LaserScan
 
 from ardee_common.errors import GeneratorError
+from ardee_common.process import start_child, stop_child
 from ardee_msgs.srv import Step
 from ardee_navigation.truth import Pose
 from gazebo_msgs.msg import ModelState
@@ -106,15 +106,7 @@ class Simulation:
         self._commands = None  # type: Optional[rospy.Publisher]
         self._subscriber = None  # type: Optional[rospy.Subscriber]
         self.on_scan = None  # type: Optional[Callable[[], None]]
-        with log.open("wb") as output:
-            self._process = subprocess.Popen(
-                command,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                start_new_session=True,
-            )
+        self._process = start_child(command, environment, log)
 
     def __enter__(self) -> "Simulation":
         try:
@@ -134,14 +126,7 @@ class Simulation:
         for port in (self._commands, self._subscriber):
             if port is not None:
                 port.unregister()
-        for number, patience_s in ((signal.SIGINT, 20), (signal.SIGTERM, 5), (signal.SIGKILL, 5)):
-            if self._process.poll() is not None:
-                return
-            os.killpg(self._process.pid, number)
-            try:
-                self._process.wait(patience_s)
-            except subprocess.TimeoutExpired:
-                continue
+        stop_child(self._process)
 
     def _check_alive(self) -> None:
         if self._process.poll() is not None:

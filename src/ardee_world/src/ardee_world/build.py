@@ -5,7 +5,7 @@ import argparse
 from pathlib import Path
 from typing import Dict, List, Sequence
 
-from ardee_common.errors import GeneratorError
+from ardee_common.cli import Parser, run
 from ardee_common.output import write_file
 from ardee_models.lookup import find_model
 from ardee_models.terrain_features import follow
@@ -55,9 +55,18 @@ def build_fields(plans: Path, models: Path, urdf: Path, folders: Sequence[Path])
     write_file(urdf / "empty.urdf.xacro", EMPTY.encode())
 
 
+def _build(args: argparse.Namespace) -> None:
+    models = args.share / "models"
+    for name in MODELS:
+        write_clutter_model(name, models)
+    build_terrains(args.source / "terrains", models)
+    folders = [models, *args.model_path]
+    build_fields(args.source / "fields", models, args.share / "urdf", folders)
+
+
 def main() -> int:
     """`python3 -m ardee_world.build --source DIR --share DIR --model-path DIR`."""
-    parser = argparse.ArgumentParser(prog="ardee_world.build", description=__doc__)
+    parser = Parser(prog="ardee_world.build", description=__doc__)
     parser.add_argument(
         "--source", type=Path, required=True, help="folder that holds terrains/ and fields/"
     )
@@ -67,17 +76,7 @@ def main() -> int:
     parser.add_argument(
         "--model-path", type=Path, nargs="+", required=True, help="folders of crop models"
     )
-    args = parser.parse_args()
-    try:
-        models = args.share / "models"
-        for name in MODELS:
-            write_clutter_model(name, models)
-        build_terrains(args.source / "terrains", models)
-        folders = [models, *args.model_path]
-        build_fields(args.source / "fields", models, args.share / "urdf", folders)
-    except GeneratorError as error:
-        parser.exit(2, f"{parser.prog}: {error}\n")
-    return 0
+    return run(parser, _build)
 
 
 if __name__ == "__main__":

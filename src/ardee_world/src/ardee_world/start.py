@@ -9,7 +9,7 @@ from typing import Optional
 import numpy as np
 
 from ardee_common.config import build, read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded
 from ardee_models.terrain import Ground
 from ardee_world.curves import Line
 from ardee_world.layout import Layout
@@ -24,18 +24,14 @@ yaw_rad: {yaw_rad:.7f}
 """
 
 
-def _option(default: float, limit: float) -> float:
-    return dataclasses.field(default=default, metadata={"limits": (-limit, limit)})
-
-
 @dataclass(frozen=True)
 class Start:
     """Pose of base_footprint in the world; the default is that of launch_default_tsv1.launch."""
 
-    x_m: float = _option(0.0, 1e6)
-    y_m: float = _option(0.0, 1e6)
-    z_m: float = _option(STAND_M, 1e4)
-    yaw_rad: float = _option(-3.14, 7.0)
+    x_m: float = bounded(-1e6, 1e6, 0.0)
+    y_m: float = bounded(-1e6, 1e6, 0.0)
+    z_m: float = bounded(-1e4, 1e4, STAND_M)
+    yaw_rad: float = bounded(-7.0, 7.0, -3.14)
 
     def on(self, ground: Optional[Ground]) -> "Start":
         """The same standing on the highest ground within a robot's reach."""
@@ -69,8 +65,4 @@ def read_start(path: Path) -> Start:
     """The start pose of a file; the default without one."""
     if not path.is_file():
         return Start()
-    mapping = read_yaml_lines(path)
-    try:
-        return build(Start, mapping)
-    except ValueError as error:
-        raise GeneratorError(f"{path}:{mapping.own_line}: {error}") from None
+    return build(Start, read_yaml_lines(path))

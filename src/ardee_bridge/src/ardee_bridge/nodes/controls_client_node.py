@@ -12,11 +12,13 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 
-from ardee_bridge.nodes import controls, ros_node
+from ardee_bridge.nodes import controls
 from ardee_bridge.nodes.controls import MOST_AT_ONCE, STANDSTILL, ControlsClient, Motion
 from ardee_bridge.nodes.counters import Counters
-from ardee_bridge.nodes.settings import ControlSettings, read_controls, silent
+from ardee_bridge.nodes.diagnostics import start_diagnostics
+from ardee_bridge.nodes.settings import ControlSettings, silent
 from ardee_bridge.wire.udp import open_socket
+from ardee_common import ros_node
 
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
@@ -79,7 +81,7 @@ class SimulationPauser:
 
 
 def _make() -> Callable[[float], None]:
-    settings = read_controls(ros_node.read_parameters("controls_client.yaml"))
+    settings = ros_node.read_parameters(ControlSettings, "ardee_bridge", "controls_client.yaml")
     counters = Counters(rospy.logwarn)
     opened = open_socket(settings.bind_address, settings.port, receive_bytes=RECEIVE_BYTES)
     mover = Mover(settings.cmd_vel_topic, counters)
@@ -91,7 +93,7 @@ def _make() -> Callable[[float], None]:
         rospy.rostime.wallsleep(FAREWELL_S)
 
     rospy.on_shutdown(stop)
-    ros_node.start_diagnostics(counters)
+    start_diagnostics(counters)
     if not settings.peers.networks:
         rospy.logwarn("peers: found none, so nobody can drive")
     for each in silent(settings.peers):
@@ -102,4 +104,4 @@ def _make() -> Callable[[float], None]:
 
 def main(name: str = "controls_client_node") -> int:
     """Exit code of the node."""
-    return ros_node.run(name, __doc__, _make)
+    return ros_node.run(name, __doc__, _make, disable_rostime=True)

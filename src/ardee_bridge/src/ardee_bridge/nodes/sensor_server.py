@@ -77,7 +77,7 @@ class SensorServer:
         self._sequences: Dict[str, int] = {}
         # by component: stamp and form of its latest image
         self._images: Dict[int, Tuple[Any, str]] = {}
-        peers = [((peer.address, peer.port), peer.data_types) for peer in settings.destinations]
+        peers = [((peer.address, peer.port), peer.data_types) for peer in settings.peers]
         self._targets = {at: Target(at, types, codec.ALL_COMPONENTS, None) for at, types in peers}
 
     # -- sensors
@@ -108,17 +108,17 @@ class SensorServer:
 
     def _messages(self, source: Source, message: Any, velocity: Any) -> List[codec.Datagrams]:
         """Returns the messages of the wire; none for an image that was sent already."""
-        if source.image_format == COMPRESSED:
+        if source.format == COMPRESSED:
             frame = convert.compressed_image(message)
         elif source.kind == "image":
-            frame = convert.image(message, source.image_format, source.jpeg_quality)
+            frame = convert.image(message, source.format, source.jpeg_quality)
         elif source.kind == "point_cloud":
             frame = convert.point_cloud(message)
         else:
             more = () if velocity is None else (velocity,)
             reading = convert.SINGLES[source.kind](message, *more)
             return [codec.encode(source.data_type, source.component_id, *reading)]
-        if source.image_format in (COMPRESSED, "jpeg") and not self._is_first(source, message):
+        if source.format in (COMPRESSED, "jpeg") and not self._is_first(source, message):
             return []
         sequence = self._sequences.get(source.name, 0)
         self._sequences[source.name] = (sequence + 1) & 0x7FFFFFFF
@@ -134,8 +134,8 @@ class SensorServer:
         stamp = (message.header.stamp.secs, message.header.stamp.nsecs)
         with self._lock:
             before = self._images.get(source.component_id, (None, ""))
-            self._images[source.component_id] = (stamp, source.image_format)
-        return before[0] != stamp or before[1] == source.image_format
+            self._images[source.component_id] = (stamp, source.format)
+        return before[0] != stamp or before[1] == source.format
 
     def _targets_of(self, source: Source) -> List[Target]:
         return [target for target in self.clients() if target.wants(source)]

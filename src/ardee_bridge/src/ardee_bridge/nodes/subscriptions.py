@@ -87,7 +87,7 @@ class Subscriptions:
     def _to_read(self) -> AbstractSet[Source]:
         names = self._server.wanted()
         wanted = [source for source in self._sources if source.name in names]
-        cameras = [source for source in wanted if source.image_format == "jpeg"]
+        cameras = [source for source in wanted if source.format == "jpeg"]
         topics = _published() if cameras else set()
         return set(wanted) - set(cameras) | set(self._cameras.choose(cameras, topics))
 
@@ -108,7 +108,7 @@ class Subscriptions:
                 _subscriber(source.velocity_topic, Vector3Stamped, both.on_velocity),
                 _subscriber(source.topic, NavSatFix, both.on_fix),
             ]
-        is_compressed = source.image_format == COMPRESSED
+        is_compressed = source.format == COMPRESSED
         kind = CompressedImage if is_compressed else TYPES[source.kind]
         return [_subscriber(source.topic, kind, publish)]
 

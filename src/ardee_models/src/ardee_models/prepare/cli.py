@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 from typing import List, Optional, Sequence
 
-from ardee_common.cli import Parser, positive_number
-from ardee_common.errors import GeneratorError
+from ardee_common.cli import Parser, positive_number, run, whole_in
 from ardee_models.crop_cli import default_output
 from ardee_models.metrics import METRICS_FILE
 from ardee_models.params import known_species, load_species
@@ -80,21 +79,17 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--species", default="unknown", help="species, for metrics.json")
     parser.add_argument("--stage", default="unknown", help="growth stage, for metrics.json")
     parser.add_argument(
-        "--label", type=int, help="class id in segmentation (default: the species')"
+        "--label", type=whole_in(0, 65535), help="class id in segmentation (default: the species')"
     )
     return parser
 
 
+def _prepare_all(args: argparse.Namespace) -> None:
+    for path in prepare(args):
+        print(path)
+        warn_if_lying(path, args.up)
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """`prepare_crop MESH --name N`: prints the paths written."""
-    parser = _parser()
-    args = parser.parse_args(arguments)
-    try:
-        if args.label is not None and not 0 <= args.label <= 65535:
-            raise GeneratorError(f"--label: found {args.label}, expected 0 to 65535")
-        for path in prepare(args):
-            print(path)
-            warn_if_lying(path, args.up)
-    except GeneratorError as error:
-        parser.exit(2, f"{parser.prog}: {error}\n")
-    return 0
+    return run(_parser(), _prepare_all, arguments)

@@ -6,12 +6,9 @@
 TerraSentia. [own] chosen here; the thesis (5.1) names the check but no number.
 """
 import math
-from dataclasses import dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, fields
 
-
-def _value(default: float, low: float, high: float) -> Any:
-    return field(default=default, metadata={"limits": (low, high)})
+from ardee_common.options import bounded
 
 
 @dataclass(frozen=True)
@@ -19,45 +16,45 @@ class Parameters:
     """All numbers of the technique. Frame: the lidar's, x forward, y left."""
 
     # Pre-processing (thesis 5.1.1)
-    lidar_ahead_m: float = _value(0.22, -2.0, 2.0)  # before the turning centre [robot]
-    behind_m: float = _value(1.0, 0.0, 10.0)  # rectangle: from here behind the lidar [field]
-    ahead_m: float = _value(2.0, 0.1, 20.0)  # to here before it [field]
-    beside_min_m: float = _value(0.10, 0.0, 2.0)  # nearer is the robot itself [own]
-    beside_max_m: float = _value(0.50, 0.1, 3.0)  # farther is the next lane [field]
-    bin_m: float = _value(0.1, 0.005, 1.0)  # of the histogram of lateral distance [field]
-    keep_bins: int = _value(1, 0, 20)  # kept on each side of the fullest [own]
+    lidar_ahead_m: float = bounded(-2.0, 2.0, 0.22)  # before the turning centre [robot]
+    behind_m: float = bounded(0.0, 10.0, 1.0)  # rectangle: from here behind the lidar [field]
+    ahead_m: float = bounded(0.1, 20.0, 2.0)  # to here before it [field]
+    beside_min_m: float = bounded(0.0, 2.0, 0.10)  # nearer is the robot itself [own]
+    beside_max_m: float = bounded(0.1, 3.0, 0.50)  # farther is the next lane [field]
+    bin_m: float = bounded(0.005, 1.0, 0.1)  # of the histogram of lateral distance [field]
+    keep_bins: int = bounded(0, 20, 1)  # kept on each side of the fullest [own]
 
     # Single-line checks (5.1.2)
-    min_points: int = _value(8, 2, 1081)  # fewer returns make no line [own]
-    min_length_m: float = _value(0.3, 0.0, 20.0)  # shorter lines have no angle [own]
-    lateral_min_m: float = _value(0.15, 0.0, 3.0)  # acceptable distance of a row [own]
-    lateral_max_m: float = _value(0.60, 0.1, 3.0)  # [own]
-    max_angle_rad: float = _value(0.45, 0.01, 1.5)  # of a row to the robot [own]
-    max_angle_change_rad: float = _value(0.20, 0.01, 3.2)  # from the line used before [own]
-    max_change_m: float = _value(0.15, 0.005, 3.0)  # of lateral distance, likewise [own]
+    min_points: int = bounded(2, 1081, 8)  # fewer returns make no line [own]
+    min_length_m: float = bounded(0.0, 20.0, 0.3)  # shorter lines have no angle [own]
+    lateral_min_m: float = bounded(0.0, 3.0, 0.15)  # acceptable distance of a row [own]
+    lateral_max_m: float = bounded(0.1, 3.0, 0.60)  # [own]
+    max_angle_rad: float = bounded(0.01, 1.5, 0.45)  # of a row to the robot [own]
+    max_angle_change_rad: float = bounded(0.01, 3.2, 0.20)  # from the line used before [own]
+    max_change_m: float = bounded(0.005, 3.0, 0.15)  # of lateral distance, likewise [own]
 
     # Checks of both lines, update heuristics (5.1.2)
-    lane_width_m: float = _value(0.762, 0.2, 3.0)  # 30 in (5.2); [field] 0.756
-    lane_width_tolerance_m: float = _value(0.15, 0.01, 1.0)  # [own]
-    max_angle_between_rad: float = _value(0.25, 0.01, 3.2)  # rows are parallel [own]
-    blend: float = _value(0.12, 0.01, 1.0)  # weight of a new line against the one before [own]
-    max_coast_s: float = _value(0.5, 0.0, 60.0)  # a side lost for longer takes any line [own]
+    lane_width_m: float = bounded(0.2, 3.0, 0.762)  # 30 in (5.2); [field] 0.756
+    lane_width_tolerance_m: float = bounded(0.01, 1.0, 0.15)  # [own]
+    max_angle_between_rad: float = bounded(0.01, 3.2, 0.25)  # rows are parallel [own]
+    blend: float = bounded(0.01, 1.0, 0.12)  # weight of a new line against the one before [own]
+    max_coast_s: float = bounded(0.0, 60.0, 0.5)  # a side lost for longer takes any line [own]
 
     # Control (5.1.3)
-    speed_m_s: float = _value(0.5, 0.0, 1.2)  # [field]
-    target_ahead_m: float = _value(0.8, 0.0, 5.0)  # where the error is taken [own]
-    kp: float = _value(25.0, 0.0, 1e4)  # turn units per m [field]
-    ki: float = _value(0.0, 0.0, 1e4)  # turn units per m s [field]
-    kd: float = _value(5.0, 0.0, 1e4)  # turn units s per m [field]
-    derivative_time_s: float = _value(0.1, 0.0, 10.0)  # low pass of the derivative [own]
-    turn_half_range: float = _value(50.0, 1.0, 1e4)  # turn units of a full turn [field]
-    max_speed_m_s: float = _value(1.2, 0.01, 10.0)  # [robot]
-    min_turn_radius_m: float = _value(0.381, 0.01, 10.0)  # at full speed and full turn [robot]
+    speed_m_s: float = bounded(0.0, 1.2, 0.5)  # [field]
+    target_ahead_m: float = bounded(0.0, 5.0, 0.8)  # where the error is taken [own]
+    kp: float = bounded(0.0, 1e4, 25.0)  # turn units per m [field]
+    ki: float = bounded(0.0, 1e4, 0.0)  # turn units per m s [field]
+    kd: float = bounded(0.0, 1e4, 5.0)  # turn units s per m [field]
+    derivative_time_s: float = bounded(0.0, 10.0, 0.1)  # low pass of the derivative [own]
+    turn_half_range: float = bounded(1.0, 1e4, 50.0)  # turn units of a full turn [field]
+    max_speed_m_s: float = bounded(0.01, 10.0, 1.2)  # [robot]
+    min_turn_radius_m: float = bounded(0.01, 10.0, 0.381)  # at full speed and full turn [robot]
 
     # Start and end (5.2.1)
-    end_points: int = _value(8, 1, 1081)  # fewer returns ahead: no row there [own]
-    end_after_s: float = _value(1.0, 0.0, 60.0)  # both rows gone for so long: the end [own]
-    max_gap_s: float = _value(0.5, 0.1, 60.0)  # no scan for longer: find the rows anew [own]
+    end_points: int = bounded(1, 1081, 8)  # fewer returns ahead: no row there [own]
+    end_after_s: float = bounded(0.0, 60.0, 1.0)  # both rows gone for so long: the end [own]
+    max_gap_s: float = bounded(0.1, 60.0, 0.5)  # no scan for longer: find the rows anew [own]
 
     def __post_init__(self) -> None:
         """Raise ValueError for a value beyond its limits, or values with which no row would ever be followed."""

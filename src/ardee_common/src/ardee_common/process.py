@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Starts and stops child processes, each in a session of its own, and a ROS master among them."""
+import os
+import signal
+import subprocess
+from pathlib import Path
+from typing import Any, Dict, Optional, Sequence
+
+# Signals that end a child, each with the time [s] that it is given to follow.
+_ENDING = ((signal.SIGINT, 20.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
+_MASTER = (
+    "import sys, rosmaster.master as m; x = m.Master(int(sys.argv[1])); x.start();"
+    "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
+)
+
+
+def heed_ctrl_c() -> None:
+    """Makes Ctrl-C end a child whose parents ignore it, as a shell's background jobs do: a preexec_fn of Popen."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def start_child(
+    command: Sequence[str],
+    env: Optional[Dict[str, str]] = None,
+    log: Optional[Path] = None,
+    **options: Any,
+) -> subprocess.Popen:
+    """Starts a child without input, and with both outputs in a log, or nowhere; options are those of Popen."""
+    settings = {"stdin": subprocess.DEVNULL, "stderr": subprocess.STDOUT, "start_new_session": True}
+    with (log or Path(os.devnull)).open("wb") as output:
+        return subprocess.Popen(command, env=env, **{**settings, "stdout": output, **options})
+
+
+def stop_child(child: subprocess.Popen) -> None:
+    """Ends a child and its process group: by Ctrl-C, and ever harder while the child goes on."""
+    for number, patience_s in _ENDING:
+        if child.poll() is not None:
+            return
+        os.killpg(child.pid, number)
+        try:
+            child.wait(patience_s)
+        except subprocess.TimeoutExpired:
+            continue
+
+
+class RosMaster:
+    """A ROS master on a port, which the kernel picks if it is 0; ends with the process that started it."""
+
+    def __init__(self, env: Dict[str, str], port: int = 0, log: Optional[Path] = None) -> None:
+        command = ["/usr/bin/python3", "-c", _MASTER, str(port)]
+        with (log or Path(os.devnull)).open("ab") as complaints:
+            pipe = subprocess.PIPE
+            self._child = start_child(
+                command, env, stdin=pipe, stdout=pipe, stderr=complaints, text=True
+            )
+        self.uri = self._child.stdout.readline().strip()
+
+    def stop(self) -> None:
+        """Ends it."""
+        self._child.stdin.close()
+        try:
+            self._child.wait(5.0)
+        except subprocess.TimeoutExpired:
+            self._child.kill()
+            self._child.wait()
+        self._child.stdout.close()

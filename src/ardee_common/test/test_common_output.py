@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""A model directory is written whole or left as it was."""
+from pathlib import Path
+
+import pytest
+
+from ardee_common.errors import GeneratorError
+from ardee_common.output import model_directory
+
+
+def write(parent: Path, name: str, text: str) -> None:
+    """Writes a model of one file."""
+    with model_directory(parent, name) as folder:
+        (folder / "model.config").write_text(text)
+
+
+@pytest.mark.parametrize("name", ["../x", "", ".hidden", "a/b", "a b", "<x>"])
+def test_unsafe_names_are_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(GeneratorError, match="name"):
+        write(tmp_path / "out", name, "new")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_failure_keeps_the_earlier_model(tmp_path: Path) -> None:
+    write(tmp_path, "x", "first")
+    with pytest.raises(RuntimeError):
+        with model_directory(tmp_path, "x") as folder:
+            (folder / "model.config").write_text("half")
+            raise RuntimeError("interrupted")
+    assert (tmp_path / "x" / "model.config").read_text() == "first"
+    write(tmp_path, "x", "second")
+    assert (tmp_path / "x" / "model.config").read_text() == "second"
+    assert [path.name for path in tmp_path.iterdir()] == ["x"]
+
+
+def test_a_folder_that_is_no_model_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "x").mkdir()
+    (tmp_path / "x" / "thesis.tex").write_text("years of work")
+    with pytest.raises(GeneratorError, match="not a model directory"):
+        write(tmp_path, "x", "new")
+    assert (tmp_path / "x" / "thesis.tex").read_text() == "years of work"
+
+
+def test_a_parent_that_is_a_file(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(GeneratorError, match="cannot be written"):
+        write(tmp_path / "file", "x", "new")
