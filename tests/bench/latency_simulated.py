@@ -93,20 +93,19 @@ def _topic(source: Source) -> str:
     return "/" + (source.of_camera() if source.format == "jpeg" else source).topic
 
 
-def _published(env: Dict[str, str]) -> Set[str]:
-    """Topics that somebody publishes."""
+def _await_topics(env: Dict[str, str], topics: List[str], reader: str = "") -> None:
+    """Returns once somebody publishes all of these or, if a reader is named, once it has subscribed to them."""
     master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
-    return {topic for topic, _ in master.getSystemState()[0]}
-
-
-def _await_robot(env: Dict[str, str], topics: List[str]) -> None:
-    """Until it publishes all of these, which it makes known one after the other."""
     deadline = time.monotonic() + START_LIMIT_S
-    for topic in topics:
-        while topic not in _published(env):
-            if time.monotonic() > deadline:
-                raise TimeoutError(f"the simulated robot does not publish {topic}")
-            time.sleep(0.2)
+    missing = set(topics)
+    while missing:
+        published, subscribed, _ = master.getSystemState()
+        listed = subscribed if reader else published
+        missing -= {topic for topic, nodes in listed if not reader or reader in nodes}
+        if missing and time.monotonic() > deadline:
+            verb = f"{reader} does not read" if reader else "the simulated robot does not publish"
+            raise TimeoutError(f"{verb} {', '.join(sorted(missing))}")
+        time.sleep(0.2)
 
 
 def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[str, latency.Spread]:
@@ -139,7 +138,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
         robot = (*ROBOT, "bot_model:=tsv3_default.urdf.xacro", carried)
         stack.enter_context(_launched(env, *robot))
         topics = {source.name: _topic(source) for source in sources}
-        _await_robot(env, list(topics.values()))
+        _await_topics(env, list(topics.values()))
         # all masters' nodes share the loopback that packets are captured on
         name = f"/latency_server_{os.getpid()}"
         watcher, from_watcher = latency.in_process(env, capture.watch, name)
@@ -149,6 +148,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
         server = latency.server_arguments(peer, sources)
         named = f"__name:={name[1:]}"
         stack.enter_context(latency.node(env, "sensor_server_node", named, *server))
+        _await_topics(env, list(topics.values()), name)
         time.sleep(WARM_UP_S)
         begin_ns = time.time_ns()
         end_ns = begin_ns + round(seconds * 1e9)
