@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from ardee_models.lookup import crop_model
-from ardee_models.prepare import cli
+from ardee_models.prepare import prepare_crop as cli
 from ardee_models.prepare.read import load_trimesh
 
 trimesh = load_trimesh()

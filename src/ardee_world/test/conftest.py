@@ -13,10 +13,10 @@ sys.path.insert(0, str(PACKAGE.parent / "ardee_models" / "src"))
 
 import numpy as np  # noqa: E402
 
-from ardee_models.crops import make_crop  # noqa: E402
 from ardee_models.lookup import CropModel  # noqa: E402
-from ardee_models.terrain import TerrainParams, generate_terrain  # noqa: E402
-from ardee_models.writers.terrain import write_terrain  # noqa: E402
+from ardee_models.plant.crops import make_crop  # noqa: E402
+from ardee_models.terrain.height_map import TerrainParams, generate_terrain  # noqa: E402
+from ardee_models.terrain.terrain_model import write_terrain  # noqa: E402
 
 
 @pytest.fixture(scope="session")

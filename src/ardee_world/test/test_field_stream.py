@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from ardee_models.terrain_files import ground_model
+from ardee_models.terrain.ground import ground_model
 from ardee_world import assemble
 from ardee_world.config import FieldConfig, Plots
 from ardee_world.layout import generate

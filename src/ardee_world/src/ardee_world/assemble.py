@@ -10,9 +10,9 @@ from ardee_common.cli import Parser, run
 from ardee_common.errors import GeneratorError
 from ardee_common.output import model_directory, write_file
 from ardee_models.lookup import find_model, search_path
-from ardee_models.terrain import Ground
-from ardee_models.terrain_files import ground_model
-from ardee_models.writers.metadata import model_config
+from ardee_models.metadata import model_config
+from ardee_models.terrain.ground import ground_model
+from ardee_models.terrain.height_map import Ground
 from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
 from ardee_world.start import read_start, start_file
 from ardee_world.urdf_file import check_xml, split_field

@@ -11,7 +11,7 @@ from ardee_common.cli import Parser, run, seed_number
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of, plain_name, scalar_fields, unit_of
 from ardee_models.lookup import crop_model, search_path
-from ardee_models.terrain_files import ground_model
+from ardee_models.terrain.ground import ground_model
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS
 from ardee_world.config import FieldConfig

@@ -8,7 +8,7 @@ import numpy as np
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
-from ardee_models.terrain import Ground
+from ardee_models.terrain.height_map import Ground
 from ardee_world import noise
 from ardee_world.clutter import KINDS, Items, bounds_of, draw_items
 from ardee_world.config import FAR_M, FieldConfig

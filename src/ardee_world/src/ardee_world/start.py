@@ -10,7 +10,7 @@ import numpy as np
 
 from ardee_common.config import build, read_yaml_lines
 from ardee_common.options import bounded
-from ardee_models.terrain import Ground
+from ardee_models.terrain.height_map import Ground
 from ardee_world.curves import Line
 from ardee_world.layout import Layout
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Optional
 
 from ardee_common.output import model_directory
-from ardee_models.terrain import Ground
-from ardee_models.writers.metadata import model_config
+from ardee_models.metadata import model_config
+from ardee_models.terrain.height_map import Ground
 from ardee_world.layout import Layout
 from ardee_world.request import LARGEST_SDF
 from ardee_world.start import start_before
