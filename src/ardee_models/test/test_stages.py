@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_models.plant.assemble import assemble
 from ardee_models.plant.detail import LEVELS
 from ardee_models.plant.generate_crop import stages_help
+from ardee_models.plant.organ_meshes import assemble
 from ardee_models.plant.plan import grow
 from ardee_models.plant.species import known_species, load_params, load_species
 

@@ -46,13 +46,13 @@ def pool() -> tuple:
 @pytest.fixture()
 def generate_field(models, monkeypatch, capsys):
     """Run the command with arguments; returns exit code and standard error."""
-    from ardee_world import cli
+    from ardee_world import generate_field
 
     def call(*arguments) -> tuple:
         monkeypatch.setenv("GAZEBO_MODEL_PATH", str(models))
         monkeypatch.setattr(sys, "argv", ["generate_field", *map(str, arguments)])
         try:
-            code = cli.main()
+            code = generate_field.main()
         except SystemExit as exit_:
             code = exit_.code
         return code, capsys.readouterr().err

@@ -8,10 +8,10 @@ from typing import Dict, Optional, Tuple
 import numpy as np
 
 from ardee_common.output import check_name
-from ardee_models.plant.assemble import assemble
 from ardee_models.plant.crop_files import write_crop
 from ardee_models.plant.cylinder import Cylinder, fit_cylinder
 from ardee_models.plant.detail import LEVELS
+from ardee_models.plant.organ_meshes import assemble
 from ardee_models.plant.plan import Plan, grow
 from ardee_models.plant.plant import Plant
 from ardee_models.plant.plant_metrics import measure

@@ -5,13 +5,13 @@ from typing import Callable, Dict, Tuple
 
 import numpy as np
 
-from ardee_models.noise import layered_noise, smooth_noise
 from ardee_models.plant import corn_organs, sorghum_head, tobacco_head
 from ardee_models.plant.organ_params import Colours
 from ardee_models.plant.plan import Plan
 from ardee_models.plant.shoot import STRIP_DRYNESS
 from ardee_models.plant.species import CropParams
 from ardee_models.plant.stalk import StalkPlan
+from ardee_models.smooth_noise import layered_noise, smooth_noise
 
 _STRIP = (256, 48)  # pixels of one leaf strip
 _STEM = (512, 32)

@@ -4,7 +4,7 @@
 import numpy as np
 from scipy import stats
 
-from ardee_models.noise import smooth_noise
+from ardee_models.smooth_noise import smooth_noise
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.recipe import Clods, Ditch, Headland, Recipe, Ridges, Ruts, Slope
 

@@ -5,7 +5,7 @@ from typing import Dict
 
 import numpy as np
 
-from ardee_models.noise import layered_noise, smooth_noise
+from ardee_models.smooth_noise import layered_noise, smooth_noise
 
 _SOIL_SHAPE = (256, 256)
 

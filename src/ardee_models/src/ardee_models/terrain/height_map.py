@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_models.noise import smooth_noise
+from ardee_models.smooth_noise import smooth_noise
 
 _CLEAR_HALF_X_M = 0.4  # half size of the spot round the origin where a robot is set down
 _CLEAR_HALF_Y_M = 0.2

@@ -12,9 +12,9 @@ from ardee_common.config import build, read_yaml_lines
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
 from ardee_models.terrain.ground import ground_model
+from ardee_navigation.evaluation.row_truth import Field, Pose, read_field
 from ardee_navigation.evaluation.scenario_files import STAND_M, Scenario, Start, read_scenarios
-from ardee_navigation.evaluation.truth import Field, Pose, read_field
-from ardee_world.cli import make_configured
+from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
 
 HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle

@@ -26,7 +26,7 @@ from sensor_msgs.msg import LaserScan
 from ardee_common.errors import GeneratorError
 from ardee_common.process import start_child, stop_child
 from ardee_msgs.srv import Step
-from ardee_navigation.evaluation.truth import Pose
+from ardee_navigation.evaluation.row_truth import Pose
 
 ROBOT = "robot"
 _PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less

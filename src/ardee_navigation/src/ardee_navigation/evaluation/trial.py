@@ -10,8 +10,8 @@ from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.evaluation.contacts import Contacts
 from ardee_navigation.evaluation.record import Intervention, Record, Sample
+from ardee_navigation.evaluation.row_truth import Deviation, Lane, Pose, lane_of
 from ardee_navigation.evaluation.scenarios import Trial
-from ardee_navigation.evaluation.truth import Deviation, Lane, Pose, lane_of
 from ardee_navigation.lbirnt.preprocess import to_cartesian
 
 LARGEST_OFFSET_M = 0.38  # half a 30 in lane: the robot is in the row (criterion of the UIUC group)

@@ -100,7 +100,7 @@ def assemble(args: argparse.Namespace) -> Path:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Arguments of `python3 -m ardee_world.assemble`."""
+    """Arguments of `python3 -m ardee_world.assemble_world`."""
     parser = Parser(prog="assemble_world", description=__doc__)
     parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
     parser.add_argument("terrain", help="model directory of a terrain, or its name")

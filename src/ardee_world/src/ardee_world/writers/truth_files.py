@@ -8,7 +8,7 @@ from typing import Dict, Iterator, List
 import numpy as np
 
 from ardee_common.geodesy import to_degrees
-from ardee_world.layout import Layout, to_world
+from ardee_world.field_layout import Layout, to_world
 
 Columns = Dict[str, list]
 

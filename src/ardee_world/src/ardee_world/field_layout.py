@@ -9,10 +9,10 @@ import numpy as np
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
 from ardee_models.terrain.height_map import Ground
-from ardee_world import noise
+from ardee_world import variation
 from ardee_world.clutter import KINDS, Items, bounds_of, draw_items
-from ardee_world.config import FAR_M, FieldConfig
 from ardee_world.curves import left_of
+from ardee_world.field_config import FAR_M, FieldConfig
 from ardee_world.plots import Plan, plan_centres
 from ardee_world.stand import Gap, Lean, draw_gaps, draw_lean, roll_pitch_yaw
 from ardee_world.streams import Streams
@@ -89,13 +89,13 @@ def _draw_plants(
     """What becomes of one seed at each place where one was sown."""
     total = len(sown)
     low, high = config.emergence_min, config.emergence_max
-    up = noise.emerged(total, low, high, streams.of(prefix + "emergence"))
+    up = variation.emerged(total, low, high, streams.of(prefix + "emergence"))
     index = np.flatnonzero(up & sown)
     model = streams.of(prefix + "model").integers(0, len(pool), total)
     yaw = streams.of(prefix + "yaw").uniform(-np.pi, np.pi, total)
     own = np.array([m.height_m for m in pool])[model]
     short, tall = config.stalk_height_min_m, config.stalk_height_max_m
-    target = noise.target_heights(total, short, tall, streams.of(prefix + "height"))
+    target = variation.target_heights(total, short, tall, streams.of(prefix + "height"))
     height = own if target is None else target
     lean = draw_lean(total, config.stand, streams, prefix).at(index)
     return _Draw(
@@ -145,7 +145,7 @@ def generate(
     streams, stand = Streams(seed), config.stand
     plan = centres or plan_centres(config.plots, config.shape)
     total = len(plan.centres_m)
-    offsets = noise.placement_offsets(total, config.covariance(), streams.of("placement"))
+    offsets = variation.placement_offsets(total, config.covariance(), streams.of("placement"))
     centre = plan.centres_m + offsets[:, :1] * left_of(plan.along) - offsets[:, 1:] * plan.along
     gaps = draw_gaps(plan, stand, config.plots.stalk_spacing_m, streams.of("gaps"))
     sown = np.ones(total, bool)

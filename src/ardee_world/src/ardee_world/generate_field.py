@@ -14,8 +14,8 @@ from ardee_models.lookup import crop_model, search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS
-from ardee_world.config import FieldConfig
-from ardee_world.layout import generate
+from ardee_world.field_config import FieldConfig
+from ardee_world.field_layout import generate
 from ardee_world.plots import Plan
 from ardee_world.request import Sources, Values, configure, groups, yaml_values
 from ardee_world.writers.field import write_field
