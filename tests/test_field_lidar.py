@@ -15,7 +15,7 @@ import pytest
 from ros_graph import RosGraph, wait_until
 from scipy import stats
 
-from ardee_world.cli import make_configured
+from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
 
 PLANS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "fields"

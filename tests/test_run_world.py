@@ -86,7 +86,7 @@ def test_a_field_of_ones_own_stands_where_plots_truth_and_start_say(
     graph.run("rosrun", "ardee_world", "generate_field", *words)
     recipe = SCRIPTS.parent / "src" / "ardee_world" / "terrains" / "heightmap_rough.yaml"
     words = [str(recipe), "--name", "my_ground", "--output", str(tmp_path)]
-    graph.run("rosrun", "ardee_world", "generate_terrain", *words)
+    graph.run("rosrun", "ardee_models", "generate_terrain", *words)
     names = [str(tmp_path / "my_field/my_field.urdf.xacro"), str(tmp_path / "my_ground")]
     graph.spawn(str(SCRIPTS / "run_custom_world"), "-y", *names, "use_rviz:=false")
     scan = graph.call(probes.collect, "/ardee/hokuyo", "sensor_msgs/LaserScan", 5)[-1]

@@ -20,10 +20,10 @@ def way_driven_m(world: str, folder: str) -> float:
     import rospy
 
     from ardee_common.config import build, read_yaml_lines
-    from ardee_navigation.scenario_files import Scenario, Start
-    from ardee_navigation.scenarios import prepare
-    from ardee_navigation.simulation import Simulation, robot_urdf
-    from ardee_navigation.truth import Pose, lane_of
+    from ardee_navigation.evaluation.row_truth import Pose, lane_of
+    from ardee_navigation.evaluation.scenario_files import Scenario, Start
+    from ardee_navigation.evaluation.scenarios import prepare
+    from ardee_navigation.evaluation.simulation import Simulation, robot_urdf
 
     rospy.init_node("driver", disable_signals=True)
     trial = prepare(Scenario(world=world), 0, pathlib.Path(folder))

@@ -5,6 +5,12 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
     **generate_distutils_setup(
-        packages=["ardee_navigation", "ardee_navigation.lbirnt"], package_dir={"": "src"}
+        packages=[
+            "ardee_navigation",
+            "ardee_navigation.evaluation",
+            "ardee_navigation.lbirnt",
+            "ardee_navigation.nodes",
+        ],
+        package_dir={"": "src"},
     )
 )

@@ -7,7 +7,7 @@ from typing import Callable, Dict
 
 from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError
-from ardee_models.terrain_recipe import read_recipe
+from ardee_models.terrain.recipe import read_recipe
 
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
 _FILE = Path(_FOLDER.name) / "input.yaml"

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from ardee_models.crops import make_crop
 from ardee_models.lookup import crop_model
-from ardee_models.variants import build_crops, load_variants
+from ardee_models.plant.crops import make_crop
+from ardee_models.plant.variants import build_crops, load_variants
 
 VARIANTS = list(load_variants())
 

@@ -10,9 +10,9 @@ import pytest
 from PIL import Image
 
 from ardee_common.errors import GeneratorError
-from ardee_models import crop_report
-from ardee_models.ranges import MARKS, check_metrics, load_ranges
-from ardee_models.variants import load_variants
+from ardee_models.plant.variants import load_variants
+from ardee_models.report import crop_report
+from ardee_models.report.ranges import MARKS, check_metrics, load_ranges
 
 ALWAYS = {"height_m", "leaf_number", "stalk_diameter_m", "leaf_area_index", "leaf_length_to_width"}
 

@@ -6,15 +6,15 @@ import dataclasses
 import numpy as np
 import pytest
 
-from ardee_models.curve import Curve
-from ardee_models.cylinder import fit_cylinder, fit_stalk_among_leaves
-from ardee_models.lathe import Lathe, lathe_mesh
-from ardee_models.leaf import Blade, blade_mesh, midrib, profile_area, width_profile
-from ardee_models.leaf_sizes import full_sizes, length_to_width, relative_leaf_area
-from ardee_models.mesh import tube
-from ardee_models.params import load_params
-from ardee_models.plan import grow
-from ardee_models.stalk import StalkPlan, ligule_heights, stalk_mesh
+from ardee_models.plant.curve import Curve
+from ardee_models.plant.cylinder import fit_cylinder, fit_stalk_among_leaves
+from ardee_models.plant.lathe import Lathe, lathe_mesh
+from ardee_models.plant.leaf import Blade, blade_mesh, midrib, profile_area, width_profile
+from ardee_models.plant.leaf_sizes import full_sizes, length_to_width, relative_leaf_area
+from ardee_models.plant.mesh import tube
+from ardee_models.plant.plan import grow
+from ardee_models.plant.species import load_params
+from ardee_models.plant.stalk import StalkPlan, ligule_heights, stalk_mesh
 
 
 def _blade(**changes) -> Blade:

@@ -7,10 +7,10 @@ import pytest
 import yaml
 
 from ardee_common.errors import GeneratorError
-from ardee_models import crop_cli
 from ardee_models.config_dir import config_dir
-from ardee_models.crops import make_crop
 from ardee_models.lookup import crop_model, terrain_model
+from ardee_models.plant import generate_crop
+from ardee_models.plant.crops import make_crop
 
 
 def _params_file(tmp_path, change):
@@ -95,7 +95,7 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
     base = ["generate_crop", "--name", "x", "--output", str(tmp_path / "out")]
     monkeypatch.setattr(sys, "argv", base + arguments)
     with pytest.raises(SystemExit) as exit_:
-        crop_cli.generate_crop_main()
+        generate_crop.generate_crop_main()
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
@@ -103,7 +103,7 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
 
 def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"/nowhere:{tmp_path}")
-    assert crop_cli.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+    assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "mine")
     assert crop_model("mine", [tmp_path]).label == 1
 

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from ardee_models.lookup import crop_model
-from ardee_models.prepare import cli
+from ardee_models.prepare import prepare_crop
 from ardee_models.prepare.read import load_trimesh
 
 trimesh = load_trimesh()
@@ -58,7 +58,7 @@ def _save(scene, path, kind):
 
 
 def _run(capsys, *arguments):
-    code = cli.main([str(a) for a in arguments])
+    code = prepare_crop.main([str(a) for a in arguments])
     return code, capsys.readouterr().out.split()
 
 
@@ -154,7 +154,7 @@ def test_bad_meshes_are_refused_in_one_line(tmp_path, capsys, name, data, argume
         (tmp_path / name).write_bytes(data)
     out = tmp_path / "out"
     with pytest.raises(SystemExit) as exit_:
-        cli.main([str(tmp_path / name), "--name", "x", "--output", str(out), *arguments])
+        prepare_crop.main([str(tmp_path / name), "--name", "x", "--output", str(out), *arguments])
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not out.exists()
@@ -166,6 +166,6 @@ def test_an_error_in_the_last_model_leaves_none(scene, tmp_path, capsys):
     (out / "mine_3").mkdir(parents=True)  # not a model: must not be overwritten
     (out / "mine_3" / "notes.txt").write_text("mine")
     with pytest.raises(SystemExit) as exit_:
-        cli.main([str(mesh), "--up", "z", "--name", "mine", "--output", str(out)])
+        prepare_crop.main([str(mesh), "--up", "z", "--name", "mine", "--output", str(out)])
     assert exit_.value.code == 2 and "not a model directory" in capsys.readouterr().err
     assert [p.name for p in out.iterdir()] == ["mine_3"]

@@ -9,7 +9,7 @@ import pytest
 import range_derivation as derive
 from range_derivation import CORN, SORGHUM, Trait, between
 
-from ardee_models.ranges import load_ranges
+from ardee_models.report.ranges import load_ranges
 
 _CALL = re.compile(r"(\w+)\(([^)]*)\)")
 _GRASSES = {"CORN": CORN, "SORGHUM": SORGHUM}

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_models.assemble import assemble
-from ardee_models.crop_cli import stages_help
-from ardee_models.detail import LEVELS
-from ardee_models.params import known_species, load_params, load_species
-from ardee_models.plan import grow
+from ardee_models.plant.detail import LEVELS
+from ardee_models.plant.generate_crop import stages_help
+from ardee_models.plant.organ_meshes import assemble
+from ardee_models.plant.plan import grow
+from ardee_models.plant.species import known_species, load_params, load_species
 
 STAGES = [(s, str(name)) for s in known_species() for name in load_species(s)[0].stages] + [
     ("corn", "V5"),

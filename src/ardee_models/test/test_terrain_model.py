@@ -9,8 +9,8 @@ from PIL import Image
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
-from ardee_models.terrain import Terrain, TerrainParams, generate_terrain, ridge_profile
-from ardee_models.writers.terrain import write_terrain
+from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain, ridge_profile
+from ardee_models.terrain.terrain_model import write_terrain
 
 
 def _rng(seed=1):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_models import terrain_cli
-from ardee_models.terrain_features import follow
-from ardee_models.terrain_recipe import (
+from ardee_models.terrain import generate_terrain
+from ardee_models.terrain.features import follow
+from ardee_models.terrain.recipe import (
     Clods,
     Ditch,
     Headland,
@@ -127,7 +127,7 @@ def command(monkeypatch, capsys):
     def call(*arguments):
         monkeypatch.setattr(sys, "argv", ["generate_terrain", *map(str, arguments)])
         try:
-            code = terrain_cli.main()
+            code = generate_terrain.main()
         except SystemExit as exit_:
             code = exit_.code
         return code, capsys.readouterr().err

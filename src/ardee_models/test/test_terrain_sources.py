@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image, TiffImagePlugin
 
-from ardee_models import terrain_cli
-from ardee_models.terrain_files import ground_model
-from ardee_models.terrain_surface import MeshGround
+from ardee_models.terrain import generate_terrain
+from ardee_models.terrain.ground import ground_model
+from ardee_models.terrain.surface import MeshGround
 
 PLACES = np.random.default_rng(5).uniform(-8.0, 8.0, (500, 2)).T
 
@@ -34,7 +34,7 @@ def command(tmp_path, monkeypatch, capsys):
         ]
         monkeypatch.setattr(sys, "argv", words)
         try:
-            code = terrain_cli.main()
+            code = generate_terrain.main()
         except SystemExit as exit_:
             code = exit_.code
         return code, capsys.readouterr().err

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from ardee_navigation.answers import Answers
+from ardee_navigation.evaluation.answers import Answers
 
 FOREVER_S = 60.0
 

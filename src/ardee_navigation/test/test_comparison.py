@@ -8,7 +8,12 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_navigation.comparison import compare, mean_interval, poisson_interval, read_runs
+from ardee_navigation.evaluation.comparison import (
+    compare,
+    mean_interval,
+    poisson_interval,
+    read_runs,
+)
 
 NAMES = "run,seed,end,way_m,lateral_rms_m,lateral_max_m,share_near,heading_rms_rad,width_m,interventions"
 HEADER = NAMES + ",collisions,knocked,completed"

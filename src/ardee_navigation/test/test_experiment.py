@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import LaserScan
 
-from ardee_models.terrain_files import LevelGround
-from ardee_navigation.metrics import summarize
-from ardee_navigation.record import COLUMNS, Record
-from ardee_navigation.report import in_short, write_report, write_run
-from ardee_navigation.scenarios import Trial
-from ardee_navigation.trial import LARGEST_OFFSET_M, Judge, Seen
-from ardee_navigation.truth import Field, Pose, Stalks
+from ardee_models.terrain.ground import LevelGround
+from ardee_navigation.evaluation.experiment_report import in_short, write_report, write_run
+from ardee_navigation.evaluation.record import COLUMNS, Record
+from ardee_navigation.evaluation.row_truth import Field, Pose, Stalks
+from ardee_navigation.evaluation.run_metrics import summarize
+from ardee_navigation.evaluation.scenarios import Trial
+from ardee_navigation.evaluation.trial import LARGEST_OFFSET_M, Judge, Seen
 
 DT_S, SPEED_M_S = 0.025, 0.5
 Course = Callable[[float], Tuple[float, float]]  # along m -> lateral m, heading rad

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_navigation import run_experiment, simulation
+from ardee_navigation.evaluation import run_experiment, simulation
 
 HINT = " (--help lists all arguments)"
 

@@ -13,10 +13,10 @@ import yaml
 
 from ardee_common.config import from_values
 from ardee_common.errors import GeneratorError
+from ardee_navigation.evaluation.scenario_files import Start, read_parameters, read_scenarios
+from ardee_navigation.evaluation.scenarios import START_SD_M, START_SD_RAD, start_near
 from ardee_navigation.lbirnt import Parameters
-from ardee_navigation.row_follower_node import Settings
-from ardee_navigation.scenario_files import Start, read_parameters, read_scenarios
-from ardee_navigation.scenarios import START_SD_M, START_SD_RAD, start_near
+from ardee_navigation.nodes.row_follower_node import Settings
 
 PACKAGE = Path(__file__).resolve().parents[1]
 WORLD = PACKAGE.parent / "ardee_world"

@@ -9,8 +9,8 @@ import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
 from ardee_bridge.wire import codec
-from ardee_navigation.hil_row_follower import Target
 from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.nodes.hil_row_follower import Target
 
 IN_THE_ROW = scan_of(*lane_walls(0.0, 0.0))
 ROWS_ARE_GONE = np.full(len(IN_THE_ROW), np.inf)

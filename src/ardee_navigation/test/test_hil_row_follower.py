@@ -9,8 +9,8 @@ import pytest
 from scans import ANGLE_MIN_RAD, INCREMENT_RAD, lane_walls, scan_of
 
 from ardee_bridge.wire import codec
-from ardee_navigation.hil_row_follower import Clock, Target, _arguments
 from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.nodes.hil_row_follower import Clock, Target, _arguments
 
 LOOPBACK = ("127.0.0.1", 0)
 

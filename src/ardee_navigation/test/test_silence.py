@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """When scans have stopped, by two clocks of which either may stand still or run fast."""
-from ardee_navigation.silence import Silence
+from ardee_navigation.nodes.silence import Silence
 
 
 def answered(simulated_s: float = 10.0, wall_s: float = 100.0) -> Silence:

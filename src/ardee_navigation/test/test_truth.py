@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_navigation.contacts import LENGTH_M, WIDTH_M, Contacts, depths_m
-from ardee_navigation.truth import Field, Polyline, Pose, Stalks, lane_of, read_field
+from ardee_navigation.evaluation.contacts import LENGTH_M, WIDTH_M, Contacts, depths_m
+from ardee_navigation.evaluation.row_truth import Field, Polyline, Pose, Stalks, lane_of, read_field
 
 NO_STALKS = Stalks(np.empty((0, 2)), np.empty(0))
 

@@ -9,8 +9,8 @@ from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS
-from ardee_world.config import FieldConfig
-from ardee_world.layout import generate
+from ardee_world.field_config import FieldConfig
+from ardee_world.field_layout import generate
 from ardee_world.plots import Plan
 from ardee_world.request import configure, yaml_values
 from ardee_world.writers.field import write_field

@@ -13,10 +13,10 @@ sys.path.insert(0, str(PACKAGE.parent / "ardee_models" / "src"))
 
 import numpy as np  # noqa: E402
 
-from ardee_models.crops import make_crop  # noqa: E402
 from ardee_models.lookup import CropModel  # noqa: E402
-from ardee_models.terrain import TerrainParams, generate_terrain  # noqa: E402
-from ardee_models.writers.terrain import write_terrain  # noqa: E402
+from ardee_models.plant.crops import make_crop  # noqa: E402
+from ardee_models.terrain.height_map import TerrainParams, generate_terrain  # noqa: E402
+from ardee_models.terrain.terrain_model import write_terrain  # noqa: E402
 
 
 @pytest.fixture(scope="session")
@@ -46,13 +46,13 @@ def pool() -> tuple:
 @pytest.fixture()
 def generate_field(models, monkeypatch, capsys):
     """Run the command with arguments; returns exit code and standard error."""
-    from ardee_world import cli
+    from ardee_world import generate_field
 
     def call(*arguments) -> tuple:
         monkeypatch.setenv("GAZEBO_MODEL_PATH", str(models))
         monkeypatch.setattr(sys, "argv", ["generate_field", *map(str, arguments)])
         try:
-            code = cli.main()
+            code = generate_field.main()
         except SystemExit as exit_:
             code = exit_.code
         return code, capsys.readouterr().err

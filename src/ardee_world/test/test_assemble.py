@@ -11,8 +11,8 @@ import pytest
 import yaml
 
 from ardee_models.lookup import terrain_model
-from ardee_world import assemble
-from ardee_world.layout import to_world
+from ardee_world import assemble_world
+from ardee_world.field_layout import to_world
 from ardee_world.urdf_file import EMPTY, SEPARATOR
 
 BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", "0", "0")
@@ -46,7 +46,7 @@ def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
         ]
         monkeypatch.setattr(sys, "argv", words)
         try:
-            code = assemble.main()
+            code = assemble_world.main()
         except SystemExit as exit_:
             code = exit_.code
         return code, capsys.readouterr().err

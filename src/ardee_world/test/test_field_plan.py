@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from ardee_world.config import Plots
-from ardee_world.layout import to_world
+from ardee_world.field_config import Plots
+from ardee_world.field_layout import to_world
 from ardee_world.plots import plan_centres, row_positions, row_starts
 
 

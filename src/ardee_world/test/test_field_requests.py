@@ -177,7 +177,7 @@ def test_bad_arguments_are_one_message_and_change_nothing(
 
 
 def test_help_gives_units(capsys):
-    from ardee_world.cli import make_parser
+    from ardee_world.generate_field import make_parser
 
     text = make_parser().format_help()
     for words in (

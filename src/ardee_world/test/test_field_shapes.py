@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_world.config import FieldConfig, Plots, RowShape
 from ardee_world.expression import parse_expression
-from ardee_world.layout import generate
+from ardee_world.field_config import FieldConfig, Plots, RowShape
+from ardee_world.field_layout import generate
 from ardee_world.plots import plan_centres
 
 PLOTS = Plots(row_length_m=10.0)

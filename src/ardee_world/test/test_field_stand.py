@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
-from ardee_world.config import Clutter, FieldConfig, Plots, RowShape, Stand
-from ardee_world.layout import generate
+from ardee_world.field_config import Clutter, FieldConfig, Plots, RowShape, Stand
+from ardee_world.field_layout import generate
 
 RISK = 1e-6
 LARGE = Plots(rows_per_plot=10, plots_x=4, row_length_m=0.166 * 499)  # 20,000 places

@@ -9,8 +9,8 @@ from scipy import stats
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
-from ardee_world.config import FieldConfig, Plots
-from ardee_world.layout import generate, to_world
+from ardee_world.field_config import FieldConfig, Plots
+from ardee_world.field_layout import generate, to_world
 
 RISK = 1e-6
 LARGE = Plots(rows_per_plot=10, plots_x=4, row_length_m=0.166 * 499)

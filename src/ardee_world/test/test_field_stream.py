@@ -6,10 +6,10 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from ardee_models.terrain_files import ground_model
-from ardee_world import assemble
-from ardee_world.config import FieldConfig, Plots
-from ardee_world.layout import generate
+from ardee_models.terrain.ground import ground_model
+from ardee_world import assemble_world
+from ardee_world.field_config import FieldConfig, Plots
+from ardee_world.field_layout import generate
 from ardee_world.request import LARGEST_SDF
 from ardee_world.writers.field import is_stream
 from ardee_world.writers.instances import HEADER
@@ -89,7 +89,7 @@ def put_together(models, generate_field, tmp_path, monkeypatch):
 
     def call(*more):
         words = [*fixed, "--output", str(tmp_path / "out"), *more]
-        return assemble.assemble(assemble.make_parser().parse_args(words))
+        return assemble_world.assemble(assemble_world.make_parser().parse_args(words))
 
     return call
 
@@ -125,6 +125,6 @@ def test_a_broken_table_is_said_with_its_line(put_together, tmp_path, text, mess
     table.unlink()
     if text is not None:
         table.write_text(text)
-    with pytest.raises(assemble.GeneratorError, match=message):
+    with pytest.raises(assemble_world.GeneratorError, match=message):
         put_together()
     assert not (tmp_path / "out/models/custom_field").exists()

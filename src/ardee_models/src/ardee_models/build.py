@@ -11,10 +11,10 @@ from PIL import Image
 
 from ardee_common.cli import Parser, run
 from ardee_common.output import model_directory, write_file
-from ardee_models.terrain import TerrainParams, generate_terrain
-from ardee_models.textures import media_textures
-from ardee_models.variants import build_crops
-from ardee_models.writers.terrain import write_terrain
+from ardee_models.plant.variants import build_crops
+from ardee_models.terrain.ground_textures import media_textures
+from ardee_models.terrain.height_map import TerrainParams, generate_terrain
+from ardee_models.terrain.terrain_model import write_terrain
 
 _TERRAIN_SEED = 1
 _MEDIA_SEED = 1

@@ -12,8 +12,8 @@ import numpy as np
 from PIL import Image
 
 from ardee_common.errors import GeneratorError
-from ardee_models.terrain import Terrain
-from ardee_models.writers.crop import METRICS_FILE
+from ardee_models.plant.crop_files import METRICS_FILE
+from ardee_models.terrain.height_map import Terrain
 
 
 @dataclass(frozen=True)

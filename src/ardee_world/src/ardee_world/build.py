@@ -8,11 +8,11 @@ from typing import Dict, List, Sequence
 from ardee_common.cli import Parser, run
 from ardee_common.output import write_file
 from ardee_models.lookup import find_model
-from ardee_models.terrain_features import follow
-from ardee_models.terrain_recipe import read_recipe
-from ardee_models.writers.terrain import write_terrain
-from ardee_world.cli import make_configured
+from ardee_models.terrain.features import follow
+from ardee_models.terrain.recipe import read_recipe
+from ardee_models.terrain.terrain_model import write_terrain
 from ardee_world.clutter_models import MODELS, write_clutter_model
+from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
 from ardee_world.start import start_file
 from ardee_world.urdf_file import EMPTY

@@ -8,7 +8,7 @@ from typing import Sequence
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_world.config import FAR_M, MAX_PLANTS
+from ardee_world.field_config import FAR_M, MAX_PLANTS
 from ardee_world.plots import Plan, Row
 
 _MAX_PLOT = 100_000  # of plot and row numbers

@@ -8,9 +8,9 @@ from typing import Optional, Tuple
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_models.grey_image import read_grey
 from ardee_models.lookup import CropModel
-from ardee_world.config import Clutter
+from ardee_models.terrain.grey_image import read_grey
+from ardee_world.field_config import Clutter
 from ardee_world.streams import Streams
 
 KINDS = ("weed", "stone", "litter")

@@ -10,8 +10,8 @@ from typing import Callable
 import numpy as np
 
 from ardee_common.output import model_directory
-from ardee_models.writers.crop import METRICS_FILE
-from ardee_models.writers.metadata import model_config
+from ardee_models.metadata import model_config
+from ardee_models.plant.crop_files import METRICS_FILE
 from ardee_world import clutter_shapes
 
 # Class ids in segmentation, after those of crops

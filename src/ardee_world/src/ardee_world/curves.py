@@ -6,8 +6,8 @@ from typing import Optional, Tuple
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_world.config import RowShape
 from ardee_world.expression import parse_expression
+from ardee_world.field_config import RowShape
 
 _LARGEST_STEP_M = 0.02
 _MOST_SAMPLES = 100_000

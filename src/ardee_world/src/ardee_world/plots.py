@@ -7,8 +7,8 @@ from typing import Iterator, List, Tuple
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_world.config import MAX_PLANTS, Plots, RowShape
 from ardee_world.curves import Line, left_of
+from ardee_world.field_config import MAX_PLANTS, Plots, RowShape
 
 _VERTEX_SPACING_M = 0.25  # of the polylines of bent rows
 _ARC_STEP_M = 0.02

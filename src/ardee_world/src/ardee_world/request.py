@@ -9,7 +9,7 @@ from typing import Any, Dict, Optional, Tuple
 from ardee_common.config import Mapping, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of, option, scalar_fields
-from ardee_world.config import GROUPS, FieldConfig
+from ardee_world.field_config import GROUPS, FieldConfig
 
 LARGEST_SDF = 20_000  # plants and clutter; a larger field is a stream if nothing is said
 _WHOLE = (0, 2**63)

@@ -8,8 +8,8 @@ from typing import List, Optional, Tuple
 import numpy as np
 
 from ardee_common.errors import GeneratorError
-from ardee_models.terrain import Ground
-from ardee_world.layout import to_world
+from ardee_models.terrain.height_map import Ground
+from ardee_world.field_layout import to_world
 from ardee_world.writers.instances import HEADER
 from ardee_world.writers.sdf import EXTENSION_NAMESPACE
 

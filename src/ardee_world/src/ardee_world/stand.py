@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
-from ardee_world.config import Stand
+from ardee_world.field_config import Stand
 from ardee_world.plots import Plan
 from ardee_world.streams import Streams
 

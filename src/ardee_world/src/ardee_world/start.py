@@ -10,9 +10,9 @@ import numpy as np
 
 from ardee_common.config import build, read_yaml_lines
 from ardee_common.options import bounded
-from ardee_models.terrain import Ground
+from ardee_models.terrain.height_map import Ground
 from ardee_world.curves import Line
-from ardee_world.layout import Layout
+from ardee_world.field_layout import Layout
 
 STAND_M = 0.175  # height of a robot's base_footprint above the ground below its wheels
 _REACH_M = 0.3  # half the length of a robot

@@ -10,7 +10,7 @@ from PIL import Image
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import MAX_TOTAL
-from ardee_bridge.wire.layout import INT32, NO_VALUE
+from ardee_bridge.wire.struct_layout import INT32, NO_VALUE
 
 Vector = codec.Xyz
 

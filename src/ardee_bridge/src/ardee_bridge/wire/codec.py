@@ -16,8 +16,8 @@ from ardee_bridge.wire.enums import (  # noqa: F401
     MeasurementType,
     MessageType,
 )
-from ardee_bridge.wire.layout import INT8, INT32, UINT8, UINT16, Array, CStruct
 from ardee_bridge.wire.scales import scale_of
+from ardee_bridge.wire.struct_layout import INT8, INT32, UINT8, UINT16, Array, CStruct
 
 LIDAR_SLOTS = 1081
 RANGE_TOO_FAR, RANGE_TOO_NEAR = -1000, -2000

@@ -15,7 +15,7 @@ import numpy as np
 from PIL import Image
 
 from ardee_common.errors import GeneratorError
-from ardee_models.plant import Mesh
+from ardee_models.plant.plant import Mesh
 
 _FORMATS = {".dae", ".obj", ".stl", ".ply", ".glb", ".gltf", ".off", ".3mf"}
 _Y_UP_FORMATS = {".glb", ".gltf", ".obj"}

@@ -10,13 +10,13 @@ from PIL import Image
 
 from ardee_common.errors import GeneratorError
 from ardee_common.output import check_name, model_directory
-from ardee_models.cylinder import Cylinder, fit_cylinder, fit_stalk_among_leaves
-from ardee_models.plant import Mesh
+from ardee_models.collada_file import write_collada
+from ardee_models.plant.crop_files import write_metrics, write_text_files
+from ardee_models.plant.crop_sdf import Visual
+from ardee_models.plant.cylinder import Cylinder, fit_cylinder, fit_stalk_among_leaves
+from ardee_models.plant.plant import Mesh
 from ardee_models.prepare.read import UserPart
 from ardee_models.prepare.split import plant_of_vertices
-from ardee_models.writers.collada_file import write_collada
-from ardee_models.writers.crop import write_metrics, write_text_files
-from ardee_models.writers.crop_sdf import Visual
 
 _STEM_NAMES = ("stem", "stalk", "trunk")
 _STALK_RADIUS_PART = 0.01  # of a plant's height, where the search for its stalk starts

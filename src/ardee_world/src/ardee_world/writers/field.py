@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Optional
 
 from ardee_common.output import model_directory
-from ardee_models.terrain import Ground
-from ardee_models.writers.metadata import model_config
-from ardee_world.layout import Layout
+from ardee_models.metadata import model_config
+from ardee_models.terrain.height_map import Ground
+from ardee_world.field_layout import Layout
 from ardee_world.request import LARGEST_SDF
 from ardee_world.start import start_before
 from ardee_world.urdf_file import SEPARATOR
@@ -16,7 +16,7 @@ from ardee_world.writers.instances import FILE_NAME, model_text, table_text
 from ardee_world.writers.map_png import draw_map
 from ardee_world.writers.plots_file import plots_text
 from ardee_world.writers.sdf import sdf_text
-from ardee_world.writers.truth import clutter_columns, csv_text, json_text, plant_columns
+from ardee_world.writers.truth_files import clutter_columns, csv_text, json_text, plant_columns
 
 
 def is_stream(form: str, layout: Layout) -> bool:

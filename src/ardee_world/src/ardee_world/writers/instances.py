@@ -3,7 +3,7 @@
 
 from typing import Iterable, Iterator
 
-from ardee_world.layout import Layout
+from ardee_world.field_layout import Layout
 from ardee_world.writers.sdf import EXTENSION_NAMESPACE, Placed, placed_items, pose_line
 
 FILE_NAME = "plants.csv"

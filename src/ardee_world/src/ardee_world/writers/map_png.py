@@ -6,7 +6,7 @@ from typing import Tuple
 import numpy as np
 from PIL import Image, ImageDraw
 
-from ardee_world.layout import Layout
+from ardee_world.field_layout import Layout
 
 _LARGEST_PX = 2000
 _PX_PER_M = 60.0

@@ -7,7 +7,7 @@ from typing import List
 import numpy as np
 
 from ardee_world.curves import left_of
-from ardee_world.layout import Layout, to_world
+from ardee_world.field_layout import Layout, to_world
 
 _HEAD = """<?xml version="1.0" ?>
 <robot xmlns:xacro="http://ros.org/wiki/xacro">

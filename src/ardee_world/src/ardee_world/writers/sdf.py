@@ -3,7 +3,7 @@
 
 from typing import Iterator, Sequence, Tuple
 
-from ardee_world.layout import Layout
+from ardee_world.field_layout import Layout
 
 # Model, kind, number, x y z [m], roll pitch yaw [rad], scale, label
 Placed = Tuple[str, str, int, Sequence[float], Sequence[float], float, int]

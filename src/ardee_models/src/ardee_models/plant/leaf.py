@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+"""A leaf blade: curved midrib, width profile, fold along the midrib, wavy edges."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ardee_models.plant.mesh import sheet, unit
+from ardee_models.plant.plant import Mesh
+from ardee_models.plant.species import Leaves
+
+_FINE_STEPS = 8  # integration steps a segment of the midrib
+_TIP_WIDTH = 0.03  # of the largest width: keeps the last triangles from collapsing
+_COLLAR_LENGTH = 0.08  # part of the blade in which the fold at the collar opens
+_STRIP_MARGIN = 0.04  # of a texture strip, kept free at its sides
+
+
+@dataclass(frozen=True)
+class Blade:
+    """One blade: where it starts, how it is directed (angles from the vertical), its size, its state."""
+
+    rank: int
+    origin: np.ndarray
+    azimuth_rad: float
+    azimuth_drift_rad: float
+    insertion_rad: float
+    curvature_rad: float
+    twist_rad: float
+    fold_extra_rad: float
+    length_m: float
+    width_m: float
+    wave_phase_rad: float
+    dryness: float
+    strip: int
+    strips: int
+
+
+def width_profile(s: np.ndarray, klig: float, s_wmax: float, tip_power: float) -> np.ndarray:
+    """Relative width at s: parabola from klig to 1 at s_wmax (Dornbusch 2011), then 1 - b^p to the tip."""
+    base = klig + (1.0 - klig) * (1.0 - (1.0 - s / s_wmax) ** 2)
+    beyond = np.clip((s - s_wmax) / (1.0 - s_wmax), 0.0, 1.0)
+    return np.maximum(np.where(s < s_wmax, base, 1.0 - beyond**tip_power), _TIP_WIDTH)
+
+
+def profile_area(klig: float, s_wmax: float, tip_power: float) -> float:
+    """Area of the outline over length times width: the integral of the width profile."""
+    return s_wmax * (klig + (1.0 - klig) * 2.0 / 3.0) + (1.0 - s_wmax) * tip_power / (
+        tip_power + 1.0
+    )
+
+
+def midrib(blade: Blade, power: float, segments: int) -> tuple:
+    """Points and tangents at segments + 1 stations; the angle from the vertical grows by curvature * s^power."""
+    fine = np.linspace(0.0, 1.0, segments * _FINE_STEPS + 1)
+    middle = (fine[1:] + fine[:-1]) / 2
+
+    def direction(s: np.ndarray) -> np.ndarray:
+        angle = blade.insertion_rad + blade.curvature_rad * s**power
+        azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
+        return np.stack(
+            (np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1
+        )
+
+    steps = direction(middle) * (blade.length_m / len(middle))
+    path = np.concatenate((np.zeros((1, 3)), np.cumsum(steps, axis=0))) + blade.origin
+    return path[::_FINE_STEPS], direction(fine[::_FINE_STEPS])
+
+
+def _half_widths(blade: Blade, shape: Leaves, s: np.ndarray) -> np.ndarray:
+    """Half widths whose trapezoids have the outline's area, however few they are."""
+    outline = (shape.blade_klig, shape.blade_s_wmax, shape.blade_tip_power)
+    relative = width_profile(s, *outline)
+    polygon = float(np.sum((relative[1:] + relative[:-1]) / 2) / (len(s) - 1))
+    return 0.5 * blade.width_m * relative * profile_area(*outline) / polygon
+
+
+def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarray) -> tuple:
+    """Sideways and upward parts, over the half width, of vertices at `offsets` -1..1 across the blade."""
+    opening = np.exp(-s / _COLLAR_LENGTH)[:, None]
+    blade_fold = np.radians(shape.fold_blade_deg) + blade.fold_extra_rad
+    fold = blade_fold + (np.radians(shape.fold_base_deg) - blade_fold) * opening
+    across = np.abs(offsets)[None, :]
+    # from the midrib to the edge the slope falls by edge_droop
+    slope = fold - np.radians(shape.edge_droop_deg) * across * (1.0 - opening)
+    phase = 2.0 * np.pi * shape.wave_count * s[:, None] + blade.wave_phase_rad
+    shift = np.where(offsets > 0.0, 0.6 * np.pi, 0.0)[None, :]
+    wave = shape.wave_amplitude * across**2 * (1.0 - opening) * np.sin(phase + shift)
+    return np.sign(offsets)[None, :] * across * np.cos(slope), across * np.sin(slope) + wave
+
+
+def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
+    """`columns` (odd: one is the midrib; 2: edges only) of vertices, upper side along the normals."""
+    s = np.linspace(0.0, 1.0, segments + 1)
+    centre, tangent = midrib(blade, shape.curvature_power, segments)
+    azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
+    flat_side = np.stack((np.sin(azimuth), -np.cos(azimuth), np.zeros_like(s)), -1)
+    flat_up = unit(np.cross(flat_side, tangent))
+    roll = (blade.twist_rad * s)[:, None]
+    side = np.cos(roll) * flat_side + np.sin(roll) * flat_up
+    up = np.cos(roll) * flat_up - np.sin(roll) * flat_side
+    half = _half_widths(blade, shape, s)[:, None]
+    offsets = np.linspace(-1.0, 1.0, columns)
+    sideways, lift = _cross_section(blade, shape, s, offsets)
+    if columns == 2:  # no midrib to fold along: the flat blade keeps its area
+        sideways, lift = np.broadcast_to(offsets, sideways.shape), np.zeros_like(lift)
+    points = (
+        centre[:, None, :]
+        + (half * sideways)[..., None] * side[:, None, :]
+        + (half * lift)[..., None] * up[:, None, :]
+    )
+    points[..., 2] = np.maximum(points[..., 2], 0.0)  # a drooping tip rests on the ground
+    low = (blade.strip + _STRIP_MARGIN) / blade.strips
+    high = (blade.strip + 1.0 - _STRIP_MARGIN) / blade.strips
+    u, v = np.broadcast_arrays((low + (high - low) * (offsets + 1.0) / 2.0)[None, :], s[:, None])
+    return sheet(points, np.stack((u, v), axis=-1))

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""Command `prepare_crop`: a mesh that a user brings becomes crop models."""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import List, Optional, Sequence
+
+from ardee_common.cli import Parser, positive_number, run, whole_in
+from ardee_models.plant.generate_crop import default_output
+from ardee_models.plant.plant_metrics import METRICS_FILE
+from ardee_models.plant.species import known_species, load_species
+from ardee_models.prepare.read import read_mesh
+from ardee_models.prepare.write import split_plants, write_plants
+
+_FLAT = 2.0  # reach to the side beside height, above which a plant is suspected to lie
+
+
+def prepare(args: argparse.Namespace) -> List[Path]:
+    """Read, split, write; returns the model directories."""
+    label = args.label
+    if label is None:
+        label = load_species(args.species)[0].label if args.species in known_species() else 0
+    parts = read_mesh(args.mesh, args.up, args.scale)
+    plants = [parts] if args.whole else split_plants(parts, args.gap)
+    facts = {
+        "species": args.species,
+        "stage": args.stage,
+        "season": "unknown",
+        "label": label,
+        "source": args.mesh.name,
+    }
+    return write_plants(plants, args.name, args.output or default_output(), args.stem, facts)
+
+
+def warn_if_lying(model: Path, given: str) -> None:
+    """A plant much wider than high has most likely been read with another axis up."""
+    metrics = json.loads((model / METRICS_FILE).read_text(encoding="utf-8"))
+    height_m, extent_m = metrics["height_m"], metrics["lateral_extent_m"]
+    if extent_m > _FLAT * height_m:
+        print(
+            f"prepare_crop: warning: {model.name} is {height_m:g} m high and reaches {extent_m:g} m to the side;"
+            f" if it lies, turn it by another --up than {given}",
+            file=sys.stderr,
+        )
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser(
+        prog="prepare_crop",
+        description="Make crop models of a mesh file: one for each stalk that stands on the ground,"
+        " drawn from both sides, with a cylinder fitted to its stalk and PNG copies of its textures.",
+    )
+    parser.add_argument("mesh", type=Path, help="mesh file (.dae, .obj, .stl, .ply, .glb, ...)")
+    parser.add_argument(
+        "--name", required=True, help="name of the model; several stalks become NAME_1, NAME_2, ..."
+    )
+    parser.add_argument("--output", type=Path, help="folder of models, as for generate_crop")
+    parser.add_argument(
+        "--up",
+        choices=("auto", "x", "y", "z"),
+        default="auto",
+        help="the file's up axis (default auto: as a .dae says, y for .obj and .gltf, else z)",
+    )
+    parser.add_argument(
+        "--scale", type=positive_number, help="metres a unit (default: as a .dae says, else 1)"
+    )
+    parser.add_argument(
+        "--gap",
+        type=positive_number,
+        default=0.06,
+        help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
+    )
+    parser.add_argument("--whole", action="store_true", help="one model of all, do not split")
+    parser.add_argument(
+        "--stem", help="part that is the stalk (default: one called stem, stalk, trunk)"
+    )
+    parser.add_argument("--species", default="unknown", help="species, for metrics.json")
+    parser.add_argument("--stage", default="unknown", help="growth stage, for metrics.json")
+    parser.add_argument(
+        "--label", type=whole_in(0, 65535), help="class id in segmentation (default: the species')"
+    )
+    return parser
+
+
+def _prepare_all(args: argparse.Namespace) -> None:
+    for path in prepare(args):
+        print(path)
+        warn_if_lying(path, args.up)
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """`prepare_crop MESH --name N`: prints the paths written."""
+    return run(_parser(), _prepare_all, arguments)

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""Command `generate_terrain`: ground from a recipe, an image, an elevation model, or a mesh."""
+
+import argparse
+import dataclasses
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ardee_common.cli import Parser, run, seed_number
+from ardee_common.errors import GeneratorError
+from ardee_common.options import check
+from ardee_models.terrain.elevation import dem_terrain
+from ardee_models.terrain.features import follow
+from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
+from ardee_models.terrain.image import image_terrain
+from ardee_models.terrain.mesh_terrain import UPS, MeshOptions, read_mesh
+from ardee_models.terrain.recipe import Look, Surface, read_recipe
+from ardee_models.terrain.terrain_model import write_terrain
+from ardee_models.terrain.terrain_obj import write_mesh_terrain
+
+_PLAIN = (
+    ("--row-spacing", "row_spacing_m", "distance between ridges [m]"),
+    ("--ridge-height", "ridge_height_m", "ridge along each row [m], 0 for none"),
+    ("--bump-sd", "bump_sd_m", "standard deviation of bumps [m], 0 for none"),
+    ("--bump-length", "bump_length_m", "size of bumps [m]"),
+)
+
+
+def _warn(text: str) -> None:
+    print(f"generate_terrain: warning: {text}", file=sys.stderr)
+
+
+def _source_arguments(parser: argparse.ArgumentParser) -> None:
+    usual = TerrainParams()
+    source = parser.add_mutually_exclusive_group()
+    source.add_argument("recipe", nargs="?", type=Path, metavar="RECIPE.yaml", help="what to make")
+    source.add_argument(
+        "--image", type=Path, metavar="IMAGE", help="square grey image, best of 16 bits"
+    )
+    source.add_argument(
+        "--dem", type=Path, metavar="FILE", help="elevation model: GeoTIFF, or ESRI ASCII .asc"
+    )
+    source.add_argument("--mesh", type=Path, metavar="FILE", help="3D mesh: DAE, OBJ, STL, ...")
+    plain = parser.add_argument_group("without any of these: ridges and bumps")
+    for flag, name, text in _PLAIN:
+        value = getattr(usual, name)
+        plain.add_argument(
+            flag, dest=name, type=float, metavar="M", help=f"{text} (default {value:g})"
+        )
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Arguments of the command."""
+    usual, felt = TerrainParams(), Surface()
+    parser = Parser(
+        prog="generate_terrain",
+        description="Write a field terrain as a Gazebo model directory. Rows run along x.",
+    )
+    _source_arguments(parser)
+    shape = parser.add_argument_group("size")
+    shape.add_argument(
+        "--size", type=float, metavar="M", help=f"side of the square [m] (default {usual.size_m:g})"
+    )
+    shape.add_argument(
+        "--samples",
+        type=int,
+        metavar="N",
+        help="pixels a side, 2^n + 1 (default: enough for the source)",
+    )
+    shape.add_argument(
+        "--image-height",
+        type=float,
+        default=1.0,
+        metavar="M",
+        help="from black to white [m] (default 1)",
+    )
+    shape.add_argument("--fill-holes", action="store_true", help="fill holes of an elevation model")
+    shape.add_argument(
+        "--mesh-scale",
+        type=float,
+        default=1.0,
+        metavar="X",
+        help="metres a unit of the mesh (default 1)",
+    )
+    shape.add_argument(
+        "--mesh-up", choices=UPS, default="auto", help="axis of the mesh that points up"
+    )
+    surface = parser.add_argument_group("surface")
+    for flag, name, text in (
+        ("--friction", "mu", "friction coefficient"),
+        (
+            "--friction-across",
+            "mu2",
+            "friction coefficient in the second direction (default: the first)",
+        ),
+        ("--contact-stiffness", "kp", "of contacts [N/m]"),
+        ("--contact-damping", "kd", "of contacts [N s/m]"),
+    ):
+        value = "" if name == "mu2" else f" (default {getattr(felt, name):g})"
+        surface.add_argument(flag, dest=name, type=float, metavar="X", help=text + value)
+    parser.add_argument("--seed", type=seed_number, help="root of all random numbers (default 0)")
+    parser.add_argument(
+        "--image-name", default="terrain", help="stem of the written image's file name"
+    )
+    parser.add_argument("--name", required=True, help="name of the model")
+    parser.add_argument(
+        "--output", type=Path, required=True, help="folder of models to write it in"
+    )
+    return parser
+
+
+def _refuse(args: argparse.Namespace, names: tuple, source: str) -> None:
+    for name in names:
+        if getattr(args, name) is not None:
+            flag = name[:-2] if name.endswith("_m") else name
+            raise GeneratorError(
+                f"found --{flag.replace('_', '-')} with {source}, expected it alone"
+            )
+
+
+def _surface(args: argparse.Namespace, usual: Surface) -> Surface:
+    given = {n: getattr(args, n) for n in ("mu", "mu2", "kp", "kd") if getattr(args, n) is not None}
+    if "mu" in given:
+        given.setdefault("mu2", given["mu"])
+    made = dataclasses.replace(usual, **given)
+    check(made, "terrain surface ")
+    return made
+
+
+def _size(args: argparse.Namespace) -> float:
+    size = TerrainParams().size_m if args.size is None else args.size
+    if not (np.isfinite(size) and 1.0 <= size <= 2000.0):
+        raise GeneratorError(f"terrain size: found {size}, expected 1 to 2000 m")
+    return size
+
+
+def _plain_terrain(args: argparse.Namespace) -> Terrain:
+    names = {n: getattr(args, n) for _, n, _ in _PLAIN if getattr(args, n) is not None}
+    samples = TerrainParams().samples if args.samples is None else args.samples
+    params = TerrainParams(size_m=_size(args), samples=samples, **names)
+    return generate_terrain(params, np.random.default_rng(args.seed or 0))
+
+
+def make_terrain(args: argparse.Namespace) -> Path:
+    """Arguments to a written terrain."""
+    plain = tuple(name for _, name, _ in _PLAIN)
+    surface, look = Surface(), Look()
+    if args.mesh:
+        _refuse(args, (*plain, "size", "samples", "seed"), "--mesh")
+        ground = read_mesh(args.mesh, MeshOptions(args.mesh_scale, args.mesh_up))
+        return write_mesh_terrain(ground, _surface(args, surface), args.name, args.output)
+    about: Any = "Field terrain, procedural heightmap"
+    if args.recipe:
+        _refuse(args, plain, "a recipe")
+        recipe = read_recipe(args.recipe)
+        given = {"size_m": args.size, "samples": args.samples, "seed": args.seed}
+        recipe = dataclasses.replace(recipe, **{k: v for k, v in given.items() if v is not None})
+        surface, look, terrain = recipe.surface, recipe.look, follow(recipe)
+    elif args.image:
+        _refuse(args, (*plain, "seed"), "--image")
+        terrain = image_terrain(args.image, _size(args), args.image_height, args.samples, _warn)
+        about = "Field terrain, heightmap from an image"
+    elif args.dem:
+        _refuse(args, (*plain, "seed", "size"), "--dem")
+        terrain = dem_terrain(args.dem, args.samples, args.fill_holes, _warn)
+        about = "Field terrain, heightmap from an elevation model"
+    else:
+        terrain = _plain_terrain(args)
+    felt = _surface(args, surface)
+    return write_terrain(
+        terrain, felt.mu, args.name, args.image_name, args.output, felt, look, description=about
+    )
+
+
+def main() -> int:
+    """`generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
+    return run(make_parser(), make_terrain)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

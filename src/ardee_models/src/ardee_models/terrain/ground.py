@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""The ground of a terrain's model directory, whether heightmap, mesh or plane, for plants to stand on."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Sequence
+
+import numpy as np
+
+from ardee_common.errors import GeneratorError
+from ardee_models.lookup import find_model, resource, sdf_root, terrain_model
+from ardee_models.terrain.height_map import Ground
+from ardee_models.terrain.mesh_terrain import MeshOptions, read_mesh
+
+
+@dataclass(frozen=True)
+class LevelGround:
+    """A plane."""
+
+    def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
+        """Zero everywhere."""
+        return np.zeros(np.broadcast(x_m, y_m).shape)
+
+
+def ground_model(name: str, folders: Sequence[Path]) -> Ground:
+    """The first heightmap, mesh or plane that the model collides with."""
+    model = find_model(name, folders)
+    root = sdf_root(model)
+    if root.find(".//collision/geometry/heightmap") is not None:
+        return terrain_model(name, folders)
+    mesh = root.find(".//collision/geometry/mesh")
+    if mesh is not None:
+        path = resource(mesh.findtext("uri", "").strip(), [model.parent, *folders])
+        return read_mesh(path, MeshOptions(center=False))
+    if root.find(".//collision/geometry/plane") is not None:
+        return LevelGround()
+    raise GeneratorError(f"{model}/model.sdf: no <heightmap>, <mesh> or <plane> in a collision")

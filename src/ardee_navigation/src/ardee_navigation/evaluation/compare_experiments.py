@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+"""Command `compare_experiments`: what one experiment's runs differ by from another's over the same seeds."""
+import argparse
+from pathlib import Path
+
+from ardee_common.cli import Parser, run
+from ardee_navigation.evaluation.comparison import compare, read_runs
+
+
+def _compare(args: argparse.Namespace) -> str:
+    return compare(read_runs(args.one), read_runs(args.other), (str(args.one), str(args.other)))
+
+
+def main() -> int:
+    """Exit code: 2 for bad input."""
+    parser = Parser(
+        prog="compare_experiments",
+        description="Pair the runs of two experiments by seed; print mean differences with 95 %% intervals.",
+    )
+    parser.add_argument(
+        "one", type=Path, metavar="ONE", help="folder of a report of run_experiment"
+    )
+    parser.add_argument(
+        "other", type=Path, metavar="OTHER", help="another; differences are OTHER - ONE"
+    )
+    return run(parser, _compare)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: MIT
+"""A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge."""
+import contextlib
+import dataclasses
+import json
+import os
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+from collections import deque
+from pathlib import Path
+from typing import Callable, Deque, List, Optional, Union
+
+import rospy
+import yaml
+from geometry_msgs.msg import Twist
+from std_srvs.srv import Empty
+
+from ardee_common.process import start_child, stop_child
+from ardee_navigation.evaluation.answers import Answers
+from ardee_navigation.evaluation.record import Record
+from ardee_navigation.evaluation.scenarios import Trial
+from ardee_navigation.evaluation.simulation import Simulation, SimulationError
+from ardee_navigation.evaluation.trial import Judge, Seen
+from ardee_navigation.lbirnt import Parameters
+
+SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
+ANSWER_WITHIN_S = 5.0  # of a scan; the first one waits for the bridge to start
+START_WITHIN_S = 30.0
+
+
+def _free_ports(count: int) -> List[int]:
+    """UDP ports of loopback that nobody has just now, so that experiments can run side by side."""
+    with contextlib.ExitStack() as stack:
+        sockets = [
+            stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+            for _ in range(count)
+        ]
+        for opened in sockets:
+            opened.bind(("127.0.0.1", 0))
+        return [opened.getsockname()[1] for opened in sockets]
+
+
+class Bridge:
+    """Both nodes of ardee_bridge, which send nothing that nobody asks for."""
+
+    def __init__(self) -> None:
+        self.sensors_port, self.controls_port = _free_ports(2)
+        server = ["sensor_server_node", f"_port:={self.sensors_port}", "_peers:=[]"]
+        client = ["controls_client_node", f"_port:={self.controls_port}"]
+        self._nodes = [start_child(["rosrun", "ardee_bridge", *node]) for node in (server, client)]
+
+    def stop(self) -> None:
+        """End them."""
+        for node in self._nodes:
+            stop_child(node)
+
+
+class Follower:
+    """The process without ROS: its environment knows no master; it says on its standard output what it did."""
+
+    def __init__(self, parameters: Path, bridge: Bridge) -> None:
+        command = ["rosrun", "ardee_navigation", "hil_row_follower", "--log", "-"]
+        command += ["--sensors", f"127.0.0.1:{bridge.sensors_port}"]
+        command += ["--controls", f"127.0.0.1:{bridge.controls_port}"]
+        environment = {k: v for k, v in os.environ.items() if k != "ROS_MASTER_URI"}
+        self._child = start_child(
+            [*command, f"--parameters={parameters}"],
+            environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        self._answers = Answers()
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        for line in self._child.stdout:
+            self._answers.put(json.loads(line))
+
+    def stop(self) -> None:
+        """Ends it."""
+        stop_child(self._child)
+
+    def _check(self) -> None:
+        if self._child.poll() is not None:
+            raise SimulationError("hil_row_follower has ended")
+
+    def answer(self, time_s: float, patience_s: float) -> Optional[dict]:
+        """What it made of the scan of this simulated time; None where it has none, for all patience."""
+        return self._answers.take(time_s, patience_s, self._check)
+
+
+class Latency:
+    """From a scan's arrival on its ROS topic to that of the next command on cmd_vel, both in this process."""
+
+    def __init__(self) -> None:
+        self.milliseconds: List[float] = []
+        self._scans: Deque[float] = deque(maxlen=1)
+        self._subscriber = rospy.Subscriber("/cmd_vel", Twist, self._on_command, tcp_nodelay=True)
+
+    def on_scan(self) -> None:
+        """Call when a scan has arrived."""
+        self._scans.append(time.monotonic())
+
+    def _on_command(self, _command: Twist) -> None:
+        if self._scans:
+            self.milliseconds.append(1e3 * (time.monotonic() - self._scans.pop()))
+
+    def stop(self) -> None:
+        """Listen no more."""
+        self._subscriber.unregister()
+
+
+def _seen(answer: dict) -> Seen:
+    valid = (bool(answer["valid"][0]), bool(answer["valid"][1]))
+    return Seen(answer["left_m"], answer["right_m"], valid, answer["state"])
+
+
+def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: float) -> object:
+    """Judge the next scan, if the follower answered it."""
+    scan = simulation.scan()
+    now_s = scan.header.stamp.to_sec()
+    answer = follower.answer(now_s, patience_s)
+    if answer is None:
+        judge.record.unanswered += 1
+        return None
+    command = (answer["speed_m_s"], answer["turn_rad_s"])
+    back = judge.look(now_s, simulation.pose(), command, _seen(answer))
+    judge.keep_scan(scan)
+    return back
+
+
+def _wait_for_first_answer(simulation: Simulation, follower: Follower) -> None:
+    deadline = time.monotonic() + START_WITHIN_S
+    while follower.answer(simulation.scan().header.stamp.to_sec(), 0.02) is None:
+        if time.monotonic() > deadline:
+            raise SimulationError(f"hil_row_follower answered no scan in {START_WITHIN_S:.0f} s")
+
+
+def drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Parameters,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
+    """One run in real time. After an intervention the follower is started anew."""
+    with tempfile.NamedTemporaryFile("w", prefix="ardee_lbirnt_", suffix=".yaml") as file:
+        yaml.safe_dump(dataclasses.asdict(parameters), file)
+        file.flush()
+        return _drive(simulation, trial, Path(file.name), judge, progress)
+
+
+def _drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Path,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
+    bridge = Bridge()
+    processes = [bridge]  # type: List[Union[Bridge, Follower]]
+    latency = Latency()
+    simulation.on_scan = latency.on_scan
+    try:
+        simulation.step(SETTLE_STEPS)
+        simulation.call("/gazebo/unpause_physics", Empty)
+        follower = Follower(parameters, bridge)
+        processes.append(follower)
+        _wait_for_first_answer(simulation, follower)
+        began = time.monotonic()
+        while not judge.record.end:
+            back = _look(simulation, judge, follower, ANSWER_WITHIN_S)
+            if judge.record.samples:
+                progress(judge.record.samples[-1].along_m)
+            if back is not None:
+                follower.stop()
+                simulation.set_pose(back, trial.height_m(back))
+                follower = Follower(parameters, bridge)
+                processes.append(follower)
+                _wait_for_first_answer(simulation, follower)
+        wall_s = time.monotonic() - began
+    finally:
+        latency.stop()
+        for process in reversed(processes):
+            process.stop()
+    judge.record.latency_ms = tuple(latency.milliseconds)
+    return judge.finish(wall_s)

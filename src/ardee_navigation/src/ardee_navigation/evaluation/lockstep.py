@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""A run in lockstep: a scan, what the row follower makes of it, its command, the physics steps between scans."""
+import time
+from typing import Callable
+
+import numpy as np
+
+from ardee_navigation.evaluation.record import Record
+from ardee_navigation.evaluation.scenarios import Trial
+from ardee_navigation.evaluation.simulation import Simulation, SimulationError
+from ardee_navigation.evaluation.trial import Judge, Seen
+from ardee_navigation.lbirnt import Output, Parameters, RowFollower
+
+STEP_S = 0.005  # of the worlds
+STEPS_A_SCAN = 5  # 25 ms: the UST-10LX's 40 Hz
+SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
+
+
+def _settle(simulation: Simulation) -> None:
+    """Let the robot come to rest; forget what was scanned meanwhile."""
+    simulation.command(0.0, 0.0)
+    end_s = simulation.step(SETTLE_STEPS)
+    before_s = now_s = simulation.scan().header.stamp.to_sec()
+    while now_s < end_s - (STEPS_A_SCAN - 0.5) * STEP_S:
+        before_s, now_s = now_s, simulation.scan().header.stamp.to_sec()
+    if abs(now_s - before_s - STEPS_A_SCAN * STEP_S) > 1e-6:
+        raise SimulationError(
+            f"found scans {now_s - before_s:.6f} s apart, expected {STEPS_A_SCAN} steps of {STEP_S} s"
+        )
+
+
+def _seen(output: Output) -> Seen:
+    lane = output.lane
+    return Seen(lane.left.distance_m, -lane.right.distance_m, output.valid, output.state.value)
+
+
+def drive(
+    simulation: Simulation,
+    trial: Trial,
+    parameters: Parameters,
+    judge: Judge,
+    progress: Callable[[float], None],
+) -> Record:
+    """One run; the robot stands at its start. `progress` is told how far along the lane it is [m]."""
+    began = time.monotonic()
+    follower = RowFollower(parameters)
+    _settle(simulation)
+    while not judge.record.end:
+        simulation.step(STEPS_A_SCAN)
+        scan = simulation.scan()
+        ranges, now_s = np.asarray(scan.ranges), scan.header.stamp.to_sec()
+        output = follower.update(ranges, scan.angle_min, scan.angle_increment, now_s)
+        command = (output.speed_m_s, output.turn_rad_s)
+        pose = simulation.command(*command)
+        back = judge.look(now_s, pose, command, _seen(output))
+        judge.keep_scan(scan)
+        progress(judge.record.samples[-1].along_m)
+        if back is not None:
+            simulation.set_pose(back, trial.height_m(back))
+            follower.reset()
+            _settle(simulation)
+    return judge.finish(time.monotonic() - began)

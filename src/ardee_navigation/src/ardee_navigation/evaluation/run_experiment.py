@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""Command `run_experiment`: runs of a scenario, headless, in lockstep or with hardware in the loop, and a report."""
+import argparse
+import shutil
+import signal
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any, List, NoReturn, Optional
+
+from tqdm import tqdm
+
+from ardee_common.cli import Parser, whole_in
+from ardee_common.errors import GeneratorError
+from ardee_navigation.evaluation.record import Record
+from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
+from ardee_navigation.evaluation.scenarios import known_scenarios, prepare
+
+LARGEST_SEED = 2**31 - 1
+
+
+def _make_folder(output: Path) -> None:
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GeneratorError(
+            f"--output: found {str(output)!r}, expected a folder to write in: {error.strerror}"
+        ) from None
+
+
+def _arguments(argv: List[str]) -> argparse.Namespace:
+    names = sorted(known_scenarios())
+    parser = Parser(
+        prog="run_experiment",
+        description="Let the row follower drive fields of a scenario and write a report; run r has the seed SEED + r.",
+    )
+    parser.add_argument(
+        "--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names)
+    )
+    parser.add_argument("--runs", type=whole_in(1, 10_000), default=10, help="[%(default)s]")
+    parser.add_argument(
+        "--seed", type=whole_in(0, LARGEST_SEED), default=1, help="of the first run [%(default)s]"
+    )
+    parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
+    parser.add_argument(
+        "--parameters", type=Path, help="YAML file of the row follower's parameters"
+    )
+    parser.add_argument("--bot-model", default="tsv1_default.urdf.xacro", help="[%(default)s]")
+    parser.add_argument(
+        "--hil",
+        action="store_true",
+        help="in real time, with the row follower as a process without ROS that speaks only UDP",
+    )
+    args = parser.parse_args(argv)
+    if args.seed + args.runs - 1 > LARGEST_SEED:
+        parser.error(f"--seed and --runs: found a last seed above {LARGEST_SEED}, the largest")
+    return args
+
+
+def _one_run(
+    scenario: Scenario, args: argparse.Namespace, number: int, urdf: str, work: Path
+) -> Record:
+    """Sow, start the simulator, drive, end it."""
+    if args.hil:
+        from ardee_navigation.evaluation.hil import drive
+    else:
+        from ardee_navigation.evaluation.lockstep import drive
+    from ardee_navigation.evaluation.simulation import Simulation
+    from ardee_navigation.evaluation.trial import Judge
+
+    seed = args.seed + number
+    trial = prepare(scenario, seed, work / "models")
+    judge = Judge(trial, args.scenario, number, seed, scenario.parameters.lidar_ahead_m)
+    length_m = judge.record.length_m
+    log = work / "simulator.log"
+    with Simulation(trial.world, seed, trial.models, log, realtime=args.hil) as simulation:
+        simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
+        with tqdm(
+            total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False, disable=None
+        ) as bar:
+
+            def progress(along_m: float) -> None:
+                bar.n = round(min(max(along_m, 0.0), length_m), 1)
+                bar.update(0)
+
+            return drive(simulation, trial, scenario.parameters, judge, progress)
+
+
+def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
+    from ardee_navigation.evaluation.experiment_report import (
+        in_short,
+        table,
+        write_report,
+        write_run,
+    )
+    from ardee_navigation.evaluation.simulation import Master, robot_urdf
+
+    scenario = known_scenarios()[args.scenario]
+    if args.parameters:
+        scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
+    output = args.output or Path("experiment_output") / args.scenario
+    _make_folder(output)
+    master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
+    try:
+        urdf = robot_urdf(args.bot_model)
+        for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
+            folder = work / f"run_{number}"
+            folder.mkdir()
+            records.append(_one_run(scenario, args, number, urdf, folder))
+            write_run(records[-1], output)
+            report = write_report(records, command, output)  # what there is outlives a Ctrl-C
+            if not sys.stderr.isatty():  # no bar there
+                print(f"{number + 1} of {args.runs}: {in_short(records[-1])}", file=sys.stderr)
+            shutil.rmtree(folder)
+    except BaseException as error:
+        if report:
+            tqdm.write(f"run_experiment: what had ended by then is in {report}", file=sys.stderr)
+        elif isinstance(error, SystemExit):
+            tqdm.write("run_experiment: no run had ended, none is reported", file=sys.stderr)
+        raise
+    finally:
+        master.stop()
+    print(table(records), end="")
+    print(report)
+
+
+class _Stopped(SystemExit, KeyboardInterrupt):
+    """Ends the program with its code; rospy's wait_for_service lets nothing through but a KeyboardInterrupt."""
+
+
+def _stop_here(number: int, _frame: Any) -> NoReturn:
+    raise _Stopped(128 + number)
+
+
+def main() -> int:
+    """Exit code: 0 all runs were driven, 1 the simulator failed, 2 bad input."""
+    try:
+        args = _arguments(sys.argv[1:])
+    except GeneratorError as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 2
+    from ardee_navigation.evaluation.simulation import SimulationError
+
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, _stop_here)
+    work = Path(tempfile.mkdtemp(prefix="ardee_experiment_"))
+    command = " ".join(["rosrun ardee_navigation run_experiment", *sys.argv[1:]])
+    try:
+        _experiment(args, command, work)
+    except GeneratorError as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 2
+    except (SimulationError, OSError) as error:
+        print(f"run_experiment: {error}", file=sys.stderr)
+        return 1
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    return 0

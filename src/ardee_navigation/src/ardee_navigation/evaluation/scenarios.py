@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""Scenarios by name, and what a run needs of one: a fresh field, its truth, a start pose, the ground."""
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List
+from xml.etree import ElementTree
+
+import numpy as np
+import rospkg
+
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_models.lookup import find_model, search_path
+from ardee_models.terrain.ground import ground_model
+from ardee_navigation.evaluation.row_truth import Field, Pose, read_field
+from ardee_navigation.evaluation.scenario_files import STAND_M, Scenario, Start, read_scenarios
+from ardee_world.generate_field import make_configured
+from ardee_world.request import yaml_values
+
+HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
+START_SD_M, START_SD_RAD = (
+    0.03,
+    0.05,
+)  # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
+
+
+def package_folder(name: str) -> Path:
+    """Of a ROS package."""
+    return Path(rospkg.RosPack().get_path(name))
+
+
+def known_scenarios() -> Dict[str, Scenario]:
+    """Name to scenario of this package's file."""
+    return read_scenarios(package_folder("ardee_navigation") / "config" / "scenarios.yaml")
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One run of a scenario, ready to be driven."""
+
+    world: Path
+    models: List[Path]  # folders before GAZEBO_MODEL_PATH
+    field: Field
+    start: Pose
+    ground: object  # has height_at(x_m, y_m)
+
+    def height_m(self, pose: Pose) -> float:
+        """Of base_footprint for a robot that is set down there: as high as its highest wheel wants."""
+        around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
+        x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
+        return float(np.max(self.ground.height_at(x, y))) + STAND_M
+
+
+def _included_models(world: Path) -> List[str]:
+    uris = (node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri"))
+    return [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+
+
+def _sow(plan: Path, seed: int, folder: Path) -> None:
+    values = yaml_values(plan)
+    values.update(name=plan.stem, output=str(folder), seed=seed)
+    make_configured(values)
+
+
+def start_near(start: Start, seed: int) -> Pose:
+    """The start pose with a person's inaccuracy, drawn from the seed."""
+    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,)))
+    aside, turn = rng.standard_normal(2) * (START_SD_M, START_SD_RAD)
+    x = start.x_m - np.sin(start.yaw_rad) * aside
+    y = start.y_m + np.cos(start.yaw_rad) * aside
+    return Pose(float(x), float(y), float(start.yaw_rad + turn))
+
+
+def prepare(scenario: Scenario, seed: int, folder: Path) -> Trial:
+    """Sow the field of a run into a folder of models and find what goes with it."""
+    share = package_folder("ardee_world")
+    world = share / "worlds" / scenario.world
+    if not world.is_file():
+        raise GeneratorError(f"{world}: no such world")
+    if scenario.plan:
+        folder.mkdir(parents=True, exist_ok=True)
+        _sow(share / "fields" / scenario.plan, seed, folder)
+    folders = search_path([folder] if scenario.plan else [])
+    terrain, field = _included_models(world)
+    truth = read_field(find_model(field, folders) / "truth.json")
+    start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))
+    ground = ground_model(terrain, folders)
+    models = [folder] if scenario.plan else []
+    return Trial(world, models, truth, start_near(start, seed), ground)

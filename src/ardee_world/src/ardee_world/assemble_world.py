@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""Puts a field, a terrain and a geofence together into a world, as the shell script of thesis Listing A.22 does."""
+
+import argparse
+import shutil
+from pathlib import Path
+from typing import Dict, List, Optional, Sequence
+
+from ardee_common.cli import Parser, run
+from ardee_common.errors import GeneratorError
+from ardee_common.output import model_directory, write_file
+from ardee_models.lookup import find_model, search_path
+from ardee_models.metadata import model_config
+from ardee_models.terrain.ground import ground_model
+from ardee_models.terrain.height_map import Ground
+from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
+from ardee_world.start import read_start, start_file
+from ardee_world.urdf_file import check_xml, split_field
+from ardee_world.writers.world import world_text
+
+FIELD, HEIGHTMAP = "custom_field", "custom_heightmap"
+GEOFENCE = Path("ardee_geofence") / "custom_gps_behavior.geofence"
+
+
+def find_file(name: str, folders: Sequence[Path], what: str) -> Path:
+    """A file by its path, or its path below one of the folders."""
+    for path in (Path(name), *(folder / name for folder in folders)):
+        if path.is_file():
+            return path
+    looked = ", ".join(map(str, (Path.cwd(), *folders)))
+    raise GeneratorError(f"{what} {name!r}: no such file, looked in {looked}")
+
+
+def find_field(name: str, folders: Sequence[Path], models: Sequence[Path]) -> Path:
+    """A .urdf.xacro file by its path, or that of a field's model directory by its name."""
+    if "/" not in name and not name.endswith(".xacro"):
+        return find_model(name, models) / f"{name}.urdf.xacro"
+    return find_file(name, folders, "field")
+
+
+def find_terrain(name: str, folders: Sequence[Path], models: Sequence[Path]) -> Path:
+    """A terrain's model directory by its path, else by its last part as name on the model path."""
+    for path in (Path(name), *(folder / name for folder in folders)):
+        if (path / "model.config").is_file():
+            return path.resolve()
+    return find_model(Path(name).name, models)
+
+
+def _table(field: Path, model: str, ground: Optional[Ground]) -> Dict[str, str]:
+    """Name to text of the table of plants beside a field's file, if it keeps one, on the ground if one is given."""
+    name = table_name(model)
+    if name is None:
+        return {}
+    path = field.parent / name
+    text = read_table(path)
+    return {name: seat_table(text, path, ground, own_pose(model)) if ground else text}
+
+
+def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> None:
+    with model_directory(models, FIELD) as folder:
+        about = "Field of customized crop plots"
+        (folder / "model.config").write_text(model_config(FIELD, about))
+        (folder / "model.sdf").write_text(text)
+        (folder / "plots.xacro").write_text(plots)
+        for name, rows in table.items():
+            (folder / name).write_text(rows)
+
+
+def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
+    """Let a copied model's URIs name the copy: the folder of the old one need not be on any path."""
+    old, new = (f"://{name}/".encode() for name in (old_name, new_name))
+    for sdf in sorted(folder.glob("*.sdf")):
+        sdf.write_bytes(sdf.read_bytes().replace(old, new))
+
+
+def assemble(args: argparse.Namespace) -> Path:
+    """Arguments to a folder with models/, worlds/custom.world and ardee_geofence/; returns the world's path."""
+    models: List[Path] = search_path(args.model_path)
+    field = find_field(args.field, args.search, models)
+    terrain = find_terrain(args.terrain, args.search, models)
+    geofence = find_file(args.geofence, args.search, "geofence")
+    model, plots = split_field(field)
+    check_xml(geofence.read_text(encoding="utf-8", errors="replace"), geofence)
+    ground = ground_model(terrain.name, [terrain.parent, *models])
+    seated = is_generated(model) and not args.keep_heights
+    table = _table(field, model, ground if seated else None)
+    if seated:
+        model = seat(model, ground)
+    start = read_start(start_file(field)).on(ground)
+    out = args.output
+    _write_field(model, plots, table, out / "models")
+    with model_directory(out / "models", HEIGHTMAP) as folder:
+        shutil.copytree(terrain, folder, dirs_exist_ok=True)
+        _refer_to_itself(folder, terrain.name, HEIGHTMAP)
+    write_file(out / GEOFENCE, geofence.read_bytes())
+    world = out / "worlds" / "custom.world"
+    write_file(world.with_suffix(".start.yaml"), start.text().encode())
+    write_file(world, world_text(HEIGHTMAP, FIELD).encode())
+    return world
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Arguments of `python3 -m ardee_world.assemble_world`."""
+    parser = Parser(prog="assemble_world", description=__doc__)
+    parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
+    parser.add_argument("terrain", help="model directory of a terrain, or its name")
+    parser.add_argument("geofence", help="geofence file")
+    parser.add_argument("--output", type=Path, required=True, help="folder to write into")
+    parser.add_argument(
+        "--search", type=Path, nargs="*", default=[], help="folders that paths may start from"
+    )
+    parser.add_argument(
+        "--model-path",
+        type=Path,
+        nargs="*",
+        default=[],
+        help="folders of models before GAZEBO_MODEL_PATH",
+    )
+    parser.add_argument(
+        "--keep-heights", action="store_true", help="do not set plants on the terrain"
+    )
+    return parser
+
+
+def main() -> int:
+    """Prints the path of the world file."""
+    return run(make_parser(), assemble)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

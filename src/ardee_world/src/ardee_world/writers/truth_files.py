@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""Layout to ground truth: truth.csv (plants), clutter.csv, truth.json (configuration, rows, gaps, all of the above)."""
+
+import dataclasses
+import json
+from typing import Dict, Iterator, List
+
+import numpy as np
+
+from ardee_common.geodesy import to_degrees
+from ardee_world.field_layout import Layout, to_world
+
+Columns = Dict[str, list]
+
+
+def _of_models(pool: tuple, attribute: str, model: np.ndarray) -> np.ndarray:
+    return np.array([getattr(m, attribute) for m in pool])[model]
+
+
+def _listed(columns: Dict[str, np.ndarray]) -> Columns:
+    """Rounded as the model file is: 0.1 mm and 1e-4 rad."""
+    return {
+        name: (np.round(values, 4) + 0.0 if values.dtype.kind == "f" else values).tolist()
+        for name, values in columns.items()
+    }
+
+
+def _degrees(layout: Layout, world: np.ndarray) -> Columns:
+    config = layout.config
+    if config.origin_latitude_deg is None:
+        return {}
+    origin = (config.origin_latitude_deg, config.origin_longitude_deg)
+    degrees = np.round(to_degrees(world[:, 0], world[:, 1], origin), 9)
+    return {"latitude_deg": degrees[:, 0].tolist(), "longitude_deg": degrees[:, 1].tolist()}
+
+
+def plant_columns(layout: Layout) -> Columns:
+    """Column name to values: what became of each plant, in the field's frame and in the world."""
+    world = to_world(layout.position_m[:, :2], layout.config.world_pose)
+    plan, index, pool, model = layout.planned, layout.index, layout.pool, layout.model
+    columns = {
+        "id": layout.number,
+        "plot": plan.plot[index],
+        "row": plan.row[index],
+        "place": plan.place[index],
+        "species": _of_models(pool, "species", model),
+        "stage": _of_models(pool, "stage", model),
+        "model": _of_models(pool, "name", model),
+        "label": _of_models(pool, "label", model),
+        "x_m": layout.position_m[:, 0],
+        "y_m": layout.position_m[:, 1],
+        "z_m": layout.position_m[:, 2],
+        "roll_rad": layout.angles_rad[:, 0],
+        "pitch_rad": layout.angles_rad[:, 1],
+        "yaw_rad": layout.angles_rad[:, 2],
+        "tilt_rad": layout.lean.tilt_rad,
+        "tilt_direction_rad": layout.lean.direction_rad,
+        "scale": layout.scale,
+        "height_m": layout.height_m,
+        "stalk_diameter_m": 2.0 * _of_models(pool, "stalk_radius_m", model) * layout.scale,
+        "world_x_m": world[:, 0],
+        "world_y_m": world[:, 1],
+    }
+    return {**_listed(columns), **_degrees(layout, world)}
+
+
+def clutter_columns(layout: Layout) -> Columns:
+    """The same of weeds, stones and litter, or nothing where there is none."""
+    parts = []
+    for items, heights in layout.clutter:
+        world = to_world(items.xy_m, layout.config.world_pose)
+        parts.append(
+            {
+                "kind": np.repeat(items.kind, len(heights)),
+                "id": np.arange(len(heights)),
+                "model": _of_models(items.pool, "name", items.model),
+                "label": _of_models(items.pool, "label", items.model),
+                "x_m": items.xy_m[:, 0],
+                "y_m": items.xy_m[:, 1],
+                "z_m": heights,
+                "yaw_rad": items.yaw_rad,
+                "scale": items.scale,
+                "height_m": _of_models(items.pool, "height_m", items.model) * items.scale,
+                "world_x_m": world[:, 0],
+                "world_y_m": world[:, 1],
+            }
+        )
+    return _listed({n: np.concatenate([p[n] for p in parts]) for n in parts[0]}) if parts else {}
+
+
+def csv_text(columns: Columns) -> Iterator[str]:
+    """Lines of a CSV file."""
+    yield ",".join(columns) + "\n"
+    for values in zip(*columns.values()):
+        yield ",".join(map(str, values)) + "\n"
+
+
+def _rows(layout: Layout) -> List[dict]:
+    """Ideal row lines, from the first place to the end of the row."""
+    made = []
+    for row in layout.planned.rows:
+        line = (np.round(row.line_m, 4) + 0.0).tolist()
+        world = np.round(to_world(row.line_m, layout.config.world_pose), 4) + 0.0
+        made.append(
+            {
+                "plot": row.plot,
+                "row": row.row,
+                "start_m": line[0],
+                "end_m": line[-1],
+                "line_m": line,
+                "world_line_m": world.tolist(),
+            }
+        )
+    return made
+
+
+def _gaps(layout: Layout) -> List[dict]:
+    plan = layout.planned
+    return [
+        {
+            "plot": int(plan.plot[gap.first]),
+            "row": int(plan.row[gap.first]),
+            "first_place": int(plan.place[gap.first]),
+            "places": gap.count,
+        }
+        for gap in layout.gaps
+    ]
+
+
+def json_text(layout: Layout, columns: Columns, clutter: Columns, name: str) -> str:
+    """Text of truth.json."""
+    truth = {
+        "name": name,
+        "seed": layout.seed,
+        "frame": "field; positions of rows and plants, angles about its axes; world_*: where the world has them",
+        "config": dataclasses.asdict(layout.config),
+        "models": [dataclasses.asdict(model) for model in layout.pool],
+        "planned": len(layout.planned.centres_m),
+        "emerged": layout.count(),
+        "rows": _rows(layout),
+        "gaps": _gaps(layout),
+        "plants": columns,
+        "clutter": clutter,
+    }
+    return json.dumps(truth) + "\n"
