@@ -7,9 +7,10 @@ from typing import Any, Dict, Iterator, List
 
 import probes
 import pytest
-from geographic_msgs.msg import GeoPoint, GeoPose
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from ros_graph import RosGraph, wait_until
+
+from geographic_msgs.msg import GeoPoint, GeoPose
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 G_M_S2, LATITUDE_DEG, LONGITUDE_DEG = 9.81, 40.1, -88.2

@@ -105,9 +105,9 @@ def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
 def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
     """The state and the result of a goal; it is cancelled after the steps, if it shall be."""
     import actionlib
-    import control_msgs.msg
     import rospy
 
+    import control_msgs.msg
     from ardee_msgs.srv import Step
 
     rospy.init_node("client", anonymous=True, disable_signals=True)
@@ -129,8 +129,9 @@ def follow(
 ) -> Any:
     """The end of a goal of the arm that is reached after 1 s."""
     import rospy
-    from control_msgs.msg import FollowJointTrajectoryGoal
     from trajectory_msgs.msg import JointTrajectoryPoint
+
+    from control_msgs.msg import FollowJointTrajectoryGoal
 
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names = JOINTS
@@ -330,8 +331,9 @@ def allow(topic: str, controller: str) -> List[str]:
     import time
 
     import rospy
-    from controller_manager_msgs.srv import ListControllers
     from std_msgs.msg import Bool
+
+    from controller_manager_msgs.srv import ListControllers
 
     rospy.init_node("starter", anonymous=True, disable_signals=True)
     publisher = rospy.Publisher(topic, Bool, queue_size=1, latch=True)

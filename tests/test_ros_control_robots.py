@@ -61,12 +61,12 @@ def _drives(controller: str, robot: str, commands: List[Tuple[float, float]]) ->
     """Returns for each command (speed, turn) the odometry and the true pose at its end, and those after a stop. The
     simulation is paused and takes the steps that it is told, so that the times are as commanded."""
     import rospy
-    from gazebo_msgs.srv import GetModelState
     from geometry_msgs.msg import Twist, Vector3
     from nav_msgs.msg import Odometry
     from std_srvs.srv import Empty
 
     from ardee_msgs.srv import Step
+    from gazebo_msgs.srv import GetModelState
 
     rospy.init_node("probe", anonymous=True, disable_signals=True)
     odometry = []  # type: List[Any]

@@ -8,9 +8,10 @@ from typing import Any, Iterator
 import probes
 import pytest
 from gazebo_calls import call, delete, empty, pose, push, spawn, state, step
-from gazebo_msgs.msg import ModelState
 from geometry_msgs.msg import Quaternion, Twist, Vector3
 from ros_graph import RosGraph
+
+from gazebo_msgs.msg import ModelState
 
 DATA = pathlib.Path(__file__).parent / "data"
 BALL = (DATA / "ball.sdf").read_text()

@@ -6,10 +6,11 @@ from typing import Any, Dict, Iterator, List, Tuple
 
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, state, step
-from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
 from geometry_msgs.msg import Point, Pose, Twist, Vector3, Wrench
 from ros_graph import RosGraph
 from std_msgs.msg import ColorRGBA
+
+from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
 
 WORLD = """<sdf version="1.6"><world name="w">
   <light name="sun" type="directional"><diffuse>0.8 0.7 0.6 1</diffuse></light>

@@ -4,9 +4,10 @@ import pathlib
 
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, state
-from gazebo_msgs.msg import ModelState
 from geometry_msgs.msg import Twist, Vector3
 from ros_graph import RosGraph
+
+from gazebo_msgs.msg import ModelState
 
 SLED = (pathlib.Path(__file__).parent / "model-state-in-own-frame/sled.urdf").read_text()
 SPEED_M_S, TURN_RAD_S = 0.4, 0.1

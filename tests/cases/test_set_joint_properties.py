@@ -5,9 +5,10 @@ import pathlib
 import probes
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, step
-from gazebo_msgs.msg import ODEJointProperties
 from ros_graph import RosGraph
 from std_msgs.msg import ColorRGBA
+
+from gazebo_msgs.msg import ODEJointProperties
 
 TURRET = (pathlib.Path(__file__).parent / "set-joint-properties/turret.sdf").read_text()
 GET_PAN = ("/gazebo/get_joint_properties", "gazebo_msgs/GetJointProperties")

@@ -6,8 +6,8 @@
 #include <iostream>
 #include <mutex>
 
-#include "ardee_sim/readers/loader.h"
 #include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/readers/loader.h"
 #include "ardee_sim/render/renderer.h"
 #include "ardee_sim/tools/default_view.h"
 #include "ardee_sim/tools/render_arguments.h"

@@ -17,8 +17,6 @@ from typing import Callable, Dict, List, Optional
 
 import rosmaster.master
 import rospy
-from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import LaserScan
@@ -27,6 +25,8 @@ from ardee_common.errors import GeneratorError
 from ardee_common.process import start_child, stop_child
 from ardee_msgs.srv import Step
 from ardee_navigation.evaluation.row_truth import Pose
+from gazebo_msgs.msg import ModelState
+from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 
 ROBOT = "robot"
 _PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less
