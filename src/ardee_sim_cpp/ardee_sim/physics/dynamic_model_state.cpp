@@ -137,8 +137,7 @@ std::vector<std::size_t> DynamicModel::hanging_on(std::size_t joint) const {
 void DynamicModel::set_joint_position(std::size_t joint, double position) {
   ModelJoint* moved = moving_joint(joint);
   require(is_valid(position), *model_, "a joint position");
-  const JointType type = model_->joints[joint].type;
-  if (!moved || type == JointType::kBall || type == JointType::kFixed) return;
+  if (!moved || !moved->has_position()) return;
   const Pose motion = moved->motion_to(position);
   const std::vector<std::size_t> hanging = hanging_on(joint);
   for (const std::size_t group : hanging) check_motion(group, motion);

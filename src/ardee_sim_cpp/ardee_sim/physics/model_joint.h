@@ -8,6 +8,7 @@
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/contact.h"
 #include "ardee_sim/physics/joint_drive.h"
+#include "ardee_sim/physics/joints/joint_kind.h"
 #include "ardee_sim/physics/ode_types.h"
 
 namespace ardee::physics {
@@ -20,6 +21,8 @@ class ModelJoint {
   /// X_WJ: the joint's frame in the world.
   ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyID parent, const Pose& X_WJ);
 
+  /// False of a ball joint and one that is fixed.
+  bool has_position() const { return kind_.axes() > 0; }
   double position() const { return position_; }
   double velocity() const;
   /// Where the child has to go, as a motion of the world, for the first axis to stand at `position`
@@ -53,34 +56,18 @@ class ModelJoint {
   void measure();
 
  private:
-  void make_joint(dWorldID world, const Eigen::Vector3d& anchor, const Eigen::Vector3d& axis_W,
-                  const Eigen::Vector3d& axis2_W);
-  void make_drives(dWorldID world, const Joint& joint, const Eigen::Vector3d& axis_W,
-                   const Eigen::Vector3d& axis2_W);
-  Eigen::Vector3d axis_W() const;
-  Eigen::Vector3d axis2_W() const;
-  Eigen::Vector3d relative_rate() const;
+  void make_drives(dWorldID world, const Joint& joint, const JointPlacement& placement);
   Eigen::Vector3d direction(std::size_t axis) const;
   void aim_drives();
-  double measured() const;
-  double angle2() const;
   void apply_effort();
 
-  JointType type_;
+  const JointKind& kind_;
   bool inclined_ = false;  // two axes that are not at right angles
-  dBodyID child_;
-  dBodyID parent_;
+  JointFrames frames_;
   JointHandle joint_;
+  JointHandle damper_;
   std::optional<JointDrive> drive_;
   std::optional<JointDrive> drive2_;
-  JointHandle ball_damper_;
-  double ball_damping_ = 0.0;
-  Eigen::Vector3d axis_P_;    // the first axis, fixed in the parent
-  Eigen::Vector3d axis2_C_;   // the second, fixed in the child
-  Eigen::Vector3d axis2_P_;   // the second in the parent, all joints at zero
-  Eigen::Quaterniond q_PC0_;  // child in parent, all joints at zero
-  Eigen::Vector3d anchor_P_;
-  Eigen::Vector3d anchor_C_;
   double position_ = 0.0;
   double position2_ = 0.0;
   double effort_ = 0.0;
