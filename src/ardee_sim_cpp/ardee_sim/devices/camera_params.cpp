@@ -199,28 +199,31 @@ CameraInfoReading CameraParams::info() const {
 }
 
 CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
-                           CameraKind kind, bool several, bool triggered, DeviceContext& context) {
+                           const CameraPlugin& which, DeviceContext& context) {
   CamerasParams all;
   all.rate_hz = sensor.update_rate_hz;
-  all.triggered = triggered;
+  all.triggered = which.triggered;
   for (const Element& block : sensor.element.children) {
     if (block.name != "camera") continue;
     SdfLens of_sdf;
     CameraParams camera = read_camera_block(block, of_sdf, context.log);
     const auto name = block.attributes.find("name");
     const std::string own = name == block.attributes.end() ? "" : name->second;
-    if (several && own.empty()) throw Error(block.source, "found no name, expected one");
-    const bool is_left = several && own.find("left") != std::string::npos;
-    const bool is_right = several && own.find("right") != std::string::npos;
-    const std::string suffix = !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
-    read_plugin(plugin, kind, suffix, !is_left, of_sdf, camera, all, context);
+    if (which.several && own.empty()) throw Error(block.source, "found no name, expected one");
+    const bool is_left = which.several && own.find("left") != std::string::npos;
+    const bool is_right = which.several && own.find("right") != std::string::npos;
+    const std::string suffix = !which.several ? ""
+                               : is_left      ? "/left"
+                               : is_right     ? "/right"
+                                              : "/" + own;
+    read_plugin(plugin, which.kind, suffix, !is_left, of_sdf, camera, all, context);
     for (const CameraParams& other : all.cameras) {
       if (other.topics.image != camera.topics.image) continue;
       throw Error(block.source, "found a second camera of topic " + camera.topics.image +
                                     ", expected names that tell cameras apart");
     }
     all.cameras.push_back(std::move(camera));
-    if (!several) break;
+    if (!which.several) break;
   }
   if (all.cameras.empty()) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +

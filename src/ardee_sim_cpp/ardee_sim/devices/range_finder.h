@@ -3,29 +3,22 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "ardee_sim/devices/lidar_beams.h"
-#include "ardee_sim/devices/ray_block.h"
-#include "ardee_sim/devices/sensor.h"
+#include "ardee_sim/devices/ray_sensor.h"
 #include "ardee_sim/devices/sensor_model.h"
 
 namespace ardee::devices {
 
 /// A sonar or infrared ranger: the nearest range of all rays over its cone. Without a return it
 /// tells its maximum; what is nearer than its minimum is told as the minimum.
-class RangeFinder : public Sensor {
+class RangeFinder : public RaySensor {
  public:
   struct Params {
-    RayBlock rays;
-    raycast::SceneKind scene = raycast::SceneKind::kCollision;
-    bool look_through_near = false;
+    RaySensor::Params ray;
     RangeReading::Radiation radiation = RangeReading::Radiation::kUltrasound;
     double field_of_view_rad = 0.0;  // as told
     SensorErrors errors;             // of a range below the maximum, m
     bool is_tunable = false;         // the errors can be changed while it runs
-    std::string topic;
-    std::string frame;
   };
 
   /// libgazebo_ros_range.so
@@ -51,12 +44,7 @@ class RangeFinder : public Sensor {
   double nearest_m(const CounterRng& noise);
 
   Params params_;
-  RaySceneProvider& scenes_;
-  LidarBeams beams_;
-  std::shared_ptr<void> eye_;
   SensorModel model_;
-  std::vector<BeamEcho> echoes_;
-  Output& output_;
 };
 
 }  // namespace ardee::devices

@@ -89,6 +89,14 @@ void add(Map& plugins, const std::string& filename, Make make) {
   }
 }
 
+/// A sensor's factory with what the plugin's name says.
+template <typename Make, typename What>
+Registry::SensorPlugin with(Make make, const What& what) {
+  return [make, what](const SensorDescription& sensor, const PluginDescription& plugin,
+                      std::size_t link,
+                      DeviceContext& context) { return make(sensor, plugin, link, what, context); };
+}
+
 }  // namespace
 
 /// A plugin of a model or of one of its sensors.
@@ -195,6 +203,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
 }
 
 Registry builtin_registry() {
+  using raycast::SceneKind;
   Registry registry;
   registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
   registry.add_model_plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", MimicJoint::make);
@@ -219,19 +228,27 @@ Registry builtin_registry() {
   registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
   registry.add_sensor_plugin("libgazebo_ros_bumper.so", Bumper::make);
-  registry.add_sensor_plugin("libgazebo_ros_camera.so", CameraSensor::make_color);
-  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so", CameraSensor::make_depth);
-  registry.add_sensor_plugin("libgazebo_ros_multicamera.so", CameraSensor::make_several);
-  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so", CameraSensor::make_openni);
-  registry.add_sensor_plugin("libgazebo_ros_triggered_camera.so", CameraSensor::make_triggered);
-  registry.add_sensor_plugin("libgazebo_ros_triggered_multicamera.so",
-                             CameraSensor::make_several_triggered);
-  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
+  registry.add_sensor_plugin("libgazebo_ros_camera.so", with(CameraSensor::make, CameraPlugin{}));
+  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kDepth}));
+  registry.add_sensor_plugin("libgazebo_ros_multicamera.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kColor, true}));
+  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kOpenni}));
+  registry.add_sensor_plugin(
+      "libgazebo_ros_triggered_camera.so",
+      with(CameraSensor::make, CameraPlugin{CameraKind::kColor, false, true}));
+  registry.add_sensor_plugin(
+      "libgazebo_ros_triggered_multicamera.so",
+      with(CameraSensor::make, CameraPlugin{CameraKind::kColor, true, true}));
+  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", with(Lidar::make, SceneKind::kVisual));
   registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
-  registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_laser.so", with(Lidar::make, SceneKind::kCollision));
   registry.add_sensor_plugin("libgazebo_ros_range.so", RangeFinder::make_range);
-  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so", VelodyneLidar::make_on_visuals);
-  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so", VelodyneLidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so",
+                             with(VelodyneLidar::make, SceneKind::kVisual));
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so",
+                             with(VelodyneLidar::make, SceneKind::kCollision));
   registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
   for (const PluginAlias& alias : builtin_aliases()) registry.add_alias(alias);
   return registry;
