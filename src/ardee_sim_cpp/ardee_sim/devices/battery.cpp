@@ -145,7 +145,6 @@ void Battery::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void Battery::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   last_ns_ = now_ns;
   command_.reset(now_ns);

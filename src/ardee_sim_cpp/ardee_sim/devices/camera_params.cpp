@@ -8,6 +8,8 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/camera_formats.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/sdf_noise.h"
+#include "ardee_sim/devices/sensor.h"
 
 namespace ardee::devices {
 namespace {
@@ -39,20 +41,6 @@ void read_clip(const Element& clip, CameraParams& camera) {
   if (!(camera.far_m > camera.near_m)) throw parameters.error("far", "expected more than <near>");
 }
 
-void read_noise(const Element& noise, CameraParams& camera) {
-  Parameters parameters(noise);
-  const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
-                                                          : parameters.text("type", "gaussian");
-  const double mean = parameters.number("mean", 0.0);
-  const double std = parameters.number("stddev", 0.0, 0.0);
-  if (type == "none") return;
-  if (type != "gaussian") {
-    throw Error(noise.source, "found noise type '" + type + "', expected gaussian or none");
-  }
-  camera.development.noise_mean = mean;
-  camera.development.noise_std = std;
-}
-
 Pose read_pose(const Element* pose) {
   if (pose == nullptr || pose->text.empty()) return {};
   std::istringstream stream(pose->text);
@@ -79,7 +67,11 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
   }
   if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
   if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera);
-  if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera);
+  if (const Element* given = parameters.block("noise")) {
+    const SdfNoise noise = read_sdf_noise(*given, false);
+    camera.development.noise_mean = noise.mean;
+    camera.development.noise_std = noise.std;
+  }
   camera.lens.actual = render::Lens::pinhole(camera.width, camera.height, fov_rad);
   of_sdf = read_sdf_lens(parameters, camera.lens.actual, log);
   return camera;
@@ -166,8 +158,7 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
   read_image_encoding(parameters, camera);
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");
-  const double rate_hz = parameters.number("updateRate", 0.0, 0.0);
-  if (rate_hz > 0.0) all.rate_hz = all.rate_hz > 0.0 ? std::min(all.rate_hz, rate_hz) : rate_hz;
+  all.rate_hz = slower_rate_hz(all.rate_hz, parameters.number("updateRate", 0.0, 0.0));
   // Rays bend through the lens: there is no border to crop. The last two Gazebo does not read.
   parameters.ignore({"alwaysOn", "borderCrop", "baseline", "distortion_k1", "distortion_k2",
                      "distortion_k3", "distortion_t1", "distortion_t2", "imageTopic"});

@@ -117,7 +117,6 @@ void DiffDrive::reset(TimeNs now_ns) {
   command_.reset(now_ns);
   last_command_ns_ = now_ns;
   speeds_m_per_s_.fill(0.0);
-  command_timer_.reset();
   command_timer_.start_at(now_ns);
   odometry_.reset(now_ns);
 }

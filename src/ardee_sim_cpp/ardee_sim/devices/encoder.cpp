@@ -35,7 +35,6 @@ void Encoder::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void Encoder::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   encoder_.reset(now_ns);
 }

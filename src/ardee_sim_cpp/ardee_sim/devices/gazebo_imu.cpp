@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/gazebo_imu.h"
 
-#include <algorithm>
-
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -16,12 +14,6 @@ constexpr double kMostHz = 1e6;
 Pose read_mounting(Parameters& parameters) {
   return Pose::from_xyz_rpy(parameters.vector3("xyzOffset", Vector3d::Zero()),
                             parameters.vector3("rpyOffset", Vector3d::Zero()));
-}
-
-/// The slower of two rates; 0 does not limit.
-double slower(double one_hz, double other_hz) {
-  if (one_hz <= 0.0 || other_hz <= 0.0) return std::max(one_hz, other_hz);
-  return std::min(one_hz, other_hz);
 }
 
 }  // namespace
@@ -52,7 +44,7 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
   const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, kMostHz);
-  params.mount.rate_hz = slower(sensor.update_rate_hz, rate_hz);
+  params.mount.rate_hz = slower_rate_hz(sensor.update_rate_hz, rate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.noisy_orientation = true;
   params.initial_orientation_is_reference =

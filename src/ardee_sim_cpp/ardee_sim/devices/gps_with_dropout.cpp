@@ -81,7 +81,7 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
 
 void GpsWithDropout::reset(TimeNs now_ns) {
   Gps::reset(now_ns);
-  random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
+  random_ = Rng(key_, now_ns);
   for (int axis = 0; axis < 3; ++axis) unit_error_[axis] = random_.normal();
   has_fix_ = true;
   loss_duration_s_ = 0.0;

@@ -61,9 +61,6 @@ void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
   sink.on_reading(output_, reading);
 }
 
-void JointStatePublisher::reset(TimeNs now_ns) {
-  timer_.reset();
-  timer_.start_at(now_ns + 1);
-}
+void JointStatePublisher::reset(TimeNs now_ns) { timer_.start_at(now_ns + 1); }
 
 }  // namespace ardee::devices

@@ -62,7 +62,6 @@ void OdometryPublisher::publish(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void OdometryPublisher::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   if (wheels_) wheels_->reset();
 }

@@ -73,10 +73,7 @@ double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double 
   // An empty one is 0 to Gazebo: no limit.
   const bool is_empty = given != nullptr && given->text.empty();
   const double own_hz = plugin.number("updateRate", is_empty ? 0.0 : fallback_hz, 0.0, kMost_hz);
-  if (own_hz <= 0.0 || sensor.update_rate_hz <= 0.0) {
-    return std::max(own_hz, sensor.update_rate_hz);
-  }
-  return std::min(own_hz, sensor.update_rate_hz);
+  return slower_rate_hz(own_hz, sensor.update_rate_hz);
 }
 
 double read_gaussian_noise(Parameters& plugin) { return plugin.number("gaussianNoise", 0.0, 0.0); }

@@ -149,7 +149,6 @@ void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
 
 void SkidSteerDrive::reset(TimeNs now_ns) {
   command_.reset(now_ns);
-  command_timer_.reset();
   command_timer_.start_at(now_ns);
   odometry_.reset(now_ns);
   for (WheelEncoder& encoder : encoders_) encoder.reset(now_ns);

@@ -121,7 +121,6 @@ void TricycleDrive::reset(TimeNs now_ns) {
   command_.reset(now_ns);
   last_command_ns_ = now_ns;
   speed_m_per_s_ = 0.0;
-  command_timer_.reset();
   command_timer_.start_at(now_ns);
   odometry_.reset(now_ns);
 }
