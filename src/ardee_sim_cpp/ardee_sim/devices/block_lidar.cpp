@@ -7,17 +7,14 @@
 
 namespace ardee::devices {
 
-std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor,
-                                         const PluginDescription& plugin, std::size_t link,
-                                         DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor, Parameters& keys,
+                                         std::size_t link, DeviceContext& context) {
   Params params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
   params.frame = resolve_frame(keys.text("frameName", "/world"), plugin_namespace(keys, context),
                                context);  // of the lasers this one alone has no namespace there
   const double coordinate_std = read_gaussian_noise(keys);
   const double rate_hz = read_rate_hz(sensor, keys, 0.0);
   keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads it and does nothing with it
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<BlockLidar>(sensor.name, mount, params, coordinate_std, context.scenes);
 }

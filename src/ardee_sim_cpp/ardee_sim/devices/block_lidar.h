@@ -15,9 +15,8 @@ class BlockLidar : public RaySensor {
  public:
   /// libgazebo_ros_block_laser.so; its <gaussianNoise> is added to each coordinate, and to the
   /// intensity.
-  static std::unique_ptr<Device> make(const SensorDescription& sensor,
-                                      const PluginDescription& plugin, std::size_t link,
-                                      DeviceContext& context);
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
+                                      std::size_t link, DeviceContext& context);
   BlockLidar(const std::string& name, const Mount& mount, const Params& params,
              double coordinate_std, RaySceneProvider& scenes);
 

@@ -122,10 +122,9 @@ void read_zoom(Parameters& parameters, CameraParams& camera) {
 }
 
 /// The plugin's keys for one camera. `suffix` follows the camera's name in topics.
-void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::string& suffix,
+void read_plugin(Parameters& parameters, CameraKind kind, const std::string& suffix,
                  bool has_baseline, const SdfLens& of_sdf, CameraParams& camera, CamerasParams& all,
                  DeviceContext& context) {
-  Parameters parameters(plugin.element);
   const std::string robot = plugin_namespace(parameters, context);
   // As in Gazebo a camera's name is below the robot's namespace, with a slash before it too.
   const std::string name = without_slashes(parameters.text("cameraName", "")) + suffix;
@@ -162,7 +161,6 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
   // Rays bend through the lens: there is no border to crop. The last two Gazebo does not read.
   parameters.ignore({"alwaysOn", "borderCrop", "baseline", "distortion_k1", "distortion_k2",
                      "distortion_k3", "distortion_t1", "distortion_t2", "imageTopic"});
-  parameters.finish(context.log);
 }
 
 }  // namespace
@@ -189,7 +187,7 @@ CameraInfoReading CameraParams::info() const {
   return info;
 }
 
-CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
+CamerasParams read_cameras(const SensorDescription& sensor, Parameters& parameters,
                            const CameraPlugin& which, DeviceContext& context) {
   CamerasParams all;
   all.rate_hz = sensor.update_rate_hz;
@@ -207,7 +205,7 @@ CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescript
                                : is_left      ? "/left"
                                : is_right     ? "/right"
                                               : "/" + own;
-    read_plugin(plugin, which.kind, suffix, !is_left, of_sdf, camera, all, context);
+    read_plugin(parameters, which.kind, suffix, !is_left, of_sdf, camera, all, context);
     for (const CameraParams& other : all.cameras) {
       if (other.topics.image != camera.topics.image) continue;
       throw Error(block.source, "found a second camera of topic " + camera.topics.image +

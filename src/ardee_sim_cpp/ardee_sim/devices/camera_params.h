@@ -77,7 +77,7 @@ struct CamerasParams {
 };
 
 /// Reads and checks all cameras of a sensor. Throws Error.
-CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
+CamerasParams read_cameras(const SensorDescription& sensor, Parameters& parameters,
                            const CameraPlugin& which, DeviceContext& context);
 
 }  // namespace ardee::devices

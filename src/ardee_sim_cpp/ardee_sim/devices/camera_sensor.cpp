@@ -10,10 +10,10 @@ bool asked_for(const Output* output) { return output != nullptr && output->deman
 
 }  // namespace
 
-std::unique_ptr<Device> CameraSensor::make(const SensorDescription& sensor,
-                                           const PluginDescription& plugin, std::size_t link,
-                                           const CameraPlugin& which, DeviceContext& context) {
-  const CamerasParams params = read_cameras(sensor, plugin, which, context);
+std::unique_ptr<Device> CameraSensor::make(const SensorDescription& sensor, Parameters& parameters,
+                                           std::size_t link, const CameraPlugin& which,
+                                           DeviceContext& context) {
+  const CamerasParams params = read_cameras(sensor, parameters, which, context);
   const Mount mount{context.robot, link, sensor.X_LS, params.rate_hz, context.seed};
   return std::make_unique<CameraSensor>(sensor.name, mount, params, context);
 }

@@ -14,9 +14,9 @@ namespace ardee::devices {
 /// depth costs no shading, camera_info no picture.
 class CameraSensor : public Sensor {
  public:
-  static std::unique_ptr<Device> make(const SensorDescription& sensor,
-                                      const PluginDescription& plugin, std::size_t link,
-                                      const CameraPlugin& which, DeviceContext& context);
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& parameters,
+                                      std::size_t link, const CameraPlugin& which,
+                                      DeviceContext& context);
   CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
                DeviceContext& context);
   void reset(TimeNs now_ns) override;

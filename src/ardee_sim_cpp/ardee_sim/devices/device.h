@@ -9,6 +9,7 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/camera_renderer.h"

@@ -41,9 +41,8 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-DiffDrive::Params read(const PluginDescription& plugin, DeviceContext& context) {
+DiffDrive::Params read(Parameters& parameters, DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   DiffDrive::Params params;
   params.joints = {plugin_turning_joint(parameters, context, "leftJoint", "left_joint"),
@@ -61,15 +60,15 @@ DiffDrive::Params read(const PluginDescription& plugin, DeviceContext& context) 
       parameters, {params.joints[DiffDrive::kRight], params.joints[DiffDrive::kLeft]}, space,
       context, kBelowNamespace);  // in the stock plugin's order
   parameters.ignore({"alwaysOn", "rosDebugLevel"});
-  parameters.finish(context.log);
   context.robot.dynamics();  // a static model cannot move
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, DeviceContext& context) {
-  return std::make_unique<DiffDrive>(plugin.name, read(plugin, context), context.robot);
+std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, Parameters& parameters,
+                                        DeviceContext& context) {
+  return std::make_unique<DiffDrive>(plugin.name, read(parameters, context), context.robot);
 }
 
 DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot)

@@ -30,7 +30,8 @@ class DiffDrive : public Device {
     WheelPublisher::Params wheels;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   DiffDrive(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;

@@ -19,8 +19,7 @@ Pose read_mounting(Parameters& parameters) {
 }  // namespace
 
 std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin,
-                                                 DeviceContext& context) {
-  Parameters parameters(plugin.element);
+                                                 Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   Params params{{context.robot, plugin_link(parameters, context), read_mounting(parameters), 0.0,
@@ -33,14 +32,12 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
   if (!service.empty()) params.service = resolve_topic(service, space);
   params.frame = resolve_frame(parameters.text("frameName", body), space, context);
   parameters.ignore({"alwaysOn", "updateRateHZ"});
-  parameters.finish(context.log);
   return std::make_unique<GazeboImu>(plugin.name, params, context.world_info.gravity_m_per_s2);
 }
 
 std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& sensor,
-                                                  const PluginDescription& plugin, std::size_t link,
+                                                  Parameters& parameters, std::size_t link,
                                                   DeviceContext& context) {
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
   const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, kMostHz);
@@ -56,7 +53,6 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
     params.noise = read_sdf_imu_noise(*imu, key);
   }
   parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
-  parameters.finish(context.log);
   return std::make_unique<GazeboImu>(sensor.name, params, context.world_info.gravity_m_per_s2);
 }
 

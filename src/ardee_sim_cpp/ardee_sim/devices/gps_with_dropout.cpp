@@ -40,9 +40,8 @@ std::array<float, 4> colour_of(const GpsRegion& region) {
 }  // namespace
 
 std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
-                                             DeviceContext& context) {
+                                             Parameters& parameters, DeviceContext& context) {
   constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
-  Parameters parameters(plugin.element);
   Params params{read_gps_params(parameters, context), plugin.element};
   params.correlation_time_s =
       parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
@@ -57,7 +56,6 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
                           "geofenceFile", "plotsFile"}) {
     parameters.block(key);  // read by GpsRegions
   }
-  parameters.finish(context.log);
   return std::make_unique<GpsWithDropout>(plugin.name, params, context);
 }
 

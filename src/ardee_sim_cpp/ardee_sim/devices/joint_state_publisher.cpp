@@ -23,8 +23,7 @@ std::vector<std::string> split_at_commas(std::string list) {
 }  // namespace
 
 std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugin,
-                                                  DeviceContext& context) {
-  Parameters parameters(plugin.element);
+                                                  Parameters& parameters, DeviceContext& context) {
   std::string space = plugin_namespace(parameters, context);
   if (space.empty() && !parameters.has("robotNamespace")) space = context.robot.name();
   std::vector<std::size_t> joints;
@@ -33,7 +32,6 @@ std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugi
   }
   const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
                                                std::move(joints), rate_hz, context.robot);
 }

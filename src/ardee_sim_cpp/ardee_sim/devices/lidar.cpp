@@ -10,17 +10,15 @@ constexpr double kMostTimeIncrement_s = 1e3;
 
 }  // namespace
 
-std::unique_ptr<Device> Lidar::make(const SensorDescription& sensor,
-                                    const PluginDescription& plugin, std::size_t link,
-                                    raycast::SceneKind scene, DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> Lidar::make(const SensorDescription& sensor, Parameters& keys,
+                                    std::size_t link, raycast::SceneKind scene,
+                                    DeviceContext& context) {
   Params params = read_lidar_params(sensor, keys, scene, "/world", context);
   std::optional<double> time_increment_s;
   if (keys.has("timeIncrement")) {
     time_increment_s = keys.number("timeIncrement", 0.0, 0.0, kMostTimeIncrement_s);
   }
   keys.ignore({"updateRate", "gaussianNoise", "hokuyoMinIntensity"});
-  keys.finish(context.log);
   if (params.rays.rows > 1) {
     context.log.warn(
         sensor.element.source.to_string() +

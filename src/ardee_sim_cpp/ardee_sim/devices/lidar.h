@@ -15,9 +15,9 @@ namespace ardee::devices {
 class Lidar : public RaySensor {
  public:
   /// libgazebo_ros_laser.so on collision bodies, libgazebo_ros_gpu_laser.so on visual ones.
-  static std::unique_ptr<Device> make(const SensorDescription& sensor,
-                                      const PluginDescription& plugin, std::size_t link,
-                                      raycast::SceneKind scene, DeviceContext& context);
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
+                                      std::size_t link, raycast::SceneKind scene,
+                                      DeviceContext& context);
   /// time_increment_s: from beam to beam; none: that of a mirror that turns once a scan.
   Lidar(const std::string& name, const Mount& mount, const Params& params,
         std::optional<double> time_increment_s, RaySceneProvider& scenes);

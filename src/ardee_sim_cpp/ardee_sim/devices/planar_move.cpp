@@ -13,8 +13,7 @@ constexpr double kFastest = 1e3;  // m/s, rad/s: what a command can ask
 
 double bounded(double speed) { return std::clamp(speed, -kFastest, kFastest); }
 
-PlanarMove::Params read(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+PlanarMove::Params read(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   PlanarMove::Params params;
   // The stock plugin's way to say "never" is a negative number.
@@ -25,15 +24,15 @@ PlanarMove::Params read(const PluginDescription& plugin, DeviceContext& context)
   odometry.rate_hz = parameters.number("odometryRate", 20.0, 0.0);
   if (odometry.rate_hz > 0.0) params.odometry = odometry;
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> PlanarMove::make(const PluginDescription& plugin, DeviceContext& context) {
+std::unique_ptr<Device> PlanarMove::make(const PluginDescription& plugin, Parameters& parameters,
+                                         DeviceContext& context) {
   context.robot.dynamics();  // a static model cannot move
-  return std::make_unique<PlanarMove>(plugin.name, read(plugin, context), context.robot);
+  return std::make_unique<PlanarMove>(plugin.name, read(parameters, context), context.robot);
 }
 
 PlanarMove::PlanarMove(const std::string& name, const Params& params, Robot& robot)

@@ -21,7 +21,8 @@ class PlanarMove : public Device {
     std::optional<OdometryPublisher::Params> odometry;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   PlanarMove(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;

@@ -47,30 +47,24 @@ double smaller_span_rad(const RayBlock& rays) {
 
 }  // namespace
 
-std::unique_ptr<Device> RangeFinder::make_range(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
-                                                DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> RangeFinder::make_range(const SensorDescription& sensor, Parameters& keys,
+                                                std::size_t link, DeviceContext& context) {
   Params params = read_params(sensor, keys, "/range", "frameName", "/world", context);
   params.radiation = read_radiation(keys);
   params.field_of_view_rad = keys.number("fov", 0.05, 0.0, 2.0 * M_PI);
   params.errors.gaussian_noise.setConstant(keys.number("gaussianNoise", 0.0, 0.0));
   const double rate_hz = read_rate_hz(sensor, keys, 0.0);
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);
 }
 
-std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
-                                                DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor, Parameters& keys,
+                                                std::size_t link, DeviceContext& context) {
   Params params = read_params(sensor, keys, "sonar", "frameId", "/sonar_link", context);
   params.field_of_view_rad = smaller_span_rad(params.ray.rays);
   params.errors = read_sensor_errors(keys, "", read_noise_mode(keys));
   params.is_tunable = true;
   const double rate_hz = read_rate_hz(sensor, keys, kSonarRate_hz);
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);
 }

@@ -22,13 +22,11 @@ class RangeFinder : public RaySensor {
   };
 
   /// libgazebo_ros_range.so
-  static std::unique_ptr<Device> make_range(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context);
+  static std::unique_ptr<Device> make_range(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, DeviceContext& context);
   /// libhector_gazebo_ros_sonar.so
-  static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context);
+  static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, DeviceContext& context);
   RangeFinder(const std::string& name, const Mount& mount, const Params& params,
               RaySceneProvider& scenes);
 

@@ -58,7 +58,7 @@ class RaySensor : public Sensor {
 };
 
 /// Reads and checks SDF's <ray> block and the keys that all lidars share; the caller reads what
-/// keys are left and calls plugin.finish().
+/// keys are left.
 RaySensor::Params read_lidar_params(const SensorDescription& sensor, Parameters& plugin,
                                     raycast::SceneKind scene, const char* default_topic,
                                     DeviceContext& context);

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/bumper.h"
@@ -92,9 +91,8 @@ void add(Map& plugins, const std::string& filename, Make make) {
 /// A sensor's factory with what the plugin's name says.
 template <typename Make, typename What>
 Registry::SensorPlugin with(Make make, const What& what) {
-  return [make, what](const SensorDescription& sensor, const PluginDescription& plugin,
-                      std::size_t link,
-                      DeviceContext& context) { return make(sensor, plugin, link, what, context); };
+  return [make, what](const SensorDescription& sensor, Parameters& keys, std::size_t link,
+                      DeviceContext& context) { return make(sensor, keys, link, what, context); };
 }
 
 }  // namespace
@@ -173,9 +171,13 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
     return nullptr;
   }
   const auto make = [&] {
-    if (!candidate.sensor) return of_model->second.make(plugin, context);
-    check_update_rate(*candidate.sensor);
-    return of_sensor->second(*candidate.sensor, plugin, candidate.link, context);
+    Parameters keys(plugin.element);
+    if (candidate.sensor) check_update_rate(*candidate.sensor);
+    auto device = candidate.sensor
+                      ? of_sensor->second(*candidate.sensor, keys, candidate.link, context)
+                      : of_model->second.make(plugin, keys, context);
+    keys.finish(context.log);
+    return device;
   };
   // A static model keeps those of its devices that do without motion.
   const bool may_fail =

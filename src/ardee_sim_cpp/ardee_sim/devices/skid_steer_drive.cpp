@@ -73,10 +73,8 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
-                            DeviceContext& context) {
+SkidSteerDrive::Params read(Parameters& parameters, bool with_encoders, DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   SkidSteerDrive::Params params;
   params.joints = read_joints(parameters, context);
@@ -89,21 +87,23 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
   params.odometry = read_odometry(parameters, space, params, context);
   read_encoders(parameters, space, with_encoders, context, params);
   parameters.ignore({"topicName", "alwaysOn"});  // in Listing A.13; the stock plugin reads neither
-  parameters.finish(context.log);
-  context.robot.dynamics();  // a static model cannot move
+  context.robot.dynamics();                      // a static model cannot move
   return params;
 }
 
 }  // namespace
 
 std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
-                                             DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, false, context), context.robot);
+                                             Parameters& parameters, DeviceContext& context) {
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(parameters, false, context),
+                                          context.robot);
 }
 
 std::unique_ptr<Device> SkidSteerDrive::make_with_encoders(const PluginDescription& plugin,
+                                                           Parameters& parameters,
                                                            DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, true, context), context.robot);
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(parameters, true, context),
+                                          context.robot);
 }
 
 SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Robot& robot)

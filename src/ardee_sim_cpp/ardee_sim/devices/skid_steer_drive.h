@@ -33,9 +33,10 @@ class SkidSteerDrive : public Device {
     std::array<std::string, kWheelCount> encoder_topics;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   static std::unique_ptr<Device> make_with_encoders(const PluginDescription& plugin,
-                                                    DeviceContext& context);
+                                                    Parameters& parameters, DeviceContext& context);
   SkidSteerDrive(const std::string& name, const Params& params, Robot& robot);
 
   /// Wheel speed in rad/s of one side for a command (v in m/s, w in rad/s): (v -+ w * separation /

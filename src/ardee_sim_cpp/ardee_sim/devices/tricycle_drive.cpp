@@ -30,9 +30,8 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-TricycleDrive::Params read(const PluginDescription& plugin, DeviceContext& context) {
+TricycleDrive::Params read(Parameters& parameters, DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   TricycleDrive::Params params;
   params.joints = {
@@ -55,16 +54,15 @@ TricycleDrive::Params read(const PluginDescription& plugin, DeviceContext& conte
   params.wheels = read_wheel_publisher_params(
       parameters, {params.joints.begin(), params.joints.end()}, space, context);
   parameters.ignore({"alwaysOn", "rosDebugLevel"});
-  parameters.finish(context.log);
   context.robot.dynamics();  // a static model cannot move
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> TricycleDrive::make(const PluginDescription& plugin,
+std::unique_ptr<Device> TricycleDrive::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<TricycleDrive>(plugin.name, read(plugin, context), context.robot);
+  return std::make_unique<TricycleDrive>(plugin.name, read(parameters, context), context.robot);
 }
 
 TricycleDrive::TricycleDrive(const std::string& name, const Params& params, Robot& robot)

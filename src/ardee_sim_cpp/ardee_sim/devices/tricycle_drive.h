@@ -35,7 +35,8 @@ class TricycleDrive : public Device {
     WheelPublisher::Params wheels;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   TricycleDrive(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;

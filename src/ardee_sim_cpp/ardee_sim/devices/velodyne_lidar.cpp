@@ -24,10 +24,9 @@ void write(std::uint8_t* point, std::size_t offset, T value) {
 
 }  // namespace
 
-std::unique_ptr<Device> VelodyneLidar::make(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            raycast::SceneKind scene, DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> VelodyneLidar::make(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, raycast::SceneKind scene,
+                                            DeviceContext& context) {
   Params params;
   params.lidar = read_lidar_params(sensor, keys, scene, "/points", context);
   params.min_range_m = keys.number("min_range", params.min_range_m, 0.0);
@@ -41,7 +40,6 @@ std::unique_ptr<Device> VelodyneLidar::make(const SensorDescription& sensor,
   // Two independent errors make one.
   RangeNoise& noise = params.lidar.rays.noise;
   noise.std_m = std::hypot(noise.std_m, read_gaussian_noise(keys));
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};
   return std::make_unique<VelodyneLidar>(sensor.name, mount, params, context.scenes);
 }

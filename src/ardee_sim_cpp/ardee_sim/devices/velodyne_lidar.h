@@ -32,9 +32,9 @@ class VelodyneLidar : public RaySensor {
 
   /// libgazebo_ros_velodyne_laser.so on collision bodies, libgazebo_ros_velodyne_gpu_laser.so on
   /// visual ones.
-  static std::unique_ptr<Device> make(const SensorDescription& sensor,
-                                      const PluginDescription& plugin, std::size_t link,
-                                      raycast::SceneKind scene, DeviceContext& context);
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
+                                      std::size_t link, raycast::SceneKind scene,
+                                      DeviceContext& context);
   VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
                 RaySceneProvider& scenes);
 
