@@ -64,10 +64,11 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
     : Gps(name, params.gps),
       plugin_(params.plugin),
       world_info_(context.world_info),
+      locator_(context.locator),
       log_(context.log),
       scenery_files_(world_info_.scenery_files()),
       scenery_changes_(world_info_.scenery_changes()),
-      regions_(plugin_, scenery_files_, log_),
+      regions_(plugin_, scenery_files_, locator_, log_),
       correlation_time_s_(params.correlation_time_s),
       key_(stream_key(params.gps.mount.seed, name + "/dropout")),
       random_(key_),
@@ -93,7 +94,7 @@ void GpsWithDropout::follow_scenery() {
   if (files == scenery_files_) return;
   scenery_files_ = std::move(files);
   try {
-    regions_ = GpsRegions(plugin_, scenery_files_, log_);
+    regions_ = GpsRegions(plugin_, scenery_files_, locator_, log_);
   } catch (const Error& error) {
     log_.error("GPS '" + name() + "' keeps its regions: " + error.what());
     return;

@@ -46,6 +46,7 @@ class GpsWithDropout : public Gps {
 
   Element plugin_;
   WorldInfo world_info_;
+  const ResourceLocator& locator_;
   Log& log_;
   std::vector<std::string> scenery_files_;  // that the regions are of
   std::uint64_t scenery_changes_;
