@@ -9,7 +9,7 @@ namespace {
 
 void make_regions(const Element& plugin) {
   Log log = quiet_log();
-  const devices::GpsRegions regions(plugin, {}, log);
+  const devices::GpsRegions regions(plugin, {}, ResourceLocator::from_environment(), log);
   for (const devices::GpsRegion& region : regions.all()) {
     regions.find(region.pose.p);
     if (region.periodic) region.periodic->at(0, CounterRng(1));

@@ -31,7 +31,6 @@ void ClockPublisher::publish(TimeNs now_ns) {
 }
 
 void ClockPublisher::restart(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns);
   publish(now_ns);
 }

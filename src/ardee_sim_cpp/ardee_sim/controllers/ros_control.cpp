@@ -43,8 +43,7 @@ TimeNs read_period(Parameters& parameters, const devices::DeviceContext& context
   return period_ns;
 }
 
-RosControl::Params read(const PluginDescription& plugin, devices::DeviceContext& context) {
-  Parameters parameters(plugin.element);
+RosControl::Params read(Parameters& parameters, devices::DeviceContext& context) {
   RosControl::Params params;
   params.robot_namespace = devices::plugin_namespace(parameters, context);
   params.is_steer_bot = is_steer_bot(parameters, context.log);
@@ -52,7 +51,6 @@ RosControl::Params read(const PluginDescription& plugin, devices::DeviceContext&
   params.stop_topic = parameters.text("eStopTopic", "");
   params.has_legacy_gains = parameters.boolean("legacyModeNS", false);
   parameters.ignore({"robotParam"});  // the robot is its description
-  parameters.finish(context.log);
   return params;
 }
 
@@ -80,8 +78,9 @@ JointInterface read_interface(const Transmission& transmission) {
 }  // namespace
 
 std::unique_ptr<devices::Device> RosControl::make(const PluginDescription& plugin,
+                                                  Parameters& parameters,
                                                   devices::DeviceContext& context) {
-  const Params params = read(plugin, context);
+  const Params params = read(parameters, context);
   context.robot.dynamics();  // not of what stands still
   try {
     return std::make_unique<RosControl>(plugin, params, context);

@@ -31,6 +31,7 @@ class RosControl : public devices::Device {
   /// Nothing, with an error in the log, if the robot's transmissions are not as the original needs
   /// them: the robot is there, and nothing moves it.
   static std::unique_ptr<devices::Device> make(const PluginDescription& plugin,
+                                               Parameters& parameters,
                                                devices::DeviceContext& context);
   /// Throws Error if a joint of the transmissions is not there, or its interface is not known.
   RosControl(const PluginDescription& plugin, const Params& params,

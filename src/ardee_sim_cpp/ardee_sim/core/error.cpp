@@ -10,4 +10,9 @@ std::string Source::to_string() const {
   return text;
 }
 
+std::string in_quotes(const std::string& text) {
+  constexpr std::size_t kLongest = 80;
+  return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
+}
+
 }  // namespace ardee

@@ -17,6 +17,9 @@ struct Source {
   std::string to_string() const;
 };
 
+/// What was found, for a message: in quotes, and no more than 80 characters of it.
+std::string in_quotes(const std::string& text);
+
 /// What is wrong with an input, in one line: place, what was found, what was expected.
 class Error : public std::runtime_error {
  public:

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "ardee_sim/core/time.h"
+
 namespace ardee {
 
 /// Mixes 64 bits (the finaliser of SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
@@ -46,6 +48,9 @@ class CounterRng {
 class Rng {
  public:
   explicit Rng(std::uint64_t key) : stream_(key) {}
+  /// The sequence that begins at this time; each time has its own.
+  Rng(std::uint64_t key, TimeNs begin_ns)
+      : stream_(CounterRng(key).frame(static_cast<std::uint64_t>(begin_ns))) {}
 
   double uniform() { return stream_.uniform(next_++); }
   double normal() { return stream_.normal(next_++); }

@@ -10,11 +10,6 @@
 namespace ardee {
 namespace {
 
-std::string quoted(const std::string& text) {
-  constexpr std::size_t kLongest = 80;
-  return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
-}
-
 std::string in_words(double number) {
   std::ostringstream text;
   text << number;
@@ -41,7 +36,7 @@ double parse_number(const std::string& text, const Source& source) {
     const auto value = to_double(std::string_view(text).substr(first, count));
     if (value && std::isfinite(*value)) return *value;
   }
-  throw Error(source, "found " + quoted(text) + ", expected a finite number");
+  throw Error(source, "found " + in_quotes(text) + ", expected a finite number");
 }
 
 bool parse_boolean(const std::string& text, const Source& source) {
@@ -50,14 +45,14 @@ bool parse_boolean(const std::string& text, const Source& source) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (lower == "true" || lower == "1") return true;
   if (lower == "false" || lower == "0") return false;
-  throw Error(source, "found " + quoted(text) + ", expected true or false");
+  throw Error(source, "found " + in_quotes(text) + ", expected true or false");
 }
 
 Eigen::Vector3d parse_vector3(const std::string& text, const Source& source) {
   std::istringstream stream(text);
   std::string x, y, z, rest;
   if (!(stream >> x >> y >> z) || (stream >> rest)) {
-    throw Error(source, "found " + quoted(text) + ", expected three numbers");
+    throw Error(source, "found " + in_quotes(text) + ", expected three numbers");
   }
   return {parse_number(x, source), parse_number(y, source), parse_number(z, source)};
 }
@@ -150,7 +145,7 @@ void Parameters::finish(Log& log) const {
 Error Parameters::error(const std::string& key, const std::string& what) const {
   const Element* child = element_.child(key);
   if (!child) return Error(element_.source, "<" + key + ">: " + what);
-  return Error(child->source, "found " + quoted(child->text) + ", " + what);
+  return Error(child->source, "found " + in_quotes(child->text) + ", " + what);
 }
 
 }  // namespace ardee

@@ -38,10 +38,9 @@ void require_order(Parameters& parameters, const Battery::Params& params) {
   }
 }
 
-Battery::Params read(const PluginDescription& plugin, DeviceContext& context) {
+Battery::Params read(const std::string& name, Parameters& parameters, DeviceContext& context) {
   constexpr double kLowestRate_hz = 1e-3;
   constexpr double kSmallest = 1e-9;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Battery::Params params;
   params.rate_hz = parameters.number("updateRate", params.rate_hz, kLowestRate_hz);
@@ -59,16 +58,16 @@ Battery::Params read(const PluginDescription& plugin, DeviceContext& context) {
   params.topic = resolve_topic(topic, space);
   params.state_topic = resolve_topic(parameters.text("batteryStateTopic", topic + "_state"), space);
   params.frame = resolve_frame(parameters.text("batteryLink", "battery"), space, context);
-  params.name = parameters.text("batteryName", plugin.name);
+  params.name = parameters.text("batteryName", name);
   parameters.ignore({"robotBaseFrame", "alwaysOn"});
-  parameters.finish(context.log);
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> Battery::make(const PluginDescription& plugin, DeviceContext& context) {
-  return std::make_unique<Battery>(plugin.name, read(plugin, context));
+std::unique_ptr<Device> Battery::make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context) {
+  return std::make_unique<Battery>(plugin.name, read(plugin.name, parameters, context));
 }
 
 Battery::Battery(const std::string& name, const Params& params)
@@ -145,7 +144,6 @@ void Battery::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void Battery::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   last_ns_ = now_ns;
   command_.reset(now_ns);

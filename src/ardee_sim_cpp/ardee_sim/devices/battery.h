@@ -42,7 +42,8 @@ class Battery : public Device {
     std::string name;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   Battery(const std::string& name, const Params& params);
 
   void after_step(TimeNs now_ns, ReadingSink& sink) override;

@@ -81,10 +81,8 @@ physics::Contact swapped(const physics::Contact& contact) {
 
 }  // namespace
 
-std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor,
-                                     const PluginDescription& plugin, std::size_t link,
-                                     DeviceContext& context) {
-  Parameters parameters(plugin.element);
+std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor, Parameters& parameters,
+                                     std::size_t link, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed}};
   params.collisions = read_collisions(sensor, link, context.robot);
@@ -92,7 +90,6 @@ std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor,
   params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
   params.world_info = context.world_info;
   parameters.ignore({"alwaysOn", "updateRate"});
-  parameters.finish(context.log);
   return std::make_unique<Bumper>(sensor.name, params);
 }
 

@@ -23,9 +23,8 @@ class Bumper : public Sensor {
     WorldInfo world_info{};
   };
 
-  static std::unique_ptr<Device> make(const SensorDescription& sensor,
-                                      const PluginDescription& plugin, std::size_t link,
-                                      DeviceContext& context);
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& parameters,
+                                      std::size_t link, DeviceContext& context);
   Bumper(const std::string& name, const Params& params);
 
   void observe(TimeNs now_ns) override;

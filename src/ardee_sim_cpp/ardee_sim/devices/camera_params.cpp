@@ -8,6 +8,8 @@
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/camera_formats.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/sdf_noise.h"
+#include "ardee_sim/devices/sensor.h"
 
 namespace ardee::devices {
 namespace {
@@ -39,20 +41,6 @@ void read_clip(const Element& clip, CameraParams& camera) {
   if (!(camera.far_m > camera.near_m)) throw parameters.error("far", "expected more than <near>");
 }
 
-void read_noise(const Element& noise, CameraParams& camera) {
-  Parameters parameters(noise);
-  const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
-                                                          : parameters.text("type", "gaussian");
-  const double mean = parameters.number("mean", 0.0);
-  const double std = parameters.number("stddev", 0.0, 0.0);
-  if (type == "none") return;
-  if (type != "gaussian") {
-    throw Error(noise.source, "found noise type '" + type + "', expected gaussian or none");
-  }
-  camera.development.noise_mean = mean;
-  camera.development.noise_std = std;
-}
-
 Pose read_pose(const Element* pose) {
   if (pose == nullptr || pose->text.empty()) return {};
   std::istringstream stream(pose->text);
@@ -79,7 +67,11 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
   }
   if (const Element* image = parameters.block("image")) read_image(*image, camera, log);
   if (const Element* clip = parameters.block("clip")) read_clip(*clip, camera);
-  if (const Element* noise = parameters.block("noise")) read_noise(*noise, camera);
+  if (const Element* given = parameters.block("noise")) {
+    const SdfNoise noise = read_sdf_noise(*given, false);
+    camera.development.noise_mean = noise.mean;
+    camera.development.noise_std = noise.std;
+  }
   camera.lens.actual = render::Lens::pinhole(camera.width, camera.height, fov_rad);
   of_sdf = read_sdf_lens(parameters, camera.lens.actual, log);
   return camera;
@@ -130,10 +122,9 @@ void read_zoom(Parameters& parameters, CameraParams& camera) {
 }
 
 /// The plugin's keys for one camera. `suffix` follows the camera's name in topics.
-void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::string& suffix,
+void read_plugin(Parameters& parameters, CameraKind kind, const std::string& suffix,
                  bool has_baseline, const SdfLens& of_sdf, CameraParams& camera, CamerasParams& all,
                  DeviceContext& context) {
-  Parameters parameters(plugin.element);
   const std::string robot = plugin_namespace(parameters, context);
   // As in Gazebo a camera's name is below the robot's namespace, with a slash before it too.
   const std::string name = without_slashes(parameters.text("cameraName", "")) + suffix;
@@ -166,12 +157,10 @@ void read_plugin(const PluginDescription& plugin, CameraKind kind, const std::st
   read_image_encoding(parameters, camera);
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");
-  const double rate_hz = parameters.number("updateRate", 0.0, 0.0);
-  if (rate_hz > 0.0) all.rate_hz = all.rate_hz > 0.0 ? std::min(all.rate_hz, rate_hz) : rate_hz;
+  all.rate_hz = slower_rate_hz(all.rate_hz, parameters.number("updateRate", 0.0, 0.0));
   // Rays bend through the lens: there is no border to crop. The last two Gazebo does not read.
   parameters.ignore({"alwaysOn", "borderCrop", "baseline", "distortion_k1", "distortion_k2",
                      "distortion_k3", "distortion_t1", "distortion_t2", "imageTopic"});
-  parameters.finish(context.log);
 }
 
 }  // namespace
@@ -198,29 +187,32 @@ CameraInfoReading CameraParams::info() const {
   return info;
 }
 
-CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
-                           CameraKind kind, bool several, bool triggered, DeviceContext& context) {
+CamerasParams read_cameras(const SensorDescription& sensor, Parameters& parameters,
+                           const CameraPlugin& which, DeviceContext& context) {
   CamerasParams all;
   all.rate_hz = sensor.update_rate_hz;
-  all.triggered = triggered;
+  all.triggered = which.triggered;
   for (const Element& block : sensor.element.children) {
     if (block.name != "camera") continue;
     SdfLens of_sdf;
     CameraParams camera = read_camera_block(block, of_sdf, context.log);
     const auto name = block.attributes.find("name");
     const std::string own = name == block.attributes.end() ? "" : name->second;
-    if (several && own.empty()) throw Error(block.source, "found no name, expected one");
-    const bool is_left = several && own.find("left") != std::string::npos;
-    const bool is_right = several && own.find("right") != std::string::npos;
-    const std::string suffix = !several ? "" : is_left ? "/left" : is_right ? "/right" : "/" + own;
-    read_plugin(plugin, kind, suffix, !is_left, of_sdf, camera, all, context);
+    if (which.several && own.empty()) throw Error(block.source, "found no name, expected one");
+    const bool is_left = which.several && own.find("left") != std::string::npos;
+    const bool is_right = which.several && own.find("right") != std::string::npos;
+    const std::string suffix = !which.several ? ""
+                               : is_left      ? "/left"
+                               : is_right     ? "/right"
+                                              : "/" + own;
+    read_plugin(parameters, which.kind, suffix, !is_left, of_sdf, camera, all, context);
     for (const CameraParams& other : all.cameras) {
       if (other.topics.image != camera.topics.image) continue;
       throw Error(block.source, "found a second camera of topic " + camera.topics.image +
                                     ", expected names that tell cameras apart");
     }
     all.cameras.push_back(std::move(camera));
-    if (!several) break;
+    if (!which.several) break;
   }
   if (all.cameras.empty()) {
     throw Error(sensor.element.source, "sensor '" + sensor.name + "' of type '" + sensor.type +

@@ -10,8 +10,15 @@
 
 namespace ardee::devices {
 
-/// Which of Gazebo's camera plugins is meant.
+/// What a camera of Gazebo's gives.
 enum class CameraKind { kColor, kDepth, kOpenni };
+
+/// Which of Gazebo's camera plugins is meant.
+struct CameraPlugin {
+  CameraKind kind = CameraKind::kColor;
+  bool several = false;    // all <camera> blocks of the sensor
+  bool triggered = false;  // a picture for each message on the trigger's topic
+};
 
 /// The error and the limits of measured depths.
 struct DepthParams {
@@ -70,7 +77,7 @@ struct CamerasParams {
 };
 
 /// Reads and checks all cameras of a sensor. Throws Error.
-CamerasParams read_cameras(const SensorDescription& sensor, const PluginDescription& plugin,
-                           CameraKind kind, bool several, bool triggered, DeviceContext& context);
+CamerasParams read_cameras(const SensorDescription& sensor, Parameters& parameters,
+                           const CameraPlugin& which, DeviceContext& context);
 
 }  // namespace ardee::devices

@@ -6,52 +6,16 @@
 namespace ardee::devices {
 namespace {
 
-CameraSensor::Made make(const SensorDescription& sensor, const PluginDescription& plugin,
-                        std::size_t link, CameraKind kind, bool several, bool triggered,
-                        DeviceContext& context) {
-  const CamerasParams params = read_cameras(sensor, plugin, kind, several, triggered, context);
-  const Sensor::Mount mount{context.robot, link, sensor.X_LS, params.rate_hz, context.seed};
-  return std::make_unique<CameraSensor>(sensor.name, mount, params, context);
-}
-
 bool asked_for(const Output* output) { return output != nullptr && output->demanded; }
 
 }  // namespace
 
-CameraSensor::Made CameraSensor::make_color(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kColor, false, false, context);
-}
-
-CameraSensor::Made CameraSensor::make_triggered(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
-                                                DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kColor, false, true, context);
-}
-
-CameraSensor::Made CameraSensor::make_several(const SensorDescription& sensor,
-                                              const PluginDescription& plugin, std::size_t link,
-                                              DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kColor, true, false, context);
-}
-
-CameraSensor::Made CameraSensor::make_several_triggered(const SensorDescription& sensor,
-                                                        const PluginDescription& plugin,
-                                                        std::size_t link, DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kColor, true, true, context);
-}
-
-CameraSensor::Made CameraSensor::make_depth(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kDepth, false, false, context);
-}
-
-CameraSensor::Made CameraSensor::make_openni(const SensorDescription& sensor,
-                                             const PluginDescription& plugin, std::size_t link,
-                                             DeviceContext& context) {
-  return make(sensor, plugin, link, CameraKind::kOpenni, false, false, context);
+std::unique_ptr<Device> CameraSensor::make(const SensorDescription& sensor, Parameters& parameters,
+                                           std::size_t link, const CameraPlugin& which,
+                                           DeviceContext& context) {
+  const CamerasParams params = read_cameras(sensor, parameters, which, context);
+  const Mount mount{context.robot, link, sensor.X_LS, params.rate_hz, context.seed};
+  return std::make_unique<CameraSensor>(sensor.name, mount, params, context);
 }
 
 CameraSensor::CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,

@@ -14,28 +14,9 @@ namespace ardee::devices {
 /// depth costs no shading, camera_info no picture.
 class CameraSensor : public Sensor {
  public:
-  using Made = std::unique_ptr<Device>;
-
-  /// libgazebo_ros_camera.so
-  static Made make_color(const SensorDescription& sensor, const PluginDescription& plugin,
-                         std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_triggered_camera.so: a picture for each message on the trigger's topic
-  static Made make_triggered(const SensorDescription& sensor, const PluginDescription& plugin,
-                             std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_multicamera.so
-  static Made make_several(const SensorDescription& sensor, const PluginDescription& plugin,
-                           std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_triggered_multicamera.so
-  static Made make_several_triggered(const SensorDescription& sensor,
-                                     const PluginDescription& plugin, std::size_t link,
-                                     DeviceContext& context);
-  /// libgazebo_ros_depth_camera.so
-  static Made make_depth(const SensorDescription& sensor, const PluginDescription& plugin,
-                         std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_openni_kinect.so
-  static Made make_openni(const SensorDescription& sensor, const PluginDescription& plugin,
-                          std::size_t link, DeviceContext& context);
-
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& parameters,
+                                      std::size_t link, const CameraPlugin& which,
+                                      DeviceContext& context);
   CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
                DeviceContext& context);
   void reset(TimeNs now_ns) override;

@@ -9,6 +9,7 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/time.h"
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/devices/camera_renderer.h"
@@ -16,6 +17,7 @@
 #include "ardee_sim/devices/robot.h"
 #include "ardee_sim/physics/contact.h"
 #include "ardee_sim/raycast/ray_scene.h"
+#include "ardee_sim/readers/resource_locator.h"
 
 namespace ardee::devices {
 
@@ -63,13 +65,14 @@ struct DeviceContext {
   Robot& robot;
   RaySceneProvider& scenes;
   CameraRenderer& pictures;
+  const ResourceLocator& locator;  // of the files that plugins name
   Log& log;
-  std::uint64_t seed = 0;       // of this robot's streams
-  std::string robot_namespace;  // where plugins without one of their own put their topics
+  std::uint64_t seed = 0;            // of this robot's streams
+  std::string robot_namespace = "";  // where plugins without one of their own put their topics
   TimeNs step_ns = 0;
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
-  std::function<std::string(const std::string& robot_namespace)> tf_prefix;
-  WorldInfo world_info;
+  std::function<std::string(const std::string& robot_namespace)> tf_prefix = nullptr;
+  WorldInfo world_info = {};
   std::string scope = "";  // of the plugin (PluginDescription)
   /// A parameter by its full name ("/robot/base"); nothing is there without ROS's parameter server.
   std::function<Setting(const std::string& name)> parameter = no_parameter;

@@ -6,31 +6,13 @@
 
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
+#include "ardee_sim/devices/wheel_encoder.h"
 
 namespace ardee::devices {
 namespace {
 
 constexpr WithoutPrefix kBelowNamespace = WithoutPrefix::kNamespace;
 constexpr double kFastest = 1e6;  // m/s: what a command can ask of a wheel
-// Of the pose, as the stock plugin says them: x, y, z, roll, pitch, yaw. It says none of the twist.
-constexpr std::array<double, 6> kCovariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
-
-void read_wheels(Parameters& parameters, const std::string& space, const DeviceContext& context,
-                 DiffDrive::Params& params) {
-  static constexpr std::array<const char*, DiffDrive::kWheelCount> kKeys = {"leftJoint",
-                                                                            "rightJoint"};
-  static constexpr std::array<const char*, DiffDrive::kWheelCount> kDefaults = {"left_joint",
-                                                                                "right_joint"};
-  for (std::size_t wheel = 0; wheel < params.joints.size(); ++wheel) {
-    const Element* given = parameters.block(kKeys[wheel]);
-    params.joints[wheel] = turning_joint(context, given ? given->text : kDefaults[wheel],
-                                         given ? given->source : parameters.source());
-    const Joint& joint = context.robot.model().joints[params.joints[wheel]];
-    params.wheel_frames[wheel] = resolve_frame(joint.child, space, context, kBelowNamespace);
-    params.wheel_parent_frames[wheel] =
-        resolve_frame(joint.parent, space, context, kBelowNamespace);
-  }
-}
 
 bool read_legacy_mode(Parameters& parameters, Log& log) {
   if (!parameters.has("legacyMode")) {
@@ -42,41 +24,51 @@ bool read_legacy_mode(Parameters& parameters, Log& log) {
   return parameters.boolean("legacyMode", true);
 }
 
-DiffDrive::Params read(const PluginDescription& plugin, DeviceContext& context) {
+OdometryPublisher::Params read_odometry(Parameters& parameters, const std::string& space,
+                                        const DiffDrive::Params& drive,
+                                        const DeviceContext& context) {
+  OdometryPublisher::Params params =
+      read_odometry_params(parameters, space, context, "base_footprint", kBelowNamespace);
+  params.rate_hz = drive.update_rate_hz;
+  params.has_message = parameters.boolean("publishOdom", true);
+  params.has_transform = parameters.boolean("publishOdomTF", parameters.boolean("publishTf", true));
+  if (reads_wheels(parameters)) {
+    std::size_t left = drive.joints[DiffDrive::kLeft], right = drive.joints[DiffDrive::kRight];
+    if (drive.legacy_mode) std::swap(left, right);
+    params.wheels =
+        WheelOdometry::Params{{left}, {right}, drive.wheel_diameter_m, drive.wheel_separation_m};
+  }
+  return params;
+}
+
+DiffDrive::Params read(Parameters& parameters, DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   DiffDrive::Params params;
-  read_wheels(parameters, space, context, params);
+  params.joints = {plugin_turning_joint(parameters, context, "leftJoint", "left_joint"),
+                   plugin_turning_joint(parameters, context, "rightJoint", "right_joint")};
   params.wheel_separation_m = parameters.number("wheelSeparation", 0.34, kSmallest);
   params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, kSmallest);
   params.wheel_acceleration_m_per_s2 = parameters.number("wheelAcceleration", 0.0, 0.0);
   params.torque_n_m = parameters.number("wheelTorque", 5.0, 0.0);
   params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
   params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
-  params.source = read_odometry_source(parameters);
   params.legacy_mode = read_legacy_mode(parameters, context.log);
-  params.publish_odometry = parameters.boolean("publishOdom", true);
-  params.publish_odometry_tf =
-      parameters.boolean("publishOdomTF", parameters.boolean("publishTf", true));
-  params.publish_wheel_tf = parameters.boolean("publishWheelTF", false);
-  params.publish_wheel_joints = parameters.boolean("publishWheelJointState", false);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
-  params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
-  params.joints_topic = resolve_topic("joint_states", space);
-  params.odometry_frame =
-      plugin_frame(parameters, "odometryFrame", "odom", space, context, kBelowNamespace);
-  params.base_frame =
-      plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context, kBelowNamespace);
+  params.odometry = read_odometry(parameters, space, params, context);
+  params.wheels = read_wheel_publisher_params(
+      parameters, {params.joints[DiffDrive::kRight], params.joints[DiffDrive::kLeft]}, space,
+      context, kBelowNamespace);  // in the stock plugin's order
   parameters.ignore({"alwaysOn", "rosDebugLevel"});
-  parameters.finish(context.log);
+  context.robot.dynamics();  // a static model cannot move
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, DeviceContext& context) {
-  return std::make_unique<DiffDrive>(plugin.name, read(plugin, context), context.robot);
+std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, Parameters& parameters,
+                                        DeviceContext& context) {
+  return std::make_unique<DiffDrive>(plugin.name, read(parameters, context), context.robot);
 }
 
 DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot)
@@ -84,20 +76,11 @@ DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot
       params_(params),
       robot_(robot),
       command_timer_(params.update_rate_hz),
-      odometry_timer_(params.update_rate_hz),
-      command_(params.command_timeout_s) {
-  if (params_.publish_odometry) {
-    odometry_output_ = &add_output(params_.odometry_topic, reading_kind<OdometryReading>());
-  }
-  if (params_.publish_odometry_tf || params_.publish_wheel_tf) {
-    tf_output_ = &add_output("/tf", reading_kind<TransformReading>());
-  }
-  if (params_.publish_wheel_joints) {
-    joints_output_ = &add_output(params_.joints_topic, reading_kind<JointStateReading>());
-  }
+      command_(params.command_timeout_s),
+      odometry_(params.odometry, ports(), robot),
+      wheels_(params.wheels, ports(), robot) {
   ports().add_velocity_input(params_.command_topic,
                              [this](const Twist& command) { command_.set(command); });
-  reset(0);
 }
 
 std::array<double, DiffDrive::kWheelCount> DiffDrive::wanted_speeds(const Twist& command) const {
@@ -123,82 +106,18 @@ void DiffDrive::before_step(TimeNs now_ns) {
   }
 }
 
-void DiffDrive::integrate_wheels() {
-  std::array<double, kWheelCount> rolled_m{};
-  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
-    const double angle = robot_.dynamics().joint_position(params_.joints[wheel]);
-    rolled_m[wheel] = (angle - wheel_angles_[wheel]) * params_.wheel_diameter_m / 2.0;
-    wheel_angles_[wheel] = angle;
-  }
-  if (params_.legacy_mode) std::swap(rolled_m[kLeft], rolled_m[kRight]);
-  wheel_odometry_.roll(rolled_m[kLeft], rolled_m[kRight], params_.wheel_separation_m);
-}
-
-OdometryReading DiffDrive::odometry(TimeNs now_ns) const {
-  OdometryReading reading;
-  reading.header = {now_ns, params_.odometry_frame};
-  reading.child_frame_id = params_.base_frame;
-  reading.pose_covariance = kCovariance;
-  if (params_.source == OdometrySource::kWorld) {
-    reading.pose = robot_.pose();
-    reading.twist = robot_.planar_twist();
-    return reading;
-  }
-  const auto rim_speed = [&](Wheel wheel) {
-    return robot_.dynamics().joint_velocity(params_.joints[wheel]) * params_.wheel_diameter_m / 2.0;
-  };
-  const double left = rim_speed(params_.legacy_mode ? kRight : kLeft);
-  const double right = rim_speed(params_.legacy_mode ? kLeft : kRight);
-  reading.pose = wheel_odometry_.pose();
-  reading.twist.linear.x() = 0.5 * (left + right);
-  reading.twist.angular.z() = (right - left) / params_.wheel_separation_m;
-  return reading;
-}
-
-void DiffDrive::publish_wheels(TimeNs now_ns, ReadingSink& sink) const {
-  const Model& model = robot_.model();
-  JointStateReading states;
-  states.header.stamp_ns = now_ns;
-  for (const Wheel wheel : {kRight, kLeft}) {  // in the stock plugin's order
-    const std::size_t joint = params_.joints[wheel];
-    states.names.push_back(model.joints[joint].name);
-    states.positions.push_back(robot_.dynamics().joint_position(joint));
-    states.velocities.push_back(robot_.dynamics().joint_velocity(joint));
-    if (!params_.publish_wheel_tf) continue;
-    const Source& source = model.joints[joint].source;
-    const Pose X_WP = robot_.link_pose(robot_.link_index(model.joints[joint].parent, source));
-    const Pose X_WC = robot_.link_pose(robot_.link_index(model.joints[joint].child, source));
-    sink.on_reading(*tf_output_, TransformReading{{now_ns, params_.wheel_parent_frames[wheel]},
-                                                  params_.wheel_frames[wheel],
-                                                  X_WP.inverse() * X_WC});
-  }
-  if (joints_output_ && joints_output_->demanded) sink.on_reading(*joints_output_, states);
-}
-
 void DiffDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
-  if (!odometry_timer_.due(now_ns)) return;
-  if (params_.source == OdometrySource::kEncoder) integrate_wheels();
-  if (params_.publish_wheel_tf || params_.publish_wheel_joints) publish_wheels(now_ns, sink);
-  const OdometryReading reading = odometry(now_ns);
-  if (params_.publish_odometry_tf) {
-    sink.on_reading(*tf_output_,
-                    TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
-  }
-  if (odometry_output_ && odometry_output_->demanded) sink.on_reading(*odometry_output_, reading);
+  if (!odometry_.due(now_ns)) return;
+  wheels_.publish(now_ns, sink);
+  odometry_.publish(now_ns, sink);
 }
 
 void DiffDrive::reset(TimeNs now_ns) {
   command_.reset(now_ns);
   last_command_ns_ = now_ns;
   speeds_m_per_s_.fill(0.0);
-  command_timer_.reset();
   command_timer_.start_at(now_ns);
-  odometry_timer_.reset();
-  odometry_timer_.start_at(now_ns + 1);
-  wheel_odometry_.reset();
-  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
-    wheel_angles_[wheel] = robot_.dynamics().joint_position(params_.joints[wheel]);
-  }
+  odometry_.reset(now_ns);
 }
 
 }  // namespace ardee::devices

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "ardee_sim/devices/drive_command.h"
-#include "ardee_sim/devices/wheel_encoder.h"
-#include "ardee_sim/devices/wheel_odometry.h"
+#include "ardee_sim/devices/odometry_publisher.h"
+#include "ardee_sim/devices/wheel_publisher.h"
 
 namespace ardee::devices {
 
@@ -24,22 +24,14 @@ class DiffDrive : public Device {
     double torque_n_m = 5.0;
     double update_rate_hz = 100.0;
     double command_timeout_s = 0.0;  // 0: the last command stays
-    OdometrySource source = OdometrySource::kWorld;
-    bool legacy_mode = true;  // the stock plugin's default: left and right are swapped
-    bool publish_odometry = true;
-    bool publish_odometry_tf = true;
-    bool publish_wheel_tf = false;
-    bool publish_wheel_joints = false;
+    bool legacy_mode = true;         // the stock plugin's default: left and right are swapped
     std::string command_topic;
-    std::string odometry_topic;
-    std::string joints_topic;
-    std::string odometry_frame;
-    std::string base_frame;
-    std::array<std::string, kWheelCount> wheel_frames;
-    std::array<std::string, kWheelCount> wheel_parent_frames;
+    OdometryPublisher::Params odometry;
+    WheelPublisher::Params wheels;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   DiffDrive(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;
@@ -49,22 +41,15 @@ class DiffDrive : public Device {
  private:
   /// Rim speeds in m/s, left and right, that the command asks for.
   std::array<double, kWheelCount> wanted_speeds(const Twist& command) const;
-  void integrate_wheels();
-  OdometryReading odometry(TimeNs now_ns) const;
-  void publish_wheels(TimeNs now_ns, ReadingSink& sink) const;
 
   Params params_;
   Robot& robot_;
   RateTimer command_timer_;
-  RateTimer odometry_timer_;
   DriveCommand command_;
   std::array<double, kWheelCount> speeds_m_per_s_{};  // asked of the wheels now
-  std::array<double, kWheelCount> wheel_angles_{};
   TimeNs last_command_ns_ = 0;
-  WheelOdometry wheel_odometry_;
-  Output* odometry_output_ = nullptr;
-  Output* tf_output_ = nullptr;
-  Output* joints_output_ = nullptr;
+  OdometryPublisher odometry_;
+  WheelPublisher wheels_;
 };
 
 }  // namespace ardee::devices

@@ -5,10 +5,10 @@
 
 namespace ardee::devices {
 
-std::unique_ptr<Device> Encoder::make(const PluginDescription& plugin, DeviceContext& context) {
+std::unique_ptr<Device> Encoder::make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context) {
   constexpr double kDefaultRate_hz = 100.0;
   constexpr double kLowestRate_hz = 1e-3;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   WheelEncoder::Params params = read_encoder_params(parameters);
   const std::string joint = parameters.required_text("joint");
@@ -19,7 +19,6 @@ std::unique_ptr<Device> Encoder::make(const PluginDescription& plugin, DeviceCon
   const std::string topic = resolve_topic(parameters.text("encoderTopic", "encoder"), space);
   const double rate_hz = parameters.number("updateRate", kDefaultRate_hz, kLowestRate_hz);
   parameters.ignore({"robotBaseFrame", "alwaysOn"});
-  parameters.finish(context.log);
   return std::make_unique<Encoder>(plugin.name, topic, params, rate_hz, context.robot);
 }
 
@@ -35,7 +34,6 @@ void Encoder::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void Encoder::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   encoder_.reset(now_ns);
 }

@@ -12,7 +12,8 @@ namespace ardee::devices {
 /// own.
 class Encoder : public Device {
  public:
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   Encoder(const std::string& name, const std::string& topic, const WheelEncoder::Params& params,
           double rate_hz, Robot& robot);
 

@@ -6,9 +6,8 @@
 namespace ardee::devices {
 
 std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
-                                                DeviceContext& context) {
+                                                Parameters& parameters, DeviceContext& context) {
   constexpr double kMostHz = 1e6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   const std::string joint = parameters.required_text("jointName");
   Params params{{context.robot, 0, {}, 0.0, context.seed}};
@@ -20,7 +19,6 @@ std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   params.frame = resolve_frame(child, space, context);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   context.robot.dynamics().want_joint_wrench(params.joint);  // throws for a joint that has none
   return std::make_unique<ForceTorqueSensor>(plugin.name, params);
 }

@@ -21,7 +21,8 @@ class ForceTorqueSensor : public Sensor {
     std::string frame{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   ForceTorqueSensor(const std::string& name, const Params& params);
 
   void observe(TimeNs now_ns) override;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/gazebo_imu.h"
 
-#include <algorithm>
-
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -18,17 +16,10 @@ Pose read_mounting(Parameters& parameters) {
                             parameters.vector3("rpyOffset", Vector3d::Zero()));
 }
 
-/// The slower of two rates; 0 does not limit.
-double slower(double one_hz, double other_hz) {
-  if (one_hz <= 0.0 || other_hz <= 0.0) return std::max(one_hz, other_hz);
-  return std::min(one_hz, other_hz);
-}
-
 }  // namespace
 
 std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin,
-                                                 DeviceContext& context) {
-  Parameters parameters(plugin.element);
+                                                 Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   Params params{{context.robot, plugin_link(parameters, context), read_mounting(parameters), 0.0,
@@ -41,18 +32,16 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
   if (!service.empty()) params.service = resolve_topic(service, space);
   params.frame = resolve_frame(parameters.text("frameName", body), space, context);
   parameters.ignore({"alwaysOn", "updateRateHZ"});
-  parameters.finish(context.log);
   return std::make_unique<GazeboImu>(plugin.name, params, context.world_info.gravity_m_per_s2);
 }
 
 std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& sensor,
-                                                  const PluginDescription& plugin, std::size_t link,
+                                                  Parameters& parameters, std::size_t link,
                                                   DeviceContext& context) {
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
   const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, kMostHz);
-  params.mount.rate_hz = slower(sensor.update_rate_hz, rate_hz);
+  params.mount.rate_hz = slower_rate_hz(sensor.update_rate_hz, rate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.noisy_orientation = true;
   params.initial_orientation_is_reference =
@@ -64,7 +53,6 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
     params.noise = read_sdf_imu_noise(*imu, key);
   }
   parameters.ignore({"alwaysOn", "bodyName", "serviceName"});
-  parameters.finish(context.log);
   return std::make_unique<GazeboImu>(sensor.name, params, context.world_info.gravity_m_per_s2);
 }
 

@@ -29,9 +29,9 @@ class GazeboImu : public InertialSensor {
   };
 
   static std::unique_ptr<Device> make_on_model(const PluginDescription& plugin,
-                                               DeviceContext& context);
+                                               Parameters& parameters, DeviceContext& context);
   static std::unique_ptr<Device> make_on_sensor(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
+                                                Parameters& parameters, std::size_t link,
                                                 DeviceContext& context);
   GazeboImu(const std::string& name, const Params& params,
             std::function<Eigen::Vector3d()> gravity_m_per_s2);

@@ -13,10 +13,9 @@ constexpr int kNoFix = -1;  // sensor_msgs/NavSatStatus
 
 }  // namespace
 
-std::unique_ptr<Device> Gps::make(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+std::unique_ptr<Device> Gps::make(const PluginDescription& plugin, Parameters& parameters,
+                                  DeviceContext& context) {
   const GpsParams params = read_gps_params(parameters, context);
-  parameters.finish(context.log);
   return std::make_unique<Gps>(plugin.name, params);
 }
 

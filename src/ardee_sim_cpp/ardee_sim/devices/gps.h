@@ -11,7 +11,8 @@ namespace ardee::devices {
 /// libhector_gazebo_ros_gps.so: position and velocity (north, west, up) with hector's errors.
 class Gps : public Sensor {
  public:
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   Gps(const std::string& name, const GpsParams& params);
 
   void reset(TimeNs now_ns) override;

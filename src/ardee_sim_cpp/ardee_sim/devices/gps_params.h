@@ -23,7 +23,7 @@ struct GpsParams {
   std::string frame{};
 };
 
-/// Reads them; the caller reads what it has of its own and calls finish().
+/// Reads them; the caller reads what it has of its own.
 GpsParams read_gps_params(Parameters& parameters, DeviceContext& context);
 
 /// <topic>/status: a fix or none, its augmentation and the systems, as hector_gazebo_plugins/GNSS

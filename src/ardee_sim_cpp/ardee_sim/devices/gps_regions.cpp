@@ -7,9 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "ardee_sim/readers/resource_locator.h"
+#include "ardee_sim/readers/element_file.h"
 #include "ardee_sim/readers/text_file.h"
-#include "ardee_sim/readers/xml.h"
 
 namespace ardee::devices {
 namespace {
@@ -142,8 +141,7 @@ struct GpsRegions::Parts {
 
   /// `source`: of what names the file.
   void add_file(const std::string& path, const Source& source, Log& log) {
-    const XmlFile file = XmlFile::read(path, source);
-    const Element root = file.root().to_element();
+    const Element root = read_element_file(path, source);
     if (root.children.empty()) {
       throw Error(root.source, std::string("found nothing in it, expected ") + kBands + ", " +
                                    kPlot + " or " + kBox);
@@ -223,10 +221,9 @@ struct GpsRegions::Parts {
 };
 
 GpsRegions::GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files,
-                       Log& log) {
+                       const ResourceLocator& locator, Log& log) {
   Parts parts;
   parts.add_all(plugin, log);
-  const ResourceLocator locator = ResourceLocator::from_environment();
   if (const Element* named = plugin.child("geofenceFile")) {
     parts.add_file(locator.resolve(named->text, named->source), named->source, log);
   }

@@ -9,6 +9,7 @@
 #include "ardee_sim/core/rng.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/readers/resource_locator.h"
 
 namespace ardee::devices {
 
@@ -70,10 +71,11 @@ class GpsRegions {
   GpsRegions() = default;
   /// Inline <field_gps_noise_characteristics>, <plot>, <periodic_noise_box>; <geofenceFile> and
   /// <plotsFile> with the same. Without plots of its own, those beside `scenery_files`
-  /// (plots.xacro); if there are plots but no bands, GAZEBO_RESOURCE_PATH's
-  /// custom_gps_behavior.geofence, else default_gps_behavior.geofence. Throws Error for what is
-  /// missing or malformed; warns of plots that lie in no band.
-  GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files, Log& log);
+  /// (plots.xacro); if there are plots but no bands, the resource paths'
+  /// custom_gps_behavior.geofence, else default_gps_behavior.geofence. `locator` finds the files.
+  /// Throws Error for what is missing or malformed; warns of plots that lie in no band.
+  GpsRegions(const Element& plugin, const std::vector<std::string>& scenery_files,
+             const ResourceLocator& locator, Log& log);
 
   /// The first that contains the point, boxes of periodic noise before plots; nullptr: open sky.
   const GpsRegion* find(const Eigen::Vector3d& point_W) const;

@@ -40,9 +40,8 @@ std::array<float, 4> colour_of(const GpsRegion& region) {
 }  // namespace
 
 std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
-                                             DeviceContext& context) {
+                                             Parameters& parameters, DeviceContext& context) {
   constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
-  Parameters parameters(plugin.element);
   Params params{read_gps_params(parameters, context), plugin.element};
   params.correlation_time_s =
       parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
@@ -57,7 +56,6 @@ std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
                           "geofenceFile", "plotsFile"}) {
     parameters.block(key);  // read by GpsRegions
   }
-  parameters.finish(context.log);
   return std::make_unique<GpsWithDropout>(plugin.name, params, context);
 }
 
@@ -66,10 +64,11 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
     : Gps(name, params.gps),
       plugin_(params.plugin),
       world_info_(context.world_info),
+      locator_(context.locator),
       log_(context.log),
       scenery_files_(world_info_.scenery_files()),
       scenery_changes_(world_info_.scenery_changes()),
-      regions_(plugin_, scenery_files_, log_),
+      regions_(plugin_, scenery_files_, locator_, log_),
       correlation_time_s_(params.correlation_time_s),
       key_(stream_key(params.gps.mount.seed, name + "/dropout")),
       random_(key_),
@@ -81,7 +80,7 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
 
 void GpsWithDropout::reset(TimeNs now_ns) {
   Gps::reset(now_ns);
-  random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
+  random_ = Rng(key_, now_ns);
   for (int axis = 0; axis < 3; ++axis) unit_error_[axis] = random_.normal();
   has_fix_ = true;
   loss_duration_s_ = 0.0;
@@ -95,7 +94,7 @@ void GpsWithDropout::follow_scenery() {
   if (files == scenery_files_) return;
   scenery_files_ = std::move(files);
   try {
-    regions_ = GpsRegions(plugin_, scenery_files_, log_);
+    regions_ = GpsRegions(plugin_, scenery_files_, locator_, log_);
   } catch (const Error& error) {
     log_.error("GPS '" + name() + "' keeps its regions: " + error.what());
     return;

@@ -25,7 +25,8 @@ class GpsWithDropout : public Gps {
     std::string regions_topic{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   GpsWithDropout(const std::string& name, const Params& params, const DeviceContext& context);
 
   void reset(TimeNs now_ns) override;
@@ -45,6 +46,7 @@ class GpsWithDropout : public Gps {
 
   Element plugin_;
   WorldInfo world_info_;
+  const ResourceLocator& locator_;
   Log& log_;
   std::vector<std::string> scenery_files_;  // that the regions are of
   std::uint64_t scenery_changes_;

@@ -7,9 +7,9 @@ namespace ardee::devices {
 
 using Eigen::Vector3d;
 
-std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, DeviceContext& context) {
+std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, Parameters& parameters,
+                                          DeviceContext& context) {
   constexpr double kMostHz = 1e6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
@@ -27,7 +27,6 @@ std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, Devic
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.local_twist = parameters.boolean("local_twist", false);
   parameters.ignore({"alwaysOn", "serviceName"});
-  parameters.finish(context.log);
   return std::make_unique<GroundTruth>(plugin.name, params);
 }
 

@@ -27,7 +27,8 @@ class GroundTruth : public Sensor {
     std::string child_frame{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   GroundTruth(const std::string& name, const Params& params);
 
  protected:

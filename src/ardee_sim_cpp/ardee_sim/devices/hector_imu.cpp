@@ -11,8 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-HectorImu::Params read(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+HectorImu::Params read(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   HectorImu::Params params{
       {context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
@@ -37,7 +36,6 @@ HectorImu::Params read(const PluginDescription& plugin, DeviceContext& context) 
   const std::string link = context.robot.model().links[params.mount.link].name;
   params.frame = resolve_frame(parameters.text("frameId", link), space, context);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return params;
 }
 
@@ -51,8 +49,9 @@ std::array<double, 3> diagonal(const Vector3d& variances) {
 
 }  // namespace
 
-std::unique_ptr<Device> HectorImu::make(const PluginDescription& plugin, DeviceContext& context) {
-  return std::make_unique<HectorImu>(plugin.name, read(plugin, context),
+std::unique_ptr<Device> HectorImu::make(const PluginDescription& plugin, Parameters& parameters,
+                                        DeviceContext& context) {
+  return std::make_unique<HectorImu>(plugin.name, read(parameters, context),
                                      context.world_info.gravity_m_per_s2);
 }
 

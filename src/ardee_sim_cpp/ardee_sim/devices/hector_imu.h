@@ -30,7 +30,8 @@ class HectorImu : public InertialSensor {
     std::string frame{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   HectorImu(const std::string& name, const Params& params,
             std::function<Eigen::Vector3d()> gravity_m_per_s2);
 

@@ -16,8 +16,7 @@ constexpr double kStiffness_hz = 20.0;
 constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
 
-JointPosition::Params read(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+JointPosition::Params read(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   const std::string name = parameters.required_text("joint");
   const Source& source = parameters.block("joint")->source;
@@ -41,15 +40,14 @@ JointPosition::Params read(const PluginDescription& plugin, DeviceContext& conte
   params.topic =
       resolve_topic(parameters.text("commandTopic", name + "_position_controller/command"), space);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return params;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin,
+std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<JointPosition>(plugin.name, read(plugin, context), context.robot);
+  return std::make_unique<JointPosition>(plugin.name, read(parameters, context), context.robot);
 }
 
 JointPosition::JointPosition(const std::string& name, const Params& params, Robot& robot)

@@ -25,7 +25,8 @@ class JointPosition : public Device {
     double max_effort = 0.0;        // N m or N
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   JointPosition(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;

@@ -23,8 +23,7 @@ std::vector<std::string> split_at_commas(std::string list) {
 }  // namespace
 
 std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugin,
-                                                  DeviceContext& context) {
-  Parameters parameters(plugin.element);
+                                                  Parameters& parameters, DeviceContext& context) {
   std::string space = plugin_namespace(parameters, context);
   if (space.empty() && !parameters.has("robotNamespace")) space = context.robot.name();
   std::vector<std::size_t> joints;
@@ -33,7 +32,6 @@ std::unique_ptr<Device> JointStatePublisher::make(const PluginDescription& plugi
   }
   const double rate_hz = parameters.number("updateRate", kDefaultRateHz, 0.0);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return std::make_unique<JointStatePublisher>(plugin.name, resolve_topic("joint_states", space),
                                                std::move(joints), rate_hz, context.robot);
 }
@@ -61,9 +59,6 @@ void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
   sink.on_reading(output_, reading);
 }
 
-void JointStatePublisher::reset(TimeNs now_ns) {
-  timer_.reset();
-  timer_.start_at(now_ns + 1);
-}
+void JointStatePublisher::reset(TimeNs now_ns) { timer_.start_at(now_ns + 1); }
 
 }  // namespace ardee::devices

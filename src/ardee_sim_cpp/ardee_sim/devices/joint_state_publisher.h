@@ -13,7 +13,8 @@ namespace ardee::devices {
 /// spawn it publishes below the model's name.
 class JointStatePublisher : public Device {
  public:
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   JointStatePublisher(const std::string& name, const std::string& topic,
                       std::vector<std::size_t> joints, double rate_hz, Robot& robot);
 

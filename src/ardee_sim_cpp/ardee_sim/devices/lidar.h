@@ -2,45 +2,31 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "ardee_sim/devices/lidar_beams.h"
-#include "ardee_sim/devices/lidar_params.h"
-#include "ardee_sim/devices/sensor.h"
+#include "ardee_sim/devices/ray_sensor.h"
 
 namespace ardee::devices {
 
-/// Range noise on all finite echoes, which stay within the device's limits. Beam i uses counter i.
-void corrupt_echoes(const RayBlock& rays, const CounterRng& noise, std::vector<BeamEcho>& echoes);
-
-/// A planar lidar, on collision or visual bodies. Beam i leaves the sensor's origin at angle_min +
-/// i * increment about z. All beams are taken at the stamp; the times of a scan are told as the
-/// drivers of turning lidars tell them.
-class Lidar : public Sensor {
+/// A planar lidar. Beam i leaves the sensor's origin at angle_min + i * increment about z. All
+/// beams are taken at the stamp; the times of a scan are told as the drivers of turning lidars tell
+/// them.
+class Lidar : public RaySensor {
  public:
-  /// libgazebo_ros_laser.so
-  static std::unique_ptr<Device> make_on_collisions(const SensorDescription& sensor,
-                                                    const PluginDescription& plugin,
-                                                    std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_gpu_laser.so
-  static std::unique_ptr<Device> make_on_visuals(const SensorDescription& sensor,
-                                                 const PluginDescription& plugin, std::size_t link,
-                                                 DeviceContext& context);
-  Lidar(const std::string& name, const Mount& mount, const LidarParams& params,
-        RaySceneProvider& scenes);
+  /// libgazebo_ros_laser.so on collision bodies, libgazebo_ros_gpu_laser.so on visual ones.
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
+                                      std::size_t link, raycast::SceneKind scene,
+                                      DeviceContext& context);
+  /// time_increment_s: from beam to beam; none: that of a mirror that turns once a scan.
+  Lidar(const std::string& name, const Mount& mount, const Params& params,
+        std::optional<double> time_increment_s, RaySceneProvider& scenes);
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
-  bool wanted() const override { return output_.demanded; }
 
  private:
-  LidarParams params_;
-  RaySceneProvider& scenes_;
-  LidarBeams beams_;
-  std::shared_ptr<void> eye_;
-  std::vector<BeamEcho> echoes_;
-  Output& output_;
+  std::optional<double> time_increment_s_;
 };
 
 }  // namespace ardee::devices

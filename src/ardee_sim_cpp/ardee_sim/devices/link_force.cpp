@@ -5,8 +5,8 @@
 
 namespace ardee::devices {
 
-std::unique_ptr<Device> LinkForce::make(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+std::unique_ptr<Device> LinkForce::make(const PluginDescription& plugin, Parameters& parameters,
+                                        DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   const std::size_t link = context.link_index(body, parameters.block("bodyName")->source);
@@ -15,7 +15,6 @@ std::unique_ptr<Device> LinkForce::make(const PluginDescription& plugin, DeviceC
   params.frame = resolve_frame(parameters.text("frameName", "world"), space, context);
   params.world_info = context.world_info;
   parameters.ignore({"alwaysOn", "updateRate"});
-  parameters.finish(context.log);
   return std::make_unique<LinkForce>(plugin.name, params);
 }
 

@@ -21,7 +21,8 @@ class LinkForce : public Sensor {
     WorldInfo world_info{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   LinkForce(const std::string& name, const Params& params);
 
   void observe(TimeNs now_ns) override;

@@ -5,15 +5,14 @@
 
 namespace ardee::devices {
 
-std::unique_ptr<Device> LinkPush::make(const PluginDescription& plugin, DeviceContext& context) {
+std::unique_ptr<Device> LinkPush::make(const PluginDescription& plugin, Parameters& parameters,
+                                       DeviceContext& context) {
   context.robot.dynamics();  // a static model cannot be pushed
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   const std::size_t link = context.link_index(body, parameters.block("bodyName")->source);
   const std::string topic = resolve_topic(parameters.required_text("topicName"), space);
   parameters.ignore({"alwaysOn", "updateRate"});
-  parameters.finish(context.log);
   return std::make_unique<LinkPush>(plugin.name, topic, link, context.robot);
 }
 

@@ -12,7 +12,8 @@ namespace ardee::devices {
 /// topic, in the world's axes, at each step until another comes.
 class LinkPush : public Device {
  public:
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   LinkPush(const std::string& name, const std::string& topic, std::size_t link, Robot& robot);
 
   void before_step(TimeNs now_ns) override;

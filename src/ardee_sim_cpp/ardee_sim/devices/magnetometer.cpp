@@ -16,10 +16,9 @@ Vector3d Magnetometer::field_in_world(double magnitude, double heading_rad, doub
   return {level * std::cos(turn), level * std::sin(turn), -magnitude * std::sin(inclination_rad)};
 }
 
-std::unique_ptr<Device> Magnetometer::make(const PluginDescription& plugin,
+std::unique_ptr<Device> Magnetometer::make(const PluginDescription& plugin, Parameters& parameters,
                                            DeviceContext& context) {
   constexpr double kDegree = M_PI / 180.0;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
   read_update_times(parameters, 0.0, params.mount);
@@ -35,7 +34,6 @@ std::unique_ptr<Device> Magnetometer::make(const PluginDescription& plugin,
   const std::string link = context.robot.model().links[params.mount.link].name;
   params.frame = resolve_frame(parameters.text("frameId", link), space, context);
   parameters.ignore({"alwaysOn"});
-  parameters.finish(context.log);
   return std::make_unique<Magnetometer>(plugin.name, params);
 }
 

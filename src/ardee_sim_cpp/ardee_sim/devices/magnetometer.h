@@ -22,7 +22,8 @@ class Magnetometer : public Sensor {
     std::string frame{};
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   Magnetometer(const std::string& name, const Params& params);
 
   /// Angles in rad: heading of x and declination clockwise from north, inclination downwards.

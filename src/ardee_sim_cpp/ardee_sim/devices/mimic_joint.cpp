@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kMost = 1e6;  // multiplier, or rad or m
 
-Coupling read(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+Coupling read(Parameters& parameters, DeviceContext& context) {
   plugin_namespace(parameters, context);
   const auto joint = [&](const char* key) {
     const std::string name = parameters.required_text(key);
@@ -22,24 +21,24 @@ Coupling read(const PluginDescription& plugin, DeviceContext& context) {
   coupling.follower = joint("mimicJoint");
   coupling.multiplier = parameters.number("multiplier", 1.0, -kMost, kMost);
   coupling.offset = parameters.number("offset", 0.0, -kMost, kMost);
-  coupling.source = plugin.element.source;
+  coupling.source = parameters.source();
   // Without a PID the plugin sets the position, whatever effort that takes.
   const double max_effort = parameters.number("maxEffort", 1.0, 0.0);
   const bool has_pid = parameters.has("hasPID");
   parameters.text("hasPID", "");
   if (has_pid) coupling.max_effort = max_effort;
   if (parameters.number("sensitiveness", 0.0, 0.0) > 0.0) {
-    context.log.warn(plugin.element.source,
+    context.log.warn(parameters.source(),
                      "found <sensitiveness>, expected none or 0: the joint follows exactly");
   }
-  parameters.finish(context.log);
   return coupling;
 }
 
 }  // namespace
 
-std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, DeviceContext& context) {
-  return std::make_unique<MimicJoint>(plugin.name, read(plugin, context), context.robot);
+std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, Parameters& parameters,
+                                         DeviceContext& context) {
+  return std::make_unique<MimicJoint>(plugin.name, read(parameters, context), context.robot);
 }
 
 MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)

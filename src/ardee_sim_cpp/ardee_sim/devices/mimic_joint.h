@@ -11,7 +11,8 @@ namespace ardee::devices {
 /// puts the follower into place, here both feel what loads either of them.
 class MimicJoint : public Device {
  public:
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot);
 
   void reset(TimeNs now_ns) override;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/drive_command.h"
+#include "ardee_sim/devices/odometry_publisher.h"
 
 namespace ardee::devices {
 
@@ -14,15 +16,13 @@ namespace ardee::devices {
 class PlanarMove : public Device {
  public:
   struct Params {
-    double odometry_rate_hz = 20.0;  // 0: no odometry
     double command_timeout_s = 0.0;  // 0: the last command stays
     std::string command_topic;
-    std::string odometry_topic;
-    std::string odometry_frame;
-    std::string base_frame;
+    std::optional<OdometryPublisher::Params> odometry;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   PlanarMove(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;
@@ -33,9 +33,7 @@ class PlanarMove : public Device {
   Params params_;
   Robot& robot_;
   DriveCommand command_;
-  RateTimer odometry_timer_;
-  Output* odometry_output_ = nullptr;
-  Output* tf_output_ = nullptr;
+  std::optional<OdometryPublisher> odometry_;
 };
 
 }  // namespace ardee::devices

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "ardee_sim/devices/lidar.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -29,12 +28,12 @@ RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& key
                                 const char* topic, const char* frame_key, const char* frame,
                                 DeviceContext& context) {
   RangeFinder::Params params;
-  params.rays = read_ray_block(sensor, context.log);
-  params.scene = scene_of(sensor);
+  params.ray.rays = read_ray_block(sensor, context.log);
+  params.ray.scene = scene_of(sensor);
   const std::string space = plugin_namespace(keys, context);
-  params.topic = resolve_topic(keys.text("topicName", topic), space);
-  params.frame = resolve_frame(keys.text(frame_key, frame), space, context);
-  params.look_through_near = keys.boolean("lookThroughNear", false);
+  params.ray.topic = resolve_topic(keys.text("topicName", topic), space);
+  params.ray.frame = resolve_frame(keys.text(frame_key, frame), space, context);
+  params.ray.look_through_near = keys.boolean("lookThroughNear", false);
   keys.ignore({"alwaysOn"});
   return params;
 }
@@ -48,45 +47,34 @@ double smaller_span_rad(const RayBlock& rays) {
 
 }  // namespace
 
-std::unique_ptr<Device> RangeFinder::make_range(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
-                                                DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> RangeFinder::make_range(const SensorDescription& sensor, Parameters& keys,
+                                                std::size_t link, DeviceContext& context) {
   Params params = read_params(sensor, keys, "/range", "frameName", "/world", context);
   params.radiation = read_radiation(keys);
   params.field_of_view_rad = keys.number("fov", 0.05, 0.0, 2.0 * M_PI);
   params.errors.gaussian_noise.setConstant(keys.number("gaussianNoise", 0.0, 0.0));
   const double rate_hz = read_rate_hz(sensor, keys, 0.0);
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);
 }
 
-std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor,
-                                                const PluginDescription& plugin, std::size_t link,
-                                                DeviceContext& context) {
-  Parameters keys(plugin.element);
+std::unique_ptr<Device> RangeFinder::make_sonar(const SensorDescription& sensor, Parameters& keys,
+                                                std::size_t link, DeviceContext& context) {
   Params params = read_params(sensor, keys, "sonar", "frameId", "/sonar_link", context);
-  params.field_of_view_rad = smaller_span_rad(params.rays);
+  params.field_of_view_rad = smaller_span_rad(params.ray.rays);
   params.errors = read_sensor_errors(keys, "", read_noise_mode(keys));
   params.is_tunable = true;
   const double rate_hz = read_rate_hz(sensor, keys, kSonarRate_hz);
-  keys.finish(context.log);
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<RangeFinder>(sensor.name, mount, params, context.scenes);
 }
 
 RangeFinder::RangeFinder(const std::string& name, const Mount& mount, const Params& params,
                          RaySceneProvider& scenes)
-    : Sensor(name, mount),
+    : RaySensor(name, mount, params.ray, scenes, reading_kind<RangeReading>()),
       params_(params),
-      scenes_(scenes),
-      beams_(params.rays, {}, params.look_through_near,
-             {mount.robot.entity(), static_cast<std::uint32_t>(mount.link)}),
-      eye_(scenes.register_eye(params.scene, [this] { return pose().p; })),
-      model_(params.errors, 1, stream_key(mount.seed, name + " errors")),
-      output_(add_output(params.topic, reading_kind<RangeReading>())) {
-  if (params.is_tunable) add_tuning(model_.tuning(params.topic));
+      model_(params.errors, 1, stream_key(mount.seed, name + " errors")) {
+  if (params.is_tunable) add_tuning(model_.tuning(params.ray.topic));
 }
 
 void RangeFinder::reset(TimeNs now_ns) {
@@ -95,27 +83,24 @@ void RangeFinder::reset(TimeNs now_ns) {
 }
 
 double RangeFinder::nearest_m(const CounterRng& noise) {
-  beams_.measure(pose(), scenes_.now(params_.scene), echoes_);
-  corrupt_echoes(params_.rays, noise, echoes_);
   float nearest = std::numeric_limits<float>::infinity();
-  for (const BeamEcho& echo : echoes_) nearest = std::min(nearest, echo.range_m);
+  for (const BeamEcho& echo : measure(noise)) nearest = std::min(nearest, echo.range_m);
   return static_cast<double>(nearest);
 }
 
 void RangeFinder::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
   const double error_m = model_.next_error(elapsed_s()).x();
-  if (!output_.demanded) return;
-  const RayBlock& rays = params_.rays;
+  if (!output().demanded) return;
   double range_m = nearest_m(noise);
   if (std::isfinite(range_m)) range_m = range_m * model_.errors().scale_error.x() + error_m;
   RangeReading reading;
-  reading.header = {now_ns, params_.frame};
+  reading.header = {now_ns, frame()};
   reading.radiation = params_.radiation;
   reading.field_of_view_rad = params_.field_of_view_rad;
-  reading.range_min_m = rays.range_min_m;
-  reading.range_max_m = rays.range_max_m;
-  reading.range_m = std::clamp(range_m, rays.range_min_m, rays.range_max_m);
-  sink.on_reading(output_, reading);
+  reading.range_min_m = rays().range_min_m;
+  reading.range_max_m = rays().range_max_m;
+  reading.range_m = std::clamp(range_m, rays().range_min_m, rays().range_max_m);
+  sink.on_reading(output(), reading);
 }
 
 }  // namespace ardee::devices

@@ -3,39 +3,30 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "ardee_sim/devices/lidar_beams.h"
-#include "ardee_sim/devices/ray_block.h"
-#include "ardee_sim/devices/sensor.h"
+#include "ardee_sim/devices/ray_sensor.h"
 #include "ardee_sim/devices/sensor_model.h"
 
 namespace ardee::devices {
 
 /// A sonar or infrared ranger: the nearest range of all rays over its cone. Without a return it
 /// tells its maximum; what is nearer than its minimum is told as the minimum.
-class RangeFinder : public Sensor {
+class RangeFinder : public RaySensor {
  public:
   struct Params {
-    RayBlock rays;
-    raycast::SceneKind scene = raycast::SceneKind::kCollision;
-    bool look_through_near = false;
+    RaySensor::Params ray;
     RangeReading::Radiation radiation = RangeReading::Radiation::kUltrasound;
     double field_of_view_rad = 0.0;  // as told
     SensorErrors errors;             // of a range below the maximum, m
     bool is_tunable = false;         // the errors can be changed while it runs
-    std::string topic;
-    std::string frame;
   };
 
   /// libgazebo_ros_range.so
-  static std::unique_ptr<Device> make_range(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context);
+  static std::unique_ptr<Device> make_range(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, DeviceContext& context);
   /// libhector_gazebo_ros_sonar.so
-  static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor,
-                                            const PluginDescription& plugin, std::size_t link,
-                                            DeviceContext& context);
+  static std::unique_ptr<Device> make_sonar(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, DeviceContext& context);
   RangeFinder(const std::string& name, const Mount& mount, const Params& params,
               RaySceneProvider& scenes);
 
@@ -51,12 +42,7 @@ class RangeFinder : public Sensor {
   double nearest_m(const CounterRng& noise);
 
   Params params_;
-  RaySceneProvider& scenes_;
-  LidarBeams beams_;
-  std::shared_ptr<void> eye_;
   SensorModel model_;
-  std::vector<BeamEcho> echoes_;
-  Output& output_;
 };
 
 }  // namespace ardee::devices

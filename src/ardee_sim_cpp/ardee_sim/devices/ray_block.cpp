@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/devices/sdf_noise.h"
+
 namespace ardee::devices {
 namespace {
 
@@ -66,23 +68,6 @@ void read_range(const Element& range, RayBlock& block) {
   parameters.number("resolution", 0.0, 0.0, 1e6);
 }
 
-void read_noise(const Element& noise, RangeNoise& made) {
-  Parameters parameters(noise);
-  const std::string type = noise.attributes.count("type") ? noise.attributes.at("type")
-                                                          : parameters.text("type", "gaussian");
-  const double mean = parameters.number("mean", 0.0);
-  const double std = parameters.number("stddev", 0.0, 0.0);
-  const double precision = parameters.number("precision", 0.0, 0.0);
-  if (type == "none") return;
-  if (type != "gaussian" && type != "gaussian_quantized") {
-    throw Error(noise.source,
-                "found noise type '" + type + "', expected gaussian, gaussian_quantized or none");
-  }
-  if (type == "gaussian_quantized") made.precision_m = precision;
-  made.mean_m = mean;
-  made.std_m = std;
-}
-
 }  // namespace
 
 double RangeNoise::corrupt(double range_m, double normal) const {
@@ -100,7 +85,12 @@ RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
   }
   read_scan(required_block(*ray, "scan"), block, log);
   read_range(required_block(*ray, "range"), block);
-  if (const Element* noise = ray->child("noise")) read_noise(*noise, block.noise);
+  if (const Element* given = ray->child("noise")) {
+    const SdfNoise noise = read_sdf_noise(*given, true);
+    block.noise.mean_m = noise.mean;
+    block.noise.std_m = noise.std;
+    block.noise.precision_m = noise.precision;
+  }
   return block;
 }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/bumper.h"
@@ -89,6 +88,13 @@ void add(Map& plugins, const std::string& filename, Make make) {
   }
 }
 
+/// A sensor's factory with what the plugin's name says.
+template <typename Make, typename What>
+Registry::SensorPlugin with(Make make, const What& what) {
+  return [make, what](const SensorDescription& sensor, Parameters& keys, std::size_t link,
+                      DeviceContext& context) { return make(sensor, keys, link, what, context); };
+}
+
 }  // namespace
 
 /// A plugin of a model or of one of its sensors.
@@ -165,9 +171,13 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
     return nullptr;
   }
   const auto make = [&] {
-    if (!candidate.sensor) return of_model->second.make(plugin, context);
-    check_update_rate(*candidate.sensor);
-    return of_sensor->second(*candidate.sensor, plugin, candidate.link, context);
+    Parameters keys(plugin.element);
+    if (candidate.sensor) check_update_rate(*candidate.sensor);
+    auto device = candidate.sensor
+                      ? of_sensor->second(*candidate.sensor, keys, candidate.link, context)
+                      : of_model->second.make(plugin, keys, context);
+    keys.finish(context.log);
+    return device;
   };
   // A static model keeps those of its devices that do without motion.
   const bool may_fail =
@@ -195,6 +205,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
 }
 
 Registry builtin_registry() {
+  using raycast::SceneKind;
   Registry registry;
   registry.add_model_plugin("libardee_ros_joint_position.so", JointPosition::make);
   registry.add_model_plugin("libroboticsgroup_gazebo_mimic_joint_plugin.so", MimicJoint::make);
@@ -219,19 +230,27 @@ Registry builtin_registry() {
   registry.add_model_sensor("libhector_gazebo_ros_magnetic.so", Magnetometer::make);
   registry.add_sensor_plugin("libgazebo_ros_block_laser.so", BlockLidar::make);
   registry.add_sensor_plugin("libgazebo_ros_bumper.so", Bumper::make);
-  registry.add_sensor_plugin("libgazebo_ros_camera.so", CameraSensor::make_color);
-  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so", CameraSensor::make_depth);
-  registry.add_sensor_plugin("libgazebo_ros_multicamera.so", CameraSensor::make_several);
-  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so", CameraSensor::make_openni);
-  registry.add_sensor_plugin("libgazebo_ros_triggered_camera.so", CameraSensor::make_triggered);
-  registry.add_sensor_plugin("libgazebo_ros_triggered_multicamera.so",
-                             CameraSensor::make_several_triggered);
-  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", Lidar::make_on_visuals);
+  registry.add_sensor_plugin("libgazebo_ros_camera.so", with(CameraSensor::make, CameraPlugin{}));
+  registry.add_sensor_plugin("libgazebo_ros_depth_camera.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kDepth}));
+  registry.add_sensor_plugin("libgazebo_ros_multicamera.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kColor, true}));
+  registry.add_sensor_plugin("libgazebo_ros_openni_kinect.so",
+                             with(CameraSensor::make, CameraPlugin{CameraKind::kOpenni}));
+  registry.add_sensor_plugin(
+      "libgazebo_ros_triggered_camera.so",
+      with(CameraSensor::make, CameraPlugin{CameraKind::kColor, false, true}));
+  registry.add_sensor_plugin(
+      "libgazebo_ros_triggered_multicamera.so",
+      with(CameraSensor::make, CameraPlugin{CameraKind::kColor, true, true}));
+  registry.add_sensor_plugin("libgazebo_ros_gpu_laser.so", with(Lidar::make, SceneKind::kVisual));
   registry.add_sensor_plugin("libgazebo_ros_imu_sensor.so", GazeboImu::make_on_sensor);
-  registry.add_sensor_plugin("libgazebo_ros_laser.so", Lidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_laser.so", with(Lidar::make, SceneKind::kCollision));
   registry.add_sensor_plugin("libgazebo_ros_range.so", RangeFinder::make_range);
-  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so", VelodyneLidar::make_on_visuals);
-  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so", VelodyneLidar::make_on_collisions);
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_gpu_laser.so",
+                             with(VelodyneLidar::make, SceneKind::kVisual));
+  registry.add_sensor_plugin("libgazebo_ros_velodyne_laser.so",
+                             with(VelodyneLidar::make, SceneKind::kCollision));
   registry.add_sensor_plugin("libhector_gazebo_ros_sonar.so", RangeFinder::make_sonar);
   for (const PluginAlias& alias : builtin_aliases()) registry.add_alias(alias);
   return registry;

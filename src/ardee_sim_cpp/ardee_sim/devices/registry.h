@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 #include "ardee_sim/devices/plugin_aliases.h"
 
@@ -15,10 +16,12 @@ namespace ardee::devices {
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
  public:
+  /// Factories read the plugin's keys from the Parameters that they are given; keys that they did
+  /// not ask for are warnings.
   using ModelPlugin =
-      std::function<std::unique_ptr<Device>(const PluginDescription&, DeviceContext&)>;
-  using SensorPlugin = std::function<std::unique_ptr<Device>(
-      const SensorDescription&, const PluginDescription&, std::size_t link, DeviceContext&)>;
+      std::function<std::unique_ptr<Device>(const PluginDescription&, Parameters&, DeviceContext&)>;
+  using SensorPlugin = std::function<std::unique_ptr<Device>(const SensorDescription&, Parameters&,
+                                                             std::size_t link, DeviceContext&)>;
 
   /// A controller: the robot cannot do without it.
   void add_model_plugin(const std::string& filename, ModelPlugin make);

@@ -3,34 +3,26 @@
 
 #include <cmath>
 
+#include "ardee_sim/devices/sdf_noise.h"
+
 namespace ardee::devices {
 namespace {
 
 /// One axis' errors from the element that holds <mean>, <stddev> and so on.
 void read_axis(const Element& noise, int axis, Rng& random, SdfImuNoise::Axes& axes) {
   SensorErrors& errors = axes.errors;
+  const SdfNoise common = read_sdf_noise(noise, true);
   Parameters parameters(noise);
-  const auto type = noise.attributes.find("type");
-  const std::string kind =
-      type == noise.attributes.end() ? parameters.text("type", "gaussian") : type->second;
-  const double mean = parameters.number("mean", 0.0);
-  const double std = parameters.number("stddev", 0.0, 0.0);
   const double bias_mean = parameters.number("bias_mean", 0.0);
   const double bias_std = parameters.number("bias_stddev", 0.0, 0.0);
   const double bias_density = parameters.number("dynamic_bias_stddev", 0.0, 0.0);
   const double bias_time_s = parameters.number("dynamic_bias_correlation_time", 0.0, 0.0);
-  const double precision = parameters.number("precision", 0.0, 0.0);
   const double drawn = bias_mean + bias_std * random.normal();
   const double bias = random.uniform() < 0.5 ? -drawn : drawn;
-  if (kind == "none") return;
-  if (kind == "gaussian_quantized") {
-    axes.precision[axis] = precision;
-  } else if (kind != "gaussian") {
-    throw Error(noise.source,
-                "found noise type '" + kind + "', expected gaussian, gaussian_quantized or none");
-  }
-  errors.offset[axis] = mean + bias;
-  errors.gaussian_noise[axis] = std;
+  if (common.is_none) return;
+  if (common.precision > 0.0) axes.precision[axis] = common.precision;
+  errors.offset[axis] = common.mean + bias;
+  errors.gaussian_noise[axis] = common.std;
   if (bias_density <= 0.0 || bias_time_s <= 0.0) return;
   errors.drift[axis] = bias_density * std::sqrt(bias_time_s / 2.0);
   errors.drift_frequency_hz[axis] = 1.0 / bias_time_s;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/sensor.h"
 
+#include <algorithm>
+
 namespace ardee::devices {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
@@ -23,7 +25,6 @@ void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
 }
 
 void Sensor::reset(TimeNs now_ns) {
-  timer_.reset();
   timer_.start_at(now_ns + 1);
   last_ns_ = now_ns;
 }
@@ -33,6 +34,11 @@ Twist Sensor::twist() const {
   Twist twist_W = mount_.robot.link_twist(mount_.link);
   twist_W.linear += twist_W.angular.cross(X_WL.q * mount_.X_LS.p);
   return twist_W;
+}
+
+double slower_rate_hz(double one_hz, double other_hz) {
+  if (one_hz <= 0.0 || other_hz <= 0.0) return std::max(one_hz, other_hz);
+  return std::min(one_hz, other_hz);
 }
 
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount) {

@@ -49,6 +49,9 @@ class Sensor : public Device {
   double elapsed_s_ = 0.0;
 };
 
+/// The slower of two rates in Hz, of which 0 is no limit.
+double slower_rate_hz(double one_hz, double other_hz);
+
 /// When a hector_gazebo plugin measures: <updateRate> in Hz (0: at each step) or <updatePeriod> in
 /// s, from <updateOffset> in s on.
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount);

@@ -73,7 +73,7 @@ SensorModel::SensorModel(const SensorErrors& errors, int axes, std::uint64_t key
 
 void SensorModel::reset(TimeNs now_ns) {
   errors_ = initial_errors_;
-  random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
+  random_ = Rng(key_, now_ns);
   drift_.setZero();
   for (int axis = 0; axis < axes_; ++axis) drift_[axis] = errors_.drift[axis] * random_.normal();
 }

@@ -21,9 +21,7 @@ std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& par
       "left_front_joint", "right_front_joint", "left_rear_joint", "right_rear_joint"};
   std::array<std::size_t, SkidSteerDrive::kWheelCount> joints{};
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const Element* given = parameters.block(kKeys[i]);
-    const Source& source = given ? given->source : parameters.source();
-    joints[i] = turning_joint(context, given ? given->text : kDefaults[i], source);
+    joints[i] = plugin_turning_joint(parameters, context, kKeys[i], kDefaults[i]);
   }
   return joints;
 }
@@ -50,10 +48,33 @@ void read_encoders(Parameters& parameters, const std::string& space, bool always
   }
 }
 
-SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
-                            DeviceContext& context) {
+OdometryPublisher::Params read_odometry(Parameters& parameters, const std::string& space,
+                                        const SkidSteerDrive::Params& drive,
+                                        const DeviceContext& context) {
+  using Drive = SkidSteerDrive;
+  OdometryPublisher::Params params =
+      read_odometry_params(parameters, space, context, "base_footprint");
+  params.rate_hz = drive.update_rate_hz;
+  params.has_transform = parameters.boolean("broadcastTF", false);
+  params.is_level = true;
+  const double x_m2 = parameters.number("covariance_x", 1e-4, 0.0);
+  const double y_m2 = parameters.number("covariance_y", 1e-4, 0.0);
+  const double yaw_rad2 = parameters.number("covariance_yaw", 0.01, 0.0);
+  params.pose_covariance = {x_m2,    y_m2, kUnknownVariance, kUnknownVariance, kUnknownVariance,
+                            yaw_rad2};
+  params.twist_covariance = params.pose_covariance;
+  if (reads_wheels(parameters)) {
+    params.wheels =
+        WheelOdometry::Params{{drive.joints[Drive::kLeftFront], drive.joints[Drive::kLeftRear]},
+                              {drive.joints[Drive::kRightFront], drive.joints[Drive::kRightRear]},
+                              drive.wheel_diameter_m,
+                              drive.wheel_separation_m};
+  }
+  return params;
+}
+
+SkidSteerDrive::Params read(Parameters& parameters, bool with_encoders, DeviceContext& context) {
   constexpr double kSmallest = 1e-6;
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   SkidSteerDrive::Params params;
   params.joints = read_joints(parameters, context);
@@ -62,31 +83,27 @@ SkidSteerDrive::Params read(const PluginDescription& plugin, bool with_encoders,
   params.torque_n_m = parameters.number("torque", 5.0, 0.0);
   params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
   params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
-  params.covariance_x = parameters.number("covariance_x", 1e-4, 0.0);
-  params.covariance_y = parameters.number("covariance_y", 1e-4, 0.0);
-  params.covariance_yaw = parameters.number("covariance_yaw", 0.01, 0.0);
-  params.broadcast_tf = parameters.boolean("broadcastTF", false);
-  params.source = read_odometry_source(parameters);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
-  params.odometry_topic = resolve_topic(parameters.text("odometryTopic", "odom"), space);
-  params.odometry_frame = plugin_frame(parameters, "odometryFrame", "odom", space, context);
-  params.base_frame = plugin_frame(parameters, "robotBaseFrame", "base_footprint", space, context);
+  params.odometry = read_odometry(parameters, space, params, context);
   read_encoders(parameters, space, with_encoders, context, params);
   parameters.ignore({"topicName", "alwaysOn"});  // in Listing A.13; the stock plugin reads neither
-  parameters.finish(context.log);
+  context.robot.dynamics();                      // a static model cannot move
   return params;
 }
 
 }  // namespace
 
 std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
-                                             DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, false, context), context.robot);
+                                             Parameters& parameters, DeviceContext& context) {
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(parameters, false, context),
+                                          context.robot);
 }
 
 std::unique_ptr<Device> SkidSteerDrive::make_with_encoders(const PluginDescription& plugin,
+                                                           Parameters& parameters,
                                                            DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, read(plugin, true, context), context.robot);
+  return std::make_unique<SkidSteerDrive>(plugin.name, read(parameters, true, context),
+                                          context.robot);
 }
 
 SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Robot& robot)
@@ -94,10 +111,8 @@ SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Ro
       params_(params),
       robot_(robot),
       command_timer_(params.update_rate_hz),
-      odometry_timer_(params.update_rate_hz),
       command_(params.command_timeout_s),
-      odometry_output_(add_output(params.odometry_topic, reading_kind<OdometryReading>())) {
-  if (params_.broadcast_tf) tf_output_ = &add_output("/tf", reading_kind<TransformReading>());
+      odometry_(params.odometry, ports(), robot) {
   for (std::size_t wheel = 0; wheel < params_.encoders.size(); ++wheel) {
     encoders_.emplace_back(params_.encoders[wheel], robot_);
     encoder_outputs_.push_back(
@@ -105,7 +120,6 @@ SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Ro
   }
   ports().add_velocity_input(params_.command_topic,
                              [this](const Twist& command) { command_.set(command); });
-  reset(0);
 }
 
 double SkidSteerDrive::side_speed(const Params& params, const Twist& command, bool left) {
@@ -125,75 +139,19 @@ void SkidSteerDrive::before_step(TimeNs now_ns) {
   }
 }
 
-void SkidSteerDrive::integrate_wheels() {
-  const physics::PhysicsModel& dynamics = robot_.dynamics();
-  std::array<double, kWheelCount> turned{};
-  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
-    const double angle = dynamics.joint_position(params_.joints[wheel]);
-    turned[wheel] = angle - wheel_angles_[wheel];
-    wheel_angles_[wheel] = angle;
-  }
-  const double radius = params_.wheel_diameter_m / 2.0;
-  wheel_odometry_.roll(radius * (turned[kLeftFront] + turned[kLeftRear]) / 2.0,
-                       radius * (turned[kRightFront] + turned[kRightRear]) / 2.0,
-                       params_.wheel_separation_m);
-}
-
-OdometryReading SkidSteerDrive::odometry(TimeNs now_ns) const {
-  const physics::PhysicsModel& dynamics = robot_.dynamics();
-  OdometryReading reading;
-  reading.header = {now_ns, params_.odometry_frame};
-  reading.child_frame_id = params_.base_frame;
-  if (params_.source == OdometrySource::kWorld) {
-    reading.pose = robot_.pose();
-    reading.twist = robot_.planar_twist();
-  } else {
-    const double radius = params_.wheel_diameter_m / 2.0;
-    const auto side = [&](Wheel front, Wheel rear) {
-      return radius * 0.5 *
-             (dynamics.joint_velocity(params_.joints[front]) +
-              dynamics.joint_velocity(params_.joints[rear]));
-    };
-    const double left = side(kLeftFront, kLeftRear);
-    const double right = side(kRightFront, kRightRear);
-    reading.pose = wheel_odometry_.pose();
-    reading.twist.linear.x() = 0.5 * (left + right);
-    reading.twist.angular.z() = (right - left) / params_.wheel_separation_m;
-  }
-  reading.pose_covariance = {params_.covariance_x, params_.covariance_y, kUnknownVariance,
-                             kUnknownVariance,     kUnknownVariance,     params_.covariance_yaw};
-  reading.twist_covariance = reading.pose_covariance;
-  return reading;
-}
-
 void SkidSteerDrive::after_step(TimeNs now_ns, ReadingSink& sink) {
-  if (!odometry_timer_.due(now_ns)) return;
-  if (params_.source == OdometrySource::kEncoder) integrate_wheels();
+  if (!odometry_.due(now_ns)) return;
   for (std::size_t wheel = 0; wheel < encoders_.size(); ++wheel) {
     sink.on_reading(*encoder_outputs_[wheel], encoders_[wheel].read(now_ns));
   }
-  OdometryReading reading = odometry(now_ns);
-  if (tf_output_) {
-    sink.on_reading(*tf_output_,
-                    TransformReading{reading.header, reading.child_frame_id, reading.pose, true});
-  }
-  if (odometry_output_.demanded) {
-    reading.pose.p.z() = 0.0;  // the stock plugin leaves it out of the message, not out of tf
-    sink.on_reading(odometry_output_, reading);
-  }
+  odometry_.publish(now_ns, sink);
 }
 
 void SkidSteerDrive::reset(TimeNs now_ns) {
   command_.reset(now_ns);
-  command_timer_.reset();
   command_timer_.start_at(now_ns);
-  odometry_timer_.reset();
-  odometry_timer_.start_at(now_ns + 1);
-  wheel_odometry_.reset();
+  odometry_.reset(now_ns);
   for (WheelEncoder& encoder : encoders_) encoder.reset(now_ns);
-  for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
-    wheel_angles_[wheel] = robot_.dynamics().joint_position(params_.joints[wheel]);
-  }
 }
 
 }  // namespace ardee::devices

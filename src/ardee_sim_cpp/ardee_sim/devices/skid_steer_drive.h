@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ardee_sim/devices/drive_command.h"
+#include "ardee_sim/devices/odometry_publisher.h"
 #include "ardee_sim/devices/wheel_encoder.h"
-#include "ardee_sim/devices/wheel_odometry.h"
 
 namespace ardee::devices {
 
@@ -27,22 +27,16 @@ class SkidSteerDrive : public Device {
     double torque_n_m = 5.0;
     double update_rate_hz = 100.0;
     double command_timeout_s = 0.0;  // 0: the last command stays
-    double covariance_x = 1e-4;      // m^2
-    double covariance_y = 1e-4;      // m^2
-    double covariance_yaw = 0.01;    // rad^2
-    bool broadcast_tf = false;
-    OdometrySource source = OdometrySource::kWorld;
     std::string command_topic;
-    std::string odometry_topic;
-    std::string odometry_frame;
-    std::string base_frame;
+    OdometryPublisher::Params odometry;
     std::vector<WheelEncoder::Params> encoders;  // none, or one a wheel
     std::array<std::string, kWheelCount> encoder_topics;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   static std::unique_ptr<Device> make_with_encoders(const PluginDescription& plugin,
-                                                    DeviceContext& context);
+                                                    Parameters& parameters, DeviceContext& context);
   SkidSteerDrive(const std::string& name, const Params& params, Robot& robot);
 
   /// Wheel speed in rad/s of one side for a command (v in m/s, w in rad/s): (v -+ w * separation /
@@ -54,20 +48,13 @@ class SkidSteerDrive : public Device {
   void reset(TimeNs now_ns) override;
 
  private:
-  void integrate_wheels();
-  OdometryReading odometry(TimeNs now_ns) const;
-
   Params params_;
   Robot& robot_;
   RateTimer command_timer_;
-  RateTimer odometry_timer_;
   DriveCommand command_;
-  std::array<double, kWheelCount> wheel_angles_{};
-  WheelOdometry wheel_odometry_;
+  OdometryPublisher odometry_;
   std::vector<WheelEncoder> encoders_;
   std::vector<Output*> encoder_outputs_;
-  Output& odometry_output_;
-  Output* tf_output_ = nullptr;
 };
 
 }  // namespace ardee::devices

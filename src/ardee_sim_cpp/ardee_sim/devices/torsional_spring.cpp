@@ -11,8 +11,7 @@
 namespace ardee::devices {
 namespace {
 
-TorsionalSpring::Params read(const PluginDescription& plugin, DeviceContext& context) {
-  Parameters parameters(plugin.element);
+TorsionalSpring::Params read(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   TorsionalSpring::Params params;
   params.joint = parameters.required_text("joint_handle");
@@ -31,15 +30,14 @@ TorsionalSpring::Params read(const PluginDescription& plugin, DeviceContext& con
   params.verbose = parameters.boolean("verbose", false);
   const std::string topic = parameters.text("referenceTopic", "");
   if (!topic.empty()) params.reference_topic = resolve_topic(topic, space);
-  parameters.finish(context.log);
   return params;
 }
 
 }  // namespace
 
 std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
-                                              DeviceContext& context) {
-  const Params params = read(plugin, context);
+                                              Parameters& parameters, DeviceContext& context) {
+  const Params params = read(parameters, context);
   const std::size_t joint = context.joint_index(params.joint, plugin.element.source);
   const JointType type = context.robot.model().joints[joint].type;
   if (type != JointType::kRevolute && type != JointType::kContinuous &&

@@ -26,7 +26,8 @@ class TorsionalSpring : public Device {
     std::string reference_topic;  // empty: the reference stays
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   TorsionalSpring(const std::string& name, const Params& params, std::size_t joint,
                   DeviceContext& context);
 

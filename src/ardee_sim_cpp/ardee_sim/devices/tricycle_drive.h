@@ -6,8 +6,8 @@
 #include <string>
 
 #include "ardee_sim/devices/drive_command.h"
-#include "ardee_sim/devices/wheel_encoder.h"
-#include "ardee_sim/devices/wheel_odometry.h"
+#include "ardee_sim/devices/odometry_publisher.h"
+#include "ardee_sim/devices/wheel_publisher.h"
 
 namespace ardee::devices {
 
@@ -23,8 +23,6 @@ class TricycleDrive : public Device {
   struct Params {
     std::array<std::size_t, kJointCount> joints{};
     double actuated_diameter_m = 0.15;
-    double encoder_diameter_m = 0.15;
-    double encoder_separation_m = 0.5;
     double torque_n_m = 5.0;
     double acceleration_m_per_s2 = 0.0;  // of the driven wheel's rim; 0: at once
     double deceleration_m_per_s2 = 0.0;
@@ -32,19 +30,13 @@ class TricycleDrive : public Device {
     double steering_speed_rad_per_s = 0.0;  // 0: within one update
     double steering_tolerance_rad = 0.01;
     double update_rate_hz = 100.0;
-    OdometrySource source = OdometrySource::kWorld;
-    bool publish_wheel_tf = false;
-    bool publish_wheel_joints = false;
     std::string command_topic;
-    std::string odometry_topic;
-    std::string joints_topic;
-    std::string odometry_frame;
-    std::string base_frame;
-    std::array<std::string, kJointCount> frames;  // of the joints' children
-    std::array<std::string, kJointCount> parent_frames;
+    OdometryPublisher::Params odometry;
+    WheelPublisher::Params wheels;
   };
 
-  static std::unique_ptr<Device> make(const PluginDescription& plugin, DeviceContext& context);
+  static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,
+                                      DeviceContext& context);
   TricycleDrive(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;
@@ -54,22 +46,15 @@ class TricycleDrive : public Device {
  private:
   void drive(double wanted_m_per_s, double elapsed_s);
   void steer(double wanted_rad, double elapsed_s);
-  void integrate_wheels();
-  OdometryReading odometry(TimeNs now_ns) const;
-  void publish_wheels(TimeNs now_ns, ReadingSink& sink) const;
 
   Params params_;
   Robot& robot_;
   RateTimer command_timer_;
-  RateTimer odometry_timer_;
   DriveCommand command_{0.0};
   double speed_m_per_s_ = 0.0;  // asked of the driven wheel now
-  std::array<double, kJointCount> angles_{};
   TimeNs last_command_ns_ = 0;
-  WheelOdometry wheel_odometry_;
-  Output& odometry_output_;
-  Output& tf_output_;
-  Output* joints_output_ = nullptr;
+  OdometryPublisher odometry_;
+  WheelPublisher wheels_;
 };
 
 }  // namespace ardee::devices

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "ardee_sim/devices/lidar.h"
-
 namespace ardee::devices {
 namespace {
 
@@ -24,10 +22,12 @@ void write(std::uint8_t* point, std::size_t offset, T value) {
   std::memcpy(point + offset, &value, sizeof value);
 }
 
-std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescription& plugin,
-                             std::size_t link, raycast::SceneKind scene, DeviceContext& context) {
-  Parameters keys(plugin.element);
-  VelodyneLidar::Params params;
+}  // namespace
+
+std::unique_ptr<Device> VelodyneLidar::make(const SensorDescription& sensor, Parameters& keys,
+                                            std::size_t link, raycast::SceneKind scene,
+                                            DeviceContext& context) {
+  Params params;
   params.lidar = read_lidar_params(sensor, keys, scene, "/points", context);
   params.min_range_m = keys.number("min_range", params.min_range_m, 0.0);
   params.max_range_m = keys.number("max_range", params.max_range_m, 0.0);
@@ -40,36 +40,15 @@ std::unique_ptr<Device> make(const SensorDescription& sensor, const PluginDescri
   // Two independent errors make one.
   RangeNoise& noise = params.lidar.rays.noise;
   noise.std_m = std::hypot(noise.std_m, read_gaussian_noise(keys));
-  keys.finish(context.log);
-  const Sensor::Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};
+  const Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};
   return std::make_unique<VelodyneLidar>(sensor.name, mount, params, context.scenes);
-}
-
-}  // namespace
-
-std::unique_ptr<Device> VelodyneLidar::make_on_collisions(const SensorDescription& sensor,
-                                                          const PluginDescription& plugin,
-                                                          std::size_t link,
-                                                          DeviceContext& context) {
-  return make(sensor, plugin, link, raycast::SceneKind::kCollision, context);
-}
-
-std::unique_ptr<Device> VelodyneLidar::make_on_visuals(const SensorDescription& sensor,
-                                                       const PluginDescription& plugin,
-                                                       std::size_t link, DeviceContext& context) {
-  return make(sensor, plugin, link, raycast::SceneKind::kVisual, context);
 }
 
 VelodyneLidar::VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
                              RaySceneProvider& scenes)
-    : Sensor(name, mount),
+    : RaySensor(name, mount, params.lidar, scenes, reading_kind<PointCloudReading>()),
       params_(params),
-      scenes_(scenes),
-      beams_(params.lidar.rays, params.lidar.optics, params.lidar.look_through_near,
-             {mount.robot.entity(), static_cast<std::uint32_t>(mount.link)}),
-      eye_(scenes.register_eye(params.lidar.scene, [this] { return pose().p; })),
-      track_(mount.rate_hz > 0.0 ? nanoseconds(1.0 / mount.rate_hz) : 0),
-      output_(add_output(params.lidar.topic, reading_kind<PointCloudReading>())) {}
+      track_(mount.rate_hz > 0.0 ? nanoseconds(1.0 / mount.rate_hz) : 0) {}
 
 void VelodyneLidar::observe(TimeNs now_ns) {
   if (is_distorted()) track_.add(now_ns, pose());
@@ -80,28 +59,22 @@ void VelodyneLidar::reset(TimeNs now_ns) {
   track_.clear();
 }
 
-void VelodyneLidar::measure(TimeNs now_ns) {
-  const raycast::RayScene& scene = scenes_.now(params_.lidar.scene);
-  if (!is_distorted()) {
-    beams_.measure(pose(), scene, echoes_);
-    return;
-  }
+const std::vector<BeamEcho>& VelodyneLidar::measure_distorted(TimeNs now_ns,
+                                                              const CounterRng& noise) {
   track_.add(now_ns, pose());
   std::vector<Pose> X_WS;
-  X_WS.reserve(static_cast<std::size_t>(params_.lidar.rays.columns));
-  for (int column = 0; column < params_.lidar.rays.columns; ++column) {
+  X_WS.reserve(static_cast<std::size_t>(rays().columns));
+  for (int column = 0; column < rays().columns; ++column) {
     X_WS.push_back(track_.at(static_cast<double>(now_ns) + column_time_ns(column)));
   }
-  beams_.measure_moving(X_WS, scene, echoes_);
+  return measure_moving(X_WS, noise);
 }
 
 double VelodyneLidar::column_time_ns(int column) const {
   if (!params_.motion_distortion) return 0.0;
-  const RayBlock& rays = params_.lidar.rays;
-  const double turn = std::abs(rays.angle_max_rad - rays.angle_min_rad) / (2.0 * M_PI);
-  const double turn_s = mount().rate_hz > 0.0 ? 1.0 / mount().rate_hz : elapsed_s();
-  const double sweep_ns = std::min(turn, 1.0) * turn_s * kNsPerSecond;
-  const int last = rays.columns - 1;
+  const double turn = std::abs(rays().angle_max_rad - rays().angle_min_rad) / (2.0 * M_PI);
+  const double sweep_ns = std::min(turn, 1.0) * scan_time_s() * kNsPerSecond;
+  const int last = rays().columns - 1;
   return last > 0 ? double(column - last) / last * sweep_ns : 0.0;
 }
 
@@ -111,23 +84,23 @@ bool VelodyneLidar::keeps(const BeamEcho& echo) const {
          static_cast<double>(echo.intensity) >= params_.min_intensity;
 }
 
-PointCloudReading VelodyneLidar::to_cloud() const {
-  const auto columns = static_cast<std::size_t>(params_.lidar.rays.columns);
-  const auto rings = static_cast<std::size_t>(params_.lidar.rays.rows);
+PointCloudReading VelodyneLidar::to_cloud(const std::vector<BeamEcho>& echoes) const {
+  const auto columns = static_cast<std::size_t>(rays().columns);
+  const auto rings = static_cast<std::size_t>(rays().rows);
   PointCloudReading cloud;
   cloud.fields = kFields;
   cloud.point_step = kPointStep;
-  cloud.data.resize(beams_.count() * kPointStep);
+  cloud.data.resize(beams().count() * kPointStep);
   std::uint8_t* point = cloud.data.data();
   for (std::size_t column = 0; column < columns; ++column) {
     const double time_s = column_time_ns(static_cast<int>(column)) / kNsPerSecond;
     for (std::size_t ring = 0; ring < rings; ++ring) {
       const std::size_t beam = ring * columns + column;
-      const BeamEcho& echo = echoes_[beam];
+      const BeamEcho& echo = echoes[beam];
       const bool kept = keeps(echo);
       if (!kept && !params_.organised) continue;
       const float range_m = kept ? echo.range_m : std::numeric_limits<float>::quiet_NaN();
-      const Eigen::Vector3f place_S = range_m * beams_.axis_S(beam);
+      const Eigen::Vector3f place_S = range_m * beams().axis_S(beam);
       std::memcpy(point, place_S.data(), 3 * sizeof(float));
       write(point, 16, kept ? echo.intensity : 0.0f);
       write(point, 20, static_cast<std::uint16_t>(ring));
@@ -145,11 +118,10 @@ PointCloudReading VelodyneLidar::to_cloud() const {
 }
 
 void VelodyneLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) {
-  measure(now_ns);
-  corrupt_echoes(params_.lidar.rays, noise, echoes_);
-  PointCloudReading cloud = to_cloud();
-  cloud.header = {now_ns, params_.lidar.frame};
-  sink.on_reading(output_, cloud);
+  PointCloudReading cloud =
+      to_cloud(is_distorted() ? measure_distorted(now_ns, noise) : measure(noise));
+  cloud.header = {now_ns, frame()};
+  sink.on_reading(output(), cloud);
 }
 
 }  // namespace ardee::devices

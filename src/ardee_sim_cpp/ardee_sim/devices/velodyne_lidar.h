@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ardee_sim/devices/lidar_beams.h"
-#include "ardee_sim/devices/lidar_params.h"
 #include "ardee_sim/devices/pose_track.h"
-#include "ardee_sim/devices/sensor.h"
+#include "ardee_sim/devices/ray_sensor.h"
 
 namespace ardee::devices {
 
@@ -20,10 +18,10 @@ namespace ardee::devices {
 /// at one moment; a scan with motion distortion ends at its time stamp, its columns are taken
 /// evenly over the turn before, and each point is told, as by the real device, in the sensor's
 /// frame of its own moment. Other models stand where they are at the stamp.
-class VelodyneLidar : public Sensor {
+class VelodyneLidar : public RaySensor {
  public:
   struct Params {
-    LidarParams lidar;
+    RaySensor::Params lidar;
     // Points out of (min_range_m, max_range_m), or less bright, are left out.
     double min_range_m = 0.0;
     double max_range_m = std::numeric_limits<double>::max();
@@ -32,14 +30,11 @@ class VelodyneLidar : public Sensor {
     bool motion_distortion = false;
   };
 
-  /// libgazebo_ros_velodyne_laser.so
-  static std::unique_ptr<Device> make_on_collisions(const SensorDescription& sensor,
-                                                    const PluginDescription& plugin,
-                                                    std::size_t link, DeviceContext& context);
-  /// libgazebo_ros_velodyne_gpu_laser.so
-  static std::unique_ptr<Device> make_on_visuals(const SensorDescription& sensor,
-                                                 const PluginDescription& plugin, std::size_t link,
-                                                 DeviceContext& context);
+  /// libgazebo_ros_velodyne_laser.so on collision bodies, libgazebo_ros_velodyne_gpu_laser.so on
+  /// visual ones.
+  static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
+                                      std::size_t link, raycast::SceneKind scene,
+                                      DeviceContext& context);
   VelodyneLidar(const std::string& name, const Mount& mount, const Params& params,
                 RaySceneProvider& scenes);
 
@@ -48,23 +43,18 @@ class VelodyneLidar : public Sensor {
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
-  bool wanted() const override { return output_.demanded; }
 
  private:
   bool is_distorted() const { return params_.motion_distortion && mount().robot.is_dynamic(); }
-  void measure(TimeNs now_ns);
+  /// At the columns' own times.
+  const std::vector<BeamEcho>& measure_distorted(TimeNs now_ns, const CounterRng& noise);
   /// Of a column's beams, counted from the stamp: 0 or less.
   double column_time_ns(int column) const;
   bool keeps(const BeamEcho& echo) const;
-  PointCloudReading to_cloud() const;
+  PointCloudReading to_cloud(const std::vector<BeamEcho>& echoes) const;
 
   Params params_;
-  RaySceneProvider& scenes_;
-  LidarBeams beams_;
-  std::shared_ptr<void> eye_;
   PoseTrack track_;
-  std::vector<BeamEcho> echoes_;
-  Output& output_;
 };
 
 }  // namespace ardee::devices

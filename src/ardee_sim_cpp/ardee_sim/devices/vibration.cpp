@@ -91,7 +91,7 @@ Vibration::Vibration(const VibrationParams& params, std::uint64_t key)
              BandNoise(params.low_hz, params.high_hz)} {}
 
 void Vibration::reset(TimeNs now_ns) {
-  random_ = Rng(mix_bits(key_ ^ mix_bits(static_cast<std::uint64_t>(now_ns))));
+  random_ = Rng(key_, now_ns);
   unit_.setZero();
   for (BandNoise& each : noise_) each.reset();
 }

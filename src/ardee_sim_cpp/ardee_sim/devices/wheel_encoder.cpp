@@ -56,6 +56,13 @@ std::size_t turning_joint(const DeviceContext& context, const std::string& name,
   return joint;
 }
 
+std::size_t plugin_turning_joint(Parameters& parameters, const DeviceContext& context,
+                                 const char* key, const char* fallback) {
+  const Element* given = parameters.block(key);
+  return turning_joint(context, given ? given->text : fallback,
+                       given ? given->source : parameters.source());
+}
+
 WheelEncoder::Params read_encoder_params(Parameters& parameters) {
   constexpr double kSmallest_m = 1e-6;
   constexpr double kMostPulses = 1e7;

@@ -46,6 +46,10 @@ class WheelEncoder {
 std::size_t turning_joint(const DeviceContext& context, const std::string& name,
                           const Source& source);
 
+/// The turning joint that a model plugin's key names.
+std::size_t plugin_turning_joint(Parameters& parameters, const DeviceContext& context,
+                                 const char* key, const char* fallback);
+
 /// The keys that all encoders have: wheelDiameter, pulsesPR, speedWindow, ideal.
 WheelEncoder::Params read_encoder_params(Parameters& parameters);
 

@@ -1,27 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ardee_sim/core/pose.h"
-#include "ardee_sim/description/parameters.h"
+#include <vector>
+
+#include "ardee_sim/devices/robot.h"
 
 namespace ardee::devices {
 
-/// Where odometry comes from: the truth (the stock plugins' way) or the turns of the wheels.
-enum class OdometrySource { kWorld, kEncoder };
-
-/// <odometrySource>: world, encoder, or the stock plugins' numbers 1 and 0.
-OdometrySource read_odometry_source(Parameters& parameters);
-
-/// Dead reckoning of a vehicle with a left and a right side.
+/// Dead reckoning of a vehicle with a left and a right side from the turns of its wheels.
 class WheelOdometry {
  public:
-  /// The sides have rolled this far since the last call. The vehicle moves along the chord of the
-  /// arc: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, eq. 5.7.
-  void roll(double left_m, double right_m, double separation_m);
+  struct Params {
+    std::vector<std::size_t> left_joints;
+    std::vector<std::size_t> right_joints;
+    double wheel_diameter_m = 0.15;
+    double wheel_separation_m = 0.4;
+  };
+
+  WheelOdometry(const Params& params, const Robot& robot);
+
+  /// Takes in how far the wheels have turned since the last call. The vehicle moves along the chord
+  /// of the arc: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, eq. 5.7.
+  void update();
   const Pose& pose() const { return pose_; }
-  void reset() { pose_ = Pose{}; }
+  /// In the vehicle's axes, of the wheels' present speeds.
+  Twist twist() const;
+  /// Begins anew at the origin, from the wheels' present angles.
+  void reset();
 
  private:
+  struct Wheel {
+    std::size_t joint = 0;
+    double angle_rad = 0.0;  // at the last update
+  };
+  using Side = std::vector<Wheel>;
+
+  double rolled_m(Side& side) const;
+  double speed_m_per_s(const Side& side) const;
+
+  const Robot& robot_;
+  double wheel_radius_m_;
+  double wheel_separation_m_;
+  Side left_;
+  Side right_;
   Pose pose_;
 };
 

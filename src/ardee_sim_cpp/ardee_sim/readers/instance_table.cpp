@@ -18,12 +18,12 @@ constexpr std::size_t kColumns = 10;
 constexpr std::size_t kLongestLine = 1024;
 using Fields = std::array<std::string_view, kColumns>;
 
-std::string quoted(std::string_view text) {
-  constexpr std::size_t kLongest = 80;
-  std::string shown(text.substr(0, kLongest));
+/// With a mark for what cannot be printed.
+std::string quoted_line(std::string_view text) {
+  std::string shown(text);
   std::replace_if(
       shown.begin(), shown.end(), [](unsigned char c) { return c < ' '; }, '?');
-  return "'" + shown + (text.size() > kLongest ? "...'" : "'");
+  return in_quotes(shown);
 }
 
 /// The fields of the line at hand as values.
@@ -53,8 +53,8 @@ class RowReader {
   void split(std::string_view line) {
     const auto count = static_cast<std::size_t>(1 + std::count(line.begin(), line.end(), ','));
     if (count != kColumns) {
-      throw error("found " + std::to_string(count) + " columns in " + quoted(line) + ", expected " +
-                  std::to_string(kColumns) + ": " + std::string(kInstanceColumns));
+      throw error("found " + std::to_string(count) + " columns in " + quoted_line(line) +
+                  ", expected " + std::to_string(kColumns) + ": " + std::string(kInstanceColumns));
     }
     for (std::string_view& field : fields_) {
       const std::size_t comma = std::min(line.find(','), line.size());
@@ -67,7 +67,7 @@ class RowReader {
     std::string_view name = kInstanceColumns;
     for (std::size_t i = 0; i < column; ++i) name.remove_prefix(name.find(',') + 1);
     return error("column " + std::string(name.substr(0, name.find(','))) + ": found " +
-                 quoted(fields_[column]) + ", expected " + expected);
+                 quoted_line(fields_[column]) + ", expected " + expected);
   }
 
   std::string_view text(std::size_t column) const {
@@ -142,7 +142,7 @@ void read_instance_table(const std::string& path, const Source& source,
   std::string_view line;
   if (!lines.next(line)) line = "";
   if (line != kInstanceColumns) {
-    throw RowReader(path, 1).error("found " + quoted(line) + ", expected the header '" +
+    throw RowReader(path, 1).error("found " + quoted_line(line) + ", expected the header '" +
                                    std::string(kInstanceColumns) + "'");
   }
   while (lines.next(line)) visit(RowReader(path, lines.number()).read(line));

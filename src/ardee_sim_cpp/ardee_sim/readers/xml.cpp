@@ -19,11 +19,6 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-std::string quoted(const std::string& text) {
-  constexpr std::size_t kLongest = 80;
-  return "'" + (text.size() > kLongest ? text.substr(0, kLongest) + "..." : text) + "'";
-}
-
 /// Numbers between space; none if one of the words is no number.
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
@@ -107,7 +102,7 @@ std::vector<double> Node::attribute_numbers(const char* attribute_name, std::siz
     return *numbers;
   }
   std::ostringstream what;
-  what << "found " << attribute_name << "=" << quoted(all) << ", expected " << least
+  what << "found " << attribute_name << "=" << in_quotes(all) << ", expected " << least
        << (most > least ? " or " + std::to_string(most) : "")
        << (most == 1 ? " number" : " numbers") << " in [" << low << ", " << high << "]";
   throw error(what.str());
@@ -129,9 +124,10 @@ double Node::to_number(double low, double high) const {
   const std::string all = text();
   const auto value = to_double(all);
   if (!value || std::isnan(*value)) {
-    throw error("found " + quoted(all) + ", expected a finite number");
+    throw error("found " + in_quotes(all) + ", expected a finite number");
   }
-  if (*value < low || *value > high) throw error("found " + quoted(all) + ", " + bounds(low, high));
+  if (*value < low || *value > high)
+    throw error("found " + in_quotes(all) + ", " + bounds(low, high));
   return *value;
 }
 
@@ -145,7 +141,7 @@ double Node::to_limit() const {
 int Node::to_integer(int low, int high) const {
   const double value = to_number(low, high);
   if (value != std::floor(value)) {
-    throw error("found " + quoted(text()) + ", expected a whole number");
+    throw error("found " + in_quotes(text()) + ", expected a whole number");
   }
   return static_cast<int>(value);
 }
@@ -156,12 +152,12 @@ std::vector<double> Node::to_numbers(std::size_t least, std::size_t most, const 
   const std::string all = text();
   const auto numbers = parse_numbers(all);
   if (!numbers || numbers->size() < least || numbers->size() > most) {
-    throw error("found " + quoted(all) + ", expected " + what);
+    throw error("found " + in_quotes(all) + ", expected " + what);
   }
   for (const double value : *numbers) {
-    if (!std::isfinite(value)) throw error("found " + quoted(all) + ", expected " + what);
+    if (!std::isfinite(value)) throw error("found " + in_quotes(all) + ", expected " + what);
     if (std::abs(value) > kAbsurd) {
-      throw error("found " + quoted(all) + ", " + bounds(-kAbsurd, kAbsurd));
+      throw error("found " + in_quotes(all) + ", " + bounds(-kAbsurd, kAbsurd));
     }
   }
   return *numbers;

@@ -151,17 +151,13 @@ void Simulation::take_from_physics(const Entity& entity) {
 }
 
 void Simulation::build_devices(Entity& entity) {
-  devices::DeviceContext context{*entity.robot,
-                                 scenes_,
-                                 pictures_,
-                                 log_,
-                                 stream_key(options_.seed, entity.name()),
-                                 entity.robot_namespace,
-                                 step_ns_,
-                                 options_.tf_prefix,
-                                 world_info(),
-                                 "",
-                                 options_.parameter};
+  devices::DeviceContext context{*entity.robot, scenes_, pictures_, options_.locator, log_};
+  context.seed = stream_key(options_.seed, entity.name());
+  context.robot_namespace = entity.robot_namespace;
+  context.step_ns = step_ns_;
+  context.tf_prefix = options_.tf_prefix;
+  context.world_info = world_info();
+  context.parameter = options_.parameter;
   entity.devices = registry_.make_devices(context);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }

@@ -24,6 +24,7 @@ struct SimulationOptions {
   std::uint64_t seed = 0;
   raycast::RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
+  ResourceLocator locator = ResourceLocator::from_environment();  // of the files of plugins
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   std::function<Setting(const std::string& name)> parameter =
       devices::no_parameter;                         // of DeviceContext

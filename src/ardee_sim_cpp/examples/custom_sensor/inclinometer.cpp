@@ -6,15 +6,13 @@
 using namespace ardee;
 using namespace ardee::devices;
 
-std::unique_ptr<Device> Inclinometer::make(const PluginDescription& plugin,
+std::unique_ptr<Device> Inclinometer::make(const PluginDescription& plugin, Parameters& parameters,
                                            DeviceContext& context) {
-  Parameters parameters(plugin.element);
   const std::string space = plugin_namespace(parameters, context);
   Params params;
   params.topic = resolve_topic(parameters.text("topicName", "inclination"), space);
   params.rate_hz = parameters.number("updateRate", params.rate_hz, 0.0);
   params.noise_std_rad = parameters.number("gaussianNoise", 0.0, 0.0);
-  parameters.finish(context.log);  // warns of keys that nobody has asked for
   return std::make_unique<Inclinometer>(plugin.name, params, context.seed, context.robot);
 }
 
@@ -41,7 +39,4 @@ void Inclinometer::after_step(TimeNs now_ns, ReadingSink& sink) {
   sink.on_reading(output_, reading);
 }
 
-void Inclinometer::reset(TimeNs now_ns) {
-  timer_.reset();
-  timer_.start_at(now_ns + 1);
-}
+void Inclinometer::reset(TimeNs now_ns) { timer_.start_at(now_ns + 1); }

@@ -16,6 +16,7 @@ class Inclinometer : public ardee::devices::Device {
 
   /// From `<plugin filename="libinclinometer.so">` with topicName, updateRate, gaussianNoise.
   static std::unique_ptr<ardee::devices::Device> make(const ardee::PluginDescription& plugin,
+                                                      ardee::Parameters& parameters,
                                                       ardee::devices::DeviceContext& context);
   Inclinometer(const std::string& name, const Params& params, std::uint64_t seed,
                const ardee::devices::Robot& robot);

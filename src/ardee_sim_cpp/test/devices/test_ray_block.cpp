@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "ardee_sim/devices/camera_formats.h"
-#include "ardee_sim/devices/lidar_params.h"
 #include "ardee_sim/devices/ray_block.h"
+#include "ardee_sim/devices/ray_sensor.h"
 #include "ardee_sim/readers/loader.h"
 
 namespace ardee {

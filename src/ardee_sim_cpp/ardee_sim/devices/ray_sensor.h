@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/devices/lidar_beams.h"
+#include "ardee_sim/devices/lidar_optics.h"
+#include "ardee_sim/devices/ray_block.h"
+#include "ardee_sim/devices/sensor.h"
+
+namespace ardee::devices {
+
+/// A sensor with SDF's <ray> block, which gives one kind of reading of what its rays bring back. A
+/// subclass says what the reading is.
+class RaySensor : public Sensor {
+ public:
+  struct Params {
+    RayBlock rays;
+    LidarOptics optics;
+    raycast::SceneKind scene = raycast::SceneKind::kCollision;
+    bool look_through_near =
+        false;  // Gazebo's way: what is nearer than the minimum is not seen at all
+    std::string topic;
+    std::string frame;
+  };
+
+ protected:
+  /// `kind`: of its reading.
+  RaySensor(const std::string& name, const Mount& mount, const Params& params,
+            RaySceneProvider& scenes, std::size_t kind);
+
+  bool wanted() const override { return output_.demanded; }
+  /// What all beams bring back now, with the noise of their ranges; beam i uses counter i. Valid
+  /// until it is called again.
+  const std::vector<BeamEcho>& measure(const CounterRng& noise);
+  /// The same where the beams of column k leave from X_WS[k].
+  const std::vector<BeamEcho>& measure_moving(const std::vector<Pose>& X_WS,
+                                              const CounterRng& noise);
+  /// From one scan to the next; in sample().
+  double scan_time_s() const;
+
+  const RayBlock& rays() const { return params_.rays; }
+  const std::string& frame() const { return params_.frame; }
+  const LidarBeams& beams() const { return beams_; }
+  const Output& output() const { return output_; }
+
+ private:
+  const std::vector<BeamEcho>& corrupted(const CounterRng& noise);
+
+  Params params_;
+  RaySceneProvider& scenes_;
+  LidarBeams beams_;
+  std::shared_ptr<void> eye_;
+  std::vector<BeamEcho> echoes_;
+  Output& output_;
+};
+
+/// Reads and checks SDF's <ray> block and the keys that all lidars share; the caller reads what
+/// keys are left.
+RaySensor::Params read_lidar_params(const SensorDescription& sensor, Parameters& plugin,
+                                    raycast::SceneKind scene, const char* default_topic,
+                                    DeviceContext& context);
+
+/// What a sensor's rays meet where the plugin's name does not say it: a sensor of type gpu_ray
+/// meets visual bodies, one of type ray collision bodies (thesis 4.3.3).
+raycast::SceneKind scene_of(const SensorDescription& sensor);
+
+/// The rate of a plugin with an <updateRate> of its own: the slower of it and the sensor's. A rate
+/// of 0 is no limit.
+double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz);
+
+/// The plugin's <gaussianNoise>: a standard deviation.
+double read_gaussian_noise(Parameters& plugin);
+
+}  // namespace ardee::devices
