@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The end of the bridge's nodes: with the robot at a stand, and when another ROS master has taken the place of theirs."""
+"""Ends of the bridge's nodes: with the robot at a stand, and when another ROS master has taken the place of theirs."""
 import socket
 import time
 from typing import Any, List
