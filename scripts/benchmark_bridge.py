@@ -73,7 +73,7 @@ def medians(repetitions: Sequence[Dict[str, Any]]) -> Dict[str, Any]:
 
 
 def _or_nan(choose: Callable[[List[float]], float], values: List[float]) -> float:
-    """NaN where one of them is."""
+    """Returns NaN if one of the values is NaN."""
     return math.nan if any(map(math.isnan, values)) else choose(values)
 
 
@@ -102,7 +102,7 @@ def lines(figures: Dict[str, Any]) -> List[str]:
         is_frame = "image message" in name or "point_cloud message" in name
         budget_ms = FRAMES_P99_BUDGET_MS if is_frame else P99_BUDGET_MS
         budget = "" if FLOOR in name else f" (<= {budget_ms:.2f})"
-        missed = budget and not f["p99_ms"] <= budget_ms  # so is one of no message at all
+        missed = budget and not f["p99_ms"] <= budget_ms  # a row without any message is marked, too
         mark = " !" if f["lost"] or missed else ""
         found.append(
             f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f}{tails} ms{budget}, "

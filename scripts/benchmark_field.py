@@ -53,7 +53,7 @@ def _generate(env: Dict[str, str], *command: str) -> None:
 
 
 def _write_world(template: pathlib.Path, pose: List[float], world: pathlib.Path) -> None:
-    """The template with our ground and field in place of its own."""
+    """Writes the template with this ground and field in place of its own."""
     tree = ElementTree.parse(template)
     for include in tree.iter("include"):
         uri = include.find("uri")
@@ -68,7 +68,7 @@ def _write_world(template: pathlib.Path, pose: List[float], world: pathlib.Path)
 
 
 def generate(plants: int, folder: pathlib.Path, farm_world: pathlib.Path, seed: int = 0) -> Field:
-    """Write ground, field and world into a new folder."""
+    """Writes ground, field and world into a new folder."""
     folder.mkdir()
     rows = rows_of(plants)
     stalks = max(1, plants // rows)

@@ -34,7 +34,7 @@ def program(name: str) -> str:
 
 
 def make_urdf(folder: pathlib.Path) -> pathlib.Path:
-    """The default robot, out of xacro."""
+    """Expands the default robot with xacro."""
     package = subprocess.check_output(["rospack", "find", "terrasentia_description"], text=True)
     source = pathlib.Path(package.strip(), "robots", "tsv1_default.urdf.xacro")
     text = subprocess.check_output(["rosrun", "xacro", "xacro", str(source)], text=True)
@@ -44,7 +44,7 @@ def make_urdf(folder: pathlib.Path) -> pathlib.Path:
 
 
 def run_engine(name: str, field: Field, urdf: pathlib.Path, brief: bool) -> Dict[str, Any]:
-    """What simulation_bench, lidar_bench or camera_bench prints."""
+    """Runs simulation_bench, lidar_bench or camera_bench; returns its output."""
     command = [program(name), "--world", str(field.world), "--robot", str(urdf)]
     command += ["--pose", " ".join(map(str, field.start)), "--lane-m", str(field.lane_m)]
     command += BRIEF[name] if brief else ()
@@ -66,7 +66,7 @@ def peak_memory_mb(pid: int) -> float:
 
 
 def _answer(probe: Process, simulator: Process, key: str, limit_s: float) -> Any:
-    """Wait for an answer of the probe."""
+    """Waits for an answer of the probe."""
 
     def look() -> Any:
         for line in probe.output().splitlines():
@@ -87,7 +87,7 @@ class _NotYet:
 
     @staticmethod
     def exit_code() -> None:
-        """It has not ended."""
+        """Returns None: it has not ended."""
 
 
 def run_node(field: Field, urdf: pathlib.Path, window_s: float) -> Dict[str, Any]:
@@ -125,7 +125,7 @@ def measure(
     brief: bool,
     say: Callable[[str], None],
 ) -> Dict[str, Any]:
-    """One repetition of what is wanted, on one field."""
+    """Runs one repetition of the requested measurements on one field."""
     result = {}  # type: Dict[str, Any]
     if "physics" in only or "lidar" in only:
         say("engine")

@@ -28,7 +28,7 @@ COMMAND_EVERY = 5  # odometry messages
 
 
 def say(**what: Any) -> None:
-    """One line of answer."""
+    """Prints one line of answer."""
     print(json.dumps(what), flush=True)
 
 
@@ -96,7 +96,7 @@ class Driver:
 
 
 def spawn(urdf: pathlib.Path, start: list) -> None:
-    """Put the robot at x, y, z, yaw as soon as the simulator answers."""
+    """Spawns the robot at x, y, z, yaw as soon as the simulator answers."""
     text = urdf.read_text()
     pose = Pose()
     pose.position.x, pose.position.y, pose.position.z = start[:3]

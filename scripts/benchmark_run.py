@@ -23,7 +23,7 @@ SIZES = [200, 2_000, 20_000, 200_000]
 
 
 def say(text: str) -> None:
-    """Progress."""
+    """Prints a line of progress."""
     print(f"   {text}", file=sys.stderr, flush=True)
 
 
@@ -39,19 +39,26 @@ def kinds(text: str) -> List[str]:
 
 
 def options() -> argparse.Namespace:
-    """The command line of scripts/benchmark."""
+    """Returns the parsed command line of scripts/benchmark."""
     parser = Parser(prog="scripts/benchmark")
     parser.add_argument("--plants", type=whole_in(1), nargs="+", default=SIZES)
     parser.add_argument("--only", type=kinds, default=list(KINDS))
     parser.add_argument("--repeat", type=whole_in(1), default=3)
     parser.add_argument("--json", type=pathlib.Path)
     parser.add_argument(
-        "--window-s", type=number_in(0.5, 100.0), default=8.0, help="wall time of a drive with ROS"
+        "--window-s",
+        type=number_in(0.5, 100.0),
+        default=8.0,
+        help="wall time of a drive with ROS [s]",
     )
     parser.add_argument(
         "--loss-s", type=number_in(0.5, 86400.0), default=60.0, help="of the bridge beside cameras"
     )
-    parser.add_argument("--brief", action="store_true", help="to see that all of it works")
+    parser.add_argument(
+        "--brief",
+        action="store_true",
+        help="short run that only shows that every measurement works",
+    )
     found = parser.parse_args()
     if found.json and not found.json.resolve().parent.is_dir():
         parser.error(f"--json: the folder of {found.json} does not exist")
@@ -89,7 +96,7 @@ def stop_here(number: int, _frame: Any) -> None:
 
 
 def main() -> int:
-    """Exit code of the benchmark; a missed budget is no failure."""
+    """Runs the benchmark; returns its exit code: a missed budget is no failure."""
     found = options()
     ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     for number in ending:

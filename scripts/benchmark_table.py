@@ -26,7 +26,7 @@ def of_size(budgets: Dict[int, float]) -> Budget:
 
 
 def fixed(budget: float) -> Budget:
-    """The same for all sizes."""
+    """Returns a budget that is the same for all sizes."""
     return lambda _plants, _: budget
 
 
@@ -129,7 +129,7 @@ def value_at(figures: Figures, path: str) -> Optional[float]:
 
 
 def medians(repetitions: List[Figures]) -> Figures:
-    """Figure by figure."""
+    """Returns the median of each figure over the repetitions."""
     keys = {key: None for figures in repetitions for key in figures}
     result = {}  # type: Figures
     for key in keys:
@@ -140,7 +140,7 @@ def medians(repetitions: List[Figures]) -> Figures:
 
 
 def derive(figures: Figures) -> Figures:
-    """Add what the table shows in other units."""
+    """Adds the figures that the table shows in other units."""
     lidar, node = figures.get("lidar", {}), figures.get("node", {})
     for name in ("rays_per_s", "committed_rays_per_s", "embree_rays_per_s", "flat_rays_per_s"):
         if name in lidar:
@@ -158,7 +158,7 @@ def derive(figures: Figures) -> Figures:
 
 
 def machine() -> Dict[str, Any]:
-    """What it ran on, and what else ran there."""
+    """Returns a description of the machine and of its other load."""
     cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     memory = re.search(r"MemTotal:\s+(\d+)", pathlib.Path("/proc/meminfo").read_text())
     return {
@@ -181,7 +181,7 @@ def header(about: Dict[str, Any], repeat: int) -> str:
 
 
 def table(results: Dict[int, Figures]) -> str:
-    """All that was measured, a column a field size."""
+    """Returns the table of all figures, one column per field size."""
     sizes = sorted(results)
     smallest = results[sizes[0]]
     lines = [["plants", *(f"{n:,}  " for n in sizes)]]

@@ -15,7 +15,7 @@ def is_private(name: str) -> bool:
 
 
 def imports(tree: ast.AST) -> Iterator[Tuple[int, str, str]]:
-    """Line, full name and name here of all that is imported."""
+    """Returns line, full name and local name of every import."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             for each in node.names:
@@ -26,7 +26,7 @@ def imports(tree: ast.AST) -> Iterator[Tuple[int, str, str]]:
 
 
 def foreign_private_names(file: pathlib.Path) -> Iterator[Tuple[int, str]]:
-    """Line and name of what a file uses of other packages and should not."""
+    """Returns line and name of each private name of another package that a file uses."""
     tree = ast.parse(file.read_bytes())
     own: Set[str] = PACKAGES & set(file.resolve().relative_to(ROOT).parts)
     known = {}
@@ -43,7 +43,7 @@ def foreign_private_names(file: pathlib.Path) -> Iterator[Tuple[int, str]]:
 
 
 def main() -> int:
-    """Exit code: 1 if there is any."""
+    """Prints the uses; returns 1 if there is any."""
     found = [
         f"{name}:{line}: {private} is private to its package"
         for name in sys.argv[1:]

@@ -59,7 +59,7 @@ def generate(
 
 
 def start_of_a_row(truth: Dict[str, Any]) -> Start:
-    """Before the middle two rows of the field, in the world."""
+    """Returns the start before the middle two rows of the field, in the world frame."""
     left, right = truth["rows"][ROWS // 2 - 1], truth["rows"][ROWS // 2]
     x = (left["start_m"][0] + right["start_m"][0]) / 2
     first_y, last_y = left["start_m"][1], left["end_m"][1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the demo says at its end, read from what it recorded."""
+"""Report at the end of the demo, read from its recording."""
 import math
 import pathlib
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from typing import Any, Dict
 
 @dataclass(frozen=True)
 class Drive:
-    """What a bag holds of a drive: simulated time, path of the odometry, number of scans."""
+    """Data of a drive in a bag: simulated time, path of the odometry, number of scans."""
 
     duration_s: float
     distance_m: float
@@ -38,7 +38,7 @@ def read_drive(path: pathlib.Path, scan_topic: str) -> Drive:
 def summary(
     drive: Drive, real_time_factor: float, truth: Dict[str, Any], output: pathlib.Path
 ) -> str:
-    """One screen of text."""
+    """Returns the summary, one screen of text."""
     rows = [
         ("distance driven", f"{drive.distance_m:.2f} m in {drive.duration_s:.1f} s simulated"),
         ("real-time factor", f"{real_time_factor:.2f} (farm.world asks for 1)"),

@@ -26,12 +26,12 @@ SETTLE_S = 2.0  # simulated, for the robot to come to rest on its springs
 
 
 def say(text: str) -> None:
-    """One line of progress."""
+    """Prints one line of progress."""
     print(f"   {text}", flush=True)
 
 
 class Demo:
-    """One run: what it has started, and how it waits for things."""
+    """One run of the demo: its processes, and its waits for conditions."""
 
     def __init__(self, options: argparse.Namespace, work: pathlib.Path) -> None:
         self.options, self.work = options, work
@@ -57,7 +57,7 @@ class Demo:
         return wait_until(checked, what, timeout_s)
 
     def start_world(self) -> None:
-        """The first launch file."""
+        """Starts the first launch file."""
         import rospy
 
         command = ["roslaunch", "ardee_world", "custom_world.launch", "world:=farm.world"]
@@ -68,7 +68,7 @@ class Demo:
         self.wait(lambda: rospy.get_time() > 0, "/clock")
 
     def start_robot(self, start: demo_field.Start) -> None:
-        """The second launch file; rviz too where there is a display."""
+        """Starts the second launch file, with rviz if there is a display."""
         import rospy
 
         command = ["roslaunch", "terrasentia_description", "launch_default_tsv1.launch"]
@@ -88,7 +88,7 @@ class Demo:
         self.wait(lambda: rospy.get_time() > settled, "the robot at rest")
 
     def record(self) -> Process:
-        """rosbag on the topics of a drive."""
+        """Starts rosbag on the topics of a drive."""
         import rosnode
 
         bag = self.graph.spawn("rosbag", "record", "-O", str(self.work / "drive.bag"), *RECORDED)
@@ -134,13 +134,13 @@ class Demo:
         return factor
 
     def take_picture(self) -> Process:
-        """Of rviz on the robot launch file's configuration."""
+        """Takes a picture of rviz with the robot launch file's configuration."""
         say("rviz draws a picture, off-screen")
         script = ROOT / "scripts" / "rviz_picture"
         return self.graph.spawn(str(script), str(ROOT / RVIZ_CONFIG), str(self.work / "rviz.png"))
 
     def run(self) -> None:
-        """All of it, in order."""
+        """Runs all stages in order."""
         heading("field")
         field = demo_field.generate(self.graph, self.work / "models", self.options.seed, say)
         heading("world and robot")
@@ -161,12 +161,12 @@ class Demo:
 
 
 def heading(text: str) -> None:
-    """A line above what follows."""
+    """Prints a heading."""
     print(f"\n== {text}", flush=True)
 
 
 def options() -> argparse.Namespace:
-    """The command line of scripts/demo."""
+    """Returns the parsed command line of scripts/demo."""
     parser = Parser(prog="scripts/demo")
     parser.add_argument("--seed", type=seed_number, default=0)
     parser.add_argument("--speed-m-s", type=number_in(0.05, 2.0), default=0.6)
@@ -180,7 +180,7 @@ def stop_here(number: int, _frame: Any) -> None:
 
 
 def main() -> int:
-    """Exit code of the demo."""
+    """Runs the demo; returns its exit code."""
     found = options()
     ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     for number in ending:

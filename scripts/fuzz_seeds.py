@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Write what the fuzzers of scripts/fuzz start from: inputs out of the repository's files, and dictionaries of names.
+"""Writes the seeds of the fuzzers of scripts/fuzz: inputs out of the repository's files, and dictionaries of names.
 
 fuzz_seeds.py FOLDER makes FOLDER/seeds/TARGET/* and FOLDER/cpp.dict, FOLDER/python.dict.
 """
@@ -13,7 +13,7 @@ import xml.etree.ElementTree as tree
 from typing import Dict, Iterable, Iterator, List, Tuple
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-LONGEST_BYTES = 16_000  # a larger input takes the fuzzer longer, and says no more than a small one
+LONGEST_BYTES = 16_000  # a larger input takes the fuzzer longer, without finding more
 
 # The files that seeds refer to become small ones among the test data, which every target finds.
 STAND_INS = (
@@ -138,7 +138,7 @@ def dictionary(words: Iterable[str]) -> str:
 
 
 def write(folder: pathlib.Path) -> Dict[str, int]:
-    """Write all, and return how many seeds each target has."""
+    """Writes all seeds; returns how many seeds each target has."""
     counts: Dict[str, int] = {}
     for target, name, data in (*from_files(), *from_robots()):
         if len(data) <= LONGEST_BYTES:

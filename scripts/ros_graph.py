@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A ROS graph of one's own: a master on a port that the kernel picks, processes around it, nothing left behind."""
+"""A private ROS graph: a master on a port that the kernel picks, processes around it, nothing left behind."""
 import os
 import pathlib
 import queue
@@ -49,22 +49,22 @@ class Process:
         self.pid = self._popen.pid
 
     def output(self) -> str:
-        """What it printed so far, on both streams."""
+        """Returns the output so far, of both streams."""
         return self.log.read_text(errors="replace")
 
     def exit_code(self) -> Optional[int]:
-        """Its exit code, None while it runs."""
+        """Returns the exit code, None while the process runs."""
         return self._popen.poll()
 
     def wait(self, timeout_s: float = 60.0) -> int:
-        """Its exit code, once it has ended."""
+        """Waits for the end; returns the exit code."""
         try:
             return self._popen.wait(timeout_s)
         except subprocess.TimeoutExpired:
             raise TimeoutError(f"{self.command} still runs:\n{self.output()[-3000:]}") from None
 
     def interrupt(self) -> None:
-        """What Ctrl-C in its terminal does."""
+        """Interrupts the process as Ctrl-C in its terminal does."""
         if self.exit_code() is None:
             os.killpg(self.pid, signal.SIGINT)
 
@@ -110,11 +110,11 @@ class RosGraph:
         return process
 
     def launch(self, package: str, file: str, *args: str) -> Process:
-        """Start a launch file."""
+        """Starts a launch file."""
         return self.spawn("roslaunch", package, file, *args)
 
     def run(self, *command: str, timeout_s: float = 60.0) -> str:
-        """What a command prints; it has to succeed."""
+        """Runs a command that must succeed; returns its output."""
         process = self.spawn(*command)
         code = process.wait(timeout_s)
         if code != 0:
@@ -173,5 +173,5 @@ class RosGraph:
         return left
 
     def end_master(self) -> None:
-        """End the master alone."""
+        """Ends the master alone."""
         self._master.stop()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""For the tests of the UDP bridge: simulator, robot, both nodes and clients without ROS, each a process of its own."""
+"""Test bench of the UDP bridge: simulator, robot, both nodes and clients without ROS, each a process of its own."""
 import os
 import pathlib
 import re
@@ -47,7 +47,7 @@ def resident_mb(pid: int) -> float:
 
 
 class State(NamedTuple):
-    """Where the robot is and how fast, by its odometry."""
+    """Pose and speed of the robot, by its odometry."""
 
     x_m: float
     y_m: float
@@ -124,19 +124,19 @@ class Bench:
         return self.graph.spawn("rosrun", "ardee_bridge", name, f"_port:={port}", *parameters)
 
     def start_simulator(self) -> Process:
-        """The simulator on level ground."""
+        """Starts the simulator on level ground."""
         self.simulator = self.graph.spawn("rosrun", "ardee_sim_cpp", "simulator", PLANE)
         self.graph.call(probes.clock_at_least, 0.1)
         return self.simulator
 
     def spawn_robot(self) -> None:
-        """A TerraSentia well away from the wall."""
+        """Spawns a TerraSentia well away from the wall."""
         place = "-x -5 -y 0 -z 0.2 -urdf -model TerraSentia_0".split()
         spawn = ("rosrun", "ardee_sim_cpp", "spawn_model", *place, "-file", str(self._urdf))
         self.graph.run(*spawn)
 
     def kill_simulator(self) -> None:
-        """End it as a crash does."""
+        """Kills the simulator, as a crash would."""
         os.killpg(self.simulator.pid, signal.SIGKILL)
         self.simulator.wait()
 
@@ -167,7 +167,7 @@ class Bench:
         return self._questions.recv()
 
     def state(self) -> State:
-        """The robot's, now."""
+        """Returns the robot's present state."""
         return self._ask("odom")
 
     def standing_within(self, wall_time_s: float) -> None:
@@ -194,7 +194,7 @@ class Bench:
         assert interrupt(client)["lidar 0"][0] > 0
 
     def alive(self) -> bool:
-        """Do both nodes still run?"""
+        """Returns whether both nodes still run."""
         return self.server.exit_code() is None and self.controls.exit_code() is None
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a sensor's messages say, in few numbers: images and clouds are too large to hand from process to process."""
+"""Summaries of a sensor's messages in few numbers: images and clouds are too large to hand from process to process."""
 import math
 from typing import Any, Callable, Dict, List
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests ask of a running graph; each function runs in a process of its own (RosGraph.call)."""
+"""Queries of a running graph for tests; each function runs in a process of its own (RosGraph.call)."""
 import importlib
 import time
 from typing import Any, Dict, List, Optional, Set, Tuple
@@ -160,7 +160,7 @@ def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
 
 
 def clock_stands_still(wall_time_s: float = 0.5) -> bool:
-    """Does no new /clock time appear for a while of wall time, once messages on their way have arrived?"""
+    """Returns whether no new /clock time appear for a while of wall time, once messages on their way have arrived."""
     _start()
     from rosgraph_msgs.msg import Clock
 

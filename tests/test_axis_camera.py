@@ -15,7 +15,7 @@ PAN, TILT = "sensor_pan_joint", "sensor_tilt_joint"
 
 
 class Camera:
-    """What a probe's process hears of the camera."""
+    """Messages of the camera that a probe's process receives."""
 
     def __init__(self) -> None:
         import rospy
@@ -38,11 +38,11 @@ class Camera:
         self.joints_deg.update(zip(message.name, map(math.degrees, message.position)))
 
     def send(self, **fields: Any) -> None:
-        """One command."""
+        """Sends one command."""
         self.cmd.publish(self.axis_type(**fields))
 
     def is_at(self, pan_deg: float, tilt_deg: float) -> bool:
-        """Does the state say so?"""
+        """Returns whether the state has this position."""
         state = self.states[-1]
         return abs(state.pan - pan_deg) < CLOSE_DEG and abs(state.tilt - tilt_deg) < CLOSE_DEG
 
@@ -52,7 +52,7 @@ class Camera:
         return abs(pan - pan_deg) < CLOSE_DEG and abs(tilt - tilt_deg) < CLOSE_DEG
 
     def hears_states(self, count: int) -> None:
-        """So many more states come."""
+        """Waits for this many more states."""
         wanted = len(self.states) + count
         wait_until(lambda: len(self.states) >= wanted, f"{count} states")
 

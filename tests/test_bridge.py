@@ -23,7 +23,7 @@ def bench(shared_graph: RosGraph) -> Iterator[Bench]:
 
 @pytest.fixture(scope="module")
 def fed(bench: Bench) -> Iterator[Bench]:
-    """And the sensors that the robot does not carry."""
+    """The bench, with the sensors that the robot does not carry."""
     feeder, ours = start_in(bench.graph, feed_until_killed)
     assert ours.recv() == "feeding"
     yield bench

@@ -14,7 +14,7 @@ ROWS = {f"{name} message to datagram" for name in SENSORS | {"bare forwarder"}}
 
 
 def measured(graph: RosGraph, *arguments: str) -> Dict[str, Any]:
-    """Returns its figures by row."""
+    """Returns the benchmark's figures by row."""
     output = graph.run(str(PROGRAM), "--json", *arguments, timeout_s=240.0)
     found = json.loads(output.splitlines()[-1])
     for figures in found.values():

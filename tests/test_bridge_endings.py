@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the bridge's nodes end: with the robot at a stand, and when another ROS master has taken the place of theirs."""
+"""Ends of the bridge's nodes: with the robot at a stand, and when another ROS master has taken the place of theirs."""
 import socket
 import time
 from typing import Any, List
@@ -50,7 +50,7 @@ def test_a_controls_client_that_ends_stops_the_robot(graph: RosGraph) -> None:
 
 
 def is_answered(port: int) -> bool:
-    """Does a controls client answer a control message?"""
+    """Returns whether a controls client answers a control message."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.settimeout(10.0)
         for datagram in codec.encode_control(codec.ControlCode.STOP, 7):

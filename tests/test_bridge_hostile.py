@@ -25,7 +25,7 @@ def bench(shared_graph: RosGraph) -> Iterator[Bench]:
 
 
 def random_bytes(rng: random.Random, count: int) -> bytes:
-    """So many bytes."""
+    """Returns this many random bytes."""
     return bytes(rng.choices(range(256), k=count))
 
 
@@ -80,7 +80,7 @@ def settled(bench: Bench, node: str) -> int:
 
 
 def quiet(bench: Bench, node: str) -> int:
-    """What a node has dropped, once that grows no more."""
+    """Returns a node's drops, once they grow no more."""
     counts = [-1, dropped(bench, node)]
     while counts[-1] != counts[-2]:
         counts.append(dropped(bench, node))
@@ -88,7 +88,7 @@ def quiet(bench: Bench, node: str) -> int:
 
 
 def drives_by_command(bench: Bench) -> None:
-    """The bridge still does its work."""
+    """Checks that the bridge still does its work."""
     client = bench.c_client("-v", "-0.3", "-t", "120")
     wait_until(lambda: bench.state().speed_m_s < -0.2, "it drives", 60.0)
     bench.interrupt_once_it_gets_scans(client)

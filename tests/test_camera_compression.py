@@ -212,7 +212,7 @@ class Client:
                 self.frames += [whole] if whole else []
 
     def wait_for(self, is_wanted: Callable[[Whole], bool], count: int = 10) -> List[Whole]:
-        """So many more frames of a kind."""
+        """Waits for this many more frames of a kind."""
         before = len(self.frames)
 
         def found() -> List[Whole]:
@@ -227,17 +227,17 @@ class Client:
 
 
 def stamp_ns(frame: Whole) -> int:
-    """Of the image."""
+    """Returns the stamp of the image [ns]."""
     return frame.head.chunk.sec * 10**9 + frame.head.chunk.nsec
 
 
 def is_of_camera(frame: Whole) -> bool:
-    """Are these the bytes that the camera compressed?"""
+    """Returns whether these are the bytes that the camera compressed."""
     return frame.head.encoding == codec.ImageEncoding.JPEG and frame.head.width == 64
 
 
 def is_of_server(frame: Whole) -> bool:
-    """Did the server compress this one?"""
+    """Returns whether the server compressed this image."""
     return frame.head.encoding == codec.ImageEncoding.JPEG and frame.head.width == 32
 
 
@@ -282,7 +282,7 @@ def test_publishers_that_come_and_go(graph: RosGraph, client: Client) -> None:
 
 
 def kill(publisher: Any, _: Any) -> None:
-    """End it as a crash does."""
+    """Kills the process, as a crash would."""
     publisher.kill()
     publisher.join(20.0)
 

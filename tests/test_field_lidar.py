@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a lidar sees between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
+"""Lidar ranges between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
 
 Each claim is a statistic over fields that differ in nothing but their seed: a field is one sample, and two kinds of
 field are compared in pairs of the same seed by Student's t-test, one-sided, at CONFIDENCE.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What scripts/fuzz runs and says, in a checkout whose fuzzer is a shell script: it finds something in `bad`."""
+"""Runs and output of scripts/fuzz, in a checkout whose fuzzer is a shell script: it finds something in `bad`."""
 import pathlib
 import shutil
 import signal
@@ -22,7 +22,7 @@ esac
 
 @pytest.fixture
 def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
-    """Nothing in it needs to be set up or built."""
+    """A checkout in which nothing needs to be set up or built."""
     shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
     for name in ("setup", "build"):
         (tmp_path / "scripts" / name).write_text("#!/bin/sh\n")

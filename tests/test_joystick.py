@@ -34,7 +34,7 @@ class Joystick:
         self.path, self.buttons, self._file = path, buttons, -1
 
     def plug_in(self) -> None:
-        """Appear, with the initial events that the kernel sends for 6 axes and all buttons."""
+        """Makes the joystick appear, with the initial events that the kernel sends for 6 axes and all buttons."""
         os.mkfifo(self.path)
         self._file = wait_until(self._open, "joy_node opens the joystick")
         for number in range(6):
@@ -53,13 +53,13 @@ class Joystick:
         os.write(self._file, struct.pack("=IhBB", 0, value, kind, number))
 
     def unplug(self) -> None:
-        """Disappear."""
+        """Makes the joystick disappear."""
         self.path.unlink()
         os.close(self._file)
 
 
 class Robot:
-    """What a probe's process hears of the robot."""
+    """Messages of the robot that a probe's process receives."""
 
     def __init__(self) -> None:
         import rospy
@@ -86,7 +86,7 @@ class Robot:
         )
 
     def hears_nothing(self) -> None:
-        """No command comes in a while."""
+        """Checks that no command comes for a while."""
         count = len(self.commands)
         time.sleep(0.3)
         assert len(self.commands) == count, f"commands {self.commands[count:]}"
@@ -113,7 +113,7 @@ def push(joystick: Joystick) -> None:
 
 
 def pid_of(node: str) -> int:
-    """As the node itself says."""
+    """Returns the process id that the node itself reports."""
     import rosgraph
 
     address = rosgraph.Master("/probe").lookupNode(node)
@@ -150,7 +150,7 @@ def ride(path: str) -> None:
 
 @pytest.fixture(scope="module")
 def device(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
-    """Where a joystick will be."""
+    """Path at which a joystick will appear."""
     return tmp_path_factory.mktemp("joystick") / "js0"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whatever drives leaves the robot at a stand when it ends, though what it answers to goes on meanwhile."""
+"""Every node that drives leaves the robot at a stand when it ends, even while its input goes on."""
 import os
 import pty
 import socket

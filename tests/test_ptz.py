@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A PTZ camera over ROS: position commands turn it, set_hfov zooms it, and nonsense is refused with one message."""
+"""A PTZ camera over ROS: position commands turn it, set_hfov zooms it, and bad ones are refused with one message."""
 import math
 from typing import Any, Dict, List, Tuple
 

@@ -56,7 +56,7 @@ def streams(name: str) -> Dict[str, Any]:
 
 
 class Survey:
-    """What a probe's process learns of all robots at once."""
+    """Messages of all robots that a probe's process receives at once."""
 
     def __init__(self) -> None:
         import rospy
@@ -96,12 +96,12 @@ class Survey:
         return min(robot["odom"][-1].header.stamp.to_sec() for robot in self.heard.values())
 
     def wait(self, seconds: float) -> None:
-        """Let simulated time pass."""
+        """Lets simulated time pass."""
         end_s = self.now_s() + seconds
         wait_until(lambda: self.now_s() >= end_s, f"{seconds} s of simulated time")
 
     def command(self, forward_m_s: float, turn_rad_s: float) -> None:
-        """To all robots."""
+        """Sends a command to all robots."""
         from geometry_msgs.msg import Twist
 
         command = Twist()
@@ -123,7 +123,7 @@ class Survey:
         }
 
     def frames(self) -> Dict[str, Dict[str, str]]:
-        """By stream; none for those without."""
+        """Returns the frames by stream; none for streams without one."""
         return {
             name: {topic: messages[-1].header.frame_id for topic, messages in robot.items()}
             for name, robot in self.heard.items()
@@ -241,7 +241,7 @@ def world(shared_graph: RosGraph) -> Process:
 
 @pytest.fixture(scope="module")
 def surveyed(shared_graph: RosGraph, world: Process) -> Dict[str, Any]:
-    """What the probe learned."""
+    """The survey's results."""
     return shared_graph.call(survey, timeout_s=3 * START_S)
 
 

@@ -146,7 +146,7 @@ def follow(
 
 
 def positions(graph: RosGraph, kind: str) -> List[float]:
-    """Of the joints of the arm, as the trajectory's state has them."""
+    """Returns the positions of the arm's joints from the trajectory's state."""
     state = graph.call(
         next_message, f"/{kind}/arm/state", "control_msgs/JointTrajectoryControllerState"
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A service that answers success = false has changed nothing: each number that has no meaning, each unknown name."""
+"""A service that answers success = false has changed nothing: tried with invalid numbers and unknown names."""
 import math
 import pathlib
 from typing import Any, Dict, Iterator, List, Tuple

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What docs/support.md says of the simulator's services and topics, against a running one."""
+"""The services and topics in docs/support.md agree with a running simulator."""
 import pathlib
 from typing import Dict, Iterator, Tuple
 

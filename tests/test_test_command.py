@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What scripts/test counts, in a checkout of two packages with a test each and one C++ test."""
+"""Counts of scripts/test, in a checkout of two packages with a test each and one C++ test."""
 import pathlib
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 @pytest.fixture
 def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
-    """Nothing in it needs to be set up or built."""
+    """A checkout in which nothing needs to be set up or built."""
     shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     for name in ("setup", "build"):

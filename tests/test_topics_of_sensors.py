@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the topics of a robot's sensors go, and topics that cannot be: the robot is spawned without those sensors."""
+"""Names of the topics of a robot's sensors; with an invalid topic the robot is spawned without that sensor."""
 import pathlib
 from typing import List
 

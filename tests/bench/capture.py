@@ -49,7 +49,7 @@ Times = Dict[int, int]  # stamp of a message [ns]: arrival of its first bytes [n
 
 
 class Missing(OSError):
-    """Packets were not captured."""
+    """Error of packets that were not captured."""
 
 
 class Segment(NamedTuple):
@@ -92,7 +92,7 @@ class Flow:
         self._is_header = True
 
     def is_waiting(self) -> bool:
-        """For segments that others overtook."""
+        """Returns whether the flow waits for segments that others overtook."""
         return bool(self._early)
 
     def take(self, arrived: Segment, at_ns: int) -> None:
@@ -116,7 +116,7 @@ class Flow:
                 self.take(*self._early.pop(begin))
 
     def _pass(self, data: Buffer, at_ns: int) -> int:
-        """How many bytes belong to the message that goes on, or begins."""
+        """Returns the number of bytes that belong to the message that goes on or begins."""
         if self._rest:
             count = min(self._rest, len(data))
             self._rest -= count
@@ -222,7 +222,7 @@ class Capture:
         return found
 
     def close(self) -> None:
-        """Capture no more."""
+        """Stops the capture."""
         self._socket.close()
 
 

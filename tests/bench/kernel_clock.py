@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""When data arrived, by the kernel's clock, however late a process looks at them."""
+"""Arrival times of data by the kernel's clock, however late a process reads them."""
 import socket
 import struct
 import time
@@ -10,12 +10,12 @@ LOOK_S = 0.001  # how often those who keep its times look at what has come
 
 
 def use(opened: socket.socket) -> None:
-    """Have recvmsg() of this socket say when what it returns arrived."""
+    """Makes recvmsg() of this socket return the arrival time of its data."""
     opened.setsockopt(socket.SOL_SOCKET, SO_TIMESTAMPNS, 1)
 
 
 def arrival_ns(extras: Sequence[Any]) -> Optional[int]:
-    """Of what recvmsg() returned with these ancillary data."""
+    """Returns the arrival time in these ancillary data of recvmsg()."""
     for _, kind, value in extras:
         if kind == SO_TIMESTAMPNS:
             seconds, nanoseconds = struct.unpack("=qq", value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the bridge's measurements on loopback share: how long do messages take, and is any lost?
+"""Code that the bridge's measurements on loopback share: latencies and losses of messages.
 
 A datagram's time is the kernel's, of its arrival at the receiver's socket. Nodes, publishers and receivers are
 processes of their own, around a ROS master of their own.
@@ -64,7 +64,7 @@ class Datagram(NamedTuple):
     at_ns: int
 
     def data(self) -> bytes:
-        """All of it; what was not kept is zero."""
+        """All bytes; those that were not kept are zero."""
         return self.beginning.ljust(self.size, b"\0")
 
 
@@ -156,7 +156,7 @@ def answer(process: Any, pipe: Any, word: str, limit_s: float) -> Any:
 
 
 def is_followed(message: Message) -> bool:
-    """Is it a chunk that is not its frame's last?"""
+    """Returns whether it is a chunk other than its frame's last."""
     kind = codec.data_struct(message.header)
     if kind not in CHUNKED:
         return False

@@ -37,7 +37,7 @@ def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
 
 
 def _wait_for(env: Dict[str, str], name: str) -> None:
-    """Until this node is there."""
+    """Waits until this node is there."""
     master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
     deadline = time.monotonic() + START_LIMIT_S
     while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What keeps threads that send from waiting: for other programs, for Python's lock and collector, for memory."""
+"""Measures that keep sending threads from waiting: for other programs, for Python's lock and collector, for memory."""
 import contextlib
 import ctypes
 import gc
@@ -15,7 +15,7 @@ MOST_MMAP_THRESHOLD_BYTES, TRIM_THRESHOLD_BYTES = 32 << 20, 256 << 20
 
 
 def share_fairly() -> None:
-    """Of a process with several threads: none keeps Python's lock for long."""
+    """Prevents any thread of the process from keeping Python's lock for long."""
     sys.setswitchinterval(SWITCH_INTERVAL_S)
 
 

@@ -26,10 +26,17 @@ BUFFER_BYTES = 4 << 20
 
 
 def options() -> argparse.Namespace:
-    """The command line."""
+    """Returns the parsed command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--simulator", default="127.0.0.1", help="address of its computer")
-    parser.add_argument("--port", type=int, default=30000, help="to listen at; 0: any, with --ask")
+    parser.add_argument(
+        "--simulator", default="127.0.0.1", help="address of the simulator's computer"
+    )
+    parser.add_argument(
+        "--port",
+        type=int,
+        default=30000,
+        help="UDP port to listen at; 0: any free port, needs --ask",
+    )
     parser.add_argument(
         "--group", help="multicast group to join, on the interface that leads to the simulator"
     )
@@ -39,7 +46,9 @@ def options() -> argparse.Namespace:
         metavar="PORT",
         help="ask the sensor server at this port, usually 30001, for every sensor and for time stamps",
     )
-    parser.add_argument("--controls", type=int, default=35555, help="port of the controls client")
+    parser.add_argument(
+        "--controls", type=int, default=35555, help="UDP port of the controls client"
+    )
     parser.add_argument("--speed", type=share, help="-1...1 of the robot's limit")
     parser.add_argument("--yaw-rate", type=share, help="-1...1 of the robot's limit")
     parser.add_argument("--control", choices=[code.name for code in codec.ControlCode])
@@ -56,7 +65,7 @@ def share(text: str) -> float:
 
 
 def join(opened: socket.socket, group: str, simulator: str) -> None:
-    """Let in what is sent to a multicast group. Without a default route the system cannot choose the interface."""
+    """Joins a multicast group. Without a default route the system cannot choose the interface."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as towards:
         towards.connect((simulator, 9))  # sends nothing
         interface = towards.getsockname()[0]
@@ -82,7 +91,7 @@ class Client:
             print(f"ardee_client: send to {where}: {error.strerror}", file=sys.stderr)
 
     def receive(self, timeout_s: float) -> None:
-        """Take what arrives within this time."""
+        """Receives the messages that arrive within this time."""
         if not select.select([self._socket], [], [], timeout_s)[0]:
             return
         try:
@@ -120,7 +129,7 @@ class Client:
 
 
 def describe_frame(whole: Any) -> str:
-    """What is in an image or a cloud."""
+    """Returns a description of an image or a point cloud."""
     if isinstance(whole.head, codec.ImageChunk):
         name = codec.ImageEncoding(whole.head.encoding).name
         return (
@@ -130,7 +139,7 @@ def describe_frame(whole: Any) -> str:
 
 
 def main() -> int:
-    """Run for the time asked for."""
+    """Runs the client for the requested time."""
     found = options()
     controls, server = (found.simulator, found.controls), (found.simulator, found.ask)
     drives = found.speed is not None or found.yaw_rate is not None

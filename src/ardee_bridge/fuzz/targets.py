@@ -94,7 +94,7 @@ class _Bench:
         self.settings = from_values(ControlSettings, dict(_SETTINGS, peers=peers))
 
     def run(self, data: bytes) -> None:
-        """Let the client receive what the bytes say, each datagram a moment after the one before."""
+        """Makes the client receive the events in the bytes, each datagram a moment after the one before."""
         now_s, motions = 0.0, []  # type: float, List[Motion]
         client = ControlsClient(
             self.settings,

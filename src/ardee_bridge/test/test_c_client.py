@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the C client's command line refuses; driving with it is tested with the whole bridge."""
+"""Arguments that the C client refuses; driving with it is tested with the whole bridge."""
 import subprocess
 
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a receiver's messages become on the wire, with a fix and without."""
+"""A GPS receiver's messages on the wire, with a fix and without."""
 import math
 
 from geometry_msgs.msg import Vector3, Vector3Stamped

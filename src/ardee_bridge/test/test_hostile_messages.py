@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Messages of publishers that mean no good: each is sent or counted as dropped, and no error leaves the server."""
+"""Malformed messages of publishers: each is sent or counted as dropped, and no error leaves the server."""
 import random
 
 import pytest
@@ -37,7 +37,7 @@ class Bench:
         self._server = SensorServer(settings, self._socket, self.counters)
 
     def publish(self, name, message):
-        """True if it was sent, False if it was dropped."""
+        """Returns True if the message was sent, False if it was dropped."""
         before = self.counters.dropped().get(DROPPED, 0), self.counters.done()
         self._server.publish(self._sources[name], message)
         dropped = self.counters.dropped().get(DROPPED, 0) - before[0]

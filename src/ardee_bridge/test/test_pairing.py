@@ -7,7 +7,7 @@ from ardee_bridge.wire.pairing import MAX_SENDERS, WINDOW_S, Pairer
 
 
 def random_bytes(rng, count):
-    """So many bytes."""
+    """Returns this many random bytes."""
     return bytes(rng.choices(range(256), k=count))
 
 

@@ -73,7 +73,7 @@ class Bench:
 
 
 def receive(client, count=1):
-    """The next messages: (header, data)."""
+    """Returns the next messages: (header, data)."""
     pairer, found = Pairer(), []
     while len(found) < count:
         message = pairer.feed("s", client.recv(65535), 0.0)

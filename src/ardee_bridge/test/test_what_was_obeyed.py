@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the controls client says in its terminal of the commands that it gets (thesis 4.6.1)."""
+"""The controls client's terminal lines about its commands (thesis 4.6.1)."""
 from ardee_bridge.nodes.controls import STANDSTILL, Motion, what_was_obeyed
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What run_experiment says to arguments that cannot be: one line, exit code 2."""
+"""Invalid arguments of run_experiment: one line, exit code 2."""
 import sys
 
 import pytest

@@ -63,7 +63,7 @@ def simulator() -> Iterator[Simulator]:
 
 
 def finish(simulator: Simulator) -> int:
-    """Drive to the end of a row; when that was [ms]."""
+    """Drives to the end of a row; returns the time of it [ms]."""
     assert simulator.scan(IN_THE_ROW, 20_000)["state"] == "following"
     for time_ms in range(20_025, 21_100, 25):
         state = simulator.scan(ROWS_ARE_GONE, time_ms)["state"]

@@ -91,7 +91,7 @@ def asked_by(target: Any, server: socket.socket) -> Tuple[str, int]:
 
 
 def answer_to(target: Any, datagrams: int) -> Any:
-    """What it answered to the last of so many datagrams."""
+    """Returns the answer to the last of these datagrams."""
     return [target.receive() for _ in range(datagrams)][-1]
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""When scans have stopped, by two clocks of which either may stand still or run fast."""
+"""Detection of a stop of the scans by two clocks, either of which may stand still or run fast."""
 from ardee_navigation.nodes.silence import Silence
 
 

@@ -32,7 +32,7 @@ def wait_for_description() -> Optional[str]:
 
 
 def read_rate_hz() -> float:
-    """How often the state is told; ValueError for a parameter that cannot be."""
+    """Returns the rate of the state messages [Hz]; ValueError for an invalid parameter."""
     for name in REFUSED:
         if rospy.get_param(f"~{name}", False):
             raise ValueError(f"~{name}: true; the simulated camera has only false")
@@ -44,7 +44,7 @@ def read_rate_hz() -> float:
 
 
 class PtzNode:
-    """Hands commands on to the camera's controllers, and tells where the camera is."""
+    """Passes commands on to the camera's controllers, and publishes the camera's position."""
 
     def __init__(self, camera: Camera, pan_joint: str, tilt_joint: str) -> None:
         self._camera, self._pan_joint, self._tilt_joint = camera, pan_joint, tilt_joint
@@ -84,7 +84,7 @@ class PtzNode:
             setattr(self._state, name, getattr(command, name))
 
     def tell(self) -> None:
-        """Publish where the camera is, once its joints have been heard of."""
+        """Publishes the camera's position once its joint states have arrived."""
         for name in (self._pan_joint, self._tilt_joint):
             if name not in self._angles_rad:
                 rospy.logwarn_throttle(WARN_S, f"nothing of {name} on joint_states yet: no state")
@@ -94,7 +94,7 @@ class PtzNode:
         self._publisher.publish(self._state)
 
     def run(self, rate_hz: float) -> None:
-        """Tell the state until the node is shut down."""
+        """Publishes the state until the node is shut down."""
         rate = rospy.Rate(rate_hz, reset=True)
         while not rospy.is_shutdown():
             try:
@@ -105,7 +105,7 @@ class PtzNode:
 
 
 def main() -> int:
-    """Run the node; 1 when a parameter is wrong."""
+    """Runs the node; returns 1 when a parameter is wrong."""
     rospy.init_node("axis_ptz_driver")
     try:
         rate_hz = read_rate_hz()

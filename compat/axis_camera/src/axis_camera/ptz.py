@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Between axis_camera/Axis (degrees, zoom 1 to 9999) and the joints and the field of view of a simulated camera."""
+"""Converts axis_camera/Axis (degrees, zoom 1 to 9999) to joints and field of view of a simulated camera, and back."""
 import math
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ def to_degrees(joint_rad: float) -> float:
 
 @dataclass(frozen=True)
 class Camera:
-    """What a camera can do, as its robot's description says."""
+    """Limits of a camera, from its robot's description."""
 
     pan_rad: Range
     tilt_rad: Range

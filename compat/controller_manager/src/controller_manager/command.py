@@ -11,7 +11,7 @@ SHORT = {"lc": "list", "lt": "list-types", "sp": "spawn", "kl": "kill"}
 
 
 def act(command: str, names: List[str], restore: bool) -> bool:
-    """Returns whether it was done."""
+    """Makes the request; returns whether it was done."""
     if command == "list":
         manager.list_controllers()
         return True
@@ -52,7 +52,11 @@ def main() -> int:
     commands.add_parser("list", aliases=["lc"], help="list the controllers and their states (lc)")
     commands.add_parser("list-types", aliases=["lt"], help="list the types of controllers (lt)")
     reload = commands.add_parser("reload-libraries", help="unload all controllers")
-    reload.add_argument("--restore", action="store_true", help="load and start them again")
+    reload.add_argument(
+        "--restore",
+        action="store_true",
+        help="after reload-libraries, load and start the controllers again",
+    )
     arguments = parser.parse_args(rospy.myargv()[1:])
     command = SHORT.get(arguments.command, arguments.command)
     try:

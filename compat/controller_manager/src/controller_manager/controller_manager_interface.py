@@ -81,7 +81,7 @@ def stop_controllers(names: List[str]) -> bool:
 
 
 def start_stop_controllers(names: List[str], start: bool) -> bool:
-    """All of them, or none."""
+    """Starts or stops all of these controllers, or none."""
     starting, stopping = (names, []) if start else ([], names)
     strict = srv.SwitchControllerRequest.STRICT
     return _say(

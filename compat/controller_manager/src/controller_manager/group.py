@@ -29,7 +29,7 @@ def list_groups(groups: Dict[str, List[str]]) -> None:
 
 
 def load(names: List[str]) -> bool:
-    """Those that are not loaded yet."""
+    """Loads those controllers that are not loaded yet."""
     load_controller = rospy.ServiceProxy("controller_manager/load_controller", LoadController)
     failed = [name for name in names if name not in states() and not load_controller(name).ok]
     if failed:

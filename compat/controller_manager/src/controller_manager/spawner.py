@@ -23,7 +23,7 @@ KINDS = (LoadController, SwitchController, UnloadController)
 
 
 class Spawner:
-    """The services that it calls, and what it has loaded."""
+    """Caller of the controller manager's services; remembers the controllers that it has loaded."""
 
     def __init__(self, namespace: str) -> None:
         prefix = namespace.rstrip("/") + "/" if namespace else ""
@@ -34,7 +34,7 @@ class Spawner:
         self.loaded: List[str] = []
 
     def wait(self, timeout_s: Optional[float]) -> None:
-        """Throws ROSException when a service is not there in time."""
+        """Waits for the services; raises ROSException when one is not there in time."""
         for name in self.services:
             rospy.loginfo("waiting for service %s", rospy.resolve_name(name))
             rospy.wait_for_service(name, timeout_s)
@@ -86,18 +86,33 @@ def wait_for_true(topic: str) -> None:
 
 def parse_arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="spawner", description=__doc__)
-    parser.add_argument("--stopped", action="store_true", help="do not start them")
     parser.add_argument(
-        "--wait-for", metavar="TOPIC", help="begin when std_msgs/Bool there is true"
+        "--stopped", action="store_true", help="load the controllers, but do not start them"
     )
-    parser.add_argument("--namespace", default="", metavar="NS", help="of the controller manager")
     parser.add_argument(
-        "--timeout", type=float, default=30.0, metavar="S", help="for its services; <= 0: for ever"
+        "--wait-for", metavar="TOPIC", help="topic of std_msgs/Bool; begin when it is true"
     )
-    parser.add_argument("--no-timeout", action="store_true", help="wait for its services for ever")
+    parser.add_argument(
+        "--namespace", default="", metavar="NS", help="namespace of the controller manager"
+    )
+    parser.add_argument(
+        "--timeout",
+        type=float,
+        default=30.0,
+        metavar="S",
+        help="time to wait for the controller manager's services [s]; <= 0: for ever",
+    )
+    parser.add_argument(
+        "--no-timeout",
+        action="store_true",
+        help="wait for the controller manager's services for ever",
+    )
     parser.add_argument("--shutdown-timeout", metavar="S", help="has no effect")
     parser.add_argument(
-        "controllers", nargs="+", metavar="NAME|FILE.yaml", help="controllers, or files of theirs"
+        "controllers",
+        nargs="+",
+        metavar="NAME|FILE.yaml",
+        help="names of controllers, or YAML files of their parameters",
     )
     return parser.parse_args(rospy.myargv()[1:])
 

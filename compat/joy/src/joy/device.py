@@ -13,7 +13,7 @@ READ_BYTES = 64 * EVENT.size
 
 
 class DeviceGone(Exception):
-    """The joystick was unplugged, or cannot be read any more."""
+    """Error of a joystick that was unplugged or cannot be read any more."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class JoyState:
     buttons: List[int] = field(default_factory=list)
 
     def apply(self, event: Event) -> None:
-        """Take an event in; the lists grow to the numbers that occur."""
+        """Applies an event; the lists grow to the numbers that occur."""
         values = self.buttons if event.kind == BUTTON else self.axes
         values.extend([0] * (event.number + 1 - len(values)))
         if event.kind == AXIS:
@@ -63,7 +63,7 @@ class JoyState:
             values[event.number] = 1 - values[event.number]
 
     def release(self) -> None:
-        """Let everything go, as if no hand were on the joystick."""
+        """Releases all buttons and axes, as if no hand were on the joystick."""
         self.axes = [0.0] * len(self.axes)
         self.buttons = [0] * len(self.buttons)
 

@@ -53,8 +53,8 @@ class JoyNode:
         self._due_s = float("inf")  # when the state is to be published, monotonic
 
     def run(self) -> None:
-        """Publish until the node is shut down."""
-        useless = False  # the last look found nothing that tells anything; it is said once
+        """Publishes until the node is shut down."""
+        useless = False  # whether the last look found no usable device, which is logged once
         while not rospy.is_shutdown():
             device = self._open(quietly=useless)
             if device is None:
@@ -73,7 +73,7 @@ class JoyNode:
                 device.close()
 
     def let_go(self) -> None:
-        """Publish the state without a hand on the joystick, if anybody has heard of another."""
+        """Publishes the released state, if another state has been published."""
         self._due_s = float("inf")
         if self._state.axes or self._state.buttons:
             self._state.release()
@@ -91,7 +91,7 @@ class JoyNode:
         return device
 
     def _follow(self, device: Device) -> None:
-        """Publish what an open device tells."""
+        """Publishes the events of an open device."""
         while not rospy.is_shutdown():
             wait_s = min(max(self._due_s - time.monotonic(), 0.0), WATCH_S)
             for event in device.read(wait_s):

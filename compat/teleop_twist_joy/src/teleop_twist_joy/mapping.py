@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From the axes and buttons of a joystick to linear (m/s) and angular (rad/s) velocities."""
+"""Conversion of a joystick's axes and buttons to linear (m/s) and angular (rad/s) velocities."""
 import math
 from dataclasses import dataclass
 from typing import Any, Callable, Dict, Optional, Sequence
@@ -37,7 +37,7 @@ class Mapping:
 
 
 def _deflection(axes: Sequence[float], number: int) -> float:
-    """0 of an axis that is not there, or says no number."""
+    """Returns the deflection of an axis; 0 if the axis is missing or its value is not finite."""
     is_there = 0 <= number < len(axes) and math.isfinite(axes[number])
     return axes[number] if is_there else 0.0
 

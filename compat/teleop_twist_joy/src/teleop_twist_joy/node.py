@@ -44,20 +44,20 @@ class TeleopNode:
             self.stop()
 
     def stop(self) -> None:
-        """Tell the robot to stop, if it has been told to go."""
+        """Tells the robot to stop if it has been told to go."""
         with self._lock:
             if self._driving:
                 self._driving = False
                 self._publisher.publish(Twist())
 
     def end(self) -> None:
-        """Stop for good: the joystick may still be heard while the node ends."""
+        """Stops for good: the joystick may still be heard while the node ends."""
         with self._lock:
             self._ended = True
         self.stop()
 
     def run(self) -> None:
-        """Until the node is shut down; watches for a joystick's node that dies without a word."""
+        """Runs until the node is shut down; watches for a joystick node that dies silently."""
         while not rospy.is_shutdown():
             if self._subscriber.get_num_connections() == 0:
                 self.stop()

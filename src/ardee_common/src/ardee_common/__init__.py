@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What the Python packages share. Nothing here imports ROS."""
+"""Code that the Python packages share. Nothing here imports ROS."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The parser of all commands, types of arguments, and what becomes of an error."""
+"""The parser of all commands, types of arguments, and the handling of errors."""
 
 import argparse
 import math
@@ -11,10 +11,10 @@ from ardee_common.options import range_text
 
 
 class Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line: the usage would bury it."""
+    """Argument parser that reports an error in one line, without the usage."""
 
     def error(self, message: str) -> NoReturn:
-        """Exit 2."""
+        """Prints the error and exits with code 2."""
         self.exit(2, f"{self.prog}: {message} (--help lists all arguments)\n")
 
 

@@ -9,7 +9,7 @@ class GeneratorError(Exception):
 
 
 def not_yaml(path: Path, error: Exception) -> GeneratorError:
-    """What a YAML reader says, in one line with file and line."""
+    """Returns the error of a YAML reader in one line with file and line."""
     mark = getattr(error, "problem_mark", None)
     where = f"{path}:{mark.line + 1}" if mark else f"{path}"
     text = getattr(error, "problem", None) or str(error)

@@ -84,7 +84,7 @@ def kind_of(cls: type, field: dataclasses.Field) -> Any:
 
 
 def range_text(limits: Tuple[float, float], unit: str) -> str:
-    """Limits for people."""
+    """Returns the limits as text for a message."""
     low, high = limits
     text = f"at least {low:.15g}" if math.isinf(high) else f"{low:.15g} to {high:.15g}"
     return f"{text} {unit}".strip()
@@ -102,7 +102,7 @@ def _number_problem(value: Any, kind: type, limits: Optional[Tuple], unit: str) 
 
 
 def problem(cls: type, field: dataclasses.Field, value: Any) -> Optional[str]:
-    """What was expected of a field's value, or None where it is good."""
+    """Returns what a field's value should have been, or None if the value is valid."""
     if value is None and field.default is None:
         return None
     kind, metadata = kind_of(cls, field), field.metadata
@@ -132,7 +132,7 @@ def scalar_fields(cls: type) -> Iterator[dataclasses.Field]:
 
 
 def check(config: Any, prefix: str = "") -> None:
-    """Raise GeneratorError for the first option of a dataclass that is out of its limits."""
+    """Raises GeneratorError for the first option of a dataclass that is out of its limits."""
     for field in scalar_fields(type(config)):
         if "limits" in field.metadata:
             value = getattr(config, field.name)

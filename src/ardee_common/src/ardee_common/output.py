@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Output that is whole or not there: written to a temporary place, then renamed."""
+"""Writes output completely or not at all: written to a temporary place, then renamed."""
 
 import contextlib
 import os
@@ -24,7 +24,7 @@ def check_name(name: str) -> str:
 
 
 def _swap(temporary: Path, target: Path) -> None:
-    """Put `temporary` in the place of `target`; if that fails, `target` is as it was."""
+    """Puts `temporary` in the place of `target`; if that fails, `target` is as it was."""
     if not target.exists():
         os.rename(temporary, target)
         return
@@ -63,7 +63,7 @@ def model_directory(parent: Path, name: str) -> Iterator[Path]:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Replace one file in one step."""
+    """Replaces one file in one step."""
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.new")
     temporary.write_bytes(data)

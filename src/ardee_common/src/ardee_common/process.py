@@ -56,7 +56,7 @@ class RosMaster:
         self.uri = self._child.stdout.readline().strip()
 
     def stop(self) -> None:
-        """Ends it."""
+        """Ends the ROS master."""
         self._child.stdin.close()
         try:
             self._child.wait(5.0)

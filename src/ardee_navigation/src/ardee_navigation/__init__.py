@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Row following between crop rows, and how well it goes."""
+"""Row following between crop rows, and its evaluation."""

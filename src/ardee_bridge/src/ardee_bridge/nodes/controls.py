@@ -16,7 +16,7 @@ from ardee_bridge.wire.udp import Sender
 
 
 class Motion(NamedTuple):
-    """What the robot is told: m/s, and rad/s counter-clockwise."""
+    """Velocity command of the robot: m/s, and rad/s counter-clockwise."""
 
     speed_m_s: float
     yaw_rate_rad_s: float
@@ -65,7 +65,7 @@ class ControlsClient:
         self._told, self._has_ended, self._telling = STANDSTILL, False, threading.Lock()
 
     def receive(self, timeout_s: float) -> None:
-        """Wait so long at most, obey what has come, stop the robot when its commands have ceased."""
+        """Waits at most this long, obeys the messages that came, stops the robot when its commands have ceased."""
         if self._stop_at_s is not None:
             timeout_s = max(0.0, min(timeout_s, self._stop_at_s - self._clock()))
         for message, sender, at_s in self._requests.receive(timeout_s):
@@ -78,7 +78,7 @@ class ControlsClient:
             self._tell(STANDSTILL)
 
     def stop(self) -> None:
-        """Stop the robot for good, if it has been told to move; another thread may still receive."""
+        """Stops the robot for good if it has been told to move; another thread may still receive."""
         with self._telling:
             self._has_ended = True
             if self._told != STANDSTILL:

@@ -36,7 +36,7 @@ class Mover:
         threading.Thread(target=self._tell, daemon=True).start()
 
     def move(self, motion: Motion) -> None:
-        """Tell the robot."""
+        """Passes a motion on to the robot."""
         twist = Twist()
         twist.linear.x, twist.angular.z = motion.speed_m_s, motion.yaw_rate_rad_s
         self._publisher.publish(twist)
@@ -66,7 +66,7 @@ class SimulationPauser:
         threading.Thread(target=self._serve, daemon=True).start()
 
     def want(self, paused: bool) -> None:
-        """Takes a wish; the newest holds."""
+        """Requests that the simulation be paused or run; the newest request counts."""
         self._wanted.put(paused)
 
     def _serve(self) -> None:
@@ -76,7 +76,9 @@ class SimulationPauser:
                 paused = self._wanted.get()
             try:
                 self._services[paused]()
-            except Exception as error:  # whatever it was, the next wish is to be heard
+            except (
+                Exception
+            ) as error:  # the thread must survive any error, so that it serves the next request
                 self._counters.drop("control codes that the simulation did not take", str(error))
 
 
@@ -103,5 +105,5 @@ def _make() -> Callable[[float], None]:
 
 
 def main(name: str = "controls_client_node") -> int:
-    """Exit code of the node."""
+    """Runs the node; returns its exit code."""
     return ros_node.run(name, __doc__, _make, disable_rostime=True)

@@ -52,7 +52,7 @@ def _orientation(message: Any) -> codec.OrientationData:
 
 
 def imu(message: Any) -> Reading:
-    """sensor_msgs/Imu, whole."""
+    """Converts a sensor_msgs/Imu with all its fields."""
     data = codec.IMUData(
         accel=_motion(message.linear_acceleration, message.linear_acceleration_covariance),
         gyro=_motion(message.angular_velocity, message.angular_velocity_covariance),

@@ -22,12 +22,12 @@ class Counters:
         self._said: "Counter[str]" = Counter()
 
     def did(self, kind: str) -> None:
-        """Something went as it should."""
+        """Counts a success."""
         with self._lock:
             self._done[kind] += 1
 
     def drop(self, kind: str, detail: str = "", count: int = 1) -> None:
-        """Something was dropped; `detail` is of this one, `kind` of all like it."""
+        """Counts a drop; `detail` describes this one, `kind` all drops like it."""
         now = self._clock()
         with self._lock:
             self._dropped[kind] += count
@@ -39,11 +39,11 @@ class Counters:
         self._warn(f"dropped {fresh}: {kind}{', ' + detail if detail else ''}")
 
     def done(self) -> Dict[str, int]:
-        """What went well so far, by kind."""
+        """Returns the counts of successes so far, by kind."""
         with self._lock:
             return dict(self._done)
 
     def dropped(self) -> Dict[str, int]:
-        """What was dropped so far, by reason."""
+        """Returns the counts of drops so far, by reason."""
         with self._lock:
             return dict(self._dropped)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which velocity goes with a GPS fix: they come on two topics, and on the wire in one message."""
+"""Matches GPS fixes with velocities: ROS has them on two topics, the wire in one message."""
 import threading
 from typing import Any, Callable, Optional, Tuple
 
@@ -25,7 +25,7 @@ class FixWithVelocity:
         self._lock = threading.Lock()  # rospy reads each topic in a thread of its own
 
     def on_fix(self, fix: Any) -> None:
-        """A sensor_msgs/NavSatFix has come."""
+        """Handles a sensor_msgs/NavSatFix."""
         with self._lock:
             if self._waiting is not None:
                 self._comes_after = False
@@ -36,7 +36,7 @@ class FixWithVelocity:
                 self._send_waiting()
 
     def on_velocity(self, velocity: Any) -> None:
-        """A geometry_msgs/Vector3Stamped has come."""
+        """Handles a geometry_msgs/Vector3Stamped."""
         with self._lock:
             self._velocity = velocity
             if _stamp(velocity) == self._latest_fix:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Receives what target computers send: whole messages of allowed senders; counts all else."""
+"""Receives messages of target computers: whole ones of allowed senders; counts all others."""
 import select
 import socket
 import struct
@@ -66,7 +66,7 @@ class Requests:
             yield data, sender, age_s
 
     def _count_overflow(self, total: int) -> None:
-        """Counts what the system has dropped, because the socket's buffer was full."""
+        """Counts datagrams that the system dropped because the socket's buffer was full."""
         if total > self._overflowed:
             fresh, self._overflowed = total - self._overflowed, total
             self._counters.drop(f"{self._prefix}receive buffer full", count=fresh)

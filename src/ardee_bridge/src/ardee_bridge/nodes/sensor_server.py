@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sends sensor messages to whom they are for, and answers SET_PORT messages; without rospy."""
+"""Sends sensor messages to their targets, and answers SET_PORT messages; without rospy."""
 import socket
 import threading
 import time
@@ -19,7 +19,7 @@ _TIME_BIT = 1 << codec.DataType.TIME
 
 
 class Target(NamedTuple):
-    """Who gets messages: address, data types wanted, one component or all, end of the lease (None: configured)."""
+    """A receiver of messages: address, data types wanted, one component or all, end of the lease (None: configured)."""
 
     address: Sender
     data_types: int
@@ -43,7 +43,7 @@ class RateLimit:
         self._due_s = self._last_s = float("-inf")
 
     def admits(self, stamp_s: float) -> bool:
-        """Is the message of this time let through?"""
+        """Returns whether the message of this time is let through."""
         if not self._period_s or stamp_s == self._last_s == 0.0:
             return True
         if stamp_s < self._last_s:  # the simulation was reset
@@ -83,7 +83,7 @@ class SensorServer:
     # -- sensors
 
     def wanted(self) -> Set[str]:
-        """Names of the sources that somebody wants."""
+        """Returns the names of the sources that some target wants."""
         return {source.name for source in self._settings.sources if self._targets_of(source)}
 
     def publish(self, source: Source, message: Any, velocity: Any = None) -> None:
@@ -198,7 +198,7 @@ class SensorServer:
         return True
 
     def _unsent(self, target: Optional[Target]) -> List[str]:
-        """Names of the data types that it wants and will not get, for lack of a source."""
+        """Returns the names of the data types that the target wants but that have no source."""
         if target is None:
             return []
         sent = {each.data_type for each in self._settings.sources if target.wants(each)}
@@ -217,7 +217,7 @@ class SensorServer:
                 self._on_targets()
 
     def clients(self) -> Tuple[Target, ...]:
-        """Everybody who gets messages."""
+        """Returns all targets that get messages."""
         return tuple(self._targets.values())
 
 

@@ -51,5 +51,5 @@ def _make() -> Callable[[float], None]:
 
 
 def main(name: str = "sensor_server_node") -> int:
-    """Exit code of the node."""
+    """Runs the node; returns its exit code."""
     return ros_node.run(name, __doc__, _make, disable_rostime=True)

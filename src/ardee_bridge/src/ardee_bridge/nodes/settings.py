@@ -11,7 +11,7 @@ from ardee_common.config import Mapping
 from ardee_common.errors import GeneratorError
 from ardee_common.options import bounded, converted, option, ros_name
 
-# Too large for a datagram, and slow to convert.
+# Data types that are too large for a datagram, and slow to convert.
 FRAME_KINDS = ("image", "point_cloud")
 _SMALL_KINDS = ("imu", "gyro", "acceleration", "orientation", "gps", "lidar", "encoder", "battery")
 KINDS = {kind: codec.DataType[kind.upper()] for kind in _SMALL_KINDS + FRAME_KINDS}
@@ -21,12 +21,12 @@ SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
 
 
 class Peers(NamedTuple):
-    """Addresses that are listened to."""
+    """Addresses whose messages are accepted."""
 
     networks: Tuple[Tuple[ipaddress.IPv4Network, Optional[int]], ...]
 
     def include(self, sender: Tuple[str, int]) -> bool:
-        """Is this address and port one of them?"""
+        """Returns whether this address and port is one of them."""
         host = ipaddress.IPv4Address(sender[0])
         return any(host in network and port in (None, sender[1]) for network, port in self.networks)
 
@@ -75,7 +75,7 @@ def _peers_option() -> Any:
 
 @dataclass(frozen=True)
 class Destination:
-    """Where sensor messages go from the start, and which: `data_types` as in SetPort."""
+    """A target that gets sensor messages from the start; `data_types` as in SetPort."""
 
     address: str = _address_option()
     port: int = bounded(1, 65535)
@@ -100,7 +100,7 @@ class Source:
 
     @property
     def is_frame(self) -> bool:
-        """Does it send images or clouds?"""
+        """Returns whether the source sends images or clouds."""
         return self.kind in FRAME_KINDS
 
 
@@ -147,7 +147,7 @@ def _source_class(mapping: Mapping) -> type:
 
 @dataclass(frozen=True)
 class ServerSettings:
-    """Of the sensor server."""
+    """Settings of the sensor server."""
 
     bind_address: str = _address_option()
     port: int = bounded(0, 65535)
@@ -166,7 +166,7 @@ class ServerSettings:
 
 @dataclass(frozen=True)
 class ControlSettings:
-    """Of the controls client."""
+    """Settings of the controls client."""
 
     bind_address: str = _address_option()
     port: int = bounded(0, 65535)
@@ -193,7 +193,7 @@ def kept_here(settings: ServerSettings) -> List[str]:
 
 
 def silent(peers: Peers) -> List[str]:
-    """Those from whose address nothing ever comes: multicast groups, and the broadcast to all."""
+    """Destinations that are never a sender's address: multicast groups, and the broadcast to all."""
     everybody = ipaddress.IPv4Address("255.255.255.255")
     hosts = [network.network_address for network, _ in peers.networks if network.num_addresses == 1]
     return [str(host) for host in hosts if host.is_multicast or host == everybody]

@@ -57,7 +57,7 @@ class Assembler:
         self._max_components = max_components
 
     def feed(self, header: codec.Header, data: bytes) -> Optional[Whole]:
-        """The frame that this message completes, if it does."""
+        """Returns the frame that this message completes, or None."""
         kind = codec.data_struct(header)
         head = kind.unpack(data[: kind.size])
         payload = data[kind.size :]

@@ -212,7 +212,7 @@ Buffer = Union[bytes, bytearray, memoryview]
 
 
 def data_struct(header: Header) -> Optional[Type[CStruct]]:
-    """What the data datagram after this header is; None for a message that is not defined."""
+    """Returns the struct of the data datagram after this header; None for an undefined message."""
     request = _REQUESTS.get(header.msg_type)
     return request or DATA_STRUCTS.get((header.msg_type, header.data_type))
 
@@ -289,7 +289,7 @@ def encode_set_port(
     component_id: int = ALL_COMPONENTS,
     request_id: int = 0,
 ) -> Datagrams:
-    """Ask a sensor server for these data types, or with none to send nothing more; see SetPort."""
+    """Asks a sensor server for these data types, or with none to send nothing more; see SetPort."""
     wanted = SetPort(port=port, data_types=type_mask(data_types), component_id=component_id)
     return _encode_request(MessageType.SET_PORT, request_id, wanted)
 

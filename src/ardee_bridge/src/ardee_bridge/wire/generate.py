@@ -59,7 +59,7 @@ def generated(package: Path) -> Dict[Path, str]:
 
 
 def main(package: Path) -> int:
-    """Bring the files up to date."""
+    """Brings the files up to date."""
     for file, text in generated(package).items():
         if file.read_text(encoding="utf-8") != text:
             file.write_text(text, encoding="utf-8")

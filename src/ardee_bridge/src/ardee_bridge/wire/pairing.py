@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which data datagram belongs to which header, though datagrams may be lost, doubled or change places.
+"""Pairs each data datagram with its header, though datagrams may be lost, doubled or change places.
 
 The rule: no data datagram has the size of a header, so one of 20 bytes is a header and any other is data. A receiver
 keeps, for each sender, its latest header that is not used up. Data of the size that this header asks for, within
@@ -42,7 +42,7 @@ class Pairer:
         self._latest[reason] = (sender, found, expected)
 
     def feed(self, sender: Hashable, datagram: bytes, now_s: float) -> Optional[Message]:
-        """The message that this datagram completes, if it does; `now_s` on any clock that does not go back."""
+        """Returns the message that this datagram completes, or None; `now_s` on any clock that does not go back."""
         if len(datagram) == codec.Header.size:
             self._keep(sender, codec.Header.unpack(datagram), now_s)
             return None

@@ -27,7 +27,7 @@ NO_VALUE = -(1 << 31)
 
 
 class Array(NamedTuple):
-    """So many scalars in a row."""
+    """A C array of scalars."""
 
     item: Scalar
     length: int

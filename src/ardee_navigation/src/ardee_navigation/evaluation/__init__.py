@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Experiments: runs of a row follower in simulated fields, and how well it went."""
+"""Experiments: runs of a row follower in simulated fields, and measures of its performance."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a row follower in another process said to each scan, by the scan's simulated time."""
+"""Answers of a row follower in another process to each scan, by the scan's simulated time."""
 import threading
 import time
 from typing import Callable, Dict, Optional
@@ -17,7 +17,7 @@ class Answers:
         return round(1e3 * time_s)
 
     def put(self, answer: dict) -> None:
-        """An answer, with its scan's `time_s`."""
+        """Adds an answer with its scan's `time_s`."""
         with self._lock:
             self._by_time_ms[self._key(answer["time_s"])] = answer
 

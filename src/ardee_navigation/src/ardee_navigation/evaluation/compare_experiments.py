@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `compare_experiments`: what one experiment's runs differ by from another's over the same seeds."""
+"""Command `compare_experiments`: compares the runs of two experiments over the same seeds."""
 import argparse
 from pathlib import Path
 
@@ -12,7 +12,7 @@ def _compare(args: argparse.Namespace) -> str:
 
 
 def main() -> int:
-    """Exit code: 2 for bad input."""
+    """Runs the command; returns the exit code, 2 for bad input."""
     parser = Parser(
         prog="compare_experiments",
         description="Pair the runs of two experiments by seed; print mean differences with 95 %% intervals.",
@@ -21,6 +21,9 @@ def main() -> int:
         "one", type=Path, metavar="ONE", help="folder of a report of run_experiment"
     )
     parser.add_argument(
-        "other", type=Path, metavar="OTHER", help="another; differences are OTHER - ONE"
+        "other",
+        type=Path,
+        metavar="OTHER",
+        help="folder of the other report; differences are OTHER - ONE",
     )
     return run(parser, _compare)

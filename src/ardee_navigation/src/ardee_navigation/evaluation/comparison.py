@@ -51,7 +51,7 @@ class Interval(NamedTuple):
 
 
 def mean_interval(values: Sequence[float]) -> Interval:
-    """Of the mean of two or more normal values (Student)."""
+    """Returns the interval of the mean of two or more normal values (Student)."""
     mean = float(np.mean(values))
     error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
     reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, len(values) - 1)) * error
@@ -59,7 +59,7 @@ def mean_interval(values: Sequence[float]) -> Interval:
 
 
 def poisson_interval(count: int) -> Interval:
-    """Of the expectation of a Poisson count (Garwood 1936)."""
+    """Returns the interval of the expectation of a Poisson count (Garwood 1936)."""
     tail = (1.0 - CONFIDENCE) / 2.0
     low = float(stats.chi2.ppf(tail, 2 * count)) / 2.0 if count else 0.0
     return Interval(float(count), low, float(stats.chi2.ppf(1.0 - tail, 2 * count + 2)) / 2.0)
@@ -72,7 +72,9 @@ def _run(row: Dict[str, str], where: str) -> Tuple[int, Run]:
     except (KeyError, TypeError, ValueError) as error:
         raise GeneratorError(f"{where}: not a line of run_experiment's runs.csv: {error}") from None
     wrong = [name for name, value in run.items() if not math.isfinite(value)]
-    if wrong and run["way_m"] != 0.0:  # without any way most of it is not known
+    if (
+        wrong and run["way_m"] != 0.0
+    ):  # a run that covered no distance has no value for most measures
         raise GeneratorError(f"{where}: {wrong[0]}: found {run[wrong[0]]}, expected a number")
     return seed, run
 

@@ -21,7 +21,7 @@ _NEAR_M = 1.0
 
 
 def depths_m(pose: Pose, stalks: Stalks, near: np.ndarray) -> np.ndarray:
-    """How far the stalks of the given numbers reach into the outline, negative where they stay outside."""
+    """Returns how far the stalks of the given numbers reach into the outline, negative where they stay outside."""
     offset = stalks.xy_m[near] - np.array([pose.x_m, pose.y_m])
     c, s = np.cos(pose.yaw_rad), np.sin(pose.yaw_rad)
     ahead = np.abs(c * offset[:, 0] + s * offset[:, 1]) - LENGTH_M / 2
@@ -33,7 +33,7 @@ def depths_m(pose: Pose, stalks: Stalks, near: np.ndarray) -> np.ndarray:
 
 @dataclass
 class Contacts:
-    """Counts while poses come in."""
+    """Counter of contacts over the poses of a run."""
 
     stalks: Stalks
     collisions: int = 0  # times that contact began

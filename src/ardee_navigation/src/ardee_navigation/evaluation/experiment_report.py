@@ -61,7 +61,7 @@ def _latency(records: Sequence[Record]) -> str:
 
 
 def _cells(summary: Summary) -> List[str]:
-    """What there is no figure for is a dash."""
+    """Returns the cells of a row; a missing figure is a dash."""
     texts = (cell(summary) for _, cell in _TABLE)
     return ["-" if "nan" in text else text for text in texts]
 
@@ -89,7 +89,7 @@ def table(records: Sequence[Record]) -> str:
 
 
 def in_short(record: Record) -> str:
-    """A run in a line, for a log."""
+    """Returns a run in one line, for a log."""
     summary = summarize([record])
     way = f"{summary.way_m:.1f} m, lateral RMS {100 * summary.lateral_rms_m:.1f} cm"
     if summary.way_m == 0.0:
@@ -124,7 +124,7 @@ def _stem(record: Record) -> str:
 
 
 def write_run(record: Record, folder: Path) -> None:
-    """CSV and figures of a run into a folder."""
+    """Writes the CSV file and the figures of a run into a folder."""
     stem = _stem(record)
     write_csv(record, folder / f"{stem}.csv")
     figures.perceived_distances(record, folder / f"{stem}_lidar.png")

@@ -53,7 +53,7 @@ class Bridge:
         self._nodes = [start_child(["rosrun", "ardee_bridge", *node]) for node in (server, client)]
 
     def stop(self) -> None:
-        """End them."""
+        """Ends both nodes."""
         for node in self._nodes:
             stop_child(node)
 
@@ -81,7 +81,7 @@ class Follower:
             self._answers.put(json.loads(line))
 
     def stop(self) -> None:
-        """Ends it."""
+        """Ends the process."""
         stop_child(self._child)
 
     def _check(self) -> None:
@@ -102,7 +102,7 @@ class Latency:
         self._subscriber = rospy.Subscriber("/cmd_vel", Twist, self._on_command, tcp_nodelay=True)
 
     def on_scan(self) -> None:
-        """Call when a scan has arrived."""
+        """Takes the arrival time of a scan."""
         self._scans.append(time.monotonic())
 
     def _on_command(self, _command: Twist) -> None:
@@ -110,7 +110,7 @@ class Latency:
             self.milliseconds.append(1e3 * (time.monotonic() - self._scans.pop()))
 
     def stop(self) -> None:
-        """Listen no more."""
+        """Stops listening."""
         self._subscriber.unregister()
 
 
@@ -120,7 +120,7 @@ def _seen(answer: dict) -> Seen:
 
 
 def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: float) -> object:
-    """Judge the next scan, if the follower answered it."""
+    """Judges the next scan if the follower answered it."""
     scan = simulation.scan()
     now_s = scan.header.stamp.to_sec()
     answer = follower.answer(now_s, patience_s)

@@ -17,7 +17,7 @@ SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 
 
 def _settle(simulation: Simulation) -> None:
-    """Let the robot come to rest; forget what was scanned meanwhile."""
+    """Lets the robot come to rest; discards the scans of that time."""
     simulation.command(0.0, 0.0)
     end_s = simulation.step(SETTLE_STEPS)
     before_s = now_s = simulation.scan().header.stamp.to_sec()
@@ -41,7 +41,7 @@ def drive(
     judge: Judge,
     progress: Callable[[float], None],
 ) -> Record:
-    """One run; the robot stands at its start. `progress` is told how far along the lane it is [m]."""
+    """Drives one run; the robot stands at its start. `progress` is told how far along the lane it is [m]."""
     began = time.monotonic()
     follower = RowFollower(parameters)
     _settle(simulation)

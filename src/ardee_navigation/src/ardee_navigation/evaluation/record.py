@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a run leaves: a sample a scan, raw lidar returns beside the robot, and what went wrong; all as plain data."""
+"""Everything that one run leaves behind: samples, raw lidar returns beside the robot, interventions; as plain data."""
 import dataclasses
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -36,7 +36,7 @@ COLUMNS = tuple(f.name for f in dataclasses.fields(Sample))
 
 @dataclass(frozen=True)
 class Intervention:
-    """A person had to step in."""
+    """An event in which a person had to step in."""
 
     time_s: float
     along_m: float
@@ -45,7 +45,7 @@ class Intervention:
 
 @dataclass
 class Record:
-    """All of a run."""
+    """Complete record of a run."""
 
     scenario: str
     number: int
@@ -67,7 +67,7 @@ class Record:
     unanswered: int = 0  # scans to which it sent no command
 
     def column(self, name: str) -> np.ndarray:
-        """One value of all samples."""
+        """Returns one value of all samples."""
         return np.array([getattr(sample, name) for sample in self.samples])
 
 
@@ -76,7 +76,7 @@ def _text(value: object) -> str:
 
 
 def write_csv(record: Record, path: Path) -> None:
-    """A line a sample."""
+    """Writes one line per sample."""
     with path.open("w") as file:
         file.write(",".join(COLUMNS) + "\n")
         for sample in record.samples:

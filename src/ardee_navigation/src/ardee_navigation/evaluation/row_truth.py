@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a row follower is measured against: rows and stalks of a field's truth file, and the lane between two rows."""
+"""Reference for a row follower: rows and stalks of a field's truth file, and the lane between two rows."""
 import json
 import math
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ _SAME_WAY_RAD = math.pi / 2
 
 
 class Pose(NamedTuple):
-    """On the ground plan, in the world."""
+    """A pose on the ground plan, in the world frame."""
 
     x_m: float
     y_m: float
@@ -40,7 +40,7 @@ class Field:
 
 
 def read_field(path: Path) -> Field:
-    """A generator's truth.json."""
+    """Reads a generator's truth.json."""
     try:
         if path.stat().st_size > _LARGEST_BYTES:
             raise GeneratorError(f"{path}: found more than {_LARGEST_BYTES} bytes, expected fewer")
@@ -86,11 +86,11 @@ class Polyline:
 
     @property
     def length_m(self) -> float:
-        """From the first to the last point."""
+        """Length from the first to the last point."""
         return float(self._arc_m[-1])
 
     def project(self, x_m: float, y_m: float) -> Projection:
-        """The nearest point."""
+        """Returns the projection onto the nearest point."""
         offset = np.array([x_m, y_m]) - self.points_m[:-1]
         unit = self._step / self._length_m[:, None]
         along = (offset * unit).sum(axis=1)
@@ -107,7 +107,7 @@ class Polyline:
         )
 
     def at(self, along_m: float) -> Pose:
-        """Point and direction so far along."""
+        """Returns the point and the direction at a distance along the line."""
         i = int(np.clip(np.searchsorted(self._arc_m, along_m) - 1, 0, len(self._step) - 1))
         unit = self._step[i] / self._length_m[i]
         x, y = self.points_m[i] + (along_m - self._arc_m[i]) * unit
@@ -115,7 +115,7 @@ class Polyline:
 
 
 class Deviation(NamedTuple):
-    """How a robot stands in its lane."""
+    """Position and heading of a robot relative to its lane."""
 
     along_m: float  # on the centre line, from the row's first place
     lateral_m: float  # positive: left of the centre line
@@ -126,14 +126,14 @@ class Deviation(NamedTuple):
 
 @dataclass(frozen=True)
 class Lane:
-    """Between two neighbouring rows, seen in the direction of travel."""
+    """The lane between two neighbouring rows, seen in the direction of travel."""
 
     left: Polyline
     right: Polyline
     centre: Polyline
 
     def deviation(self, pose: Pose) -> Deviation:
-        """Of a pose from the lane's centre line, and its distances to the ideal lines of the rows."""
+        """Returns a pose's deviation from the centre line and its distances to the rows' ideal lines."""
         x, y, yaw = pose
         centre = self.centre.project(x, y)
         left, right = self.left.project(x, y), self.right.project(x, y)

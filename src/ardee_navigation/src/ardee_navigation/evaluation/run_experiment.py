@@ -35,21 +35,32 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
         description="Let the row follower drive fields of a scenario and write a report; run r has the seed SEED + r.",
     )
     parser.add_argument(
-        "--scenario", required=True, choices=names, metavar="NAME", help=", ".join(names)
+        "--scenario",
+        required=True,
+        choices=names,
+        metavar="NAME",
+        help="name of the scenario: " + ", ".join(names),
     )
-    parser.add_argument("--runs", type=whole_in(1, 10_000), default=10, help="[%(default)s]")
     parser.add_argument(
-        "--seed", type=whole_in(0, LARGEST_SEED), default=1, help="of the first run [%(default)s]"
+        "--runs", type=whole_in(1, 10_000), default=10, help="number of runs [%(default)s]"
+    )
+    parser.add_argument(
+        "--seed",
+        type=whole_in(0, LARGEST_SEED),
+        default=1,
+        help="seed of the first run [%(default)s]",
     )
     parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
     parser.add_argument(
         "--parameters", type=Path, help="YAML file of the row follower's parameters"
     )
-    parser.add_argument("--bot-model", default="tsv1_default.urdf.xacro", help="[%(default)s]")
+    parser.add_argument(
+        "--bot-model", default="tsv1_default.urdf.xacro", help="robot model file [%(default)s]"
+    )
     parser.add_argument(
         "--hil",
         action="store_true",
-        help="in real time, with the row follower as a process without ROS that speaks only UDP",
+        help="run in real time, with the row follower as a process without ROS that speaks only UDP",
     )
     args = parser.parse_args(argv)
     if args.seed + args.runs - 1 > LARGEST_SEED:
@@ -60,7 +71,7 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
 def _one_run(
     scenario: Scenario, args: argparse.Namespace, number: int, urdf: str, work: Path
 ) -> Record:
-    """Sow, start the simulator, drive, end it."""
+    """Generates a field, starts the simulator, drives one run, ends the simulator."""
     if args.hil:
         from ardee_navigation.evaluation.hil import drive
     else:
@@ -108,7 +119,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
             folder.mkdir()
             records.append(_one_run(scenario, args, number, urdf, folder))
             write_run(records[-1], output)
-            report = write_report(records, command, output)  # what there is outlives a Ctrl-C
+            report = write_report(records, command, output)  # the runs so far survive a Ctrl-C
             if not sys.stderr.isatty():  # no bar there
                 print(f"{number + 1} of {args.runs}: {in_short(records[-1])}", file=sys.stderr)
             shutil.rmtree(folder)
@@ -133,7 +144,7 @@ def _stop_here(number: int, _frame: Any) -> NoReturn:
 
 
 def main() -> int:
-    """Exit code: 0 all runs were driven, 1 the simulator failed, 2 bad input."""
+    """Runs the command; returns the exit code: 0 all runs were driven, 1 the simulator failed, 2 bad input."""
     try:
         args = _arguments(sys.argv[1:])
     except GeneratorError as error:

@@ -13,7 +13,7 @@ NEAR_M = 0.10  # the share of the way that lies within this of the centre line
 
 @dataclass(frozen=True)
 class Summary:
-    """Of a run, or of several together. Lengths count the way between the first and the last place of the rows.
+    """Numbers of a run, or of several together. Lengths count the way between the first and the last place of the rows.
 
     Without any such way, what is measured on it is nan.
     """
@@ -40,7 +40,7 @@ class Summary:
 
 
 def in_row(record: Record) -> np.ndarray:
-    """Which samples lie between the rows' first and last places."""
+    """Returns which samples lie between the rows' first and last places."""
     along = record.column("along_m")
     return (along >= 0.0) & (along <= record.length_m)
 
@@ -65,7 +65,7 @@ def _largest(values: np.ndarray) -> float:
 
 
 def summarize(records: Sequence[Record]) -> Summary:
-    """All samples of the runs together, each weighted by the way it stands for."""
+    """Summarizes all samples of the runs together, each weighted by the way it stands for."""
     chosen = [in_row(record) & (way_steps_m(record) > 0.0) for record in records]
 
     def joined(name: str) -> np.ndarray:

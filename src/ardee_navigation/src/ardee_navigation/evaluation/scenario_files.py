@@ -22,7 +22,7 @@ class Scenario:
 
 @dataclass(frozen=True)
 class Start:
-    """Where a world's .start.yaml sets a robot down."""
+    """Start pose of a robot in a world's .start.yaml."""
 
     x_m: float = bounded(-1e6, 1e6, 0.0)
     y_m: float = bounded(-1e6, 1e6, 0.0)
@@ -31,11 +31,11 @@ class Start:
 
 
 def read_scenarios(path: Path) -> Dict[str, Scenario]:
-    """Name to scenario of a file."""
+    """Returns the scenarios of a file by name."""
     mapping = read_yaml_lines(path)
     return {name: build_group(Scenario, mapping, name) for name in mapping}
 
 
 def read_parameters(path: Path) -> Parameters:
-    """Parameters of the row follower from a YAML file with any of their names as keys."""
+    """Reads the row follower's parameters from a YAML file with any of their names as keys."""
     return build(Parameters, read_yaml_lines(path))

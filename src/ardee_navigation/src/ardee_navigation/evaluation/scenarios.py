@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenarios by name, and what a run needs of one: a fresh field, its truth, a start pose, the ground."""
+"""Scenarios by name, and the parts of a run in one: a fresh field, its truth, a start pose, the ground."""
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, List
@@ -25,12 +25,12 @@ START_SD_M, START_SD_RAD = (
 
 
 def package_folder(name: str) -> Path:
-    """Of a ROS package."""
+    """Returns the folder of a ROS package."""
     return Path(rospkg.RosPack().get_path(name))
 
 
 def known_scenarios() -> Dict[str, Scenario]:
-    """Name to scenario of this package's file."""
+    """Returns the scenarios of this package's file by name."""
     return read_scenarios(package_folder("ardee_navigation") / "config" / "scenarios.yaml")
 
 
@@ -72,7 +72,7 @@ def start_near(start: Start, seed: int) -> Pose:
 
 
 def prepare(scenario: Scenario, seed: int, folder: Path) -> Trial:
-    """Sow the field of a run into a folder of models and find what goes with it."""
+    """Generates the field of a run in a folder of models and finds its truth, start and ground."""
     share = package_folder("ardee_world")
     world = share / "worlds" / scenario.world
     if not world.is_file():

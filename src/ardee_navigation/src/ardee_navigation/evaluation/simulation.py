@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A simulation of one's own: a ROS master on a port that the kernel picks, the simulator, one robot.
+"""A private simulation: a ROS master on a port that the kernel picks, the simulator, one robot.
 
 In lockstep nothing depends on the machine's speed: a command has reached the simulator before the next step is
 asked for. It is written to its socket in the calling thread (no queue), and the pose is asked for between command
@@ -33,7 +33,7 @@ _PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less
 
 
 class SimulationError(RuntimeError):
-    """The simulator did not do what was asked."""
+    """Error of a simulator that did not do what was asked."""
 
 
 class Master:
@@ -49,7 +49,7 @@ class Master:
         rospy.init_node("run_experiment", disable_signals=True)
 
     def stop(self) -> None:
-        """Leave the graph and end it."""
+        """Leaves the ROS graph and ends the master."""
         rospy.signal_shutdown("done")
         self._master.stop()
 
@@ -120,7 +120,7 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """End the simulator and leave its topics."""
+        """Ends the simulator and leaves its topics."""
         for service in self._services.values():
             service.close()
         for port in (self._commands, self._subscriber):
@@ -145,7 +145,7 @@ class Simulation:
         _until(there, name)
 
     def call(self, name: str, kind: type, *arguments: object, **fields: object):
-        """Answer of a service that succeeded."""
+        """Calls a service; returns its answer, raises SimulationError unless it succeeds."""
         if name not in self._services:
             self._services[name] = rospy.ServiceProxy(name, kind, persistent=True)
         try:
@@ -158,7 +158,7 @@ class Simulation:
         return answer
 
     def spawn(self, urdf: str, pose: Pose, z_m: float) -> None:
-        """The robot, with its scan and command topics connected."""
+        """Spawns the robot, with its scan and command topics connected."""
         fields = (ROBOT, urdf, "/", to_ros(pose, z_m), "world")
         self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
         self._subscriber = rospy.Subscriber(
@@ -178,11 +178,11 @@ class Simulation:
         self.scans.put(scan)
 
     def step(self, steps: int) -> float:
-        """Simulated time [s] after so many physics steps."""
+        """Takes this many physics steps; returns the simulated time [s] after them."""
         return self.call("/ardee/step", Step, steps).sim_time.to_sec()
 
     def scan(self, patience_s: float = 20.0) -> LaserScan:
-        """The next scan."""
+        """Returns the next scan."""
         try:
             return self.scans.get(timeout=patience_s)
         except queue.Empty:
@@ -190,18 +190,18 @@ class Simulation:
             raise SimulationError(f"no scan in {patience_s:.0f} s") from None
 
     def command(self, speed_m_s: float, turn_rad_s: float) -> Pose:
-        """Give a command; when the pose is returned, the simulator has it."""
+        """Sends a command; when the pose is returned, the simulator has it."""
         twist = Twist()
         twist.linear.x, twist.angular.z = speed_m_s, turn_rad_s
         self._commands.publish(twist)
         return self.pose()
 
     def pose(self) -> Pose:
-        """Of the robot in the world."""
+        """Returns the pose of the robot in the world frame."""
         answer = self.call("/gazebo/get_model_state", GetModelState, ROBOT, "world")
         return from_ros(answer.pose)
 
     def set_pose(self, pose: Pose, z_m: float) -> None:
-        """Put the robot somewhere, at rest."""
+        """Sets the robot down at a pose, at rest."""
         state = ModelState(model_name=ROBOT, pose=to_ros(pose, z_m), reference_frame="world")
         self.call("/gazebo/set_model_state", SetModelState, state)

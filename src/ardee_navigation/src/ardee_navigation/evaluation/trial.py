@@ -27,7 +27,7 @@ RAW_WITHIN_M = 1.0
 
 @dataclass(frozen=True)
 class Seen:
-    """What the row follower says after a scan."""
+    """Answer of the row follower to one scan."""
 
     left_m: float
     right_m: float
@@ -55,7 +55,7 @@ class Judge:
     def look(
         self, time_s: float, pose: Pose, command: Tuple[float, float], seen: Seen
     ) -> Optional[Pose]:
-        """Take down a sample."""
+        """Records a sample."""
         if self._began_s is None:
             self._began_s = time_s
         here = self.lane.deviation(pose)
@@ -120,7 +120,7 @@ class Judge:
         return "stopped in the row" if seen.state == "finished" else None
 
     def _stands(self, time_s: float, pose: Pose) -> bool:
-        """Commanded motion without motion; so does a robot that waits for a row where it ought to see one."""
+        """Returns whether the robot stands despite a motion command, or waits for a row that it ought to see."""
         self._track.append((time_s, pose))
         while time_s - self._track[0][0] > STUCK_AFTER_S + 1e-9:
             self._track.popleft()
@@ -141,7 +141,7 @@ class Judge:
             self.record.end = "given up"
 
     def finish(self, wall_s: float) -> Record:
-        """The record, whole."""
+        """Returns the complete record."""
         self.record.collisions = self._contacts.collisions
         self.record.touched = len(self._contacts.touched)
         self.record.knocked = len(self._contacts.knocked)

@@ -22,7 +22,7 @@ class Pid:
         self.reset()
 
     def reset(self) -> None:
-        """Forget the past."""
+        """Resets the integral and the derivative."""
         self._integral, self._derivative, self._last = (
             0.0,
             0.0,

@@ -16,7 +16,7 @@ from ardee_navigation.lbirnt.validity import valid_sides
 
 
 class State(Enum):
-    """Where in an experimental run the robot is (thesis 5.2.1)."""
+    """Phase of an experimental run (thesis 5.2.1)."""
 
     WAITING = "waiting"  # no row seen yet
     FOLLOWING = "following"
@@ -31,7 +31,7 @@ class Output:
     speed_m_s: float
     turn_rad_s: float
     lane: Lane  # lines in use
-    valid: Tuple[bool, bool]  # was the left, the right line valid in this scan
+    valid: Tuple[bool, bool]  # whether the left and the right line were valid in this scan
     sides: Tuple[np.ndarray, np.ndarray]  # points of each side that were fitted
     error_m: float
 
@@ -51,12 +51,12 @@ class RowFollower:
         self.reset()
 
     def reset(self) -> None:
-        """As before the first scan: after the robot was set down anew."""
+        """Restores the state before the first scan; call it after the robot was set down anew."""
         self._state = State.WAITING
         self._forget()
 
     def _forget(self) -> None:
-        """Know nothing of the lane and of the robot's motion, as before the first scan."""
+        """Forgets the lane and the robot's motion, as before the first scan."""
         self._lane = straight_lane(self._parameters)
         self._last_s = None  # type: Optional[float]
         self._unseen_s = (
@@ -70,9 +70,9 @@ class RowFollower:
     def update(
         self, ranges_m: np.ndarray, angle_min_rad: float, increment_rad: float, time_s: float
     ) -> Output:
-        """What to do after the scan taken at `time_s`."""
+        """Returns the output for the scan taken at `time_s`."""
         if self._last_s is not None and time_s - self._last_s > self._parameters.max_gap_s:
-            self._forget()  # who knows where the robot is: it may have been stopped meanwhile
+            self._forget()  # the robot's place is unknown: it may have been stopped meanwhile
         dt_s = 0.0 if self._last_s is None else max(time_s - self._last_s, 0.0)
         self._last_s = time_s
         points = preprocess.to_cartesian(ranges_m, angle_min_rad, increment_rad)

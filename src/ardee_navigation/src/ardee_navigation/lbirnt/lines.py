@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Lines y = m x + b fitted to the points of a row, and what is read off them (thesis 5.1.1, equations 5.1 and 5.2)."""
+"""Lines y = m x + b fitted to the points of a row, and quantities from them (thesis 5.1.1, equations 5.1 and 5.2)."""
 import math
 from dataclasses import dataclass
 from typing import Optional
@@ -16,7 +16,7 @@ class Line:
 
     @property
     def angle_rad(self) -> float:
-        """Of the row to the robot, counter-clockwise."""
+        """Angle of the row to the robot, counter-clockwise."""
         return math.atan(self.slope)
 
     @property
@@ -29,13 +29,13 @@ class Line:
         return self.slope * x_m + self.offset_m
 
     def shifted(self, distance_m: float) -> "Line":
-        """The parallel line so far to the left."""
+        """Returns the parallel line at this distance to the left."""
         return Line(self.slope, self.offset_m + distance_m * math.hypot(1.0, self.slope))
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """A fitted line with what its validation looks at."""
+    """A fitted line with the quantities that validate it."""
 
     line: Line
     points: int  # np of equation 5.3

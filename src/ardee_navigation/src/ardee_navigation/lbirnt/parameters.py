@@ -57,7 +57,7 @@ class Parameters:
     max_gap_s: float = bounded(0.1, 60.0, 0.5)  # no scan for longer: find the rows anew [own]
 
     def __post_init__(self) -> None:
-        """Raise ValueError for a value beyond its limits, or values with which no row would ever be followed."""
+        """Raises ValueError for a value beyond its limits, or values with which no row would ever be followed."""
         for one in fields(self):
             value, (low, high) = getattr(self, one.name), one.metadata["limits"]
             if not (math.isfinite(value) and low <= value <= high):

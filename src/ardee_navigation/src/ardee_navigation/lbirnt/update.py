@@ -22,18 +22,18 @@ class Lane:
 
     @property
     def width_m(self) -> float:
-        """Perceived, from row to row."""
+        """Perceived width from row to row."""
         return self.left.distance_m - self.right.distance_m
 
 
 def straight_lane(parameters: Parameters) -> Lane:
-    """What is assumed before the first scan: the robot stands in the middle and looks along the lane."""
+    """Returns the lane assumed before the first scan: the robot stands in the middle and looks along the lane."""
     half = parameters.lane_width_m / 2.0
     return Lane(Line(0.0, half), Line(0.0, -half))
 
 
 def blend(before: Line, found: Line, weight: float) -> Line:
-    """Between the line before (weight 0) and the one found (weight 1)."""
+    """Returns a line between the one before (weight 0) and the one found (weight 1)."""
     return Line(
         before.slope + weight * (found.slope - before.slope),
         before.offset_m + weight * (found.offset_m - before.offset_m),

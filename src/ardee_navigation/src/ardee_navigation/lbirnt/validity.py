@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which of the two fitted lines may be believed (thesis 5.1.2, equation 5.3)."""
+"""Validity of the two fitted lines (thesis 5.1.2, equation 5.3)."""
 from typing import Optional, Tuple
 
 from ardee_navigation.lbirnt.lines import Estimate, Line
@@ -56,7 +56,7 @@ def valid_sides(
     before: Tuple[Optional[Line], Optional[Line]],
     parameters: Parameters,
 ) -> Tuple[bool, bool]:
-    """Whether the left and the right line are valid. Of two that do not fit together the better graded one stays."""
+    """Returns whether the left and the right line are valid. If they do not fit together, the better graded one is."""
     left_good = is_acceptable(left, before[0], parameters)
     right_good = is_acceptable(right, before[1], parameters)
     if left_good and right_good and not fit_together(left, right, parameters):

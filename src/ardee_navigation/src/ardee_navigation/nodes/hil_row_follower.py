@@ -82,14 +82,14 @@ class Target:
         self._out_of_reach.discard(to)
 
     def _say_once(self, to: Address, error: OSError) -> None:
-        """Why nothing can be sent there, until something could."""
+        """Logs once why nothing can be sent there, until a message could be sent again."""
         if to not in self._out_of_reach:
             self._out_of_reach.add(to)
             text = f"hil_row_follower: cannot send to {to[0]}:{to[1]}: {error.strerror or error}"
             print(text, file=sys.stderr, flush=True)
 
     def ask(self) -> None:
-        """Ask the server for scans, now and then again, so that either may start first or start again."""
+        """Asks the server for scans, repeatedly, so that either may start first or start again."""
         if time.monotonic() - self._asked_s >= ASK_EVERY_S:
             self._asked_s = time.monotonic()
             self._send(codec.encode_set_port(WANTED), self._sensors)
@@ -134,7 +134,7 @@ class Target:
         return command
 
     def stop(self) -> None:
-        """Tell the robot to stand still, the server to send nothing more, and close."""
+        """Tells the robot to stand still and the server to send nothing more, and closes the socket."""
         self._send(codec.encode_motion_si(0.0, 0.0), self._controls)
         self._send(codec.encode_set_port(()), self._sensors)
         self._socket.close()
@@ -225,7 +225,7 @@ def _follow(target: Target, log: Optional[IO[str]]) -> None:
 
 
 def main() -> int:
-    """Exit code: 2 for bad input, else runs until it is told to end."""
+    """Runs until it is told to end; returns the exit code, 2 for bad input."""
     args = _arguments(sys.argv[1:])
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _stop_here)

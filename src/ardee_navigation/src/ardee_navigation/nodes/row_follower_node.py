@@ -64,7 +64,7 @@ def points_marker(header: Header, sides: List[np.ndarray]) -> Marker:
 
 
 def markers(header: Header, output: Output, parameters: Parameters) -> MarkerArray:
-    """All of what the follower sees."""
+    """Returns markers of everything the follower sees."""
     lane, valid = output.lane, output.valid
     lines = (
         ("left line", lane.left, VALID if valid[0] else INVALID),
@@ -119,7 +119,7 @@ class Node:
         if output.state.value != self._state:
             self._state = output.state.value
             self._status.publish(self._state)
-            if self._drive:  # else whoever drives says it
+            if self._drive:  # otherwise the node that drives logs it
                 rospy.loginfo("%s", self._state)
 
     def _on_odometry(self, odometry: Odometry) -> None:
@@ -146,7 +146,7 @@ class Node:
         self._commands.publish(command)
 
     def watch(self, wait_s: float) -> None:
-        """Wait; stop the robot once if scans have stopped, for it keeps to its last command."""
+        """Waits; stops the robot once if scans have stopped, for it keeps to its last command."""
         time.sleep(wait_s)
         with self._sending:
             if self._drive and self._silence.begins(rospy.get_time(), time.monotonic()):
@@ -154,7 +154,7 @@ class Node:
                 rospy.logwarn("no scans for %g s: stopped", self._parameters.max_gap_s)
 
     def stop(self) -> None:
-        """Tell the robot to stand still, for good: scans may still come while the node ends."""
+        """Tells the robot to stand still, for good: scans may still come while the node ends."""
         with self._sending:
             self._send(0.0, 0.0)
             self._has_ended = True
@@ -181,5 +181,5 @@ def _make() -> Callable[[float], None]:
 
 
 def main() -> int:
-    """Exit code: 2 for bad parameters."""
+    """Runs the node; returns the exit code, 2 for bad parameters."""
     return ros_node.run("row_follower", __doc__, _make)

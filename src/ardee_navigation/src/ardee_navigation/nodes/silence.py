@@ -14,11 +14,11 @@ class Silence:
         self._heard_s = None  # type: Optional[Tuple[float, float]]
 
     def end(self, simulated_s: float, wall_s: float) -> None:
-        """A scan was answered now."""
+        """Ends the silence: a scan was answered now."""
         self._heard_s = (simulated_s, wall_s)
 
     def begins(self, simulated_s: float, wall_s: float) -> bool:
-        """Whether it has just become too long; once a silence, and not before the first scan."""
+        """Returns whether the silence has just become too long; true once a silence, never before the first scan."""
         if self._heard_s is None:
             return False
         since_s = min(simulated_s, self._heard_s[0])  # less: the simulation was started again
