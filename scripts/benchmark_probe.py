@@ -141,10 +141,17 @@ def main() -> None:
     """Ready, spawn, first scan, and with --pid-file's process as the simulator a drive."""
     parser = Parser()
     parser.add_argument("--urdf", type=pathlib.Path, required=True)
-    parser.add_argument("--start", type=float, nargs=4, required=True, help="x y z yaw [m, rad]")
+    parser.add_argument(
+        "--start", type=float, nargs=4, required=True, help="start pose x y z yaw [m, rad]"
+    )
     parser.add_argument("--lane-m", type=float, required=True)
     parser.add_argument("--speed-m-s", type=float, default=0.5)
-    parser.add_argument("--window-s", type=float, default=0.0, help="of wall time; 0: no drive")
+    parser.add_argument(
+        "--window-s",
+        type=float,
+        default=0.0,
+        help="duration of the drive in wall time [s]; 0: no drive",
+    )
     parser.add_argument("--pid-file", type=pathlib.Path, required=True)
     found = parser.parse_args()
     rospy.init_node("benchmark", anonymous=True)

@@ -52,7 +52,10 @@ def options() -> argparse.Namespace:
         help="wall time of a drive with ROS [s]",
     )
     parser.add_argument(
-        "--loss-s", type=number_in(0.5, 86400.0), default=60.0, help="of the bridge beside cameras"
+        "--loss-s",
+        type=number_in(0.5, 86400.0),
+        default=60.0,
+        help="duration of the bridge's measurement beside cameras [s]",
     )
     parser.add_argument(
         "--brief",
