@@ -8,8 +8,8 @@ import sys
 import pytest
 
 from ardee_bridge.wire import codec
+from ardee_bridge.wire.c_struct import INT32, NO_VALUE, Array
 from ardee_bridge.wire.scales import SCALES
-from ardee_bridge.wire.struct_layout import INT32, NO_VALUE, Array
 
 
 def random_raw(kind, rng):

@@ -8,7 +8,7 @@ from sensor_msgs.msg import Imu, LaserScan
 
 from ardee_bridge.nodes import convert
 from ardee_bridge.wire import codec
-from ardee_bridge.wire.struct_layout import NO_VALUE
+from ardee_bridge.wire.c_struct import NO_VALUE
 from ardee_msgs.msg import Battery, Encoder
 
 

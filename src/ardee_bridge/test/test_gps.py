@@ -8,7 +8,7 @@ from sensor_msgs.msg import NavSatFix
 from ardee_bridge.nodes import convert
 from ardee_bridge.nodes.fix_velocity import FixWithVelocity
 from ardee_bridge.wire import codec
-from ardee_bridge.wire.struct_layout import NO_VALUE
+from ardee_bridge.wire.c_struct import NO_VALUE
 
 
 def test_gps():

@@ -70,11 +70,6 @@ void read_range(const Element& range, RayBlock& block) {
 
 }  // namespace
 
-double RangeNoise::corrupt(double range_m, double normal) const {
-  const double noisy_m = range_m + mean_m + (std_m + growth * range_m) * normal;
-  return precision_m > 0.0 ? precision_m * std::round(noisy_m / precision_m) : noisy_m;
-}
-
 RayBlock read_ray_block(const SensorDescription& sensor, Log& log) {
   RayBlock block;
   const Element* ray = sensor.element.child("ray");

@@ -2,25 +2,11 @@
 #pragma once
 
 #include "ardee_sim/core/log.h"
-#include "ardee_sim/core/rng.h"
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/devices/range_noise.h"
 
 namespace ardee::devices {
-
-/// Errors of a measured range: normal, with a deviation that grows with it.
-struct RangeNoise {
-  double mean_m = 0.0;
-  double std_m = 0.0;
-  double growth = 0.0;       // deviation added, m per m of range
-  double precision_m = 0.0;  // noisy ranges are multiples of it; 0: not quantised
-
-  bool is_none() const {
-    return mean_m == 0.0 && std_m <= 0.0 && growth <= 0.0 && precision_m <= 0.0;
-  }
-  /// A finite range as it is measured, before the device's limits; `normal` is a standard normal.
-  double corrupt(double range_m, double normal) const;
-};
 
 /// SDF's <ray> block: rays from one point over a grid of angles, and what limits and disturbs their
 /// ranges. Column i leaves at angle_min + i * increment about z, row j at an elevation likewise,
@@ -52,7 +38,7 @@ struct RayBlock {
   }
 };
 
-/// Reads and checks it, and that the sensor has no <update_rate> below 0.
+/// Reads and checks it.
 RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
 
 }  // namespace ardee::devices

@@ -10,8 +10,8 @@ from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.requests import Requests
 from ardee_bridge.nodes.settings import ControlSettings
 from ardee_bridge.wire import codec
+from ardee_bridge.wire.c_struct import NO_VALUE
 from ardee_bridge.wire.pairing import Message
-from ardee_bridge.wire.struct_layout import NO_VALUE
 from ardee_bridge.wire.udp import Sender
 
 

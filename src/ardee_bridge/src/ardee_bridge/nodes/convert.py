@@ -9,8 +9,8 @@ import numpy as np
 from PIL import Image
 
 from ardee_bridge.wire import codec
+from ardee_bridge.wire.c_struct import INT32, NO_VALUE
 from ardee_bridge.wire.chunks import MAX_TOTAL
-from ardee_bridge.wire.struct_layout import INT32, NO_VALUE
 
 Vector = codec.Xyz
 

@@ -9,6 +9,7 @@ Standard library only, so that a target computer can use it. A message is two da
 import math
 from typing import Dict, List, Optional, Sequence, Tuple, Type, Union
 
+from ardee_bridge.wire.c_struct import INT8, INT32, UINT8, UINT16, Array, CStruct
 from ardee_bridge.wire.enums import (  # noqa: F401
     ControlCode,
     DataType,
@@ -17,7 +18,6 @@ from ardee_bridge.wire.enums import (  # noqa: F401
     MessageType,
 )
 from ardee_bridge.wire.scales import scale_of
-from ardee_bridge.wire.struct_layout import INT8, INT32, UINT8, UINT16, Array, CStruct
 
 LIDAR_SLOTS = 1081
 RANGE_TOO_FAR, RANGE_TOO_NEAR = -1000, -2000

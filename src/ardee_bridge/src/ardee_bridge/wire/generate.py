@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Dict, List, Type
 
 from ardee_bridge.wire import codec
+from ardee_bridge.wire.c_struct import INT32
 from ardee_bridge.wire.scales import SCALES
-from ardee_bridge.wire.struct_layout import INT32
 
 BEGIN, END = "begin generated", "end generated"
 

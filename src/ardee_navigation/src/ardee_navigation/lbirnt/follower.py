@@ -9,9 +9,9 @@ import numpy as np
 
 from ardee_navigation.lbirnt import preprocess
 from ardee_navigation.lbirnt.control import Pid, centre_error_m, turn_rate_rad_s
+from ardee_navigation.lbirnt.lane import Lane, straight_lane, turned, update_lane
 from ardee_navigation.lbirnt.lines import Estimate, estimate
 from ardee_navigation.lbirnt.parameters import Parameters
-from ardee_navigation.lbirnt.update import Lane, straight_lane, turned, update_lane
 from ardee_navigation.lbirnt.validity import valid_sides
 
 
