@@ -9,7 +9,7 @@ from ardee_common.errors import GeneratorError
 
 
 def _package_folder() -> pathlib.Path:
-    """Where config/ is: beside this folder in the source tree, where rospack says once installed."""
+    """The folder config/: beside this one in the source tree, found by rospack once installed."""
     beside = pathlib.Path(__file__).resolve().parents[1]
     if (beside / "config").is_dir():
         return beside
@@ -72,7 +72,7 @@ def read_numbers(path: pathlib.Path) -> List[Number]:
 
 
 def sources() -> Dict[str, str]:
-    """What each mark means; of a mark of several words (`thesis A.12`) the first is looked up."""
+    """Meanings of the marks; of a mark of several words (`thesis A.12`) the first is looked up."""
     return read_yaml_lines(CONFIG / "sources.yaml")
 
 

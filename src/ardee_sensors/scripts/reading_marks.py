@@ -39,7 +39,7 @@ def text(lines: Sequence[str], height_m: float = TEXT_HEIGHT_M) -> Marker:
 def arrow(
     number: int, frame: str, vector: Any, scale: float, color: Tuple[float, float, float]
 ) -> Marker:
-    """From the frame's origin along a vector of the frame."""
+    """An arrow from the frame's origin along a vector of the frame."""
     marker = _marker(number, Marker.ARROW, frame, color)
     marker.points = [Point(), Point(scale * vector.x, scale * vector.y, scale * vector.z)]
     marker.scale.x, marker.scale.y, marker.scale.z = 0.008, 0.02, 0.03
@@ -78,7 +78,7 @@ class FixMarks:
 
 
 def imu_marks(imu: Any) -> List[Marker]:
-    """What the accelerometers feel, red, and the rate of turn, green."""
+    """Arrows of specific force, red, and of the rate of turn, green."""
     force, rate = imu.linear_acceleration, imu.angular_velocity
     lines = [f"acceleration  {_three(force, 3)} m/s2", f"rate  {_three(rate, 4)} rad/s"]
     frame = imu.header.frame_id

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the build generates: crop variants, terrains, textures, and the static models beside them."""
+"""Generates the models of the build: crop variants, terrains, textures, and the static models beside them."""
 
 import argparse
 import io

@@ -18,7 +18,7 @@ from ardee_models.terrain.height_map import Terrain
 
 @dataclass(frozen=True)
 class CropModel:
-    """What a field generator needs to know of a crop model."""
+    """The figures of a crop model that a field generator needs."""
 
     name: str
     height_m: float

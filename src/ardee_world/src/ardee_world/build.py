@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the build generates: clutter models, terrains of recipes, fields; each YAML file makes a model of its name."""
+"""Generates the models of the build: clutter, terrains of recipes, fields; each YAML file makes a model of its name."""
 
 import argparse
 from pathlib import Path

@@ -75,7 +75,7 @@ def read_centres(path: Path) -> Plan:
 
 
 def listed_centres(points: Sequence, where: str) -> Plan:
-    """The same from a list of [x, y] in a YAML file."""
+    """Reads centres from a list of [x, y] in a YAML file."""
     good = isinstance(points, (list, tuple)) and all(
         isinstance(p, (list, tuple))
         and len(p) == 2

@@ -39,7 +39,7 @@ class Bounds:
     high_m: np.ndarray
 
     def area_m2(self) -> float:
-        """Of the rectangle."""
+        """Area of the rectangle."""
         return float(np.prod(self.high_m - self.low_m))
 
 

@@ -18,7 +18,7 @@ def _grid(points: np.ndarray) -> np.ndarray:
 
 
 def both_sides(triangles: np.ndarray) -> np.ndarray:
-    """The same seen from below as well: STL has no material that says so."""
+    """Adds the backs of a sheet, to be seen from below as well: STL has no material that says so."""
     return np.concatenate((triangles, triangles[:, ::-1]))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a field shall be: the arguments of the thesis's field generator (Figure 4.4) and more, checked."""
+"""The configuration of a field: the arguments of the thesis's field generator (Figure 4.4) and more, checked."""
 
 import math
 from dataclasses import dataclass, fields, is_dataclass
@@ -19,7 +19,7 @@ _COUNT = (1, 100_000)
 
 @dataclass(frozen=True)
 class Plots:
-    """Where plants are planned. Rows run along the row direction, plots are counted along x (across) and y (along)."""
+    """The plan of a field. Rows run along the row direction, plots are counted along x (across) and y (along)."""
 
     rows_per_plot: int = option(4, "rows per plot", _COUNT, flag="rows")
     plots_x: int = option(1, "number of plots side by side", _COUNT)
@@ -42,7 +42,7 @@ class Plots:
         return self.rows_per_plot * self.plots_x * self.plots_y * self.stalks_per_row()
 
     def length_m(self) -> float:
-        """From the field's origin to the end of the last plot, along the rows."""
+        """Distance from the field's origin to the end of the last plot, along the rows."""
         between = (self.plots_y - 1) * self.plot_spacing_y_m
         return self.headland_m + self.plots_y * self.row_length_m + between
 
@@ -102,7 +102,7 @@ class Stand:
 
 @dataclass(frozen=True)
 class Clutter:
-    """What else lies and grows in the field. An image multiplies the density: black none, white all of it."""
+    """Weeds, stones and litter of the field. An image multiplies the density: black none, white all of it."""
 
     weed_density_per_m2: float = option(0.0, "weeds", (0.0, 10_000.0))
     weed_models: Tuple[str, ...] = option(

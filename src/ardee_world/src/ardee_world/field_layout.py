@@ -86,7 +86,7 @@ def _draw_plants(
     streams: Streams,
     prefix: str = "",
 ) -> _Draw:
-    """What becomes of one seed at each place where one was sown."""
+    """The plants that come of one seed at each place where one was sown."""
     total = len(sown)
     low, high = config.emergence_min, config.emergence_max
     up = variation.emerged(total, low, high, streams.of(prefix + "emergence"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is asked of the field generator: a field's options and where its models are, from arguments and a YAML file."""
+"""A request to the field generator: a field's options and where its models are, from arguments and a YAML file."""
 
 import dataclasses
 from dataclasses import dataclass

@@ -20,7 +20,7 @@ _POSE = re.compile(r"(<include>.*?<pose>)([^<]*)(</pose>)", re.DOTALL)
 
 
 def is_generated(model: str) -> bool:
-    """Whether the field generator wrote it; only of its plants is it known that they stand on the ground."""
+    """Tells whether the field generator wrote the model; only its plants are known to stand on the ground."""
     return EXTENSION_NAMESPACE in model[:400]
 
 

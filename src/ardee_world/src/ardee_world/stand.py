@@ -58,7 +58,7 @@ class Lean:
     direction_rad: np.ndarray
 
     def at(self, index: np.ndarray) -> "Lean":
-        """Of some plants."""
+        """Returns the lean of some of the plants."""
         return Lean(self.tilt_rad[index], self.direction_rad[index])
 
 

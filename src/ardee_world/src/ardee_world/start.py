@@ -34,7 +34,7 @@ class Start:
     yaw_rad: float = bounded(-7.0, 7.0, -3.14)
 
     def on(self, ground: Optional[Ground]) -> "Start":
-        """The same standing on the highest ground within a robot's reach."""
+        """Returns this pose on the highest ground within a robot's reach."""
         if ground is None:
             return dataclasses.replace(self, z_m=STAND_M)
         beside = np.linspace(-_REACH_M, _REACH_M, 13)

@@ -15,7 +15,7 @@ def placement_offsets(count: int, covariance: np.ndarray, rng: np.random.Generat
 
 
 def emerged(count: int, low: float, high: float, rng: np.random.Generator) -> np.ndarray:
-    """Whether each stalk emerges: its own probability is uniform in [low, high] (thesis Figure 4.4, lines 13-14)."""
+    """Tells which stalks emerge: each one's probability is uniform in [low, high] (thesis Figure 4.4, lines 13-14)."""
     probability = rng.uniform(low, high, count)
     return rng.random(count) < probability
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From species, stage and seed to a plant, its textures and its model directory."""
+"""Makes a plant, its textures and its model directory from species, stage and seed."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -10,7 +10,7 @@ _STEPS = 64  # integration steps of a whole curve
 
 @dataclass(frozen=True)
 class Curve:
-    """From `origin` for `length_m` along `azimuth`; the angle from the vertical goes from `start` to `end`.
+    """A curve from `origin` for `length_m` along `azimuth`; its angle from the vertical goes from `start` to `end`.
 
     The angle is end + (start - end) exp(-s / bend_m), or linear in s where bend_m is 0.
     """

@@ -36,7 +36,7 @@ def _axis_line(vertices: np.ndarray) -> tuple:
 
 
 def _distance(vertices: np.ndarray, point: np.ndarray, axis: np.ndarray) -> np.ndarray:
-    """Of vertices from the line through `point` along `axis`."""
+    """Distances of vertices from the line through `point` along `axis`."""
     offsets = vertices - point
     return np.linalg.norm(offsets - (offsets @ axis)[:, None] * axis, axis=1)
 

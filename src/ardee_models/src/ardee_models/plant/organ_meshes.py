@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From a plan to organs of triangles at a level of detail."""
+"""Meshes the organs of a plan at a level of detail."""
 
 from dataclasses import replace
 from typing import List, Tuple

@@ -20,7 +20,7 @@ _FRESH_STRIPS = 2
 
 @dataclass(frozen=True)
 class ShootSize:
-    """What a shoot has at its stage; lengths in metres."""
+    """Parts of a shoot at its stage; lengths in metres."""
 
     number: int
     collared: int

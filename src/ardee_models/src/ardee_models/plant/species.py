@@ -86,7 +86,7 @@ class YoungLeaves:
 
 @dataclass(frozen=True)
 class Architecture:
-    """What all stages of a species share; a section that a species has not is None."""
+    """Parameters that all stages of a species share; a section that a species lacks is None."""
 
     stalk: Stalk
     phyllotaxy: Phyllotaxy

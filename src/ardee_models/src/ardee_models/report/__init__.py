@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What crop models look like, and their metrics beside the literature."""
+"""Pictures of crop models, and their metrics beside the literature."""

@@ -36,7 +36,7 @@ def _extent(parts: List[Part]) -> tuple:
 
 
 def _azimuth(parts: List[Part]) -> float:
-    """Where to look from: nearly across the vertical plane that most of the plant lies near."""
+    """Direction of view: nearly across the vertical plane that most of the plant lies near."""
     plan = np.concatenate([part.corners.reshape(-1, 3)[:, :2] for part in parts])
     widest = np.linalg.eigh(np.cov(plan.T))[1][:, 1]
     return float(np.arctan2(widest[1], widest[0])) - 0.5 * np.pi + _OFF_RAD

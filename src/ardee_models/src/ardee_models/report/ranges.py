@@ -38,7 +38,7 @@ class Check:
     source: str
 
     def holds(self) -> bool:
-        """Whether the value lies in the range, ends included."""
+        """Tells whether the value lies in the range, ends included."""
         return self.low <= self.value <= self.high
 
 

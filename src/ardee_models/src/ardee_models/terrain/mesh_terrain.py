@@ -24,7 +24,7 @@ _Y_UP_FORMATS = (".dae", ".gltf", ".glb")
 
 @dataclass(frozen=True)
 class MeshOptions:
-    """How a mesh becomes ground."""
+    """Options by which a mesh becomes ground."""
 
     scale: float = 1.0  # metres a unit of the file, where the file does not say
     up: str = "auto"

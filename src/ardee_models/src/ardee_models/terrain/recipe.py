@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a terrain shall be: a recipe of shapes and a surface, from arguments or a YAML file, checked."""
+"""The recipe of a terrain: shapes and a surface, from arguments or a YAML file, checked."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -73,7 +73,7 @@ class Ditch:
 
 @dataclass(frozen=True)
 class Headland:
-    """Where ridges end: beyond these distances from the origin, along and across them, the ground is level."""
+    """The ends of the ridges: beyond these distances from the origin, along and across them, the ground is level."""
 
     along_m: float = option(10.0, "half length of the ridged part", (0.0, 10_000.0))
     across_m: float = option(10_000.0, "half width of the ridged part", (0.0, 10_000.0))
@@ -82,7 +82,7 @@ class Headland:
 
 @dataclass(frozen=True)
 class Surface:
-    """What wheels feel: friction along and across, contact stiffness and damping."""
+    """Numbers of the contact with wheels: friction along and across, stiffness and damping."""
 
     mu: float = option(0.8, "friction coefficient (rubber on firm soil)", (1e-6, 100.0))
     mu2: float = option(0.8, "friction coefficient in the second direction", (1e-6, 100.0))

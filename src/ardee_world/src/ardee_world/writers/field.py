@@ -20,7 +20,7 @@ from ardee_world.writers.truth_files import clutter_columns, csv_text, json_text
 
 
 def is_stream(form: str, layout: Layout) -> bool:
-    """Whether a field of the form `auto`, `sdf` or `stream` keeps its plants in a table."""
+    """Tells whether a field of the form `auto`, `sdf` or `stream` keeps its plants in a table."""
     count = layout.count() + sum(len(heights) for _, heights in layout.clutter)
     return form == "stream" or (form == "auto" and count > LARGEST_SDF)
 

@@ -86,7 +86,7 @@ def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotR
 
 
 def plot_regions(layout: Layout) -> List[PlotRegion]:
-    """Of every plot, cross rows of a headland counting as one."""
+    """Regions of all plots, cross rows of a headland counting as one."""
     by_plot: dict = {}
     for row in layout.planned.rows:
         by_plot.setdefault(row.plot, []).append(row)

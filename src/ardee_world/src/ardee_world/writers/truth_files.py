@@ -65,7 +65,7 @@ def plant_columns(layout: Layout) -> Columns:
 
 
 def clutter_columns(layout: Layout) -> Columns:
-    """The same of weeds, stones and litter, or nothing where there is none."""
+    """Writes the truth of weeds, stones and litter; nothing where there is none."""
     parts = []
     for items, heights in layout.clutter:
         world = to_world(items.xy_m, layout.config.world_pose)
