@@ -176,7 +176,7 @@ TEST(Heightmap, TheBrightestOfEightBitsStandsAtSizeZ) {
   // A brightest value of 1 is Gazebo's full scale: what is 1 of 255 high stays so.
   expect_heights(heights(std::string("\0\x01\x01\0", 4)), {0, 10 / 255.0f, 10 / 255.0f, 0});
   expect_heights(heights(std::string(4, '\0')), {0, 0, 0, 0});
-  expect_heights(heights(""), {10, 10, 10, 10});
+  expect_heights(heights("@@@@"), {10, 10, 10, 10});
 }
 
 TEST(Heightmap, WhiteOfSixteenBitsStandsAtSizeZ) {
