@@ -178,6 +178,7 @@ def test_what_is_left_after_one_turn_counts(
     capture: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(module, "READ_AT_ONCE", 1)
+    monkeypatch.setattr(module, "LATE_S", 60.0)  # other tests talk on this interface, too
     times = sent_over_tcp(SERVER, 5)
     assert are_between(capture.times()["/image"], times)
 
