@@ -13,7 +13,7 @@ SLOPE_RAD = 0.2  # of the slope in custom_sensor/main.cpp
 
 
 def run(*command: object) -> str:
-    """What a command prints; fails with that where the command does."""
+    """Runs a command and returns its output; fails with that output where the command fails."""
     done = subprocess.run(
         [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )

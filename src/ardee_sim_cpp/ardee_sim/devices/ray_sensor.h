@@ -12,8 +12,8 @@
 
 namespace ardee::devices {
 
-/// A sensor with SDF's <ray> block, which gives one kind of reading of what its rays bring back. A
-/// subclass says what the reading is.
+/// A sensor with SDF's <ray> block: the base of lidars, sonars and range finders, which make their
+/// readings of the echoes.
 class RaySensor : public Sensor {
  public:
   struct Params {
@@ -32,7 +32,7 @@ class RaySensor : public Sensor {
             RaySceneProvider& scenes, std::size_t kind);
 
   bool wanted() const override { return output_.demanded; }
-  /// What all beams bring back now, with the noise of their ranges; beam i uses counter i. Valid
+  /// The echoes of all beams now, with the noise of their ranges; beam i uses counter i. Valid
   /// until it is called again.
   const std::vector<BeamEcho>& measure(const CounterRng& noise);
   /// The same where the beams of column k leave from X_WS[k].

@@ -34,7 +34,7 @@ class CachedShading {
   std::vector<raycast::SurfaceTexel> texels_;
   std::vector<RadianceCache::CacheKey> names_;
   std::vector<Found> found_;
-  std::vector<std::size_t> missed_;  // texels that are not in the store
+  std::vector<std::size_t> missed_;  // texels that are not in the cache
 };
 
 }  // namespace ardee::render

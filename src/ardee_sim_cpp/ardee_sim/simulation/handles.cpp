@@ -11,15 +11,16 @@ std::string whole(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
 }
 
-/// Calls `found(port)` for each of the ports that `list` gives of all devices, and says their
-/// topics.
+/// Calls `found(port)` for each port of that kind that `list` gives of all devices. Returns their
+/// topics for a message.
 template <typename List, typename Found>
-std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, List list,
-                          Found found) {
+std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, std::size_t kind,
+                          List list, Found found) {
   std::string topics;
   for (const auto& entity : entities) {
     for (const auto& device : entity->devices) {
       for (auto& port : list(device->ports())) {
+        if (port.kind != kind) continue;
         topics += (topics.empty() ? "" : ", ") + port.topic;
         found(port);
       }
@@ -41,6 +42,12 @@ std::shared_ptr<const LatestReadings::Latest> LatestReadings::keep(const std::st
   return latest;
 }
 
+void LatestReadings::clear() {
+  for (auto& [topic, kept] : kept_) {
+    if (const auto latest = kept.latest.lock()) latest->reset();
+  }
+}
+
 void LatestReadings::on_reading(const devices::Output& output, const devices::Reading& reading) {
   const auto found = kept_.find(output.topic);
   if (found != kept_.end() && found->second.kind == reading.index()) {
@@ -56,9 +63,9 @@ void LatestReadings::on_reading(const devices::Output& output, const devices::Re
 devices::Input& Simulation::input(const std::string& topic, std::size_t kind) const {
   devices::Input* found = nullptr;
   const std::string known = for_each_port(
-      entities_, [](devices::Ports & ports) -> auto& { return ports.inputs; },
+      entities_, kind, [](devices::Ports & ports) -> auto& { return ports.inputs; },
       [&](devices::Input& input) {
-        if (input.topic == whole(topic) && input.kind == kind) found = &input;
+        if (input.topic == whole(topic)) found = &input;
       });
   if (found == nullptr) {
     throw Error("found no topic '" + whole(topic) +
@@ -71,9 +78,9 @@ std::shared_ptr<const LatestReadings::Latest> Simulation::keep_latest(const std:
                                                                       std::size_t kind) {
   bool found = false;
   const std::string known = for_each_port(
-      entities_, [](devices::Ports & ports) -> auto& { return ports.outputs; },
+      entities_, kind, [](devices::Ports & ports) -> auto& { return ports.outputs; },
       [&](devices::Output& output) {
-        if (output.topic != whole(topic) || output.kind != kind) return;
+        if (output.topic != whole(topic)) return;
         output.demanded = true;
         found = true;
       });

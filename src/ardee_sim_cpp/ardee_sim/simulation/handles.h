@@ -31,8 +31,10 @@ class LatestReadings : public devices::ReadingSink {
  public:
   using Latest = std::optional<devices::Reading>;
 
-  /// Nothing is there before the topic's next reading of that kind.
+  /// The reading is empty before the topic's next one of that kind.
   std::shared_ptr<const Latest> keep(const std::string& topic, std::size_t kind);
+  /// Empties all that is kept: what comes next is another run.
+  void clear();
   void hand_on_to(devices::ReadingSink* sink) { next_ = sink; }
   void on_reading(const devices::Output& output, const devices::Reading& reading) override;
 

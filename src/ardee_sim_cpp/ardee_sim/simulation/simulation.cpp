@@ -290,6 +290,7 @@ void Simulation::reset_entities() {
     for (const auto& device : entity->devices) device->reset(now_ns_);
   }
   scenes_.invalidate();
+  latest_.clear();
 }
 
 void Simulation::place_static(Entity& entity, const Pose& X_WM) {

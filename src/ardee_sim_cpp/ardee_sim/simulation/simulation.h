@@ -90,10 +90,10 @@ class Simulation {
     port.latest_ = keep_latest(topic, devices::reading_kind<T>());
     return port;
   }
-  /// What was measured last, or null; valid until the next step.
+  /// The last reading since the last reset, or null; valid until the next step.
   template <typename T>
   const T* latest(const ReadingPort<T>& port) const {
-    return *port.latest_ ? std::get_if<T>(&**port.latest_) : nullptr;
+    return port.latest_ && *port.latest_ ? std::get_if<T>(&**port.latest_) : nullptr;
   }
 
   /// Adds a model to the running world. Throws Error (name taken, bad plugin value, ...) and then
