@@ -16,7 +16,7 @@ from ardee_world.field_layout import Layout
 
 STAND_M = 0.175  # height of a robot's base_footprint above the ground below its wheels
 _REACH_M = 0.3  # half the length of a robot
-_TEXT = """# Where a robot starts: in the middle of the lane, before the first stalks, looking along the rows.
+_TEXT = """# Start pose of a robot: in the middle of the lane, before the first stalks, looking along the rows.
 x_m: {x_m:.4f}
 y_m: {y_m:.4f}
 z_m: {z_m:.4f}
