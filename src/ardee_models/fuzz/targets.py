@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets of scripts/fuzz in this package: each takes any bytes and raises only what is a finding."""
+"""Targets of scripts/fuzz in this package: each takes any bytes and raises an exception only for a finding."""
 
 import tempfile
 from pathlib import Path
@@ -22,12 +22,12 @@ def _read(reader: Callable[[Path], object], data: bytes) -> None:
 
 
 def yaml_lines(data: bytes) -> None:
-    """YAML with lines."""
+    """Reads YAML together with the line of each key."""
     _read(read_yaml_lines, data)
 
 
 def recipe(data: bytes) -> None:
-    """A terrain's recipe."""
+    """Reads a terrain's recipe."""
     _read(read_recipe, data)
 
 

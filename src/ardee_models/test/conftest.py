@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes the package importable from the source tree, and one set of generated models for all tests."""
+"""Makes the package importable from the source tree; generates one set of models for all tests."""
 
 import hashlib
 import sys
@@ -34,7 +34,7 @@ def package() -> Path:
 
 @pytest.fixture(scope="session")
 def share(tmp_path_factory) -> Path:
-    """All that the build generates: models/ and media/."""
+    """Folder of everything that the build generates: models/ and media/."""
     from ardee_models import build
 
     root = tmp_path_factory.mktemp("share")

@@ -22,12 +22,12 @@ class Trait(NamedTuple):
 
 
 def between(low: float, high: float) -> Trait:
-    """A trait that varies by a factor: its middle is the geometric mean."""
+    """A trait that varies by a factor; its middle is the geometric mean."""
     return Trait(low, math.sqrt(low * high), high)
 
 
 def spread(quantity: Callable[..., float], **traits: Trait) -> Bounds:
-    """Low and high of a quantity whose traits vary apart from each other."""
+    """Low and high of a quantity whose traits vary independently."""
     middle = {name: trait.middle for name, trait in traits.items()}
     value = quantity(**middle)
     squares = 0.0
@@ -48,7 +48,7 @@ class Grass(NamedTuple):
     largest: Trait  # relative rank of the largest leaf
     skew: Trait  # relative area of a leaf of rank 0, by which ArchiCrop fits the bell
     ratio: Trait  # width over length of a leaf
-    height: Trait  # of the full-grown plant, with its head
+    height: Trait  # height of the full-grown plant, with its head
     head: float  # tassel, or panicle with its peduncle
     short: int  # phytomers at the base whose internodes stay short
 
@@ -106,7 +106,7 @@ def relative_areas(number: float, largest: float, skew: float) -> Sequence[float
 
 
 def shown_share(collars: int, young: float, **bell: float) -> float:
-    """Share of the plant's final leaf area that shows; of `young` leaves in the whorl ever shorter tips do."""
+    """Visible share of the plant's final leaf area; of `young` leaves in the whorl, ever shorter tips are visible."""
     areas = relative_areas(**bell)
     young = round(young)
     tips = areas[collars : collars + young]

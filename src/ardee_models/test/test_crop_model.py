@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The model directories that are written: consistent with themselves, the same bytes for the same seed."""
+"""Written model directories are consistent, and the same seed gives the same bytes."""
 
 import functools
 import json
@@ -108,7 +108,7 @@ def test_collision_cylinder_lies_on_the_stalk(share, name):
     radii = np.linalg.norm(offsets - along[:, None] * axis, axis=1)
     assert yaw == 0.0
     assert radius == pytest.approx(radii.mean(), abs=5e-5)
-    # no vertex is further off than the stalk tapers and its sheaths stand out
+    # taper and sheaths bound the distance of vertices from the cylinder
     assert np.abs(radii - radius).max() < 0.75 * radius
     assert along.max() == pytest.approx(length / 2, abs=1e-4)
     assert along.min() == pytest.approx(-length / 2, abs=1e-4)
@@ -168,7 +168,7 @@ def test_organs_of_each_species_appear_with_their_stage(share):
     assert "Panicle" not in organs["sorghum_variant_6"]
     assert {"Panicle", "Tillers"} <= organs["sorghum_variant_9"]
     assert "Flowers" in organs["tobacco_variant_7"]
-    assert "Flowers" not in organs["tobacco_variant_8"]  # topped
+    assert "Flowers" not in organs["tobacco_variant_8"]  # this variant is topped
 
 
 def test_variants_of_a_stage_differ(share, hash_of):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every model lies in the literature's ranges; the report says so, and says when one does not."""
+"""Every model lies in the literature's ranges; the report says so, and names values outside."""
 
 import csv
 import json

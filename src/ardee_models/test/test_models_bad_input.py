@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input: one message that says where, and nothing changed on disk."""
+"""Bad input gives one message with the place of the error, and changes nothing on disk."""
 
 import sys
 

@@ -18,7 +18,7 @@ def test_static_models_are_whole(share, name):
 
 
 def test_static_models_are_found_by_what_the_package_exports(package):
-    """Worlds include them where a user's GAZEBO_MODEL_PATH takes the place of the hook's, too."""
+    """Worlds include them even if a user's GAZEBO_MODEL_PATH replaces the hook's."""
     manifest = ElementTree.parse(package / "package.xml").getroot()
     exported = manifest.find("export/gazebo_ros").get("gazebo_model_path")
     folder = exported.replace("${prefix}", str(package))

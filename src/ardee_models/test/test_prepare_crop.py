@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes that a user brings: split, recentred, with a fitted cylinder and textures; bad ones refused whole."""
+"""A user's meshes are split, recentred, and get a fitted cylinder and textures; bad ones are refused whole."""
 
 import json
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The derived bounds of config/ranges.yaml are what their arithmetic gives, whatever the models are."""
+"""The derived bounds of config/ranges.yaml follow from their arithmetic, independently of the models."""
 
 import inspect
 import math
@@ -40,7 +40,7 @@ def _calls(row):
 @pytest.mark.parametrize("metric, row", [p for p in _rows() if _calls(p.values[1])])
 def test_bounds_are_what_the_named_function_gives(metric, row):
     bounds = [_call(*call, metric) for call in _calls(row)]
-    elsewhere = row.how.partition(";")[2]  # names the ends that another argument sets
+    elsewhere = row.how.partition(";")[2]  # names of the bounds that another argument sets
     for side, bound in (("low", bounds[0][0]), ("high", bounds[-1][1])):
         if not re.search(rf"\b{side}\b", elsewhere):
             assert getattr(row, {"low": "min", "high": "max"}[side]) == float(f"{bound:.2g}")
@@ -53,7 +53,7 @@ def test_most_stages_have_a_derived_range():
 
 @pytest.mark.parametrize("metric, row", _rows())
 def test_ranges_can_fail(metric, row):
-    """No range allows all: the widest, of stages that span leaves, spans a factor of 12."""
+    """No range allows everything: the widest, of stages that span leaves, spans a factor of 12."""
     assert row.max <= 12 * row.min or metric == "tiller_count"
 
 

@@ -23,7 +23,7 @@ from ardee_models.terrain.recipe import (
 
 
 def _at(recipe, x, y):
-    """Heights over that at the origin."""
+    """Heights above the height at the origin."""
     terrain = follow(recipe)
     x, y = np.asarray(x, float), np.asarray(y, float)
     return terrain.height_at(x, y) - terrain.height_at(np.zeros(1), np.zeros(1))[0]
@@ -122,7 +122,7 @@ def test_a_recipe_file_says_all_of_it(tmp_path):
 
 @pytest.fixture()
 def command(monkeypatch, capsys):
-    """Run generate_terrain; returns exit code and standard error."""
+    """Runs generate_terrain; returns exit code and standard error."""
 
     def call(*arguments):
         monkeypatch.setattr(sys, "argv", ["generate_terrain", *map(str, arguments)])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ground from a user's image, elevation model or mesh, against the surface that it was made of."""
+"""Ground from a user's image, elevation model or mesh, against the surface of its source."""
 
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -21,7 +21,7 @@ def _surface(x, y):
 
 @pytest.fixture()
 def command(tmp_path, monkeypatch, capsys):
-    """Run generate_terrain on a source; returns exit code and standard error."""
+    """Runs generate_terrain on a source; returns exit code and standard error."""
 
     def call(*arguments):
         words = [

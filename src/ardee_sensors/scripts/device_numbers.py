@@ -27,7 +27,7 @@ MARKS = re.compile(r"\[([^\]]+)\]")
 
 
 class Number(NamedTuple):
-    """One number of a device: the text that stands in the file, what is said of it, and the marks of its sources."""
+    """One number of a device: its text in the file, its comment, and the marks of its sources."""
 
     key: str
     value: str
@@ -41,19 +41,19 @@ def devices() -> List[str]:
 
 
 def device_file(device: str, folder: pathlib.Path = CONFIG) -> pathlib.Path:
-    """The device's file; a GeneratorError names the known devices."""
+    """Path of the device's file; for an unknown device, a GeneratorError names the known ones."""
     if device not in devices():
         raise GeneratorError(f"unknown sensor '{device}'; expected one of: {', '.join(devices())}")
     return folder / f"{device}.yaml"
 
 
 def load(device: str) -> Dict[str, Any]:
-    """The device's file as a dictionary."""
+    """Reads the device's file as a dictionary."""
     return read_yaml_lines(device_file(device))
 
 
 def read_numbers(path: pathlib.Path) -> List[Number]:
-    """The file's numbers in its order; every line but the texts is one."""
+    """Reads the file's numbers in their order; every line is a number except the texts."""
     found = []
     for number, line in enumerate(path.read_text().splitlines(), 1):
         if not line or line.startswith(("#", " ")):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Write the meshes of the sensors: `make_meshes.py [folder]`, by default the package's meshes folder."""
+"""Writes the meshes of the sensors: `make_meshes.py [folder]`, by default the package's meshes folder."""
 import pathlib
 
 import mesh_cameras
@@ -13,12 +13,12 @@ from ardee_common.cli import Parser
 
 
 def meshes() -> dict:
-    """Every mesh of the package by its file name."""
+    """All meshes of the package by file name."""
     return {**mesh_lidars.meshes(), **mesh_cameras.meshes(), **mesh_parts.meshes()}
 
 
 def main() -> None:
-    """Command line."""
+    """Runs the command."""
     parser = Parser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=PACKAGE / "meshes")
     write_all(meshes(), parser.parse_args().folder)

@@ -12,7 +12,7 @@ def barrel(radius: float, length: float, front: tuple) -> np.ndarray:
 
 
 def bar(device: str, lenses_y_m: list, foot_height_m: float = 0.0) -> np.ndarray:
-    """A bar across the view with lens rims on its front, on a foot where it has one."""
+    """A bar across the view with lens rims on its front, on a foot if it has one."""
     numbers = load(device)
     size_x, size_y, size_z = (numbers[f"size_{axis}_m"] for axis in "xyz")
     rim = 0.002
@@ -78,7 +78,7 @@ def ptz_head(device: str) -> np.ndarray:
 
 
 def meshes() -> dict:
-    """Every camera's mesh by its file name."""
+    """Meshes of all cameras by file name."""
     found = {
         "ueye_cp_gige.stl": ueye_cp_gige(),
         "asus_xtion_pro.stl": bar("asus_xtion_pro", [-0.07, 0, 0.03]),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes of the lidars. Nothing of a lidar stands in the way of its own rays: a window is free space."""
+"""Meshes of the lidars. No part of a lidar blocks its own rays: a window is free space."""
 import numpy as np
 from device_numbers import load
 from mesh_shapes import at_height, box, circle, lathe, loft, rectangle
@@ -101,7 +101,7 @@ def hokuyo3d() -> np.ndarray:
 
 
 def meshes() -> dict:
-    """Every lidar's mesh by its file name."""
+    """Meshes of all lidars by file name."""
     base_heights_m = {
         "hokuyo_urg04lx": 0.03,
         "hokuyo_ust10lx": 0.026,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes of what is neither lidar nor camera, and of the board in the scene that shows the sensors."""
+"""Meshes of devices other than lidars and cameras, and of the board in the scene that shows the sensors."""
 import numpy as np
 from device_numbers import load
 from mesh_cameras import barrel
@@ -38,7 +38,7 @@ def sonar() -> np.ndarray:
 
 
 def approx_battery() -> np.ndarray:
-    """Brick in its shrink tube."""
+    """Brick in a shrink tube."""
     numbers = load("approx_battery")
     size = tuple(numbers[f"size_{axis}_m"] for axis in "xyz")
     return box(size, (0, 0, size[2] / 2), corner=0.004, edge=0.003)
@@ -66,7 +66,7 @@ def checkerboard_black(squares: tuple = (8, 6), side_m: float = 0.25) -> np.ndar
 
 
 def meshes() -> dict:
-    """Every other mesh by its file name."""
+    """All other meshes by file name."""
     return {
         "gps.stl": gps(),
         "imu.stl": imu(),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Triangle shapes for the meshes of robots and sensors, and the binary STL file they end in.
+"""Triangle shapes for the meshes of robots and sensors, and their binary STL files.
 
 A shape is an array of shape (n, 3, 3): n triangles of three corners in metres, counter-clockwise seen
 from outside.
@@ -24,7 +24,7 @@ def _fan(ring: np.ndarray) -> np.ndarray:
 def loft(rings: list, closed: bool = False) -> np.ndarray:
     """Skin over rings (k, 3) of equal length, each counter-clockwise seen from the last one.
 
-    With closed, the last ring joins the first (a torus); else both ends are filled as convex faces.
+    If `closed`, the last ring joins the first (a torus); else both ends are filled as convex faces.
     """
     pairs = list(zip(rings[:-1], rings[1:])) + ([(rings[-1], rings[0])] if closed else [])
     parts = []
@@ -121,7 +121,7 @@ def stl_bytes(triangles: np.ndarray) -> bytes:
 
 
 def write_all(meshes: dict, folder: pathlib.Path) -> None:
-    """Write each shape of {file name: triangles} into the folder."""
+    """Writes each shape of {file name: triangles} into the folder."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, triangles in meshes.items():
         (folder / name).write_bytes(stl_bytes(triangles))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Markers of readings that rviz has no display for: fixes, inertial units, encoders, batteries."""
+"""Markers for readings without a display in rviz: fixes, inertial units, encoders, batteries."""
 from typing import Any, Callable, Dict, List, Sequence, Tuple
 
 from geometry_msgs.msg import Point, Quaternion
@@ -9,12 +9,12 @@ from visualization_msgs.msg import Marker
 from ardee_common.geodesy import to_metres
 
 WORLD = "world"
-TEXT_HEIGHT_M = 0.045  # of a capital letter
-FAR_TEXT_HEIGHT_M = 0.16  # seen from where a GPS's errors fit into the view
-TEXT_ABOVE_M = 0.85  # above the foot of the post
+TEXT_HEIGHT_M = 0.045  # height of a capital letter
+FAR_TEXT_HEIGHT_M = 0.16  # for the distance at which a GPS's errors fit into the view
+TEXT_ABOVE_M = 0.85  # height above the foot of the post
 DOT_M = 0.08
 FORCE_SCALE_M = 0.025  # length of an arrow, for each m/s2
-RATE_SCALE_M = 0.3  # for each rad/s
+RATE_SCALE_M = 0.3  # length of an arrow, for each rad/s
 MOST_DOTS = 300
 RED, GREEN, WHITE = (0.9, 0.2, 0.1), (0.2, 0.8, 0.3), (1.0, 1.0, 1.0)
 
@@ -28,7 +28,7 @@ def _marker(number: int, kind: int, frame: str, color: Tuple[float, float, float
 
 
 def text(lines: Sequence[str], height_m: float = TEXT_HEIGHT_M) -> Marker:
-    """Lines above the post."""
+    """Marker of text lines above the post."""
     marker = _marker(0, Marker.TEXT_VIEW_FACING, WORLD, WHITE)
     marker.pose.position.z = TEXT_ABOVE_M + height_m * len(lines) / 2
     marker.scale.z = height_m
@@ -58,7 +58,7 @@ def local_m(fix: Any, numbers: Dict[str, Any]) -> Point:
 
 
 class FixMarks:
-    """Dots where the receiver has been told to be."""
+    """Dots at the fixes of the receiver."""
 
     def __init__(self, numbers: Dict[str, Any]):
         self._numbers = numbers
@@ -90,17 +90,17 @@ def imu_marks(imu: Any) -> List[Marker]:
 
 
 def encoder_marks(encoder: Any) -> List[Marker]:
-    """Angle and speed."""
+    """Text of angle and speed."""
     return [text([f"{encoder.position:.3f} rad", f"{encoder.qpps:.0f} pulses a second"])]
 
 
 def battery_marks(battery: Any) -> List[Marker]:
-    """The voltage and its bounds."""
+    """Text of the voltage and its bounds."""
     return [text([f"{battery.voltage:.2f} V", f"{battery.vmin:g} to {battery.vmax:g} V"])]
 
 
 def marks_for(kind: str, numbers: Dict[str, Any]) -> Callable[[Any], List[Marker]]:
-    """The function from a message of that type to markers; a KeyError where rviz shows it itself."""
+    """Returns the function from a message of type `kind` to markers; KeyError for types that rviz displays itself."""
     return {
         "sensor_msgs/NavSatFix": FixMarks(numbers),
         "sensor_msgs/Imu": imu_marks,

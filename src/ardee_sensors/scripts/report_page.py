@@ -37,7 +37,7 @@ dl{display:grid;grid-template-columns:max-content 1fr;gap:0 1em}
 @media(max-width:900px){section{grid-template-columns:minmax(0,1fr)} img{max-width:320px}}
 @media(max-width:600px){thead{display:none} tr{display:block;padding:.3em 0;border-top:1px solid #eee}
 td{display:inline;padding:0 .4em 0 0;white-space:normal!important} td:first-child{font-weight:bold}}"""
-# what a number's name ends with, longest first, and what it means
+# ending of a number's name, longest first, and its unit
 UNITS = {
     "_n_m_s_per_rad": "N m s/rad",
     "_a_s_per_rad": "A s/rad",
@@ -71,7 +71,7 @@ def _run(command: List[str]) -> str:
 
 
 def size_m(device: str) -> Tuple[float, float]:
-    """Width and height of what is seen of the device, m."""
+    """Width and height of the device in a picture, m."""
     numbers = dict(load(device))
     for other in numbers.get("also", "").split():
         numbers = {**load(other), **numbers}
@@ -82,7 +82,7 @@ def size_m(device: str) -> Tuple[float, float]:
 
 
 def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None:
-    """Render the device on its post from the front, its left and above, as near as its size wants."""
+    """Renders the device on its post from the front, its left and above, at a distance that fits its size."""
     urdf, world = work / f"{device}.urdf", work / "table.world"
     post = str(PACKAGE / "robots/show_sensor.urdf.xacro")
     sensor = [f"sensor:={device}", f"height:={POST_HEIGHT_M}"]
@@ -90,7 +90,7 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
     world.write_text(WORLD)
     width, height = size_m(device)
     away = 2.7 * math.hypot(width, height)
-    # the pendulum of an encoder hangs before it
+    # the pendulum of an encoder hangs in front of it
     side = -1 if device == "encoder" else 1
     middle_z = POST_HEIGHT_M + height / 2
     eye = [side * 0.75 * away, 0.5 * away, middle_z + 0.4 * away]
@@ -100,7 +100,7 @@ def take_picture(device: str, work: pathlib.Path, picture: pathlib.Path) -> None
 
 
 def _source_text(number: Number, known: dict) -> str:
-    """Its comment from the first mark on: whose value it is, and what others have. A mark leads to its meaning."""
+    """HTML of a comment from its first mark on: source of the value, and other values. Marks link to their meaning."""
 
     def explained(match: re.Match) -> str:
         return ", ".join(
@@ -122,7 +122,7 @@ def _explained_mark(number: Number, mark: str, known: dict) -> str:
 
 
 def with_unit(number: Number) -> str:
-    """Its value and unit, angles in degrees too; plain numbers have none."""
+    """Value and unit of a number, angles in degrees too; plain numbers have no unit."""
     ending = next((ending for ending in UNITS if number.key.endswith(ending)), "")
     value = f"{number.value} {UNITS[ending]}" if ending else number.value
     if ending == "_rad":
@@ -152,7 +152,7 @@ def section(device: str) -> str:
 
 
 def page(shown: List[str]) -> str:
-    """The whole page of the devices."""
+    """HTML of the whole page."""
     marks = "".join(
         f"<dt id='source-{mark}'>{mark}</dt><dd>{html.escape(text)}</dd>"
         for mark, text in sources().items()
@@ -170,7 +170,7 @@ def page(shown: List[str]) -> str:
 
 
 def make_writable(folder: pathlib.Path) -> None:
-    """The folder is there and takes a file, or a GeneratorError says why not: before minutes of drawing."""
+    """Makes the folder and checks that it can be written, before minutes of drawing; raises GeneratorError if not."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
@@ -181,7 +181,7 @@ def make_writable(folder: pathlib.Path) -> None:
 
 
 def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
-    """Pictures, a sheet of them all and index.html in the folder; returns the page's path."""
+    """Writes the pictures, a sheet of all of them and index.html into the folder; returns the page's path."""
     make_writable(folder)
     for device in shown:
         take_picture(device, work, work / f"{device}.png")
@@ -196,7 +196,7 @@ def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> 
 def contact_sheet(
     pictures: List[pathlib.Path], columns: int = 6, width_px: int = 240
 ) -> Image.Image:
-    """All pictures on one, each with its file's name."""
+    """Sheet of all pictures, each with the stem of its file's name."""
     height_px = width_px * 3 // 4
     rows = math.ceil(len(pictures) / columns)
     sheet = Image.new("RGB", (columns * width_px, rows * height_px), "white")
@@ -210,6 +210,6 @@ def contact_sheet(
 
 
 def chosen(names: List[str]) -> List[str]:
-    """The devices asked for and those whose numbers they share, all of them without any; an unknown one is refused."""
+    """Devices of the names and those whose numbers they share; all devices for no names; an unknown name is refused."""
     others = [other for name in names for other in load(name).get("also", "").split()]
     return list(dict.fromkeys(names + others)) or devices()

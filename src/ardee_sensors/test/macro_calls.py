@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robots of macro calls, and what their plugins would publish."""
+"""Robots of macro calls, and the topics that their plugins would publish."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 from typing import Dict, List
@@ -51,7 +51,7 @@ def robot(folder: pathlib.Path, calls: str) -> ElementTree.Element:
 
 
 def complaint(folder: pathlib.Path, calls: str) -> str:
-    """What xacro says to a wrong call."""
+    """Message of xacro for a wrong call."""
     done = run_xacro(write_robot(folder, calls))
     assert done.returncode != 0 and not done.stdout
     return done.stderr
@@ -80,7 +80,7 @@ def camera_topics(sensor_cameras: List[str], plugin: ElementTree.Element) -> Lis
 
 
 def topics(root: ElementTree.Element) -> Dict[str, str]:
-    """Every topic that the robot's plugins are told, and the plugin that publishes it; none comes twice."""
+    """Topics of the robot's plugins, each with the plugin that publishes it; no topic occurs twice."""
     found: Dict[str, str] = {}
     cameras = {
         plugin.get("name"): [camera.get("name") for camera in sensor.findall("camera")]

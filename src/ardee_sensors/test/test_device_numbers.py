@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""config/: every number has a unit in its name and the mark of a known source, and what it says is possible."""
+"""config/: every number has a unit in its name, the mark of a known source, and a possible value."""
 import math
 import pathlib
 
@@ -9,8 +9,8 @@ from device_numbers import CONFIG, SHARED, TEXTS, devices, load, read_numbers, s
 from ardee_common.errors import GeneratorError
 
 COUNTS = ("samples", "vertical_samples", "sub_rays")
-OF_FULL_SCALE = ("noise_std",)  # of an image's channels: no unit
-MIXED = ("noise",)  # of an IMU's quaternion, rad/s and m/s2 alike
+OF_FULL_SCALE = ("noise_std",)  # noise of an image's channels: no unit
+MIXED = ("noise",)  # noise of an IMU's quaternion, rad/s and m/s2 alike
 UNITLESS = COUNTS + OF_FULL_SCALE + MIXED + ("depth_noise_linear",)
 UNITS = (
     "_m _rad _deg _hz _kg _px _v _s _count _a _a_h _a_s_per_m _a_s_per_rad _ohm "

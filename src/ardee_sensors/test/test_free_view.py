@@ -46,7 +46,7 @@ def mesh_in_the_sensor_frame(device: str) -> np.ndarray:
 def test_a_lidar_does_not_see_itself(device: str):
     triangles = mesh_in_the_sensor_frame(device)
     assert hits(triangles, rays(load(device))) == 0
-    assert hits(triangles, np.array([[0.01, 0.02, -1.0]])) > 0  # it stands on something
+    assert hits(triangles, np.array([[0.01, 0.02, -1.0]])) > 0  # the device has a body below
 
 
 @pytest.mark.parametrize("device", BOXES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The UST-10LX macro: what it makes of its arguments, and that nothing stands in its scan plane."""
+"""The UST-10LX macro: the effect of its arguments, and a scan plane free of obstacles."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 
@@ -67,7 +67,7 @@ def test_gpu_chooses_what_the_rays_meet(tmp_path: pathlib.Path, gpu: str, kind: 
     assert (sensor.get("type"), sensor.find("plugin").get("filename")) == (kind, library)
 
 
-CHANGED = {  # argument: (another value, where it shows)
+CHANGED = {  # argument: (another value, place in the URDF)
     "rate_hz": ("20", "update_rate"),
     "samples": ("541", "ray/scan/horizontal/samples"),
     "min_angle_rad": ("-1.5", "ray/scan/horizontal/min_angle"),

@@ -63,7 +63,7 @@ def test_topics_are_those_of_its_file(everything: ElementTree.Element, device: s
     published = {t for t, plugin in topics(everything).items() if plugin.startswith(name)}
     expected = set(expected_topics(device, name))
     if load(device)["kind"] in ("rgbd", "stereo"):
-        assert expected <= published  # infrared and the like come besides
+        assert expected <= published  # infrared and similar topics come in addition
     else:
         assert expected == published
 
@@ -133,7 +133,7 @@ def test_optical_frames_look_along_the_link(everything: ElementTree.Element, dev
 
 @pytest.fixture(scope="module")
 def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
-    """A robot with every lidar, as it is, plain, and with more rays a beam."""
+    """A robot with every lidar: with its defaults, plain, and with more rays per beam."""
     calls = [
         call(device, f"{device}.{name}", arguments)
         for device in LIDARS
@@ -209,7 +209,7 @@ def test_servos_lead_pan_and_tilt_unless_told_not_to(tmp_path: pathlib.Path, dev
 
 @pytest.mark.parametrize("device, encoding", [("realsense_d435", "mono8"), ("kinectv2", "16UC1")])
 def test_infrared_images_beside_coloured_clouds(tmp_path: pathlib.Path, device: str, encoding: str):
-    """As the drivers have it: the cloud's colours are those of the colour stream."""
+    """The cloud has the colours of the colour stream, as with the devices' drivers."""
     depth = robot(tmp_path, call(device, "a")).find(".//sensor[@type='depth']")
     assert depth.findtext("camera/image/format") == "R8G8B8"
     assert depth.findtext("plugin/imageEncoding") == encoding
@@ -244,7 +244,7 @@ def test_a_wrong_call_is_refused(tmp_path: pathlib.Path, device: str, arguments:
 
 @pytest.mark.parametrize("device", sorted(set(devices()) - {"approx_battery", "encoder"}))
 def test_a_sensor_of_zero_rate_is_left_out_with_a_message(tmp_path: pathlib.Path, device: str):
-    """The simulator says so of encoder and battery; to the other plugins 0 is as often as can be, as in Gazebo."""
+    """The simulator gives the message for encoder and battery; for other plugins 0 means each step, as in Gazebo."""
     rate = "update_rate" if load(device)["kind"] in ("gps", "imu") else "rate_hz"
     calls = call(device, "bad", f'{rate}="0"') + call("sonar", "good")
     done = run_xacro(write_robot(tmp_path, calls))
@@ -270,7 +270,7 @@ def test_a_mass_of_zero_is_no_inertia(tmp_path: pathlib.Path):
 
 
 TWO_CAMERAS = ("zed2", "realsense_d435", "kinectv2")
-IMPOSSIBLE = {  # argument and value: what the message expects
+IMPOSSIBLE = {  # argument and value: the `expected` part of the message
     ("rate_hz", "-30"): "more than 0",
     ("rate_hz", "often"): "more than 0",
     ("rate_hz", "inf"): "more than 0",
@@ -292,7 +292,7 @@ OF_ONE = {
 
 
 def test_two_cameras_of_one_device_say_once_what_cannot_be(tmp_path: pathlib.Path):
-    """And both are left out: the body stays, and so does the rest of the robot."""
+    """Both cameras are left out; the body and the rest of the robot stay."""
     wrong = {(device, *key): said for device in TWO_CAMERAS for key, said in IMPOSSIBLE.items()}
     wrong.update(OF_ONE)
     calls = [call(key[0], f"bad{i}", f'{key[1]}="{key[2]}"') for i, key in enumerate(wrong)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What show_sensor.launch draws of readings that rviz has no display for."""
+"""Markers of show_sensor.launch for readings without a display in rviz."""
 import math
 
 import pytest
@@ -11,7 +11,7 @@ from visualization_msgs.msg import Marker
 
 
 def fix_at(east_m: float, north_m: float, up_m: float = 0.0) -> NavSatFix:
-    """A fix so far from the reference; degrees as hector's flat projection has them."""
+    """A fix at a distance from the reference; degrees by hector's flat projection."""
     numbers = load("gps")
     latitude_rad = math.radians(numbers["reference_latitude_deg"])
     e2 = 0.00669437999014  # WGS-84
@@ -53,7 +53,7 @@ def test_an_imu_at_rest_has_an_arrow_upwards():
 
 @pytest.mark.parametrize("device", devices())
 def test_what_rviz_does_not_show_itself_is_drawn(device: str):
-    """Those without a view of their own or of their kind are drawn."""
+    """Devices without an rviz configuration of their own or of their kind are drawn."""
     kind = next(iter(expected_topics(device, "sensor").values()))[0]
     if load(device)["kind"] in ("gps", "imu", "other"):
         assert marks_for(kind, load("gps"))

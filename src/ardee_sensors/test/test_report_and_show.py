@@ -24,7 +24,7 @@ ONE_OF_A_KIND = sorted({load(device)["kind"]: device for device in devices()}.va
 
 
 class Page(HTMLParser):
-    """What a browser makes of a page: the sections with their pictures and rows, links and the places they lead to."""
+    """Content of a page as a browser sees it: sections with pictures and rows, links and their targets."""
 
     def __init__(self, text: str):
         super().__init__()
@@ -97,7 +97,7 @@ def test_a_number_has_the_unit_of_its_name(key: str, value: str, shown: str):
 
 
 def test_the_report_has_a_picture_of_each_device_asked_for(tmp_path: pathlib.Path, monkeypatch):
-    """The pictures' renderer is another package's: here each is one of its size."""
+    """The renderer belongs to another package; this test replaces it by pictures of the same size."""
     monkeypatch.setattr(
         report_page,
         "take_picture",
@@ -159,7 +159,8 @@ def test_the_sheet_has_a_place_for_each(tmp_path: pathlib.Path):
 def test_every_kind_stands_on_its_post(device: str):
     root = ElementTree.fromstring(expand(POST, sensor=device))
     assert root.find("link[@name='sensor_link']") is not None
-    assert root.find("link[@name='base_footprint']/inertial") is None  # KDL warns of that
+    # KDL warns of a root with mass
+    assert root.find("link[@name='base_footprint']/inertial") is None
     on_it = [j for j in root.findall("joint") if j.find("child").get("link").startswith("sensor")]
     z = float(on_it[0].find("origin").get("xyz").split()[2])
     assert 0.6 <= z < 0.8
@@ -180,7 +181,7 @@ def test_two_words_for_a_sensor_are_refused_as_one_name():
 
 @pytest.mark.parametrize("script", ["show_readings", "watch_sensor"])
 def test_ctrl_c_amid_the_imports_ends_it_without_a_word(script: str, tmp_path: pathlib.Path):
-    """What each imports of others is here a module that sends it the signal."""
+    """A module that each script imports is replaced by one that sends it the signal."""
     interrupt = "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
     for name in ("roslib", "ardee_common"):
         (tmp_path / f"{name}.py").write_text(interrupt)
@@ -208,7 +209,7 @@ def test_watch_sensor_names_the_topics(sensor: str, code: int, said: str):
 
 @pytest.mark.parametrize("device", devices())
 def test_rviz_shows_topics_that_there_are(device: str):
-    """Of the device's own configuration, else of its kind's, else one with marks alone."""
+    """Checks the device's own configuration, else that of its kind, else the one with markers only."""
     names = (device, load(device)["kind"], "robot")
     file = next(f for f in (PACKAGE / f"rviz/{name}.rviz" for name in names) if f.is_file())
     displays = yaml.safe_load(file.read_text())["Visualization Manager"]["Displays"]

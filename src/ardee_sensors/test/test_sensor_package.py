@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package as a whole: every device file is included, every mesh reproduces, the helpers are right."""
+"""The package as a whole: every device file is included, every mesh reproduces, the helpers are correct."""
 import importlib.util
 import pathlib
 import sys
@@ -49,8 +49,8 @@ def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: p
 
 @pytest.mark.parametrize("mesh", sorted(p.stem for p in (PACKAGE / "meshes").glob("*.stl")))
 def test_meshes_have_the_sizes_of_the_devices(mesh: str):
-    """The middle of the mounting face is the origin; of a device in parts each part has a size of its own."""
-    if mesh == "checkerboard_black":  # of the scene
+    """The middle of the mounting face is the origin; each part of a device in parts has its own size."""
+    if mesh == "checkerboard_black":  # a part of the scene, not a device
         return
     device, part = mesh, ""
     if device not in devices():

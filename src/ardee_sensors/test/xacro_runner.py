@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Run xacro on files of this tree, built or not, and read URDF."""
+"""Runs xacro on files of this tree, built or not, and reads URDF."""
 import os
 import pathlib
 import subprocess
@@ -19,7 +19,7 @@ def ros_environment() -> dict:
 
 
 def run_xacro(file: pathlib.Path, **arguments: str) -> subprocess.CompletedProcess:
-    """Run xacro on the file with `name:=value` arguments."""
+    """Runs xacro on the file with `name:=value` arguments."""
     command = ["/usr/bin/python3", str(XACRO), str(file)]
     command += [f"{name}:={value}" for name, value in arguments.items()]
     return subprocess.run(command, env=ros_environment(), capture_output=True, text=True)

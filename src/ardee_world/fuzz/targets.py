@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets of scripts/fuzz in this package: each takes any bytes and raises only what is a finding."""
+"""Targets of scripts/fuzz in this package: each takes any bytes and raises an exception only for a finding."""
 
 import tempfile
 from pathlib import Path
@@ -15,7 +15,7 @@ from ardee_world.plots import Plan
 from ardee_world.request import configure, yaml_values
 from ardee_world.writers.field import write_field
 
-# Larger fields are checked and not planted: they take long, and what is right for few is right for many.
+# Larger fields are checked but not planted, because that takes long and runs the same code.
 _MOST_PLANTS = 200
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
 _POOL = (CropModel("corn_a", 0.8, 0.01, 1), CropModel("corn_b", 1.2, 0.012, 1))
@@ -30,7 +30,7 @@ def _write(config: FieldConfig, plan: Optional[Plan], seed: int, form: str) -> N
 
 
 def field(data: bytes) -> None:
-    """A field's options in a YAML file; a small field is planted too."""
+    """Reads a field's options from a YAML file; plants a small field."""
     path = Path(_FOLDER.name) / "input.yaml"
     path.write_bytes(data)
     try:
@@ -50,7 +50,7 @@ def field(data: bytes) -> None:
 
 
 def centres(data: bytes) -> None:
-    """A table of stalk centres, planted."""
+    """Reads a table of stalk centres and plants it."""
     path = Path(_FOLDER.name) / "input.csv"
     path.write_bytes(data)
     try:

@@ -45,7 +45,7 @@ def pool() -> tuple:
 
 @pytest.fixture()
 def generate_field(models, monkeypatch, capsys):
-    """Run the command with arguments; returns exit code and standard error."""
+    """Runs the command with arguments; returns exit code and standard error."""
     from ardee_world import generate_field
 
     def call(*arguments) -> tuple:

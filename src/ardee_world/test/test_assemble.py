@@ -20,7 +20,7 @@ BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", 
 
 @pytest.fixture()
 def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
-    """Run the command in a folder with a field, an empty field and a geofence; returns code and standard error."""
+    """Runs the command in a folder with a field, an empty field and a geofence; returns code and standard error."""
     assert generate_field(*BASE, "--output", tmp_path / "models")[0] == 0
     (tmp_path / "share" / "pkg").mkdir(parents=True)
     (tmp_path / "share" / "pkg" / "empty.urdf.xacro").write_text(EMPTY)

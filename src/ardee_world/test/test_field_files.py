@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command and what it writes."""
+"""The command and the files that it writes."""
 
 import csv
 import json

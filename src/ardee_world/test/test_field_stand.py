@@ -72,7 +72,7 @@ def test_lodging_leans_as_many_plants_as_far_and_where_as_asked(pool):
         lodging_direction_sd_deg=10,
     )
     layout = _field(pool, stand=stand, **CERTAIN)
-    # where the plant's own axis points, from the angles that are written
+    # direction of the plant's own axis, from the angles in the file
     top = Rotation.from_euler("xyz", layout.angles_rad).apply([0.0, 0.0, 1.0])
     tilt = np.degrees(np.arccos(top[:, 2].clip(-1, 1)))
     leans = tilt > 1.0

@@ -62,7 +62,7 @@ def test_emergence_is_binomial_with_the_mean_probability(pool, bounds):
     layout = _field(pool, emergence_min=bounds[0], emergence_max=bounds[1])
     low, high = stats.binom.ppf([RISK / 2, 1 - RISK / 2], 20_000, sum(bounds) / 2)
     assert low <= layout.count() <= high
-    # where a stalk stands does not change its chance: runs test over places
+    # emergence does not depend on the place: runs test over places
     stands = np.zeros(20_000, bool)
     stands[layout.index] = True
     p = stands.mean()

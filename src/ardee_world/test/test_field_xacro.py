@@ -128,6 +128,6 @@ def test_clutter_models_are_whole_and_the_same_every_time(tmp_path, name):
             / 6
         )
         assert volume > 1e-5
-    else:  # seen from both sides
+    else:  # sheets have both sides
         key = np.sort(np.round(data["v"], 6).view("f4").reshape(count, 9), axis=1)
         assert len(np.unique(key, axis=0)) <= count // 2

@@ -65,7 +65,7 @@ def test_every_argument_has_a_doc(package, name):
 
 
 def _parameters(package, *arguments):
-    """What roslaunch would set, with the package found in the source tree."""
+    """Parameters that roslaunch would set, with the package found in the source tree."""
     environment = dict(os.environ, ROS_PACKAGE_PATH=str(package.parent), PATH="/usr/bin:/bin")
     command = [
         "roslaunch",

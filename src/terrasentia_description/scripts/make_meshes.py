@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Write the meshes of the three TerraSentia: `make_meshes.py [folder]`, by default the package's meshes/.
+"""Writes the meshes of the three TerraSentia: `make_meshes.py [folder]`, by default the package's meshes/.
 
-The shapes are our own; their dimensions are those of config/ts*_config.urdf.xacro, where the sources are.
+The shapes are our own; their dimensions are those of config/ts*_config.urdf.xacro, which names the sources.
 """
 import pathlib
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ class Leg:
     axle_radius: float
     wall_z: float  # the chassis's side wall along the hinge
     wheel_z: float = 0.0254775  # the hub's inner face along the hinge
-    gap: float = 0.002  # between the leg and the wheel's hub
+    gap: float = 0.002  # gap between the leg and the wheel's hub
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Wheel:
     lugs: int  # tread blocks in each of two rows
     lug_height: float
     lug_half_width: float
-    lug_slant: float  # how far a lug runs along the tread over half of its length
+    lug_slant: float  # distance that a lug runs along the tread over half of its length
     rim: float  # inner radius of the tyre
     spokes: int
     spoke_width: float
@@ -111,7 +111,7 @@ def wheel(of: Wheel) -> np.ndarray:
 
 
 def meshes() -> dict:
-    """Every mesh by generation and file name."""
+    """All meshes by generation and file name."""
     made = {
         "v1": {"base_link.STL": bodies.chassis_v1(), "lid.STL": bodies.lid_v1()},
         "v2": {"base_link.STL": bodies.chassis_v2(), "lid.STL": bodies.lid_v2()},
@@ -127,7 +127,7 @@ def meshes() -> dict:
 
 
 def main() -> None:
-    """Command line."""
+    """Runs the command."""
     parser = Parser(description=__doc__)
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=PACKAGE / "meshes")
     folder = parser.parse_args().folder

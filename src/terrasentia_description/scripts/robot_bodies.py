@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Chassis and lids of the three generations, each about its centre, m; x forward, y left, z up.
 
-Lengths are those of config/ts*_config.urdf.xacro, where the sources are; what is not there is our own design.
+Lengths are those of config/ts*_config.urdf.xacro, which names the sources; all else is our own design.
 """
 import pathlib
 import sys
@@ -88,7 +88,7 @@ def chassis_v2() -> np.ndarray:
     levels = [(0.0, 0.075, 0.04, 0.02), (0.08, 0.06, 0.012, 0.03), (0.42, 0.0, 0.0, 0.03)]
     levels += [(0.62, 0.0, 0.0, 0.03), (0.94, 0.035, 0.012, 0.04), (1.0, 0.042, 0.018, 0.04)]
     parts = [hull(V2_CHASSIS_SIZE, levels)]
-    axle = (0.172, 0.0, -0.078 - 0.02175)  # of a wheel at rest, from the centre of the chassis
+    axle = (0.172, 0.0, -0.078 - 0.02175)  # axle of a wheel at rest, from the centre of the chassis
     arch = mudguard(half_width - 0.01, V2_MUDGUARD_WIDTH / 2)
     for end in (1, -1):
         for side in (0.0, np.pi):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The robots as the tests see them."""
+"""Fixtures of the robots under test."""
 import pathlib
 import sys
 
@@ -16,11 +16,11 @@ from xacro_runner import expand  # noqa: E402
 
 @pytest.fixture(scope="session", params=GENERATIONS, ids=lambda generation: generation.name)
 def generation(request: pytest.FixtureRequest) -> Generation:
-    """What the sources say of a TerraSentia; each test runs for every one."""
+    """Expected numbers of a TerraSentia; each test runs for every generation."""
     return request.param
 
 
 @pytest.fixture(scope="session")
 def robot(generation: Generation) -> Robot:
-    """That TerraSentia without a namespace."""
+    """URDF of the TerraSentia of `generation`, without a namespace."""
     return Robot(expand(PACKAGE / "robots" / generation.file))

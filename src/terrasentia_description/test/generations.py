@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the sources say of the three generations; config/ts*_config.urdf.xacro names the sources."""
+"""Numbers of the three generations from the sources; config/ts*_config.urdf.xacro names the sources."""
 from dataclasses import dataclass
 from typing import Tuple
 
@@ -53,7 +53,7 @@ V1 = Generation(
 )
 V2 = Generation(
     name="v2",
-    # chassis, lid, legs, wheels and what the sensors weigh
+    # masses of chassis, lid, legs, wheels and sensors
     mass=7.227 + 0.3 + 4 * (0.735 + 0.5) + 1.42,
     chassis_box=(0.528, 0.32, 0.19),
     chassis_mesh=(0.528, 0.465, 0.19),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a URDF says: joints, frames, inertials, plugins."""
+"""Content of a URDF: joints, frames, inertials, plugins."""
 import xml.etree.ElementTree as ElementTree
 from typing import Dict, Optional
 
@@ -7,7 +7,7 @@ import numpy as np
 
 
 def numbers(text: Optional[str]) -> np.ndarray:
-    """Blank-separated numbers; three zeros where there is no text."""
+    """Blank-separated numbers; three zeros if there is no text."""
     return np.array([float(word) for word in (text or "0 0 0").split()])
 
 
@@ -55,7 +55,7 @@ class Robot:
         return [p for p in self.root.iter("plugin") if p.get("filename") == filename]
 
     def spring_reference(self, joint: str) -> float:
-        """Where the torsional spring on a joint has no torque, rad."""
+        """Angle at which the torsional spring on a joint has no torque, rad."""
         springs = self.plugins("libTorsionalSpringPlugin.so")
         (spring,) = [s for s in springs if s.findtext("joint_handle") == joint]
         return float(spring.findtext("spring_reference"))

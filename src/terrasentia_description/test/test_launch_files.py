@@ -32,7 +32,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory):
 
 
 def roslaunch(file: str, option: str, *arguments: str, display: str = "") -> str:
-    """What `roslaunch <option>` prints about a file; fails on any complaint."""
+    """Output of `roslaunch <option>` for a file; fails on any complaint."""
     environment = ros_environment()
     environment.pop("DISPLAY", None)
     if display:
@@ -86,7 +86,7 @@ def test_joystick(xbox: str, button: int):
 
 
 def test_the_joystick_is_the_default_of_a_desk():
-    """Listing A.21 drives by joystick unless told not to; here only where a person can sit, and for one robot."""
+    """Listing A.21 drives by joystick by default; here only if there is a DISPLAY, and for one robot."""
     joystick = {"/joy_node", "/joy_controller_node"}
     assert joystick <= set(nodes(FILES[0], display=":0"))
     for arguments in (["use_joy:=false"], ["use_udp:=true"], ["ns:=robot2"]):
@@ -150,7 +150,7 @@ def test_the_command_line_chooses_robot_and_sensors(robot: str, tmp_path: pathli
 
 
 def test_udp_nodes_start_when_asked_for():
-    """Listing A.21: the sensors are relayed; commands come by UDP where there is no joystick."""
+    """Listing A.21: the sensors are relayed; commands come by UDP if there is no joystick."""
     udp = {"/sim_sensor_node", "/udp_control_node"}
     assert not udp & set(nodes(FILES[0]))
     assert udp <= set(nodes(FILES[0], "use_udp:=true"))

@@ -63,7 +63,7 @@ def test_the_calls_of_the_listing_make_a_robot(tmp_path: pathlib.Path):
     assert wanted | {"lid_joint", "hokuyo_joint", "battery_joint"} <= set(robot.joints)
     assert len(robot.plugins("libTorsionalSpringPlugin.so")) == 4
     mass = robot.links["base_footprint"].find("inertial/mass").get("value")
-    assert 2 < float(mass) < 3  # what the configuration leaves for the chassis
+    assert 2 < float(mass) < 3  # rest of the configuration's mass, for the chassis
 
 
 def test_the_chassis_of_listing_a_10_and_of_the_third_generation(tmp_path: pathlib.Path):

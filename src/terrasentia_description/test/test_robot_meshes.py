@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The meshes are what their script makes, and are closed surfaces that face outwards."""
+"""The meshes are the output of their script, and closed surfaces that face outwards."""
 import importlib.util
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the robot stands: kinematics, and the statics of its springs by an independent route (virtual work)."""
+"""Stance of the robot: kinematics, and the statics of its springs by an independent route (virtual work)."""
 from typing import Dict
 
 import numpy as np
@@ -135,7 +135,7 @@ def test_weight_turns_each_leg_from_its_reference_into_its_range(
 
 
 def test_a_robot_on_soft_springs_appears_standing(robot: Robot, generation: Generation):
-    """With all joints at 0, as robots are spawned: v3 at its height at rest, the others a little higher."""
+    """All joints are at 0, as in a spawned robot: v3 has its height at rest, the others stand a little higher."""
     at_zero = WHEEL_RADIUS - wheel_centers(robot, {})[:, 2].mean()
     if generation.appears_at_rest:
         assert at_zero == pytest.approx(0.175, abs=2e-4)

@@ -21,7 +21,7 @@ _MEDIA_SEED = 1
 
 
 def build_terrains(models: Path) -> None:
-    """heightmap_ground with ridges and bumps, heightmap_flat."""
+    """Writes the terrains heightmap_ground (ridges and bumps) and heightmap_flat."""
     ground, flat = TerrainParams(), TerrainParams(ridge_height_m=0.0, bump_sd_m=0.0)
     for params, name, image in (
         (ground, "heightmap_ground", "corn_rows"),
@@ -32,7 +32,7 @@ def build_terrains(models: Path) -> None:
 
 
 def build_media(media: Path) -> None:
-    """Textures named by terrain models."""
+    """Writes the textures that terrain models name."""
     for stem, pixels in media_textures(np.random.default_rng(_MEDIA_SEED)).items():
         buffer = io.BytesIO()
         Image.fromarray(pixels).save(buffer, format="PNG", optimize=True)
@@ -40,7 +40,7 @@ def build_media(media: Path) -> None:
 
 
 def copy_static(source: Path, models: Path) -> None:
-    """Models that are kept by hand (ground_plane, sun)."""
+    """Copies the models that are kept by hand (ground_plane, sun)."""
     for model in sorted(path for path in source.iterdir() if path.is_dir()):
         with model_directory(models, model.name) as folder:
             shutil.copytree(model, folder, dirs_exist_ok=True)
@@ -54,7 +54,7 @@ def _build(args: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    """`python3 -m ardee_models.build --share DIR --static DIR`."""
+    """Runs `python3 -m ardee_models.build --share DIR --static DIR`."""
     parser = Parser(prog="ardee_models.build", description=__doc__)
     parser.add_argument(
         "--share", type=Path, required=True, help="folder to fill with models/ and media/"

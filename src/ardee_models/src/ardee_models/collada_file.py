@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Meshes to COLLADA: z up, metres, one named node a part, texture images by relative path."""
+"""Writes meshes as COLLADA: z up, metres, one named node a part, texture images by relative path."""
 
 import datetime
 from pathlib import Path
@@ -13,9 +13,9 @@ from ardee_models.plant.plant import Mesh
 
 _TIMELESS = datetime.datetime(
     2000, 1, 1
-)  # COLLADA wants a date; the same one keeps the bytes the same
-_DECIMALS = 5  # of a metre: 0.01 mm
-# rviz has no ambient light and lights one side of a leaf: without a glow the other would be black
+)  # COLLADA requires a date; a fixed one keeps the bytes of a file the same
+_DECIMALS = 5  # decimals of a metre: 0.01 mm
+# rviz has no ambient light and lights one side of a leaf; the emission keeps the other side from being black
 _GLOW = 0.35
 
 
@@ -71,7 +71,7 @@ def _node(doc: collada.Collada, name: str, mesh: Mesh, texture_file: str) -> sce
 
 
 def write_collada(parts: Sequence[Tuple[str, Mesh, str]], path: Path) -> None:
-    """Write a .dae of (name, mesh, image file in materials/textures or "") parts."""
+    """Writes a .dae of (name, mesh, image file in materials/textures or "") parts."""
     doc = collada.Collada()
     doc.assetInfo.created = doc.assetInfo.modified = _TIMELESS
     doc.assetInfo.upaxis = asset.UP_AXIS.Z_UP

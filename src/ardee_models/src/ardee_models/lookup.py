@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reading models back: where a model is, how tall its plant is, what ground its heightmap makes."""
+"""Reads models back: the folder of a model, the figures of its plant, the ground of its heightmap."""
 
 import json
 import os
@@ -102,7 +102,7 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
 
 
 def resource(uri: str, folders: Sequence[Path]) -> Path:
-    """The file behind file://a/b or model://a/b: below the first folder that has it, or of GAZEBO_RESOURCE_PATH."""
+    """The file of file://a/b or model://a/b: in the first of `folders`, then of GAZEBO_RESOURCE_PATH, that has it."""
     path = Path(uri.split("://", 1)[-1])
     entries = os.environ.get("GAZEBO_RESOURCE_PATH", "").split(":")
     for folder in [*folders, *(Path(entry) for entry in entries if entry)]:
@@ -112,7 +112,7 @@ def resource(uri: str, folders: Sequence[Path]) -> Path:
 
 
 def _shares(pixels: np.ndarray, mode: str) -> np.ndarray:
-    """Heights from 0 to 1. The brightest pixel of 8 bits is 1, but one of value 1 is 1 / 255; floats are elevations."""
+    """Heights from 0 to 1. In 8 bits the brightest pixel is 1, or 1/255 if its value is 1. Floats are elevations."""
     if mode == "F":
         span = float(np.ptp(pixels))
         return (pixels - pixels.min()) / span if span > 0.0 else np.zeros(pixels.shape)

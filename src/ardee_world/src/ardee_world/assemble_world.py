@@ -47,7 +47,7 @@ def find_terrain(name: str, folders: Sequence[Path], models: Sequence[Path]) -> 
 
 
 def _table(field: Path, model: str, ground: Optional[Ground]) -> Dict[str, str]:
-    """Name to text of the table of plants beside a field's file, if it keeps one, on the ground if one is given."""
+    """Name and text of the table of plants beside a field's file, if it has one; seated on `ground` if given."""
     name = table_name(model)
     if name is None:
         return {}
@@ -67,14 +67,14 @@ def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> 
 
 
 def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
-    """Let a copied model's URIs name the copy: the folder of the old one need not be on any path."""
+    """Makes the URIs of a copied model name the copy, so that the original need not be on a model path."""
     old, new = (f"://{name}/".encode() for name in (old_name, new_name))
     for sdf in sorted(folder.glob("*.sdf")):
         sdf.write_bytes(sdf.read_bytes().replace(old, new))
 
 
 def assemble(args: argparse.Namespace) -> Path:
-    """Arguments to a folder with models/, worlds/custom.world and ardee_geofence/; returns the world's path."""
+    """Writes a folder with models/, worlds/custom.world and ardee_geofence/; returns the world's path."""
     models: List[Path] = search_path(args.model_path)
     field = find_field(args.field, args.search, models)
     terrain = find_terrain(args.terrain, args.search, models)
@@ -100,21 +100,21 @@ def assemble(args: argparse.Namespace) -> Path:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Arguments of `python3 -m ardee_world.assemble_world`."""
+    """Makes the parser of `python3 -m ardee_world.assemble_world`."""
     parser = Parser(prog="assemble_world", description=__doc__)
     parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
     parser.add_argument("terrain", help="model directory of a terrain, or its name")
     parser.add_argument("geofence", help="geofence file")
     parser.add_argument("--output", type=Path, required=True, help="folder to write into")
     parser.add_argument(
-        "--search", type=Path, nargs="*", default=[], help="folders that paths may start from"
+        "--search", type=Path, nargs="*", default=[], help="folders to which paths may be relative"
     )
     parser.add_argument(
         "--model-path",
         type=Path,
         nargs="*",
         default=[],
-        help="folders of models before GAZEBO_MODEL_PATH",
+        help="folders of models, searched before GAZEBO_MODEL_PATH",
     )
     parser.add_argument(
         "--keep-heights", action="store_true", help="do not set plants on the terrain"
@@ -123,7 +123,7 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def main() -> int:
-    """Prints the path of the world file."""
+    """Runs the command; prints the path of the world file."""
     return run(make_parser(), assemble)
 
 

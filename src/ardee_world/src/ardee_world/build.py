@@ -19,7 +19,7 @@ from ardee_world.urdf_file import EMPTY
 
 
 def build_terrains(recipes: Path, models: Path) -> None:
-    """Heightmaps of all recipes in a folder."""
+    """Writes the heightmaps of all recipes in a folder."""
     for path in sorted(recipes.glob("*.yaml")):
         recipe, name = read_recipe(path), path.stem
         write_terrain(
@@ -39,7 +39,7 @@ def missing_models(values: Dict[str, object], folders: Sequence[Path]) -> List[s
 
 
 def build_fields(plans: Path, models: Path, urdf: Path, folders: Sequence[Path]) -> None:
-    """Fields of all plans in a folder. A field whose crop models are not there is left out, and said so."""
+    """Writes the fields of all plans in a folder. A field whose crop models are missing is left out with a message."""
     for plan in sorted(plans.glob("*.yaml")):
         values = yaml_values(plan)
         missing = missing_models(values, folders)
@@ -65,7 +65,7 @@ def _build(args: argparse.Namespace) -> None:
 
 
 def main() -> int:
-    """`python3 -m ardee_world.build --source DIR --share DIR --model-path DIR`."""
+    """Runs `python3 -m ardee_world.build --source DIR --share DIR --model-path DIR`."""
     parser = Parser(prog="ardee_world.build", description=__doc__)
     parser.add_argument(
         "--source", type=Path, required=True, help="folder that holds terrains/ and fields/"

@@ -11,15 +11,15 @@ from ardee_common.errors import GeneratorError
 from ardee_world.field_config import FAR_M, MAX_PLANTS
 from ardee_world.plots import Plan, Row
 
-_MAX_PLOT = 100_000  # of plot and row numbers
+_MAX_PLOT = 100_000  # limit of plot and row numbers
 _COLUMNS = (
     f"numbers from -{FAR_M:g} to {FAR_M:g} in columns x_m, y_m"
-    f" (and, if you like, whole numbers from 0 to {_MAX_PLOT} in plot, row)"
+    f" (optionally also whole numbers from 0 to {_MAX_PLOT} in plot, row)"
 )
 
 
 def plan_of(points_m: np.ndarray, plot: np.ndarray, row: np.ndarray) -> Plan:
-    """A plan of centres in the field's frame. Plants of one plot and row are a row, in the order given."""
+    """Plan of centres in the field's frame. Plants of one plot and row form a row, in the order given."""
     place = np.zeros(len(points_m), dtype=int)
     along = np.tile([0.0, -1.0], (len(points_m), 1))
     pairs = np.column_stack((plot, row))
@@ -38,7 +38,7 @@ def _line(path: Path, number: int, entry: dict) -> tuple:
     except (KeyError, TypeError, ValueError):
         x = y = float("nan")
         plot = row = 0
-    near = abs(x) <= FAR_M and abs(y) <= FAR_M  # a NaN is not
+    near = abs(x) <= FAR_M and abs(y) <= FAR_M  # False for NaN
     within = near and 0 <= min(plot, row) and max(plot, row) <= _MAX_PLOT
     if None in entry or None in entry.values() or not within:
         found = {k: v for k, v in entry.items() if k is not None}
@@ -47,7 +47,7 @@ def _line(path: Path, number: int, entry: dict) -> tuple:
 
 
 def read_centres(path: Path) -> Plan:
-    """Columns x_m and y_m, in the field's frame; without columns plot and row all in one row."""
+    """Reads columns x_m and y_m, in the field's frame; without columns plot and row, all stalks form one row."""
     lines = []
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Weeds, stones and litter: Poisson scattered over the field's bounds, evenly or as an image says."""
+"""Weeds, stones and litter: Poisson scattered over the field's bounds, evenly or by an image."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,7 +49,7 @@ def bounds_of(points_m: np.ndarray, margin_m: float) -> Bounds:
 
 
 def _brightness(path: Optional[str]) -> Optional[np.ndarray]:
-    """Row 0 at the lower edge, 0 black to 1 white."""
+    """Brightness of an image's pixels: row 0 at the lower edge, 0 black to 1 white."""
     if path is None:
         return None
     image = read_grey(Path(path))
@@ -62,7 +62,7 @@ def _brightness(path: Optional[str]) -> Optional[np.ndarray]:
 def _scatter(
     count: int, bounds: Bounds, share: Optional[np.ndarray], streams: Streams, kind: str
 ) -> np.ndarray:
-    """Places: uniform over the bounds, or over pixels as bright as they are."""
+    """Draws places: uniform over the bounds, or in proportion to the brightness of the pixels."""
     spot = streams.of(kind, 1).random((count, 2))
     if share is not None:
         cumulative = np.cumsum(share.ravel())
@@ -76,7 +76,7 @@ def _scatter(
 def draw_items(
     kind: str, config: Clutter, pool: Tuple[CropModel, ...], bounds: Bounds, streams: Streams
 ) -> Optional[Items]:
-    """Items of a kind, or None where its density is zero. More of them leave the first ones where they were."""
+    """Draws items of a kind; None if its density is zero. A higher density leaves the first items in place."""
     density = getattr(config, f"{kind}_density_per_m2")
     if density == 0.0:
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Model directories of weeds, stones and litter: one STL mesh each, with a colour; stones are collided with."""
+"""Model directories of weeds, stones and litter: one STL mesh each, with a colour; stones have a collision shape."""
 
 import json
 import zlib
@@ -46,7 +46,7 @@ _COLLISION = """      <collision name="collision">
 
 @dataclass(frozen=True)
 class ClutterModel:
-    """One model: its shape, its colour (red, green, blue in 0 to 1), and whether wheels feel it."""
+    """One model: its shape, its colour (red, green, blue in 0 to 1), and whether it has a collision shape."""
 
     kind: str
     label: int
@@ -84,7 +84,7 @@ MODELS = {
 
 
 def _stl_bytes(triangles: np.ndarray) -> bytes:
-    """A binary STL file."""
+    """Bytes of a binary STL file."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
     records = np.zeros(len(triangles), dtype=_STL)
@@ -93,7 +93,7 @@ def _stl_bytes(triangles: np.ndarray) -> bytes:
 
 
 def write_clutter_model(name: str, parent: Path) -> Path:
-    """Write parent/name, replacing an earlier model of that name; the same bytes every time."""
+    """Writes parent/name, replacing an earlier model of that name; the bytes are the same every time."""
     model = MODELS[name]
     triangles = model.shape(np.random.default_rng(zlib.crc32(name.encode())))
     span = np.ptp(triangles.reshape(-1, 3), axis=0)

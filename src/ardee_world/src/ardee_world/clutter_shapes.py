@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Shapes of weeds, stones and litter, as triangles (n, 3, 3) in metres. Sizes are estimates of common ones."""
+"""Shapes of weeds, stones and litter, as triangles (n, 3, 3) in metres. Sizes are estimates of common specimens."""
 
 from typing import List
 
@@ -18,7 +18,7 @@ def _grid(points: np.ndarray) -> np.ndarray:
 
 
 def both_sides(triangles: np.ndarray) -> np.ndarray:
-    """Adds the backs of a sheet, to be seen from below as well: STL has no material that says so."""
+    """Adds the back of a sheet, which makes it visible from below too: STL has no two-sided material."""
     return np.concatenate((triangles, triangles[:, ::-1]))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The line that rows follow: where its arc length s and an offset d to its left are in the field's frame."""
+"""The line that rows follow: maps arc length s and offset d to its left to the field's frame."""
 
 from typing import Optional, Tuple
 
@@ -11,7 +11,7 @@ from ardee_world.field_config import RowShape
 
 _LARGEST_STEP_M = 0.02
 _MOST_SAMPLES = 100_000
-_STEEPEST = 20.0  # of y(x); beyond, rows are no rows
+_STEEPEST = 20.0  # largest slope of y(x) at which rows make sense
 _FOLDED = (
     "rows {d:.2f} m to the {side} of the line, where its radius of curvature is {radius:.2f} m"
 )
@@ -30,7 +30,7 @@ def left_of(tangent: np.ndarray) -> np.ndarray:
 
 
 class Line:
-    """The middle line. Beyond its ends it goes on straight."""
+    """The middle line, continued straight beyond its ends."""
 
     def __init__(self, shape: RowShape, length_m: float) -> None:
         self.shape, self.length_m = shape, length_m
@@ -82,7 +82,7 @@ class Line:
         return np.column_stack((along, across)), heading
 
     def bent_aside(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
-        """Offsets where rows make room for the island: it stays free of them, and lanes keep 3/4 of their width."""
+        """Offsets of rows that bend around the island, which stays free; lanes keep 3/4 of their width."""
         radius = self.shape.island_radius_m
         if radius == 0.0:
             return d
@@ -92,7 +92,7 @@ class Line:
         return d + np.where(beside >= 0.0, push, -push)
 
     def points(self, s: np.ndarray, d: np.ndarray) -> np.ndarray:
-        """(n, 2) in the field's frame."""
+        """Points (n, 2) in the field's frame."""
         middle, heading = self._middle(s)
         d = self.bent_aside(s, d)
         local = middle + d[:, None] * np.column_stack((-np.sin(heading), np.cos(heading)))
@@ -105,7 +105,7 @@ class Line:
         return c * self.forward + w * left_of(self.forward)
 
     def check_offsets(self, low_m: float, high_m: float) -> None:
-        """Rows beside the line must not fold, nor close on themselves."""
+        """Raises GeneratorError if rows beside the line would fold or close on themselves."""
         if self.shape.row_shape == "curved":
             radius = self.shape.curve_radius_m
             if self.length_m >= 2.0 * np.pi * abs(radius):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An expression y(x) of the user's own, read by its syntax tree: numbers, x, arithmetic, a few functions."""
+"""A user's expression y(x), evaluated from its syntax tree: numbers, x, arithmetic, a few functions."""
 
 import ast
 import operator
@@ -59,10 +59,10 @@ def _value(node: ast.AST, x: np.ndarray, text: str) -> np.ndarray:
 
 
 def parse_expression(text: str) -> Function:
-    """y as a function of an array x; both in metres."""
+    """Returns y as a function of an array x; both in metres."""
     if len(text) > _MAX_LENGTH:
         raise GeneratorError(
-            f"row expression: found {len(text)} letters, expected at most {_MAX_LENGTH}"
+            f"row expression: found {len(text)} characters, expected at most {_MAX_LENGTH}"
         )
     try:
         tree = ast.parse(text, mode="eval").body

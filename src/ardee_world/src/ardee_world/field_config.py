@@ -19,22 +19,26 @@ _COUNT = (1, 100_000)
 
 @dataclass(frozen=True)
 class Plots:
-    """The plan of a field. Rows run along the row direction, plots are counted along x (across) and y (along)."""
+    """The plan of a field. Rows run along the row direction; plots are counted along x (across) and y (along)."""
 
     rows_per_plot: int = option(4, "rows per plot", _COUNT, flag="rows")
     plots_x: int = option(1, "number of plots side by side", _COUNT)
     plots_y: int = option(1, "number of plots one behind the other", _COUNT)
     row_length_m: float = option(8.134, "length of rows (50 plants)", _LENGTH)
     # 30 inches, usual for corn
-    row_spacing_m: float = option(0.762, "between rows", (0.01, FAR_M))
+    row_spacing_m: float = option(0.762, "distance between rows", (0.01, FAR_M))
     # 32,000 plants an acre in 30 inch rows (OSU's optimum)
-    stalk_spacing_m: float = option(0.166, "between stalks in a row", (0.01, FAR_M))
-    plot_spacing_x_m: float = option(1.524, "between the outer rows of plots side by side", _LENGTH)
-    plot_spacing_y_m: float = option(1.5, "between the ends of plots one behind the other", _LENGTH)
-    headland_m: float = option(1.0, "from the field's origin to the first stalks", _LENGTH)
+    stalk_spacing_m: float = option(0.166, "distance between stalks in a row", (0.01, FAR_M))
+    plot_spacing_x_m: float = option(
+        1.524, "distance between the outer rows of plots side by side", _LENGTH
+    )
+    plot_spacing_y_m: float = option(
+        1.5, "distance between the ends of plots one behind the other", _LENGTH
+    )
+    headland_m: float = option(1.0, "distance from the field's origin to the first stalks", _LENGTH)
 
     def stalks_per_row(self) -> int:
-        """First stalk at the start of the row, last at or before its end."""
+        """Number of stalks in a row: the first at its start, the last at or before its end."""
         return int(math.floor(self.row_length_m / self.stalk_spacing_m + 1e-6)) + 1
 
     def planned_count(self) -> int:
@@ -59,25 +63,29 @@ class RowShape:
     row_direction_deg: float = option(
         -90.0, "direction in which rows run, from the field's x axis", (-360.0, 360.0)
     )
-    curve_radius_m: float = option(50.0, "of curved rows, positive to the left", (-FAR_M, FAR_M))
-    sine_amplitude_m: float = option(0.3, "of sine rows", _LENGTH)
-    sine_wavelength_m: float = option(10.0, "of sine rows", (0.1, FAR_M))
+    curve_radius_m: float = option(
+        50.0, "radius of curved rows, positive to the left", (-FAR_M, FAR_M)
+    )
+    sine_amplitude_m: float = option(0.3, "amplitude of sine rows", _LENGTH)
+    sine_wavelength_m: float = option(10.0, "wavelength of sine rows", (0.1, FAR_M))
     row_expression: Optional[str] = option(
         None, "y(x) [m] of rows of shape expression: x along, y to the left; e.g. '0.2*sin(x/2)'"
     )
     island_radius_m: float = option(
-        0.0, "of a round spot that the rows bend around, 0 for none", _LENGTH
+        0.0, "radius of a round spot that the rows bend around, 0 for none", _LENGTH
     )
     island_distance_m: float = option(
-        5.0, "of the spot from the field's origin, along the rows", _LENGTH
+        5.0, "distance of the spot from the field's origin, along the rows", _LENGTH
     )
     island_offset_m: float = option(
-        0.0, "of the spot to the left of the middle lane", (-FAR_M, FAR_M)
+        0.0, "offset of the spot to the left of the middle lane", (-FAR_M, FAR_M)
     )
-    cross_rows: int = option(0, "rows across each headland", (0, 1000))
-    cross_rows_at: str = option("both", "which headlands", choices=("both", "start", "end"))
+    cross_rows: int = option(0, "number of rows across each headland", (0, 1000))
+    cross_rows_at: str = option(
+        "both", "headlands that have cross rows", choices=("both", "start", "end")
+    )
     cross_row_clearance_m: float = option(
-        3.0, "from the rows' ends to the first cross row", _LENGTH
+        3.0, "distance from the rows' ends to the first cross row", _LENGTH
     )
 
 
@@ -85,41 +93,49 @@ class RowShape:
 class Stand:
     """Gaps and doubles in the rows, and plants that lean."""
 
-    gaps: int = option(0, "gaps in the rows of the field", (0, MAX_PLANTS))
+    gaps: int = option(0, "number of gaps in the rows of the field", (0, MAX_PLANTS))
     gap_length_m: float = option(1.0, "length of each gap, in whole plants", (0.01, FAR_M))
     doubles: float = option(0.0, "probability that two plants stand at a place", _PROBABILITY)
-    double_spacing_m: float = option(0.03, "between the two, along the row", (0.0, 10.0))
+    double_spacing_m: float = option(
+        0.03, "distance between the plants of a double, along the row", (0.0, 10.0)
+    )
     lodging: float = option(0.0, "probability that a plant leans", _PROBABILITY)
     lodging_angle_min_deg: float = option(20.0, "least tilt from the vertical", (0.0, 85.0))
     lodging_angle_max_deg: float = option(70.0, "largest tilt from the vertical", (0.0, 85.0))
     lodging_direction_deg: Optional[float] = option(
-        None, "to which plants lean, from the field's x axis; any if not given", (-360.0, 360.0)
+        None,
+        "direction in which plants lean, from the field's x axis; random if not given",
+        (-360.0, 360.0),
     )
     lodging_direction_sd_deg: float = option(
-        15.0, "standard deviation of that direction", (0.0, 180.0)
+        15.0, "standard deviation of the direction in which plants lean", (0.0, 180.0)
     )
 
 
 @dataclass(frozen=True)
 class Clutter:
-    """Weeds, stones and litter of the field. An image multiplies the density: black none, white all of it."""
+    """Weeds, stones and litter of the field. An image multiplies the density: by 0 where black, by 1 where white."""
 
-    weed_density_per_m2: float = option(0.0, "weeds", (0.0, 10_000.0))
+    weed_density_per_m2: float = option(0.0, "density of weeds", (0.0, 10_000.0))
     weed_models: Tuple[str, ...] = option(
         ("weed_rosette", "weed_broadleaf", "weed_grass"), "pool of weed models"
     )
     weed_image: Optional[str] = option(None, "grey image over the field's bounds: density of weeds")
-    stone_density_per_m2: float = option(0.0, "stones", (0.0, 10_000.0))
+    stone_density_per_m2: float = option(0.0, "density of stones", (0.0, 10_000.0))
     stone_models: Tuple[str, ...] = option(
         ("stone_round", "stone_flat", "stone_sharp"), "pool of stone models"
     )
     stone_image: Optional[str] = option(None, "grey image: density of stones")
-    litter_density_per_m2: float = option(0.0, "litter: dead leaves and stalks", (0.0, 10_000.0))
+    litter_density_per_m2: float = option(
+        0.0, "density of litter: dead leaves and stalks", (0.0, 10_000.0)
+    )
     litter_models: Tuple[str, ...] = option(
         ("litter_leaf", "litter_stalk"), "pool of litter models"
     )
     litter_image: Optional[str] = option(None, "grey image: density of litter")
-    clutter_margin_m: float = option(0.5, "beyond the outer plants", _LENGTH)
+    clutter_margin_m: float = option(
+        0.5, "width of the margin of weeds, stones and litter beyond the outer plants", _LENGTH
+    )
 
 
 @dataclass(frozen=True)
@@ -136,16 +152,18 @@ class FieldConfig:
     )
     # 90-95 % is an average stand (Hermans)
     emergence_min: float = option(0.90, "lowest probability that a plant emerges", _PROBABILITY)
-    emergence_max: float = option(0.98, "highest", _PROBABILITY)
+    emergence_max: float = option(0.98, "highest probability that a plant emerges", _PROBABILITY)
     stalk_height_min_m: Optional[float] = option(
         None, "lowest plant height; the models' own if not given", (0.01, 20.0)
     )
-    stalk_height_max_m: Optional[float] = option(None, "highest plant height", (0.01, 20.0))
+    stalk_height_max_m: Optional[float] = option(
+        None, "highest plant height; the models' own if not given", (0.01, 20.0)
+    )
     origin_latitude_deg: Optional[float] = option(None, "", (-89.9, 89.9))
     origin_longitude_deg: Optional[float] = option(None, "", (-180.0, 180.0))
     # x m, y m, yaw rad
     world_pose: Tuple[float, float, float] = option(
-        (0.0, 0.0, -1.57), "where the field stands in the world, X Y YAW [m m rad]", (-FAR_M, FAR_M)
+        (0.0, 0.0, -1.57), "pose of the field in the world, X Y YAW [m m rad]", (-FAR_M, FAR_M)
     )
 
     def covariance(self) -> np.ndarray:
@@ -154,7 +172,7 @@ class FieldConfig:
         return np.array([[xx, xy], [xy, yy]])
 
     def validate(self) -> None:
-        """Raise GeneratorError for the first value out of range."""
+        """Raises GeneratorError for the first value out of range."""
         for group in GROUPS:
             check(getattr(self, group))
         check(self)
@@ -178,7 +196,7 @@ def _shape_checks(shape: RowShape) -> list:
             shape.row_shape != "curved" or shape.curve_radius_m != 0.0,
             "curve radius",
             shape.curve_radius_m,
-            "another number than zero",
+            "a number other than zero",
         ),
         (
             given == (shape.row_shape == "expression"),

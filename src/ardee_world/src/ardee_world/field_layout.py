@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The realised field as plain data, and how it is drawn."""
+"""The realised field as plain data, and its random draw."""
 
 from dataclasses import dataclass
 from typing import Dict, Optional, Tuple
@@ -17,7 +17,7 @@ from ardee_world.plots import Plan, plan_centres
 from ardee_world.stand import Gap, Lean, draw_gaps, draw_lean, roll_pitch_yaw
 from ardee_world.streams import Streams
 
-DECIMALS = 4  # of lengths and angles in files
+DECIMALS = 4  # decimals of lengths and angles in files
 Pools = Dict[str, Tuple[CropModel, ...]]
 
 
@@ -30,12 +30,12 @@ class Layout:
     pool: Tuple[CropModel, ...]
     planned: Plan
     gaps: Tuple[Gap, ...]
-    number: np.ndarray  # of the plant: its place in the plan; of a second plant, places of the plan more
-    index: np.ndarray  # into `planned`
+    number: np.ndarray  # place of the plant in the plan; for the second plant of a double, plus the number of places
+    index: np.ndarray  # index into `planned`
     position_m: np.ndarray  # (n, 3)
     angles_rad: np.ndarray  # (n, 3) roll, pitch, yaw
     lean: Lean
-    model: np.ndarray  # into `pool`
+    model: np.ndarray  # index into `pool`
     scale: np.ndarray
     height_m: np.ndarray
     clutter: Tuple[Tuple[Items, np.ndarray], ...]  # items, and their height on the ground [m]
@@ -46,13 +46,13 @@ class Layout:
         return self.angles_rad[:, 2]
 
     def count(self) -> int:
-        """Plants that emerged."""
+        """Number of plants that emerged."""
         return len(self.index)
 
 
 @dataclass(frozen=True)
 class _Draw:
-    """Plants that emerged among one seed a place; arrays run over plants, `index` into the plan."""
+    """Plants that emerged of one seed at each place; arrays run over plants, `index` into the plan."""
 
     index: np.ndarray
     xy_m: np.ndarray
@@ -64,14 +64,14 @@ class _Draw:
 
 
 def to_world(xy_m: np.ndarray, world_pose: Tuple[float, float, float]) -> np.ndarray:
-    """Field frame to the frame of the world that includes the field at `world_pose`."""
+    """Transforms from the field's frame to the frame of the world that includes the field at `world_pose`."""
     x, y, yaw = world_pose
     c, s = np.cos(yaw), np.sin(yaw)
     return xy_m @ np.array([[c, s], [-s, c]]) + np.array([x, y])
 
 
 def ground_heights(xy_m: np.ndarray, config: FieldConfig, terrain: Optional[Ground]) -> np.ndarray:
-    """Height of the ground below places of the field, as they are written; zero without a terrain."""
+    """Height of the ground below places of the field, rounded as in the files; zero without a terrain."""
     if terrain is None or len(xy_m) == 0:
         return np.zeros(len(xy_m))
     world = to_world(np.round(xy_m, DECIMALS), config.world_pose)
@@ -138,7 +138,7 @@ def generate(
     centres: Optional[Plan] = None,
     clutter_pools: Optional[Pools] = None,
 ) -> Layout:
-    """Draw a field. Each source of variation has its own stream, so that changing one leaves the others."""
+    """Draws a field. Each source of variation has its own stream, so that a change of one leaves the others alone."""
     config.validate()
     if not pool:
         raise GeneratorError("model pool: found none, expected at least one crop model")

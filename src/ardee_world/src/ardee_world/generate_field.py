@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `generate_field`."""
+"""The command `generate_field`."""
 
 import argparse
 import dataclasses
@@ -83,7 +83,7 @@ def _add_special(group: Any) -> None:
         nargs=3,
         default=none,
         metavar=("X", "Y", "YAW"),
-        help=f"where the field stands in the world [m m rad] (default {' '.join(map(str, usual.world_pose))},"
+        help=f"pose of the field in the world [m m rad] (default {' '.join(map(str, usual.world_pose))},"
         " as farm.world does)",
     )
     group.add_argument(
@@ -93,7 +93,7 @@ def _add_special(group: Any) -> None:
         nargs=2,
         default=none,
         metavar=("LAT", "LON"),
-        help="of the world's origin [deg]",
+        help="latitude and longitude of the world's origin [deg]",
     )
     group.add_argument(
         "--seed", type=seed_number, default=none, help="root of all random numbers (default 0)"
@@ -101,14 +101,16 @@ def _add_special(group: Any) -> None:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Arguments of thesis Figure 4.4, and more."""
+    """Makes the parser of the arguments of thesis Figure 4.4, and of more."""
     parser = Parser(
         prog="generate_field",
         description="Write a random crop field as a Gazebo model directory with its ground truth.",
         epilog="A YAML file has the same options as keys with their unit: row_spacing_m, emergence_min, ...; "
-        "arguments win over it.",
+        "arguments override it.",
     )
-    parser.add_argument("yaml", nargs="?", type=Path, metavar="FIELD.yaml", help="file of options")
+    parser.add_argument(
+        "yaml", nargs="?", type=Path, metavar="FIELD.yaml", help="YAML file of options"
+    )
     for name, cls in groups().items():
         if name == "aliases":
             continue
@@ -122,7 +124,7 @@ def make_parser() -> argparse.ArgumentParser:
                 type=int,
                 default=argparse.SUPPRESS,
                 metavar="N",
-                help="instead of --row-length",
+                help="number of stalks in a row, instead of --row-length",
             )
         if name == "field":
             _add_special(group)
@@ -138,7 +140,7 @@ def _plan(sources: Sources) -> Optional[Plan]:
 
 
 def make_field(args: argparse.Namespace) -> Path:
-    """Arguments to a written field."""
+    """Writes the field that the arguments describe; returns its path."""
     given: Values = vars(args)
     file = given.pop("yaml", None)
     if "row_length_m" in given and "stalks_per_row" in given:
@@ -150,7 +152,7 @@ def make_field(args: argparse.Namespace) -> Path:
 
 
 def make_configured(values: Values) -> Path:
-    """Options by key to a written field."""
+    """Writes the field of options by key; returns its path."""
     sources, config = configure(values)
     folders = search_path([Path(folder) for folder in sources.model_path])
     pool = tuple(crop_model(name, folders) for name in sources.models)
@@ -169,7 +171,7 @@ def make_configured(values: Values) -> Path:
 
 
 def main() -> int:
-    """`generate_field --models corn_variant_1 ... --name my_field --output DIR`."""
+    """Runs `generate_field --models corn_variant_1 ... --name my_field --output DIR`."""
     return run(make_parser(), make_field)
 
 

@@ -10,9 +10,9 @@ from ardee_common.errors import GeneratorError
 from ardee_world.curves import Line, left_of
 from ardee_world.field_config import MAX_PLANTS, Plots, RowShape
 
-_VERTEX_SPACING_M = 0.25  # of the polylines of bent rows
+_VERTEX_SPACING_M = 0.25  # distance of vertices in the polylines of bent rows
 _ARC_STEP_M = 0.02
-_SHORTEST_STEP_M = 1e-9  # that tells a direction
+_SHORTEST_STEP_M = 1e-9  # shortest step that defines a direction
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Plan:
 
 
 def row_positions(plots: Plots) -> np.ndarray:
-    """Offset of each row from the middle line, shape (plots_x, rows). A lane of the middle plot lies on 0."""
+    """Offset of each row from the middle line, shape (plots_x, rows). A lane of the middle plot has offset 0."""
     width = (plots.rows_per_plot - 1) * plots.row_spacing_m
     pitch = width + plots.plot_spacing_x_m
     rows = np.arange(plots.rows_per_plot) * plots.row_spacing_m
@@ -74,7 +74,7 @@ def _bent_row(line: Line, start_m: float, d: float, plots: Plots) -> Tuple[np.nd
 
 
 def _straight_row(line: Line, start_m: float, d: float, plots: Plots) -> Tuple[np.ndarray, ...]:
-    """The same in closed form."""
+    """Centres, directions and polyline of a straight row, in closed form."""
     s = start_m + np.arange(plots.stalks_per_row()) * plots.stalk_spacing_m
     ends = start_m + np.array([0.0, plots.row_length_m])
     along = np.broadcast_to(line.forward, (len(s), 2))
@@ -112,7 +112,7 @@ def _cross_rows(
 
 
 def plan_centres(plots: Plots, shape: RowShape = RowShape()) -> Plan:
-    """Every stalk of the default strategy: plots of rows along one line, and rows across the headlands."""
+    """Plans the default strategy: plots of rows along one line, and rows across the headlands."""
     line = Line(shape, plots.length_m())
     offsets = row_positions(plots)
     line.check_offsets(float(offsets.min()), float(offsets.max()))

@@ -11,7 +11,8 @@ from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of, option, scalar_fields
 from ardee_world.field_config import GROUPS, FieldConfig
 
-LARGEST_SDF = 20_000  # plants and clutter; a larger field is a stream if nothing is said
+# number of plants and clutter items above which a field is by default written as a stream
+LARGEST_SDF = 20_000
 _WHOLE = (0, 2**63)
 Values = Dict[str, Any]
 
@@ -23,11 +24,11 @@ class Sources:
     models: Tuple[str, ...] = option((), "pool of crop models to draw from")
     name: Optional[str] = option(None, "name of the field's model")
     output: Optional[str] = option(None, "folder of models to write it in")
-    model_path: Tuple[str, ...] = option((), "folders of models before GAZEBO_MODEL_PATH")
+    model_path: Tuple[str, ...] = option((), "folders of models, searched before GAZEBO_MODEL_PATH")
     terrain: Optional[str] = option(
-        None, "terrain model at the world's origin to stand on (default level)"
+        None, "terrain model at the world's origin that the field stands on (default: level ground)"
     )
-    centers: Any = option(None, "CSV file of stalk centres x_m,y_m of your own instead of a plan")
+    centers: Any = option(None, "CSV file of your own stalk centres x_m,y_m, instead of a plan")
     format: str = option(
         "auto",
         "model.sdf with an include a plant, or a table plants.csv that only this simulator reads, as a stream;"
@@ -42,10 +43,12 @@ _PATHS = ("output", "centers", "weed_image", "stone_image", "litter_image")
 
 @dataclass(frozen=True)
 class _Aliases:
-    """Options that are given in another form than they are kept in."""
+    """Options whose form in the request differs from their form in the configuration."""
 
     noise_covariance_m2: Tuple[float, ...] = ()
-    stalks_per_row: Optional[int] = option(None, "instead of the row length", (1, 1_000_000))
+    stalks_per_row: Optional[int] = option(
+        None, "number of stalks in a row, instead of the row length", (1, 1_000_000)
+    )
     gps_origin_deg: Optional[Tuple[float, float]] = option(
         None, "latitude and longitude of the world's origin", (-180.0, 180.0)
     )
@@ -67,7 +70,7 @@ def _relative(value: str, folder: Path) -> str:
 
 
 def yaml_values(path: Path) -> Values:
-    """Options of a YAML file by key."""
+    """Reads the options of a YAML file, by key."""
     known, mapping = all_fields(), read_yaml_lines(path)
     values: Values = {}
     for key, raw in mapping.items():
@@ -123,7 +126,7 @@ def _resolve_aliases(values: Values) -> Values:
 
 
 def configure(values: Values) -> Tuple[Sources, FieldConfig]:
-    """Options by key, all of them checked, to what the generator takes."""
+    """Checks options by key; returns the generator's inputs."""
     values = _resolve_aliases(values)
     made = {}
     for group, cls in groups().items():

@@ -45,14 +45,14 @@ def _heights(xy: np.ndarray, ground: Ground, pose: WorldPose) -> List[float]:
 
 
 def seat(model: str, ground: Ground) -> str:
-    """The text of model.sdf with its includes, in a world that stands it at its own pose, on the ground."""
+    """Returns the text of model.sdf with its includes on the ground, for a world that keeps the field's own pose."""
     poses = [match.group(2).split() for match in _POSE.finditer(model)]
     if not poses:
         return model
     try:
         xy = np.array([pose[:2] for pose in poses], dtype=float)
     except ValueError as error:
-        raise GeneratorError(f"field: found a pose that is no six numbers: {error}") from error
+        raise GeneratorError(f"field: found a pose that is not six numbers: {error}") from error
     heights = iter(_heights(xy, ground, own_pose(model)))
 
     def placed(match: "re.Match") -> str:
@@ -63,13 +63,13 @@ def seat(model: str, ground: Ground) -> str:
 
 
 def table_name(model: str) -> Optional[str]:
-    """Name of the table of plants that a model.sdf keeps beside it, if it does."""
+    """Returns the name of the table of plants beside a model.sdf, if it has one."""
     found = _TABLE.search(model)
     return found.group(1) if found else None
 
 
 def read_table(path: Path) -> str:
-    """Text of a table of plants."""
+    """Reads the text of a table of plants."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -81,7 +81,7 @@ def read_table(path: Path) -> str:
 
 
 def seat_table(text: str, path: Path, ground: Ground, pose: WorldPose) -> str:
-    """The text of a table of plants of a field at `pose`, on the ground; `path` is for messages."""
+    """Returns the table of a field at `pose` with its plants on the ground; messages name `path`."""
     rows = [line.split(",") for line in text.splitlines()[1:]]
     xy = np.empty((len(rows), 2))
     for number, row in enumerate(rows):

@@ -21,12 +21,12 @@ class Gap:
     count: int
 
     def places(self) -> slice:
-        """Into the plan."""
+        """Slice of the plan's places that the gap covers."""
         return slice(self.first, self.first + self.count)
 
 
 def draw_gaps(plan: Plan, stand: Stand, stalk_spacing_m: float, rng: np.random.Generator) -> tuple:
-    """Gaps of whole plants that do not touch each other nor a row's end, each place as likely as any other."""
+    """Draws gaps of whole plants that touch neither each other nor a row's end; all places are equally likely."""
     if stand.gaps == 0:
         return ()
     count = max(int(round(stand.gap_length_m / stalk_spacing_m)), 1)
@@ -63,7 +63,7 @@ class Lean:
 
 
 def draw_lean(count: int, stand: Stand, streams: Streams, prefix: str = "") -> Lean:
-    """A plant leans with probability `lodging`, by a uniform angle, in a normal or uniform direction."""
+    """Draws the lean: with probability `lodging`, by a uniform angle, in a normal or uniform direction."""
     if stand.lodging == 0.0:
         return Lean(np.zeros(count), np.zeros(count))
     leans = streams.of(prefix + "lodging").random(count) < stand.lodging
@@ -81,7 +81,7 @@ def draw_lean(count: int, stand: Stand, streams: Streams, prefix: str = "") -> L
 
 
 def roll_pitch_yaw(yaw_rad: np.ndarray, lean: Lean) -> np.ndarray:
-    """(n, 3) angles about the fixed axes of plants turned by yaw, then tilted about their foot."""
+    """Angles (n, 3) about fixed axes for plants turned by yaw, then tilted about their foot."""
     angles = np.zeros((len(yaw_rad), 3))
     angles[:, 2] = yaw_rad
     leaning = np.flatnonzero(lean.tilt_rad)

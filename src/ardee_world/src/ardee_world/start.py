@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The pose from which a robot starts in front of a field: <name>.start.yaml beside it holds it."""
+"""The pose from which a robot starts in front of a field, kept in <name>.start.yaml beside the field."""
 
 import dataclasses
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from ardee_world.field_layout import Layout
 
 STAND_M = 0.175  # height of a robot's base_footprint above the ground below its wheels
 _REACH_M = 0.3  # half the length of a robot
-_TEXT = """# Where a robot starts: in the middle of the lane, before the first stalks, looking along the rows.
+_TEXT = """# Start pose of a robot: in the middle of the lane, before the first stalks, looking along the rows.
 x_m: {x_m:.4f}
 y_m: {y_m:.4f}
 z_m: {z_m:.4f}
@@ -48,7 +48,7 @@ class Start:
 
 
 def start_before(layout: Layout) -> Start:
-    """At the field's origin, which lies in a lane, along the first direction of the rows."""
+    """Start pose at the field's origin, which lies in a lane, along the first direction of the rows."""
     x, y, turn = layout.config.world_pose
     line = Line(layout.config.shape, layout.config.plots.length_m())
     ahead = line.tangents(np.zeros(1))[0]
@@ -62,7 +62,7 @@ def start_file(field: Path) -> Path:
 
 
 def read_start(path: Path) -> Start:
-    """The start pose of a file; the default without one."""
+    """Reads the start pose of a file; returns the default without one."""
     if not path.is_file():
         return Start()
     return build(Start, read_yaml_lines(path))

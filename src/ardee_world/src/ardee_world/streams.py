@@ -3,7 +3,7 @@
 
 import numpy as np
 
-# The number of a stream is part of what a seed means: never give one of these to another source.
+# The number of a stream determines the fields of a seed: never reuse one of these for another source.
 _NUMBERS = {
     "placement": (0,),
     "emergence": (1,),
@@ -29,7 +29,7 @@ _NUMBERS = {
 
 
 class Streams:
-    """Streams of a root seed by name."""
+    """Random streams of a root seed, by name."""
 
     def __init__(self, seed: int) -> None:
         self._seed = seed

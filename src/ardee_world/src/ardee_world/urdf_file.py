@@ -25,7 +25,7 @@ _MAX_BYTES = 4 << 30
 
 
 def check_xml(text: str, path: Path, first_line: int = 1) -> None:
-    """Raise GeneratorError with the line where a text is no XML."""
+    """Raises GeneratorError with the line at which a text is not XML."""
     parser = expat.ParserCreate()
     try:
         parser.Parse(text.encode(), True)
@@ -36,7 +36,7 @@ def check_xml(text: str, path: Path, first_line: int = 1) -> None:
 
 
 def split_field(path: Path) -> Tuple[str, str]:
-    """Texts of model.sdf and plots.xacro."""
+    """Splits a field's file; returns the texts of model.sdf and plots.xacro."""
     try:
         if path.stat().st_size > _MAX_BYTES:
             raise GeneratorError(f"{path}: found more than {_MAX_BYTES} bytes, expected fewer")

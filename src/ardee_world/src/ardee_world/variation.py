@@ -23,5 +23,5 @@ def emerged(count: int, low: float, high: float, rng: np.random.Generator) -> np
 def target_heights(
     count: int, low: Optional[float], high: Optional[float], rng: np.random.Generator
 ) -> Optional[np.ndarray]:
-    """Uniform heights in [low, high], or nothing where the models keep their own."""
+    """Uniform heights in [low, high], or None if the models keep their own."""
     return None if low is None else rng.uniform(low, high, count)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Plants: from species, stage and seed to a mesh and its model directory."""
+"""Plants: makes a mesh and its model directory from species, stage and seed."""

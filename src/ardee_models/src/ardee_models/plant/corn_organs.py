@@ -11,14 +11,14 @@ from ardee_models.plant.leaf import Blade
 from ardee_models.plant.organ_params import BraceRoots, Ears, Tassel
 from ardee_models.plant.shoot import Shoot
 
-HUSK_BAND, SILK_BAND = (0.0, 0.72), (0.76, 1.0)  # of the ears' texture
+HUSK_BAND, SILK_BAND = (0.0, 0.72), (0.76, 1.0)  # bands of the ears' texture
 _SPIKE_RADIUS_M = 0.0045  # spikelets on the rachis (estimate)
 _BRANCH_RADIUS_M = 0.0035  # estimate
 _PEDUNCLE = 0.32  # bare part of the tassel's length (estimate)
 _BRANCH_ZONE = 0.26  # part of the length above the peduncle in which branches start (estimate)
 _ROOT_TIP_M = 0.002  # radius (estimate)
-_SILK_STRANDS = 5  # drawn
-_SILK_RADIUS_M = 0.003  # of a drawn strand, which stands for a bundle
+_SILK_STRANDS = 5  # number of strands drawn
+_SILK_RADIUS_M = 0.003  # radius of a drawn strand, which stands for a bundle
 
 
 def tassel(shoot: Shoot, shape: Tassel, growth: float, rng: np.random.Generator) -> List[Lathe]:

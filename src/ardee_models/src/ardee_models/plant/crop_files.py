@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plant to Gazebo model directory: SDF, meshes of each level of detail, OGRE material script, textures, metrics."""
+"""Writes a plant's Gazebo model directory: SDF, meshes by level of detail, OGRE material script, textures, metrics."""
 
 import json
 from pathlib import Path
@@ -21,7 +21,7 @@ from ardee_models.plant.plant_metrics import METRICS_FILE
 def write_text_files(
     folder: Path, name: str, description: str, visuals: Sequence[Visual], cylinder: Cylinder
 ) -> None:
-    """model.config, model.sdf and the material script, and the folders that meshes and textures go into."""
+    """Writes model.config, model.sdf and the material script, and makes the folders of meshes and textures."""
     for sub in ("meshes", "materials/scripts", "materials/textures"):
         (folder / sub).mkdir(parents=True, exist_ok=True)
     (folder / "model.config").write_text(model_config(name, description))
@@ -31,7 +31,7 @@ def write_text_files(
 
 
 def write_metrics(folder: Path, metrics: Dict[str, object]) -> None:
-    """metrics.json, which field generators read instead of the mesh."""
+    """Writes metrics.json, which field generators read instead of the mesh."""
     (folder / METRICS_FILE).write_text(json.dumps(metrics, indent=2) + "\n")
 
 
@@ -43,7 +43,7 @@ def write_crop(
     name: str,
     parent: Path,
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; returns its path."""
+    """Writes parent/name, replacing an earlier model of that name; returns its path."""
     plant = levels[0]
     files = {organ.texture: f"{name}_{organ.texture}.png" for organ in plant.organs}
     visuals = [

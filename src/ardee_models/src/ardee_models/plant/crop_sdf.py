@@ -87,7 +87,7 @@ def _number(value: float) -> str:
 
 
 def model_sdf(model: str, visuals: Sequence[Visual], cylinder: Cylinder) -> str:
-    """A static model: one visual an organ, one cylinder to collide with."""
+    """Text of a static model: one visual for each organ, one cylinder for collisions."""
     roll, pitch = cylinder.roll_pitch()
     pose = " ".join(_number(v) for v in (*cylinder.centre, roll, pitch, 0.0))
     text = "".join(
@@ -109,7 +109,7 @@ def _appearance(visual: Visual) -> str:
 
 
 def material_script(model: str, visuals: Sequence[Visual]) -> str:
-    """Both sides drawn, transparent texels dropped; names begin with the model's, as Gazebo has one table of all."""
+    """Script that draws both sides, no transparent texels; names begin with the model's: Gazebo keeps one table."""
     return "\n".join(
         _MATERIAL.format(model=model, submesh=v.submesh, appearance=_appearance(v)) for v in visuals
     )

@@ -32,7 +32,7 @@ class Crop:
 
 
 def generate_crop(params: CropParams, seed: int) -> Crop:
-    """Geometry and textures draw from streams of their own, so that one does not change the other."""
+    """Generates a crop. Geometry and textures have separate random streams, so that one does not change the other."""
     geometry_seed, texture_seed = np.random.SeedSequence(seed).spawn(2)
     plan = grow(params, np.random.default_rng(geometry_seed))
     levels = tuple(assemble(params, plan, detail) for detail in LEVELS)
@@ -45,7 +45,7 @@ def generate_crop(params: CropParams, seed: int) -> Crop:
 def make_crop(
     species: str, stage: str, seed: int, name: str, parent: Path, params_file: Optional[Path] = None
 ) -> Path:
-    """Generate one crop model directory parent/name."""
+    """Generates one crop model directory parent/name."""
     check_name(name)
     crop = generate_crop(load_params(species, stage, params_file), seed)
     return write_crop(crop.levels, crop.cylinder, crop.textures, crop.metrics, name, parent)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The cylinder a plant collides with, fitted to vertices of its stalk."""
+"""The collision cylinder of a plant, fitted to vertices of its stalk."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-_ROUNDS = 12  # of the search for a stalk among leaves
+_ROUNDS = 12  # rounds of the search for a stalk among leaves
 _OUTLIER = 2.0  # radii from the axis beyond which a vertex belongs to a leaf
 _SKIN = (0.4, 1.7)  # radii between which a vertex lies on the stalk's skin, however it tapers
 
@@ -51,9 +51,9 @@ def fit_cylinder(vertices: np.ndarray) -> Cylinder:
 
 
 def fit_stalk_among_leaves(vertices: np.ndarray, radius_guess_m: float) -> Cylinder:
-    """The stalk of a plant whose parts are not told apart.
+    """Fits the stalk of a plant whose stalk and leaves are not separate parts.
 
-    Starts at the foot, keeps what lies near the axis, fits, and again with the radius found.
+    Starts at the foot, keeps the vertices near the axis, fits the cylinder, and repeats both with the radius found.
     """
     height = float(np.ptp(vertices[:, 2]))
     foot = vertices[vertices[:, 2] <= vertices[:, 2].min() + 0.05 * height]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Detail:
-    """Limits of one level; blades take what stalks and other bodies leave of the budget."""
+    """Limits of one level; blades get the triangles that stalks and other bodies leave."""
 
     suffix: str
     triangles: int
@@ -32,7 +32,7 @@ FULL = Detail(
     segments_min=6,
     segments_max=22,
 )
-LOD1 = Detail(  # for hundreds of plants at once seen from some metres
+LOD1 = Detail(  # level for hundreds of plants, seen from some metres
     suffix="_lod1",
     triangles=110,
     stalk_sides=3,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `generate_crop`."""
+"""The command `generate_crop`."""
 
 import argparse
 import os
@@ -14,7 +14,7 @@ from ardee_models.plant.stages import describe_stages
 
 
 def stages_help() -> str:
-    """Species and stages that may be asked for."""
+    """Help text: the known species and their stages."""
     lines = ["stages:"]
     for species in known_species():
         data, path = load_species(species)
@@ -23,7 +23,7 @@ def stages_help() -> str:
 
 
 def default_output() -> Path:
-    """The first folder of GAZEBO_MODEL_PATH that can be written, where the model is found at once; else here."""
+    """The first writable folder of GAZEBO_MODEL_PATH, where the model is found at once; else the current folder."""
     for folder in search_path():
         if folder.is_dir() and os.access(folder, os.W_OK):
             return folder
@@ -41,7 +41,9 @@ def _parser() -> argparse.ArgumentParser:
         "--species", default="corn", help=f"one of {', '.join(known_species())} (default corn)"
     )
     parser.add_argument("--stage", required=True, help="growth stage, see the list below")
-    parser.add_argument("--params", type=Path, help="parameter file instead of the package's own")
+    parser.add_argument(
+        "--params", type=Path, help="species' parameter file (default: the package's own)"
+    )
     parser.add_argument(
         "--seed", type=seed_number, default=0, help="root of all random numbers (default 0)"
     )
@@ -61,5 +63,5 @@ def _make(args: argparse.Namespace) -> Path:
 
 
 def generate_crop_main(arguments: Optional[Sequence[str]] = None) -> int:
-    """`generate_crop --species corn --stage V8 --seed 7 --name my_corn`: prints the path written."""
+    """Runs `generate_crop --species corn --stage V8 --seed 7 --name my_corn`; prints the path written."""
     return run(_parser(), _make, arguments)

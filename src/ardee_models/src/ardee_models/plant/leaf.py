@@ -10,14 +10,14 @@ from ardee_models.plant.plant import Mesh
 from ardee_models.plant.species import Leaves
 
 _FINE_STEPS = 8  # integration steps a segment of the midrib
-_TIP_WIDTH = 0.03  # of the largest width: keeps the last triangles from collapsing
+_TIP_WIDTH = 0.03  # part of the largest width: keeps the last triangles from collapsing
 _COLLAR_LENGTH = 0.08  # part of the blade in which the fold at the collar opens
-_STRIP_MARGIN = 0.04  # of a texture strip, kept free at its sides
+_STRIP_MARGIN = 0.04  # part of a texture strip's width that stays free at each side
 
 
 @dataclass(frozen=True)
 class Blade:
-    """One blade: where it starts, how it is directed (angles from the vertical), its size, its state."""
+    """One blade: its start, its direction (angles from the vertical), its size, its state."""
 
     rank: int
     origin: np.ndarray
@@ -89,7 +89,7 @@ def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarr
 
 
 def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
-    """`columns` (odd: one is the midrib; 2: edges only) of vertices, upper side along the normals."""
+    """Mesh of `columns` of vertices (odd: one is the midrib; 2: edges only); normals point to the upper side."""
     s = np.linspace(0.0, 1.0, segments + 1)
     centre, tangent = midrib(blade, shape.curvature_power, segments)
     azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s

@@ -5,7 +5,7 @@ import numpy as np
 
 from ardee_models.plant.species import Leaves, YoungLeaves
 
-_RANK_SD = 0.03  # of a leaf's length about its rank's mean (estimate)
+_RANK_SD = 0.03  # SD of a leaf's length about its rank's mean, over that mean (estimate)
 
 
 def relative_leaf_area(rank: np.ndarray, r_max: float, skew: float) -> np.ndarray:
@@ -15,7 +15,7 @@ def relative_leaf_area(rank: np.ndarray, r_max: float, skew: float) -> np.ndarra
 
 
 def length_to_width(rank: np.ndarray, shape: Leaves) -> np.ndarray:
-    """Largest at the middle rank, a parabola to the first and last."""
+    """Length over width by rank: a parabola from the first to the last leaf, largest at the middle rank."""
     off = (2.0 * rank - 1.0) ** 2
     return shape.length_to_width + (shape.length_to_width_ends - shape.length_to_width) * off
 
@@ -36,5 +36,5 @@ def full_sizes(count: int, number: int, shape: Leaves, rng: np.random.Generator)
 
 
 def young_fractions(count: int, young: YoungLeaves) -> np.ndarray:
-    """Visible length of the leaves that still grow, over their final one, from the lowest to the topmost."""
+    """Visible over final length of the leaves that still grow, from the lowest to the topmost."""
     return np.linspace(young.length_first, young.length_last, count) if count else np.zeros(0)

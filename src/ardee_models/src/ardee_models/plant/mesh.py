@@ -19,7 +19,7 @@ def grid_triangles(rows: int, columns: int) -> np.ndarray:
 
 
 def unit(vectors: np.ndarray) -> np.ndarray:
-    """Vectors over their lengths, along the last axis."""
+    """Unit vectors: each vector over its length, along the last axis."""
     return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
 
 
@@ -53,7 +53,7 @@ def tube(centres: np.ndarray, radii: np.ndarray, side: np.ndarray, sides: int) -
     texcoords = np.stack((u, v), axis=-1).reshape(-1, 2)
     triangles = grid_triangles(len(centres), sides + 1)
     rings = triangles // (sides + 1)
-    # a ring of radius zero is a point: the triangles with two corners in it are none
+    # a ring of radius zero is a point: triangles with two corners in it have no area
     points_at = np.sum(radii[rings] <= 0.0, axis=1)
     triangles = triangles[points_at < 2]
     return Mesh(points.reshape(-1, 3), directions.reshape(-1, 3), texcoords, triangles)

@@ -20,7 +20,7 @@ _FEWEST_ABREAST = ((5, 16), (3, 4))  # columns of a blade, and segments it must 
 
 
 def _bodies_mesh(bodies: Tuple[Lathe, ...], detail: Detail) -> Mesh:
-    """Bodies as tubes; of the minor ones every n-th, made thicker to fill the others' place."""
+    """Bodies as tubes; of minor bodies only every n-th, made thicker to fill the place of the others."""
     meshes, minor = [], 0
     thicker = np.sqrt(detail.minor_every)
     for body in bodies:
@@ -34,7 +34,7 @@ def _bodies_mesh(bodies: Tuple[Lathe, ...], detail: Detail) -> Mesh:
 
 
 def _grid(triangles: int, detail: Detail) -> Tuple[int, int]:
-    """Columns and segments of a blade that may have so many triangles."""
+    """Columns and segments of a blade that may have the given number of triangles."""
     for columns, fewest in _FEWEST_ABREAST:
         segments = triangles // (2 * (columns - 1))
         if segments >= fewest:

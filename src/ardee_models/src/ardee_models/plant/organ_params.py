@@ -19,7 +19,7 @@ class Tassel:
 
 @dataclass(frozen=True)
 class Ears:
-    """Ears of corn: where, how large, how they hang."""
+    """Ears of corn: their place, size and angle."""
 
     relative_rank: float = bounded(0.1, 1)
     length_m: float = bounded(0.02, 0.6)

@@ -32,7 +32,7 @@ def _main_curve(shape: Architecture, height_m: float, rng: np.random.Generator) 
 def _tillers(
     params: CropParams, main: ShootSize, rng: np.random.Generator
 ) -> List[Tuple[Shoot, float]]:
-    """Tillers and their size over the main stem's."""
+    """Tillers, each with its size over the main stem's."""
     shape, habit = params.architecture, params.architecture.tillers
     if habit is None or params.stage.tillers <= 0.0:
         return []
@@ -90,7 +90,7 @@ def _bodies(
 
 
 def grow(params: CropParams, rng: np.random.Generator) -> Plan:
-    """One plant with its foot at the origin."""
+    """Grows one plant with its foot at the origin."""
     shape = params.architecture
     size = main_size(shape, params.stage, rng)
     main = grow_shoot(shape, size, _main_curve(shape, size.height_m, rng), rng)

@@ -26,7 +26,7 @@ def _stalk_diameter(stem: np.ndarray, cylinder: Cylinder) -> float:
 def measure(
     params: CropParams, plan: Plan, levels: Tuple[Plant, ...], cylinder: Cylinder, seed: int
 ) -> Dict[str, object]:
-    """All that metrics.json holds; lengths in metres, areas one-sided in square metres."""
+    """Content of metrics.json; lengths in metres, areas one-sided in square metres."""
     full, coarse = levels
     vertices = full.vertices()
     low, high = vertices.min(axis=0), vertices.max(axis=0)

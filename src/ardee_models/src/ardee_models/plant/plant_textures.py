@@ -16,7 +16,7 @@ from ardee_models.smooth_noise import layered_noise, smooth_noise
 _STRIP = (256, 48)  # pixels of one leaf strip
 _STEM = (512, 32)
 _HEAD = (128, 64)
-_PARALLEL_VEINS = 14  # drawn across a blade; a corn leaf has some 20 large ones
+_PARALLEL_VEINS = 14  # veins drawn across a blade; a corn leaf has some 20 large ones
 _PINNATE_VEINS = 9  # side veins drawn along a blade
 _BRAN = np.array([92.0, 66.0, 44.0])
 _WAX = np.array([196.0, 206.0, 180.0])
@@ -27,19 +27,19 @@ def _image(rgb: np.ndarray) -> np.ndarray:
 
 
 def _mix(a: np.ndarray, b: np.ndarray, part: np.ndarray) -> np.ndarray:
-    """a where part is 0, b where it is 1; `part` has one dimension less than colours."""
+    """Mixed colours: a where part is 0, b where it is 1; `part` has one dimension less than colours."""
     part = np.clip(part, 0.0, 1.0)[..., None]
     return a * (1.0 - part) + b * part
 
 
 def _axes(shape: Tuple[int, int]) -> tuple:
-    """v 0 at the lower edge to 1 on top, u -1 to 1 across."""
+    """Texture axes: v from 0 at the lower edge to 1 on top, u from -1 to 1 across."""
     v = (1.0 - np.linspace(0.0, 1.0, shape[0]))[:, None]
     return v, np.linspace(-1.0, 1.0, shape[1])[None, :]
 
 
 def _veins(venation: str, v: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """0..1 where a side vein runs."""
+    """Strength of the side veins, 0 to 1."""
     if venation == "parallel":
         return np.broadcast_to(0.5 + 0.5 * np.cos(np.pi * _PARALLEL_VEINS * u), (len(v), u.size))
     # side veins leave the midrib forwards and bend along the edge
@@ -73,7 +73,7 @@ def leaf_strip(
 
 
 def leaves(colours: Colours, venation: str, rng: np.random.Generator) -> np.ndarray:
-    """Strips side by side, from green to dead."""
+    """Image of leaf strips side by side, from green to dead."""
     return _image(
         np.concatenate([leaf_strip(colours, venation, d, rng) for d in STRIP_DRYNESS], axis=1)
     )
@@ -82,7 +82,7 @@ def leaves(colours: Colours, venation: str, rng: np.random.Generator) -> np.ndar
 def stem(
     colours: Colours, stalk: StalkPlan, maturity: float, rng: np.random.Generator
 ) -> np.ndarray:
-    """Foot to top: fibres, a ring at each node, the pale edge of each sheath at its collar."""
+    """Image of a stem from foot to top: fibres, a ring at each node, the pale edge of each sheath at its collar."""
     v, _ = _axes(_STEM)
     fibres = smooth_noise((1, _STEM[1]), 1.2, rng)
     shade = 1.0 + 0.07 * fibres + 0.05 * layered_noise(_STEM, (3.0, 14.0), rng)
@@ -104,11 +104,11 @@ def stem(
 
 
 def _banded(bands: dict, rng: np.random.Generator) -> np.ndarray:
-    """Bands of one image: (low, high) -> (colour at its lower edge, at its upper, contrast of grain in pixels)."""
+    """Image of bands, given as (low, high) -> (colour at its lower edge, at its upper, contrast of grain in pixels)."""
     v, _ = _axes(_HEAD)
     rgb = np.zeros((*_HEAD, 3))
     for (low, high), (bottom, top, contrast, size) in bands.items():
-        # the gaps between bands belong to the band below, so that filtering does not mix strangers
+        # the gaps between bands belong to the band below, so that filtering does not mix the colours of two organs
         inside = (v[:, 0] >= low - 0.03) & (v[:, 0] <= high + 0.03)
         part = np.broadcast_to((v - low) / (high - low), _HEAD)
         colour = _mix(np.array(bottom, dtype=float), np.array(top, dtype=float), part)

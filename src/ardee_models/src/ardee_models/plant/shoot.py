@@ -13,7 +13,7 @@ from ardee_models.plant.species import Architecture
 from ardee_models.plant.stages import Stage
 from ardee_models.plant.stalk import StalkPlan, ligule_heights
 
-STRIP_DRYNESS = (0.0, 0.0, 0.12, 0.45, 0.75, 1.0)  # of the strips of a leaf texture
+STRIP_DRYNESS = (0.0, 0.0, 0.12, 0.45, 0.75, 1.0)  # dryness of the strips of a leaf texture
 _MOST_DOWNWARD = np.radians(172.0)  # a tip hangs, it does not point back to the stalk
 _FRESH_STRIPS = 2
 
@@ -66,7 +66,7 @@ def main_size(shape: Architecture, stage: Stage, rng: np.random.Generator) -> Sh
 
 
 def dryness(size: ShootSize, index: np.ndarray) -> np.ndarray:
-    """0 green to 1 dead for leaves by index from the foot: half way at the `dry`-th, the wider the more are dry."""
+    """Dryness, 0 green to 1 dead, by leaf index from the foot: 0.5 at the `dry`-th leaf, less steep if more are dry."""
     width = 0.55 + 0.09 * size.dry
     front = 1.0 / (1.0 + np.exp((index + 0.5 - size.lost - size.dry) / width))
     return front * min(2.0 * size.dry, 1.0)
@@ -142,7 +142,7 @@ def _blade(
 def grow_shoot(
     shape: Architecture, size: ShootSize, curve: Curve, rng: np.random.Generator
 ) -> Shoot:
-    """Stalk along `curve` and its blades, from the foot upwards."""
+    """Grows a stalk along `curve` and its blades, from the foot upwards."""
     collars = ligule_heights(size.collared, shape.stalk.ligule_ratio, curve.length_m)
     stalk = StalkPlan(
         curve,

@@ -10,10 +10,11 @@ from ardee_models.plant.lathe import Lathe, spindle
 from ardee_models.plant.organ_params import Panicle
 from ardee_models.plant.shoot import Shoot
 
-PEDUNCLE_BAND, GRAIN_BAND = (0.0, 0.2), (0.25, 1.0)  # of the panicle's texture
+PEDUNCLE_BAND, GRAIN_BAND = (0.0, 0.2), (0.25, 1.0)  # bands of the panicle's texture
 _GOLDEN_RAD = np.radians(137.5)
 _RELATIVE = np.array([0.0, 0.12, 0.35, 0.65, 0.88, 1.0])
-_OUTLINE = np.array([0.25, 0.70, 1.0, 0.9, 0.55, 0.12])  # of a semi-compact head (estimate)
+# relative radii of a semi-compact head (estimate)
+_OUTLINE = np.array([0.25, 0.70, 1.0, 0.9, 0.55, 0.12])
 
 
 def panicle(

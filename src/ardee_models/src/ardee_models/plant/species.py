@@ -23,7 +23,7 @@ from ardee_models.plant.stages import Stage, resolve_stage
 
 @dataclass(frozen=True)
 class Stalk:
-    """The stem: spacing of leaves along it, its surface, how it stands."""
+    """The stem: spacing of leaves along it, its surface, its lean."""
 
     ligule_ratio: float = bounded(0.5, 2.0)
     node_swelling: float = bounded(1, 2)
@@ -75,7 +75,7 @@ class Leaves:
 
 @dataclass(frozen=True)
 class YoungLeaves:
-    """Leaves that have not reached their size: first (lowest) to last (topmost)."""
+    """Leaves that have not reached their final size, from the lowest to the topmost."""
 
     length_first: float = bounded(0.05, 1)
     length_last: float = bounded(0.02, 1)

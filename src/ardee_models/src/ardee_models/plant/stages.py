@@ -19,7 +19,7 @@ SEASONS = ("early", "mid", "late")
 class Stage:
     """State of a mean plant; `inflorescence`, `ears` and `maturity` run from 0 to 1.
 
-    `leaf_scale` is the size of leaves that take longer to grow than the next ones to appear, over their final one.
+    `leaf_scale` is the present over the final size of leaves that still grow when the next leaves appear.
     """
 
     season: str
@@ -38,7 +38,7 @@ class Stage:
     days: Optional[float] = bounded(0, 1000, None)
 
 
-# What a letter before a number counts
+# The quantity that the letter before a number counts
 _COUNTERS = {
     "V": ("collared leaves", lambda row: row.collared_leaves),
     "L": ("visible leaves", lambda row: row.collared_leaves + row.young_leaves),
@@ -88,7 +88,7 @@ def _between(ladder: list, count: float) -> Stage:
 
 
 def describe_stages(data: dict, counters: Sequence[str], where: str) -> str:
-    """The stages one may ask for, in a line."""
+    """Line that lists the known stages."""
     rows = _rows(data, where)
     counted = []
     for letter in counters:

@@ -10,12 +10,12 @@ from ardee_models.plant.curve import Curve
 from ardee_models.plant.mesh import tube
 from ardee_models.plant.plant import Mesh
 
-_NODE_BAND = 0.14  # of an internode: the height of the swelling at a node (estimate)
+_NODE_BAND = 0.14  # height of the swelling at a node over the internode's length (estimate)
 
 
 @dataclass(frozen=True)
 class StalkPlan:
-    """A tapered stem; leaves part from it at arc lengths `collars_m`, `sheathed` says which still clasp it."""
+    """A tapered stem; leaves part from it at arc lengths `collars_m`, `sheathed` tells which leaves still clasp it."""
 
     curve: Curve
     collars_m: Tuple[float, ...]
@@ -40,7 +40,7 @@ def ligule_heights(count: int, ratio: float, height_m: float) -> np.ndarray:
 
 
 def _stations(stalk: StalkPlan) -> tuple:
-    """Arc lengths of the rings and what each adds to the bare stem's radius."""
+    """Arc lengths of the rings, and the addition of each to the bare stem's radius."""
     s, added = [0.0], [0.0]
     low = 0.0
     for high, sheathed in zip(stalk.collars_m, stalk.sheathed):
@@ -59,7 +59,7 @@ def _stations(stalk: StalkPlan) -> tuple:
 
 
 def stalk_mesh(stalk: StalkPlan, sides: int, rings: int) -> Mesh:
-    """Open tube; with fewer `rings` than its features ask for, a plain taper."""
+    """Open tube; with fewer `rings` than its features need, a plain taper."""
     s, added = _stations(stalk)
     if len(s) > rings:
         s = np.linspace(0.0, stalk.curve.length_m, rings)

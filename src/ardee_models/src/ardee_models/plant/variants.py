@@ -36,7 +36,7 @@ def _make(name: str, variant: Variant, models: Path) -> Path:
 def build_crops(
     models: Path, processes: Optional[int] = None, names: Optional[Sequence[str]] = None
 ) -> None:
-    """Write variants, all by default, into `models`; nothing written depends on the number of processes."""
+    """Writes variants, all by default, into `models`; the files do not depend on the number of processes."""
     workers = processes or len(os.sched_getaffinity(0))
     models.mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ProcessPoolExecutor(workers) as pool:

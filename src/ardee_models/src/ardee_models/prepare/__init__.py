@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Meshes that a user brings, made into crop models: read, split into stalks, write."""
+"""Makes crop models of a user's meshes: reads them, splits them into stalks, writes the models."""

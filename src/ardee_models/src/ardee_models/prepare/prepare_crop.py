@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `prepare_crop`: a mesh that a user brings becomes crop models."""
+"""The command `prepare_crop`, which makes crop models of a user's mesh."""
 
 import argparse
 import json
@@ -14,11 +14,11 @@ from ardee_models.plant.species import known_species, load_species
 from ardee_models.prepare.read import read_mesh
 from ardee_models.prepare.write import split_plants, write_plants
 
-_FLAT = 2.0  # reach to the side beside height, above which a plant is suspected to lie
+_FLAT = 2.0  # sideways reach over height, above which a plant is suspected to lie
 
 
 def prepare(args: argparse.Namespace) -> List[Path]:
-    """Read, split, write; returns the model directories."""
+    """Reads, splits and writes the plants; returns the model directories."""
     label = args.label
     if label is None:
         label = load_species(args.species)[0].label if args.species in known_species() else 0
@@ -35,7 +35,7 @@ def prepare(args: argparse.Namespace) -> List[Path]:
 
 
 def warn_if_lying(model: Path, given: str) -> None:
-    """A plant much wider than high has most likely been read with another axis up."""
+    """Warns of a plant much wider than high, which has most likely been read with the wrong axis up."""
     metrics = json.loads((model / METRICS_FILE).read_text(encoding="utf-8"))
     height_m, extent_m = metrics["height_m"], metrics["lateral_extent_m"]
     if extent_m > _FLAT * height_m:
@@ -64,7 +64,9 @@ def _parser() -> argparse.ArgumentParser:
         help="the file's up axis (default auto: as a .dae says, y for .obj and .gltf, else z)",
     )
     parser.add_argument(
-        "--scale", type=positive_number, help="metres a unit (default: as a .dae says, else 1)"
+        "--scale",
+        type=positive_number,
+        help="length of the mesh's unit [m] (default: as a .dae says, else 1)",
     )
     parser.add_argument(
         "--gap",
@@ -72,12 +74,14 @@ def _parser() -> argparse.ArgumentParser:
         default=0.06,
         help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
     )
-    parser.add_argument("--whole", action="store_true", help="one model of all, do not split")
     parser.add_argument(
-        "--stem", help="part that is the stalk (default: one called stem, stalk, trunk)"
+        "--whole", action="store_true", help="make one model of the whole mesh, do not split it"
     )
-    parser.add_argument("--species", default="unknown", help="species, for metrics.json")
-    parser.add_argument("--stage", default="unknown", help="growth stage, for metrics.json")
+    parser.add_argument(
+        "--stem", help="name of the part that is the stalk (default: one called stem, stalk, trunk)"
+    )
+    parser.add_argument("--species", default="unknown", help="species to note in metrics.json")
+    parser.add_argument("--stage", default="unknown", help="growth stage to note in metrics.json")
     parser.add_argument(
         "--label", type=whole_in(0, 65535), help="class id in segmentation (default: the species')"
     )
@@ -91,5 +95,5 @@ def _prepare_all(args: argparse.Namespace) -> None:
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """`prepare_crop MESH --name N`: prints the paths written."""
+    """Runs `prepare_crop MESH --name N`; prints the paths written."""
     return run(_parser(), _prepare_all, arguments)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A mesh file of any format that trimesh reads, as parts in metres with z up."""
+"""Reads a mesh file of any format that trimesh knows, as parts in metres with z up."""
 
 import importlib
 import os
@@ -38,7 +38,7 @@ class UserPart:
 
 
 def load_trimesh() -> ModuleType:
-    """trimesh from the system, else from $ARDEE_PYDEPS or <workspace>/pydeps, where scripts/setup puts it."""
+    """Imports trimesh from the system, else from $ARDEE_PYDEPS or <workspace>/pydeps, where scripts/setup puts it."""
     folder = os.environ.get("ARDEE_PYDEPS") or str(Path(__file__).resolve().parents[5] / "pydeps")
     if folder not in sys.path:
         sys.path.append(folder)
@@ -116,7 +116,7 @@ def _check(path: Path, parts: List[UserPart]) -> None:
 
 
 def read_mesh(path: Path, up: str = "auto", scale: Optional[float] = None) -> List[UserPart]:
-    """All geometries of the file in its scene's place; `up` x, y, z or auto, `scale` metres a unit."""
+    """Reads all geometries of the file, each at its place in the scene; `up` x, y, z or auto, `scale` metres a unit."""
     if path.suffix.lower() not in _FORMATS:
         raise GeneratorError(f"{path}: expected a file of {' '.join(sorted(_FORMATS))}")
     if not path.is_file():
@@ -143,7 +143,7 @@ def read_mesh(path: Path, up: str = "auto", scale: Optional[float] = None) -> Li
     except GeneratorError:
         raise
     except Exception as error:  # a hostile file may break a reader anywhere
-        # trimesh takes what is no binary STL for a text, whose encoding it has another module guess
+        # trimesh treats a file that is no binary STL as text, and lets another module guess its encoding
         text = "neither binary nor text" if isinstance(error, ImportError) else error
         raise GeneratorError(f"{path}: cannot be read: {type(error).__name__}: {text}") from error
     _check(path, parts)

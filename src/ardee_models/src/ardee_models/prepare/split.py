@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which triangles of a scene of several plants belong to which stalk."""
+"""Assigns the triangles of a scene of several plants to their stalks."""
 
 from typing import List, Sequence
 
@@ -9,18 +9,18 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 _WELD_M = 1e-5  # vertices nearer than this are one
-_GROUND = 0.06  # of the scene's height: what reaches lower stands on the ground
-_RISE = 0.1  # of the scene's height: a stalk is at least as tall
-# A stalk's spread to its sides over its height: bare stalks, else plants of one piece, else whatever stands there.
+_GROUND = 0.06  # part of the scene's height: a component that reaches lower stands on the ground
+_RISE = 0.1  # part of the scene's height that a stalk has at least
+# A stalk's sideways spread over its height: bare stalks, else plants of one piece, else any standing component.
 # Leaves that hang to the ground spread more than a bare stalk.
 _SLENDER = (0.12, 0.5, float("inf"))
-_EDGE = 0.01  # of the scene's height: edges longer than this get points along them
+_EDGE = 0.01  # part of the scene's height: edges longer than this get points along them
 _MOST_ON_EDGE = 200
 _TOUCH_M = 0.004  # parts nearer than this belong together
 
 
 def components(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Connected component of each vertex, vertices at the same place being one."""
+    """Connected component of each vertex; vertices at the same place count as one."""
     cells = np.round(vertices / _WELD_M).astype(np.int64)
     _, welded = np.unique(cells, axis=0, return_inverse=True)
     welded = welded.reshape(-1)
@@ -41,7 +41,7 @@ def _slenderness(points: np.ndarray, ground: float, height: float) -> float:
 
 
 def _seeds(parts: Sequence[np.ndarray], ground: float, height: float) -> np.ndarray:
-    """Components that are stalks: the most slender kind that there is; all where none stands."""
+    """Components that are stalks: those of the most slender kind present; all if none stands."""
     found = np.array([_slenderness(points, ground, height) for points in parts])
     for limit in _SLENDER:
         chosen = np.flatnonzero((found >= 0.0) & (found <= limit))
@@ -57,7 +57,7 @@ def _foot(points: np.ndarray) -> np.ndarray:
 
 
 def _near_groups(feet: np.ndarray, gap_m: float) -> np.ndarray:
-    """Feet nearer than `gap_m` to one another are one plant's."""
+    """Groups of feet: feet nearer than `gap_m` to one another belong to one plant."""
     pairs = cKDTree(feet).query_pairs(gap_m, output_type="ndarray").reshape(-1, 2)
     graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(feet),) * 2)
     return connected_components(graph, directed=False)[1]
@@ -70,7 +70,7 @@ def _with_edges(
     triangles: np.ndarray,
     step_m: float,
 ) -> List[np.ndarray]:
-    """Points of each component, with more along its long edges: a stalk may have vertices at its ends alone."""
+    """Points of each component, with more along its long edges: a stalk may have vertices only at its ends."""
     edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
     a, b = vertices[edges[:, 0]], vertices[edges[:, 1]]
     count = np.minimum(np.linalg.norm(b - a, axis=1) // step_m, _MOST_ON_EDGE).astype(int)
@@ -82,7 +82,7 @@ def _with_edges(
 
 
 def _attach(parts: Sequence[np.ndarray], group: np.ndarray) -> None:
-    """Give every component without a group (-1) that of its nearest neighbour, those that touch first."""
+    """Gives every component without a group (-1) the group of its nearest neighbour, touching components first."""
     while (group < 0).any():
         open_parts = np.flatnonzero(group < 0)
         groups = range(int(group.max()) + 1)
@@ -96,7 +96,7 @@ def _attach(parts: Sequence[np.ndarray], group: np.ndarray) -> None:
 
 
 def plant_of_vertices(vertices: np.ndarray, triangles: np.ndarray, gap_m: float) -> np.ndarray:
-    """Number of the plant of each vertex, counted by the plants' feet from -x to x (then -y to y)."""
+    """Plant number of each vertex; plants are numbered by their feet from -x to x (then -y to y)."""
     component = components(vertices, triangles)
     count = int(component.max()) + 1
     order = np.argsort(component, kind="stable")

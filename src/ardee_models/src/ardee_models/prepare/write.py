@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""User's plants to Gazebo model directories, all of them or none."""
+"""Writes a user's plants as Gazebo model directories, all of them or none."""
 
 import contextlib
 from pathlib import Path
@@ -19,7 +19,7 @@ from ardee_models.prepare.read import UserPart
 from ardee_models.prepare.split import plant_of_vertices
 
 _STEM_NAMES = ("stem", "stalk", "trunk")
-_STALK_RADIUS_PART = 0.01  # of a plant's height, where the search for its stalk starts
+_STALK_RADIUS_PART = 0.01  # first guess of a stalk's radius over the plant's height
 
 
 def _select(part: UserPart, keep: np.ndarray) -> Optional[UserPart]:
@@ -36,7 +36,7 @@ def _select(part: UserPart, keep: np.ndarray) -> Optional[UserPart]:
 
 
 def split_plants(parts: Sequence[UserPart], gap_m: float) -> List[List[UserPart]]:
-    """One list of parts a plant."""
+    """Lists of parts, one for each plant."""
     offsets = np.cumsum([0] + [len(part.mesh.vertices) for part in parts])
     vertices = np.concatenate([part.mesh.vertices for part in parts])
     triangles = np.concatenate([p.mesh.triangles + o for p, o in zip(parts, offsets)])
@@ -52,7 +52,7 @@ def split_plants(parts: Sequence[UserPart], gap_m: float) -> List[List[UserPart]
 
 
 def fit(parts: Sequence[UserPart], stem: Optional[str]) -> Cylinder:
-    """The stalk's cylinder: from the part called `stem`, else one with a telling name, else searched for."""
+    """Fits the stalk's cylinder: to the part called `stem`, else to one with a stalk's name, else by search."""
     vertices = np.concatenate([part.mesh.vertices for part in parts])
     if stem is not None:
         chosen = [part for part in parts if part.name == stem]
@@ -67,7 +67,7 @@ def fit(parts: Sequence[UserPart], stem: Optional[str]) -> Cylinder:
 
 
 def stand_at_origin(parts: Sequence[UserPart], stem: Optional[str]) -> tuple:
-    """Parts moved so that the lowest vertex is at z = 0 and the stalk's foot at x = y = 0, and the cylinder."""
+    """Moves parts and cylinder so that the lowest vertex is at z = 0 and the stalk's foot at x = y = 0."""
     cylinder = fit(parts, stem)
     foot = cylinder.centre - 0.5 * cylinder.length_m * cylinder.axis
     low = min(float(part.mesh.vertices[:, 2].min()) for part in parts)
@@ -101,7 +101,7 @@ def _metrics(parts: Sequence[UserPart], cylinder: Cylinder, facts: Dict[str, obj
 
 
 def _write_textures(folder: Path, name: str, parts: Sequence[UserPart]) -> Dict[str, str]:
-    """PNG copies of the images, each once; file name by part."""
+    """Writes each image once as PNG; returns the file name of each part."""
     files: Dict[str, str] = {}
     written: Dict[int, str] = {}
     for part in parts:
@@ -142,12 +142,12 @@ def write_plants(
     stem: Optional[str],
     facts: Dict[str, object],
 ) -> List[Path]:
-    """parent/name, or parent/name_1 ... where there are several plants."""
+    """Writes parent/name, or parent/name_1 ... if there are several plants."""
     check_name(name)
     single = len(plants) == 1
     names = [name if single else f"{name}_{i + 1}" for i in range(len(plants))]
     standing = [stand_at_origin(parts, stem) for parts in plants]
-    # the folders get their names when the last is written, so that an error leaves none
+    # folders get their final names after the last is written, so that an error leaves none
     with contextlib.ExitStack() as stack:
         folders = [stack.enter_context(model_directory(parent, each)) for each in names]
         for folder, each, (parts, cylinder) in zip(folders, names, standing):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A picture of crop models side by side, read back from their meshes and textures: look before you use them."""
+"""A picture of crop models side by side, read back from their meshes and textures."""
 
 import json
 from pathlib import Path
@@ -16,11 +16,11 @@ from ardee_models.report.splat import Part, draw, read_dae
 
 _CELL = (300, 420)  # pixels, without the caption
 _CAPTION = 38
-_FINER = 2  # drawn larger, then scaled down
+_FINER = 2  # factor by which cells are drawn larger, then scaled down
 _BACKGROUND = (236, 240, 244)
 _INK = (40, 44, 48)
 _ELEVATION_RAD = np.radians(14.0)
-_OFF_RAD = np.radians(38.0)  # from square to the side a plant is widest
+_OFF_RAD = np.radians(38.0)  # angle off the view square to the widest side of a plant
 
 
 def _font(size: int) -> ImageFont.FreeTypeFont:
@@ -30,7 +30,7 @@ def _font(size: int) -> ImageFont.FreeTypeFont:
 
 
 def _extent(parts: List[Part]) -> tuple:
-    """Half width seen from any side, and height."""
+    """Largest half width over all sides, and height."""
     corners = np.concatenate([part.corners.reshape(-1, 3) for part in parts])
     return float(np.linalg.norm(corners[:, :2], axis=1).max()), float(corners[:, 2].max())
 
@@ -89,7 +89,7 @@ def _cell(model: Path, suffix: str) -> Image.Image:
 def draw_contact_sheet(
     models: Sequence[Path], output: Path, columns: int = 8, suffix: str = ""
 ) -> None:
-    """Draw model directories in rows of `columns`, each filling its cell, with a scale bar."""
+    """Draws model directories in rows of `columns`, each filling its cell, with a scale bar."""
     columns = min(columns, len(models))
     rows = -(-len(models) // columns)
     width, height = _CELL[0] + 4, _CELL[1] + _CAPTION + 4
@@ -103,11 +103,13 @@ def draw_contact_sheet(
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """Command `crop_contact_sheet`."""
+    """Runs the command `crop_contact_sheet`."""
     parser = Parser(prog="crop_contact_sheet", description=__doc__)
     parser.add_argument("models", nargs="+", type=Path, help="crop model directories")
-    parser.add_argument("--output", type=Path, required=True, help="PNG to write")
-    parser.add_argument("--columns", type=int, default=8, help="models a row (default 8)")
+    parser.add_argument("--output", type=Path, required=True, help="PNG file to write")
+    parser.add_argument(
+        "--columns", type=int, default=8, help="number of models in a row (default 8)"
+    )
     parser.add_argument(
         "--lod1", action="store_true", help="draw the coarse level of detail instead"
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `crop_report`: a picture of all crop models, and their metrics beside the literature's ranges."""
+"""The command `crop_report`: a picture of all crop models, and their metrics beside the literature's ranges."""
 
 import csv
 import io
@@ -33,7 +33,7 @@ _COLUMNS = (
 
 
 def read_metrics(model: Path) -> dict:
-    """metrics.json of a model directory."""
+    """Reads metrics.json of a model directory."""
     path = model / METRICS_FILE
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
@@ -129,7 +129,7 @@ def _season_order(model: Path) -> tuple:
 
 
 def report(models: Sequence[Path], output: Path) -> int:
-    """Write crop_report.md, crop_report.csv and contact_sheet.png; returns how many values lie outside."""
+    """Writes crop_report.md, crop_report.csv and contact_sheet.png; returns how many values lie outside."""
     rows = _rows(models)
     try:
         output.mkdir(parents=True, exist_ok=True)
@@ -142,7 +142,7 @@ def report(models: Sequence[Path], output: Path) -> int:
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """0 when every metric lies in its range, 1 when one does not, 2 for bad input."""
+    """Returns 0 if every metric lies in its range, 1 if one does not, 2 for bad input."""
     parser = Parser(prog="crop_report", description=__doc__)
     parser.add_argument("--output", type=Path, required=True, help="folder to write the report in")
     parser.add_argument(

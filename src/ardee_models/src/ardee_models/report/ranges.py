@@ -10,13 +10,13 @@ from ardee_common.errors import GeneratorError
 from ardee_common.options import bounded
 from ardee_models.config_dir import config_dir
 
-# What a range may rest on; the head of config/ranges.yaml says what each means
+# Kinds of evidence for a range; the head of config/ranges.yaml defines each
 MARKS = ("read", "computed", "derived", "nominal")
 
 
 @dataclass(frozen=True)
 class Range:
-    """Least and greatest value of a metric at some stages, and how they follow from the source."""
+    """Least and greatest value of a metric at some stages, and their derivation from the source."""
 
     stages: Tuple[str, ...]
     source: str

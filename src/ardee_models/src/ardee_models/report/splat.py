@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A picture of a textured mesh without a graphics card: points over its triangles, nearest one wins."""
+"""A picture of a textured mesh without a graphics card: points over its triangles, of which the nearest is seen."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,12 +11,12 @@ from PIL import Image
 
 from ardee_common.errors import GeneratorError
 
-_SAMPLES_PER_PIXEL = 2.2  # mean points on a pixel of a triangle seen from the front
+_SAMPLES_PER_PIXEL = 2.2  # mean number of points on a pixel of a triangle seen from the front
 # steps of a sequence that fills the unit square evenly: 1/g and 1/g^2 with g^3 = g + 1
 _EVEN = (0.7548776662466927, 0.5698402909980532)
 _LIGHT = np.array([0.35, -0.60, 0.72])
 _AMBIENT = 0.50
-_MOST_POINTS = 3_000_000  # of one picture
+_MOST_POINTS = 3_000_000  # limit for one picture
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def read_dae(dae: Path) -> List[Part]:
 
 
 def _sample(part: Part, per_m2: float) -> tuple:
-    """Points, colours and unit normals, evenly over the part's area."""
+    """Samples points, colours and unit normals evenly over the part's area."""
     a, b, c = (part.corners[:, k] for k in range(3))
     cross = np.cross(b - a, c - a)
     twice = np.linalg.norm(cross, axis=1)
@@ -83,7 +83,7 @@ def draw(
     elevation_rad: float,
     background: Tuple[int, int, int],
 ) -> np.ndarray:
-    """Parallel projection; RGB uint8 (height, width, 3).
+    """Draws parts in parallel projection; RGB uint8 (height, width, 3).
 
     The plant's foot is in the middle, near the lower edge or so far above it that low tips show.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A digital elevation model to terrain: ESRI ASCII grid (.asc) or GeoTIFF, holes refused or filled."""
+"""Makes terrain of a digital elevation model: ESRI ASCII grid (.asc) or GeoTIFF, holes refused or filled."""
 
 import warnings
 from dataclasses import dataclass
@@ -16,18 +16,16 @@ from ardee_models.terrain.grey_image import MAX_SIDE_PX
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.image import Say, fitting_samples, level_at_origin, resample
 
-_LARGEST_M = (
-    9000.0  # higher or deeper ground than this is no field: a mistaken unit or NODATA value
-)
+_LARGEST_M = 9000.0  # ground beyond this height or depth points to a mistaken unit or NODATA value
 _HEADER = ("ncols", "nrows", "cellsize")
 _PIXEL_SCALE, _NODATA, _GEO_KEYS = 33550, 42113, 34735  # GeoTIFF 1.1, tags; GDAL's NODATA tag
 _MODEL_TYPE_KEY, _GEOGRAPHIC = 1024, 2
-_METRES_A_DEGREE = 111_320.0  # of latitude, and of longitude at the equator
+_METRES_A_DEGREE = 111_320.0  # degree of latitude, or of longitude at the equator
 
 
 @dataclass(frozen=True)
 class Elevation:
-    """Heights [m] of cell centres, row 0 in the north, NaN where there is none; distance of centres."""
+    """Heights [m] of cell centres, row 0 in the north, NaN where there is none; and the distances of centres."""
 
     heights_m: np.ndarray
     cell_x_m: float
@@ -56,7 +54,7 @@ def _read_asc_header(lines: list, path: Path) -> Dict[str, float]:
 
 
 def read_asc(path: Path) -> Elevation:
-    """An ESRI ASCII grid."""
+    """Reads an ESRI ASCII grid."""
     try:
         lines = path.read_text(encoding="ascii").splitlines()
     except OSError as error:
@@ -107,7 +105,9 @@ def _geotiff(image: Image.Image, path: Path) -> Elevation:
         nodata = float(str(tags.get(_NODATA, "nan")).strip("\0 "))
         scale = [float(v) for v in tags[_PIXEL_SCALE][:2]]
     except (ValueError, TypeError) as error:
-        raise GeneratorError(f"{path}: found a NODATA or pixel scale that is no number") from error
+        raise GeneratorError(
+            f"{path}: found a NODATA value or pixel scale that is not a number"
+        ) from error
     heights[heights == nodata] = np.nan
     if _is_geographic(tuple(tags.get(_GEO_KEYS, ()))):
         tie = tags.get(33922, (0, 0, 0, 0, 0, 0))
@@ -117,7 +117,7 @@ def _geotiff(image: Image.Image, path: Path) -> Elevation:
 
 
 def read_geotiff(path: Path) -> Elevation:
-    """One band of a GeoTIFF; a geographic one is taken for metres at its middle latitude."""
+    """Reads a GeoTIFF of one band; degrees become metres at the middle latitude."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -135,7 +135,7 @@ def read_geotiff(path: Path) -> Elevation:
 
 
 def fill_holes(heights_m: np.ndarray) -> np.ndarray:
-    """Holes filled linearly from their rims, and at the edge of the model by the nearest height."""
+    """Fills holes linearly from their rims, and at the edge of the model by the nearest height."""
     holes = np.isnan(heights_m)
     if not holes.any():
         return heights_m

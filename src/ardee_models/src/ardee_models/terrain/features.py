@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recipe to heights: each part of a recipe is a function of place, with random numbers of its own."""
+"""Heights of a recipe: each part of a recipe is a function of place, with random numbers of its own."""
 
 import numpy as np
 from scipy import stats
@@ -8,8 +8,8 @@ from ardee_models.smooth_noise import smooth_noise
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.recipe import Clods, Ditch, Headland, Recipe, Ridges, Ruts, Slope
 
-_BERM_HEIGHT = 0.35  # of the earth pressed out beside a rut, over the rut's depth (estimate)
-_LUMP_LEVEL = 0.8  # in deviations: what stands out further is a clod
+_BERM_HEIGHT = 0.35  # height of the earth pressed out beside a rut over the rut's depth (estimate)
+_LUMP_LEVEL = 0.8  # level above which ground is a clod, in standard deviations
 _CLEAR_M = 0.4  # half side of the spot round the origin where a robot is set down
 
 
@@ -20,7 +20,7 @@ def _frame(x: np.ndarray, y: np.ndarray, direction_deg: float) -> tuple:
 
 
 def _smooth_step(value: np.ndarray) -> np.ndarray:
-    """0 below 0, 1 above 1, with level ends."""
+    """Smooth step: 0 below 0, 1 above 1, with level ends."""
     t = np.clip(value, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
@@ -34,7 +34,7 @@ def ridges(x: np.ndarray, y: np.ndarray, shape: Ridges) -> np.ndarray:
 
 
 def ridged_share(x: np.ndarray, y: np.ndarray, shape: Headland, direction_deg: float) -> np.ndarray:
-    """1 where ridges stand, 0 on the headland."""
+    """Share of the ridges' height: 1 in the field, 0 on the headland."""
     along, across = _frame(x, y, direction_deg)
     fade = max(shape.fade_m, 1e-9)
     inner = _smooth_step((shape.along_m - np.abs(along)) / fade + 1.0)
@@ -57,7 +57,7 @@ def ruts(x: np.ndarray, y: np.ndarray, shape: Ruts) -> np.ndarray:
 
 
 def clods(shape: tuple, spacing_m: float, scale: Clods, rng: np.random.Generator) -> np.ndarray:
-    """Gaussian heights of one correlation length, or of lumps the part that stands out of level ground."""
+    """Gaussian heights of one correlation length; as lumps, only the part above _LUMP_LEVEL."""
     noise = smooth_noise(shape, scale.size_m / spacing_m, rng)
     if not scale.lumps:
         return scale.sd_m * noise

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `generate_terrain`: ground from a recipe, an image, an elevation model, or a mesh."""
+"""The command `generate_terrain`: ground from a recipe, an image, an elevation model, or a mesh."""
 
 import argparse
 import dataclasses
@@ -23,7 +23,7 @@ from ardee_models.terrain.terrain_obj import write_mesh_terrain
 
 _PLAIN = (
     ("--row-spacing", "row_spacing_m", "distance between ridges [m]"),
-    ("--ridge-height", "ridge_height_m", "ridge along each row [m], 0 for none"),
+    ("--ridge-height", "ridge_height_m", "height of the ridge along each row [m], 0 for none"),
     ("--bump-sd", "bump_sd_m", "standard deviation of bumps [m], 0 for none"),
     ("--bump-length", "bump_length_m", "size of bumps [m]"),
 )
@@ -36,7 +36,9 @@ def _warn(text: str) -> None:
 def _source_arguments(parser: argparse.ArgumentParser) -> None:
     usual = TerrainParams()
     source = parser.add_mutually_exclusive_group()
-    source.add_argument("recipe", nargs="?", type=Path, metavar="RECIPE.yaml", help="what to make")
+    source.add_argument(
+        "recipe", nargs="?", type=Path, metavar="RECIPE.yaml", help="recipe of the terrain"
+    )
     source.add_argument(
         "--image", type=Path, metavar="IMAGE", help="square grey image, best of 16 bits"
     )
@@ -44,7 +46,9 @@ def _source_arguments(parser: argparse.ArgumentParser) -> None:
         "--dem", type=Path, metavar="FILE", help="elevation model: GeoTIFF, or ESRI ASCII .asc"
     )
     source.add_argument("--mesh", type=Path, metavar="FILE", help="3D mesh: DAE, OBJ, STL, ...")
-    plain = parser.add_argument_group("without any of these: ridges and bumps")
+    plain = parser.add_argument_group(
+        "ridges and bumps, used without recipe, image, elevation model or mesh"
+    )
     for flag, name, text in _PLAIN:
         value = getattr(usual, name)
         plain.add_argument(
@@ -53,7 +57,7 @@ def _source_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def make_parser() -> argparse.ArgumentParser:
-    """Arguments of the command."""
+    """Makes the parser of the command's arguments."""
     usual, felt = TerrainParams(), Surface()
     parser = Parser(
         prog="generate_terrain",
@@ -75,7 +79,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=float,
         default=1.0,
         metavar="M",
-        help="from black to white [m] (default 1)",
+        help="height from black to white of the image [m] (default 1)",
     )
     shape.add_argument("--fill-holes", action="store_true", help="fill holes of an elevation model")
     shape.add_argument(
@@ -83,7 +87,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=float,
         default=1.0,
         metavar="X",
-        help="metres a unit of the mesh (default 1)",
+        help="length of the mesh's unit [m] (default 1)",
     )
     shape.add_argument(
         "--mesh-up", choices=UPS, default="auto", help="axis of the mesh that points up"
@@ -94,10 +98,10 @@ def make_parser() -> argparse.ArgumentParser:
         (
             "--friction-across",
             "mu2",
-            "friction coefficient in the second direction (default: the first)",
+            "friction coefficient in the second direction (default: that of --friction)",
         ),
-        ("--contact-stiffness", "kp", "of contacts [N/m]"),
-        ("--contact-damping", "kd", "of contacts [N s/m]"),
+        ("--contact-stiffness", "kp", "stiffness of ground contacts [N/m]"),
+        ("--contact-damping", "kd", "damping of ground contacts [N s/m]"),
     ):
         value = "" if name == "mu2" else f" (default {getattr(felt, name):g})"
         surface.add_argument(flag, dest=name, type=float, metavar="X", help=text + value)
@@ -145,7 +149,7 @@ def _plain_terrain(args: argparse.Namespace) -> Terrain:
 
 
 def make_terrain(args: argparse.Namespace) -> Path:
-    """Arguments to a written terrain."""
+    """Writes the terrain that the arguments describe; returns its path."""
     plain = tuple(name for _, name, _ in _PLAIN)
     surface, look = Surface(), Look()
     if args.mesh:
@@ -176,7 +180,7 @@ def make_terrain(args: argparse.Namespace) -> Path:
 
 
 def main() -> int:
-    """`generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
+    """Runs `generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
     return run(make_parser(), make_terrain)
 
 

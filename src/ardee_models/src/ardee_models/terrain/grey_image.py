@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reading grey images of any depth, with a plain message for what is none."""
+"""Reads grey images of any depth; other files are refused with a plain message."""
 
 import warnings
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ def _grey(image: Image.Image, path: Path) -> GreyImage:
 
 
 def read_grey(path: Path) -> GreyImage:
-    """A grey image; colours are turned to their luminance."""
+    """Reads a grey image; colours become their luminance."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")

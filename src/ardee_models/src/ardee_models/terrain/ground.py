@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The ground of a terrain's model directory, whether heightmap, mesh or plane, for plants to stand on."""
+"""The ground of a terrain's model directory (heightmap, mesh or plane), on which plants stand."""
 
 from dataclasses import dataclass
 from pathlib import Path

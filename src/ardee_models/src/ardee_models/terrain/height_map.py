@@ -18,16 +18,16 @@ class TerrainParams:
     """Shape of the ground. Rows run along x; the middle of a lane lies on y = 0."""
 
     size_m: float = 30.0
-    samples: int = 257  # 2^n + 1, as OGRE's terrain wants
+    samples: int = 257  # 2^n + 1, as OGRE's terrain requires
     row_spacing_m: float = 0.762  # 30 inches, usual for corn
     ridge_height_m: float = 0.05
     ridge_half_width_m: float = 0.25
     bump_sd_m: float = 0.008
     bump_length_m: float = 0.4
-    friction_mu: float = 0.8  # rubber on firm soil
+    friction_mu: float = 0.8  # friction coefficient of rubber on firm soil
 
     def validate(self) -> None:
-        """Raise GeneratorError for a value out of range."""
+        """Raises GeneratorError for a value out of range."""
         checks = (
             (1.0 <= self.size_m <= 2000.0, "size", self.size_m, "1 to 2000 m"),
             (
@@ -73,13 +73,13 @@ class Terrain:
     size_m: float
 
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
-        """Height on the two triangles of each cell, cut from its corner at -x -y to that at +x +y as the simulator's
-        are; outside the grid that of its edge."""
+        """Height on the two triangles of each cell, which the diagonal from -x -y to +x +y divides as in the simulator;
+        outside the grid, the height of its edge."""
         last = len(self.heights_m) - 1
         column = np.clip((np.asarray(x_m) / self.size_m + 0.5) * last, 0.0, last)
         row = np.clip((0.5 - np.asarray(y_m) / self.size_m) * last, 0.0, last)
         c, r = np.minimum(column.astype(int), last - 1), np.minimum(row.astype(int), last - 1)
-        u, v = column - c, 1.0 - (row - r)  # in the cell, from its corner at -x -y
+        u, v = column - c, 1.0 - (row - r)  # place in the cell, from its corner at -x -y
         h = self.heights_m
         near, far = h[r + 1, c], h[r, c + 1]
         beside = np.where(u >= v, h[r + 1, c + 1], h[r, c])
@@ -95,7 +95,7 @@ def ridge_profile(y_m: np.ndarray, params: TerrainParams) -> np.ndarray:
 
 
 def generate_terrain(params: TerrainParams, rng: np.random.Generator) -> Terrain:
-    """Ridges plus bumps; zero is the highest point near the origin, so that nothing set down there is buried."""
+    """Generates ridges and bumps. Zero is the highest point near the origin, so that a robot there is not buried."""
     params.validate()
     axis = np.linspace(-0.5, 0.5, params.samples) * params.size_m
     spacing_m = params.size_m / (params.samples - 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A user's grey image to terrain, thesis Figure 4.9: black is the lowest ground, white the highest."""
+"""Makes terrain of a user's grey image, thesis Figure 4.9: black is the lowest ground, white the highest."""
 
 from pathlib import Path
 from typing import Callable, Optional
@@ -16,7 +16,7 @@ Say = Callable[[str], None]
 
 
 def fitting_samples(side_px: int, wanted: Optional[int] = None) -> int:
-    """The number of samples a side: as wanted, else the smallest allowed that loses nothing."""
+    """Number of samples a side: `wanted`, else the smallest allowed number that loses no detail."""
     if wanted is None:
         return next((n for n in SAMPLES if n >= side_px), SAMPLES[-1])
     if wanted not in SAMPLES:
@@ -26,7 +26,7 @@ def fitting_samples(side_px: int, wanted: Optional[int] = None) -> int:
 
 
 def resample(heights_m: np.ndarray, samples: int) -> np.ndarray:
-    """A square grid brought to another number of samples; corners stay where they are."""
+    """Resamples a square grid to another number of samples; its corners stay in place."""
     if heights_m.shape == (samples, samples):
         return heights_m
     rows, columns = heights_m.shape
@@ -37,7 +37,7 @@ def resample(heights_m: np.ndarray, samples: int) -> np.ndarray:
 
 
 def level_at_origin(heights_m: np.ndarray, size_m: float) -> Terrain:
-    """Zero is the ground at the origin."""
+    """Shifts heights so that the ground at the origin is zero."""
     terrain = Terrain(heights_m, size_m)
     here = float(terrain.height_at(np.zeros(1), np.zeros(1))[0])
     return Terrain(heights_m - here, size_m)
@@ -46,7 +46,7 @@ def level_at_origin(heights_m: np.ndarray, size_m: float) -> Terrain:
 def image_terrain(
     path: Path, size_m: float, height_m: float, samples: Optional[int], say: Say
 ) -> Terrain:
-    """Ground `height_m` high between black and white. An 8-bit image makes steps: told through `say`."""
+    """Terrain of an image, `height_m` high between black and white; `say` gets a warning of the steps of 8 bits."""
     if not (np.isfinite(height_m) and 0.0 <= height_m <= 10_000.0):
         raise GeneratorError(f"image height: found {height_m} m, expected 0 to 10000 m")
     image = read_grey(path)

@@ -18,7 +18,7 @@ _MAX_BYTES = 1 << 30
 _MAX_TRIANGLES = 5_000_000
 _STL_HEADER_BYTES = 84
 _STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-# assimp turns what it reads of these to y upwards
+# formats that assimp turns to y upwards when it reads them
 _Y_UP_FORMATS = (".dae", ".gltf", ".glb")
 
 
@@ -26,17 +26,17 @@ _Y_UP_FORMATS = (".dae", ".gltf", ".glb")
 class MeshOptions:
     """Options by which a mesh becomes ground."""
 
-    scale: float = 1.0  # metres a unit of the file, where the file does not say
+    scale: float = 1.0  # length of the file's unit [m], if the file does not give it
     up: str = "auto"
-    center: bool = True  # the middle of its bounds goes to the origin, and the ground there to zero
+    center: bool = True  # move the middle of its bounds to the origin, and the ground there to zero
 
 
 def _to_stl(path: Path, folder: Path) -> np.ndarray:
-    """Corners (n, 3, 3) of all triangles, as seen in the scene; in a process of its own: files may be hostile."""
+    """Corners (n, 3, 3) of all triangles in the scene, read by a separate process because files may be hostile."""
     tool = shutil.which("assimp")
     if tool is None:
         raise GeneratorError(
-            "found no program 'assimp', expected that of Debian's package assimp-utils"
+            "found no program 'assimp', expected the one of Debian's package assimp-utils"
         )
     made = folder / "mesh.stl"
     command = [tool, "export", str(path.resolve()), str(made), "-fstlb", "-tri", "-ptv"]
@@ -53,7 +53,7 @@ def _to_stl(path: Path, folder: Path) -> np.ndarray:
 
 
 def read_mesh(path: Path, options: MeshOptions) -> MeshGround:
-    """The mesh, its equal corners joined."""
+    """Reads the mesh and joins equal corners."""
     if not (np.isfinite(options.scale) and 1e-6 <= options.scale <= 1e6):
         raise GeneratorError(f"mesh scale: found {options.scale}, expected 1e-6 to 1e6")
     if options.up not in UPS:

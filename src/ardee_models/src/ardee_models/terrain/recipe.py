@@ -12,7 +12,7 @@ from ardee_common.options import check, option
 
 _ANGLE = (-360.0, 360.0)
 _FAR = (-10_000.0, 10_000.0)
-SAMPLES = tuple(2**n + 1 for n in range(4, 13))  # as OGRE's terrain wants
+SAMPLES = tuple(2**n + 1 for n in range(4, 13))  # sizes that OGRE's terrain accepts
 
 
 def group(default: Any, kind: type) -> Any:
@@ -24,23 +24,24 @@ def group(default: Any, kind: type) -> Any:
 class Ridges:
     """Ridges under crop rows, furrows between: raised cosines along `direction_deg`; a lane lies on the origin."""
 
-    spacing_m: float = option(0.762, "between ridges", (0.1, 10.0))  # 30 inches, usual for corn
-    height_m: float = option(0.05, "of a ridge over the furrow", (0.0, 1.0))
-    half_width_m: float = option(0.25, "from the top of a ridge to its foot", (0.01, 5.0))
-    direction_deg: float = option(0.0, "in which ridges run, from the x axis", _ANGLE)
+    # 30 inches, usual for corn
+    spacing_m: float = option(0.762, "distance between ridges", (0.1, 10.0))
+    height_m: float = option(0.05, "height of a ridge over the furrow", (0.0, 1.0))
+    half_width_m: float = option(0.25, "distance from the top of a ridge to its foot", (0.01, 5.0))
+    direction_deg: float = option(0.0, "direction of the ridges, from the x axis", _ANGLE)
 
 
 @dataclass(frozen=True)
 class Ruts:
     """Two wheel tracks of a tractor, with the earth pressed out beside them, and lugs' marks across."""
 
-    offset_m: float = option(0.0, "of the tracks' middle to the left of the origin", _FAR)
-    direction_deg: float = option(0.0, "in which they run", _ANGLE)
-    track_m: float = option(1.524, "between the tracks' middles (60 inches)", (0.1, 10.0))
-    width_m: float = option(0.4, "of a track", (0.05, 3.0))
-    depth_m: float = option(0.06, "of a track", (0.0, 1.0))
-    lug_spacing_m: float = option(0.2, "between lugs' marks", (0.02, 2.0))
-    lug_depth_m: float = option(0.01, "of lugs' marks", (0.0, 0.2))
+    offset_m: float = option(0.0, "offset of the tracks' middle to the left of the origin", _FAR)
+    direction_deg: float = option(0.0, "direction of the tracks, from the x axis", _ANGLE)
+    track_m: float = option(1.524, "distance between the tracks' middles (60 inches)", (0.1, 10.0))
+    width_m: float = option(0.4, "width of a track", (0.05, 3.0))
+    depth_m: float = option(0.06, "depth of a track", (0.0, 1.0))
+    lug_spacing_m: float = option(0.2, "distance between lugs' marks", (0.02, 2.0))
+    lug_depth_m: float = option(0.01, "depth of lugs' marks", (0.0, 0.2))
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class Clods:
 
     size_m: float = option(0.1, "correlation length", (0.005, 100.0))
     sd_m: float = option(0.008, "standard deviation of heights", (0.0, 0.5))
-    lumps: bool = option(False, "only what stands out: separate clods on level ground")
+    lumps: bool = option(False, "separate clods on level ground, instead of rough ground")
 
 
 @dataclass(frozen=True)
@@ -57,18 +58,20 @@ class Slope:
     """The whole ground tilted about the origin."""
 
     grade_percent: float = option(0.0, "rise over run", (-100.0, 100.0))
-    direction_deg: float = option(0.0, "in which it rises", _ANGLE)
+    direction_deg: float = option(
+        0.0, "direction in which the ground rises, from the x axis", _ANGLE
+    )
 
 
 @dataclass(frozen=True)
 class Ditch:
-    """A trench with sloping banks; crop ridges, ruts and clods lie in it as everywhere."""
+    """A trench with sloping banks; crop ridges, ruts and clods go on inside it."""
 
-    offset_m: float = option(8.0, "of its middle to the left of the origin", _FAR)
-    direction_deg: float = option(0.0, "in which it runs", _ANGLE)
-    depth_m: float = option(0.4, "below the field", (0.0, 10.0))
-    bottom_width_m: float = option(0.4, "of its level bottom", (0.0, 100.0))
-    bank_width_m: float = option(0.8, "of each bank", (0.01, 100.0))
+    offset_m: float = option(8.0, "offset of the ditch's middle to the left of the origin", _FAR)
+    direction_deg: float = option(0.0, "direction of the ditch, from the x axis", _ANGLE)
+    depth_m: float = option(0.4, "depth below the field", (0.0, 10.0))
+    bottom_width_m: float = option(0.4, "width of the level bottom", (0.0, 100.0))
+    bank_width_m: float = option(0.8, "width of each bank", (0.01, 100.0))
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,7 @@ class Headland:
 
     along_m: float = option(10.0, "half length of the ridged part", (0.0, 10_000.0))
     across_m: float = option(10_000.0, "half width of the ridged part", (0.0, 10_000.0))
-    fade_m: float = option(0.5, "over which ridges end", (0.0, 100.0))
+    fade_m: float = option(0.5, "distance over which ridges end", (0.0, 100.0))
 
 
 @dataclass(frozen=True)
@@ -94,15 +97,17 @@ class Surface:
 class Blend:
     """Texture k + 1 fades in over `fade_m` above this height over the lowest ground."""
 
-    min_height_m: float = option(0.5, "where the next texture begins", (0.0, 10_000.0))
-    fade_m: float = option(1.0, "over which it fades in", (0.0, 10_000.0))
+    min_height_m: float = option(0.5, "height at which the next texture begins", (0.0, 10_000.0))
+    fade_m: float = option(1.0, "height over which the next texture fades in", (0.0, 10_000.0))
 
 
 @dataclass(frozen=True)
 class Look:
     """Textures of the ground and how they blend (thesis Listing A.23)."""
 
-    textures: Tuple[str, ...] = option(("dirt", "grass", "fungus"), "from the lowest ground up")
+    textures: Tuple[str, ...] = option(
+        ("dirt", "grass", "fungus"), "names of textures, from the lowest ground upwards"
+    )
     texture_size_m: float = option(1.0, "side of a texture's tile", (0.01, 1000.0))
     blends: Tuple[Blend, ...] = group((Blend(), Blend()), Blend)
 
@@ -124,7 +129,7 @@ class Recipe:
     look: Look = group(Look(), Look)
 
     def validate(self) -> None:
-        """Raise GeneratorError for the first value out of range."""
+        """Raises GeneratorError for the first value out of range."""
         check(self, "terrain ")
         if self.samples not in SAMPLES:
             known = ", ".join(map(str, SAMPLES))
@@ -146,7 +151,7 @@ class Recipe:
 
 
 def read_recipe(path: Path) -> Recipe:
-    """A recipe from its YAML file; one ridges or headland mapping may stand without a list."""
+    """Reads a recipe from its YAML file; a single ridges or headland mapping needs no list."""
     mapping = read_yaml_lines(path)
     for key in ("ridges", "headland"):
         if isinstance(mapping.get(key), dict):

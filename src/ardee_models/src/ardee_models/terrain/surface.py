@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The ground that a mesh makes: the highest of its triangles above each place."""
+"""The ground of a mesh: the highest of its triangles above each place."""
 
 from dataclasses import dataclass
 
@@ -54,7 +54,7 @@ class MeshGround:
         return np.where(inside, height, -np.inf)
 
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
-        """Height of the highest triangle; beside the mesh that of its nearest vertex."""
+        """Height of the highest triangle; beside the mesh, the height of its nearest vertex."""
         xy = np.column_stack((np.ravel(x_m), np.ravel(y_m))).astype(float)
         low, side, shape = self._cells()
         cells, triangles = self._entries(low, side, shape)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Terrain to Gazebo model directory: 16-bit grey image and SDF heightmap (thesis Listing A.23)."""
+"""Writes a terrain as a Gazebo model directory: 16-bit grey image and SDF heightmap (thesis Listing A.23)."""
 
 from pathlib import Path
 from typing import Optional
@@ -71,7 +71,7 @@ _BLEND = """            <blend>
 
 
 def quantise(terrain: Terrain) -> tuple:
-    """16-bit image, size z and position z with height = position + pixel / 65535 * size."""
+    """Quantised terrain: 16-bit image, size z, and position z, with height = position + pixel / 65535 * size."""
     low, high = float(terrain.heights_m.min()), float(terrain.heights_m.max())
     span = round(high - low, 6)
     if span == 0.0:
@@ -81,7 +81,7 @@ def quantise(terrain: Terrain) -> tuple:
 
 
 def surface_xml(surface: Surface) -> str:
-    """Friction and contact of a collision."""
+    """SDF text of a collision's friction and contact."""
     return SURFACE.format(**vars(surface))
 
 
@@ -95,7 +95,7 @@ def write_terrain(
     look: Look = Look(),
     description: str = "Field terrain, procedural heightmap",
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; its path. A surface wins over the friction."""
+    """Writes parent/name, replacing an earlier model of that name; returns its path. `surface` overrides friction."""
     pixels, size_z, pos_z = quantise(terrain)
     relative = f"meshes/heightmaps/{image_stem}.png"
     felt = surface or Surface(mu=friction_mu, mu2=friction_mu)

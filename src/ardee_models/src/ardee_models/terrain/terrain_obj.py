@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mesh ground to Gazebo model directory: one OBJ file that is seen and collided with."""
+"""Writes mesh ground as a Gazebo model directory: one OBJ file, both visual and collision shape."""
 
 from pathlib import Path
 
@@ -63,7 +63,7 @@ _MATERIAL = """material Ground/{name}
 
 
 def _obj_text(ground: MeshGround, texture_size_m: float) -> str:
-    """Vertices, texture coordinates seen from above, smooth normals, triangles."""
+    """OBJ text: vertices, texture coordinates seen from above, smooth normals, triangles."""
     vertices, triangles = ground.vertices_m, ground.triangles
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     faces = np.cross(b - a, c - a)
@@ -84,7 +84,7 @@ def _obj_text(ground: MeshGround, texture_size_m: float) -> str:
 def write_mesh_terrain(
     ground: MeshGround, surface: Surface, name: str, parent: Path, texture_size_m: float = 1.0
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; returns its path."""
+    """Writes parent/name, replacing an earlier model of that name; returns its path."""
     with model_directory(parent, name) as folder:
         for sub in ("meshes", "materials/scripts", "materials/textures"):
             (folder / sub).mkdir(parents=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A terrain seen from above, for people: hill shading, contours of height by colour, a scale."""
+"""A picture of a terrain seen from above: hill shading, contours of height by colour, a scale."""
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -7,12 +7,12 @@ from PIL import Image, ImageDraw
 from ardee_models.terrain.height_map import Terrain
 
 _SIDE_PX = 800
-_SUN = np.array([-0.6, 0.6, 0.9])  # from the north-west, as on maps
+_SUN = np.array([-0.6, 0.6, 0.9])  # direction of the sun: north-west, as on maps
 _LOW, _HIGH = np.array([96.0, 74.0, 54.0]), np.array([198.0, 176.0, 140.0])
 
 
 def shaded(terrain: Terrain) -> Image.Image:
-    """x to the right, y upwards; slopes exaggerated so that the roughest ground just does not black out."""
+    """Shaded picture, x to the right, y upwards; slopes are exaggerated, but the roughest ground is not black."""
     axis = (np.arange(_SIDE_PX) + 0.5) / _SIDE_PX - 0.5
     x, y = np.meshgrid(axis * terrain.size_m, -axis * terrain.size_m)
     heights = terrain.height_at(x, y)

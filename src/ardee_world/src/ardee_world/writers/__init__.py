@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Writers: a Layout to files."""
+"""Writers of the files of a Layout."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to a Gazebo model directory with its ground truth."""
+"""Writes a Layout as a Gazebo model directory with its ground truth."""
 
 import shutil
 from pathlib import Path
@@ -26,7 +26,7 @@ def is_stream(form: str, layout: Layout) -> bool:
 
 
 def _write_model(layout: Layout, name: str, folder: Path, form: str) -> None:
-    """model.sdf, plots.xacro, and both in <name>.urdf.xacro: the plants first, then the separator, then the plots."""
+    """Writes model.sdf, plots.xacro, and both in <name>.urdf.xacro: plants, separator line, plots."""
     stream = is_stream(form, layout)
     with (folder / "model.sdf").open("w") as file:
         file.writelines([model_text(layout, name)] if stream else sdf_text(layout, name))
@@ -47,7 +47,7 @@ def write_field(
     form: str = "auto",
     terrain: Optional[Ground] = None,
 ) -> Path:
-    """Write parent/name, replacing an earlier model of that name; returns its path."""
+    """Writes parent/name, replacing an earlier model of that name; returns its path."""
     columns, clutter = plant_columns(layout), clutter_columns(layout)
     with model_directory(parent, name) as folder:
         text = f"Crop field of {layout.count()} plants, procedural, seed {layout.seed}"

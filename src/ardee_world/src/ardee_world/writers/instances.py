@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to plants.csv: a line a plant, which the simulator reads as a stream, and the model.sdf that names it."""
+"""Writes a Layout as plants.csv, one line per plant, read as a stream, and the model.sdf that names it."""
 
 from typing import Iterable, Iterator
 

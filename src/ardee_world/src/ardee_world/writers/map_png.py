@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to a plan view: planned places grey, plants green, as in thesis Figure 4.6; gaps, clutter, plots."""
+"""Draws the plan view of a Layout: planned places grey, plants green, as in thesis Figure 4.6; gaps, clutter, plots."""
 
 from typing import Tuple
 
@@ -11,7 +11,7 @@ from ardee_world.field_layout import Layout
 _LARGEST_PX = 2000
 _PX_PER_M = 60.0
 _MARGIN_M = 0.6
-_SMOOTH = 2  # drawn this much larger, then reduced
+_SMOOTH = 2  # factor by which the map is drawn larger, then reduced
 _GRID = (232, 232, 232)
 _ROW = (205, 200, 185)
 _PLANNED = (190, 190, 190)
@@ -24,7 +24,7 @@ _TEXT = (60, 60, 60)
 
 
 class _Canvas:
-    """Field's metres to pixels: x to the right, y upwards."""
+    """Maps the field's metres to pixels: x to the right, y upwards."""
 
     def __init__(self, low: np.ndarray, high: np.ndarray) -> None:
         self.low = low
@@ -42,11 +42,11 @@ class _Canvas:
         return np.column_stack((up[:, 0], self.image.height - up[:, 1]))
 
     def line(self, xy: np.ndarray, colour: tuple, width: int) -> None:
-        """A polyline."""
+        """Draws a polyline."""
         self.draw.line([tuple(p) for p in self.pixels(xy)], fill=colour, width=width)
 
     def dots(self, xy: np.ndarray, radius_m: float, colour: tuple) -> None:
-        """Many discs at once, stamped pixel by pixel of a disc."""
+        """Draws many discs at once, one pixel of the disc after the other."""
         if len(xy) == 0:
             return
         radius = max(radius_m * self.scale, 1.0)
@@ -68,7 +68,7 @@ class _Canvas:
 
 
 def _grid(canvas: _Canvas) -> float:
-    """Lines at a round distance, which is returned."""
+    """Draws grid lines at a round distance, which it returns."""
     span = float((canvas.high - canvas.low).max())
     step = next(s for s in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1e9) if span / s <= 40)
     for axis in (0, 1):
@@ -86,7 +86,7 @@ def _limits(layout: Layout) -> Tuple[np.ndarray, np.ndarray]:
 
 
 def draw_map(layout: Layout) -> Image.Image:
-    """x to the right, y upwards; the origin is a red cross, with an arrow along the rows of the world's x."""
+    """Draws the map, x to the right, y upwards; the origin is a red cross."""
     canvas = _Canvas(*_limits(layout))
     step = _grid(canvas)
     for row in layout.planned.rows:

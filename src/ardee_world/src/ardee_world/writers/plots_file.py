@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to plots.xacro: the regions of the variable-accuracy GPS (thesis Listing A.7)."""
+"""Writes plots.xacro of a Layout: the regions of the variable-accuracy GPS (thesis Listing A.7)."""
 
 from dataclasses import dataclass
 from typing import List
@@ -35,7 +35,7 @@ _TAIL = "</robot>\n"
 
 @dataclass(frozen=True)
 class PlotRegion:
-    """One plot as the GPS wants it; the rectangle that its rows lie in, half a row spacing wider on each side."""
+    """One plot for the GPS: the rectangle around its rows, half a row spacing wider on each side."""
 
     plot_id: int
     range_index: int  # along the rows
@@ -65,7 +65,8 @@ def _region(layout: Layout, plot: int, rows: list, members: np.ndarray) -> PlotR
     pose, plots = layout.config.world_pose, layout.config.plots
     world = to_world(middle[None], pose)[0]
     width = (np.ptp(beside) + plots.row_spacing_m) / len(rows)
-    length = max(float(np.ptp(along)), plots.stalk_spacing_m)  # of rows of one plant too
+    # rows of a single plant have a length too
+    length = max(float(np.ptp(along)), plots.stalk_spacing_m)
     heights = layout.height_m[members]
     area = width * len(rows) * length
     turn = np.arctan2(forward[1], forward[0]) + pose[2]

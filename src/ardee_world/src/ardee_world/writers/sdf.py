@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to model.sdf: one include a plant, with ARDEE's own scale and label, written as a stream."""
+"""Writes model.sdf of a Layout: one include per plant, with ARDEE's own scale and label, piece by piece."""
 
 from typing import Iterator, Sequence, Tuple
 
@@ -28,7 +28,7 @@ _TAIL = """  </model>
 
 
 def pose_line(layout: Layout) -> str:
-    """The model's own <pose>: where a world stands it that includes it without another one."""
+    """The model's own <pose>, used by a world that includes it without another pose."""
     return _POSE.format(*(repr(float(value) + 0.0) for value in layout.config.world_pose))
 
 
@@ -54,13 +54,13 @@ def _clutter(layout: Layout) -> Iterator[Placed]:
 
 
 def placed_items(layout: Layout) -> Iterator[Placed]:
-    """All that stands in the field. A plant's number is its place in the plan, so it survives a change of emergence."""
+    """All plants and items. A plant's number is its place in the plan, so it survives a change of emergence."""
     yield from _plants(layout)
     yield from _clutter(layout)
 
 
 def sdf_text(layout: Layout, name: str) -> Iterator[str]:
-    """Pieces of the file in order."""
+    """Pieces of the file, in order."""
     yield _HEAD.format(namespace=EXTENSION_NAMESPACE, name=name, pose=pose_line(layout))
     for model, kind, number, (x, y, z), (roll, pitch, yaw), scale, label in placed_items(layout):
         tilt = "0 0" if roll == 0.0 and pitch == 0.0 else f"{roll:.4f} {pitch:.4f}"

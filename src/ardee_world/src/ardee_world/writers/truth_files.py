@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layout to ground truth: truth.csv (plants), clutter.csv, truth.json (configuration, rows, gaps, all of the above)."""
+"""Writes a Layout's ground truth: truth.csv (plants), clutter.csv, truth.json (these, configuration, rows, gaps)."""
 
 import dataclasses
 import json
@@ -18,7 +18,7 @@ def _of_models(pool: tuple, attribute: str, model: np.ndarray) -> np.ndarray:
 
 
 def _listed(columns: Dict[str, np.ndarray]) -> Columns:
-    """Rounded as the model file is: 0.1 mm and 1e-4 rad."""
+    """Columns as lists, rounded as in the model file: 0.1 mm and 1e-4 rad."""
     return {
         name: (np.round(values, 4) + 0.0 if values.dtype.kind == "f" else values).tolist()
         for name, values in columns.items()
@@ -35,7 +35,7 @@ def _degrees(layout: Layout, world: np.ndarray) -> Columns:
 
 
 def plant_columns(layout: Layout) -> Columns:
-    """Column name to values: what became of each plant, in the field's frame and in the world."""
+    """Values by column name for the plants that emerged, in the field's frame and in the world."""
     world = to_world(layout.position_m[:, :2], layout.config.world_pose)
     plan, index, pool, model = layout.planned, layout.index, layout.pool, layout.model
     columns = {
@@ -65,7 +65,7 @@ def plant_columns(layout: Layout) -> Columns:
 
 
 def clutter_columns(layout: Layout) -> Columns:
-    """Writes the truth of weeds, stones and litter; nothing where there is none."""
+    """Values by column name for weeds, stones and litter; empty if there are none."""
     parts = []
     for items, heights in layout.clutter:
         world = to_world(items.xy_m, layout.config.world_pose)
