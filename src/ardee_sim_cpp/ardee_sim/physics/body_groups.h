@@ -24,7 +24,7 @@ struct BodyGroup {
   /// The part of the mass that gravity pulls on.
   double gravity_mass_kg = 0.0;
   Eigen::Vector3d gravity_com_M{0, 0, 0};
-  // Share of the momentum that a step takes away, summed over the links.
+  // Share of the momentum that a step takes away: the mean of the links' shares, weighted by mass.
   double linear_decay = 0.0;
   double angular_decay = 0.0;
 };
