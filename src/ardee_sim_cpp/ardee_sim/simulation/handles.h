@@ -26,12 +26,12 @@ class ReadingPort {
   std::shared_ptr<const std::optional<devices::Reading>> latest_;
 };
 
-/// Keeps the latest readings of some topics and hands all on.
+/// Keeps the latest readings of some topics and passes all on.
 class LatestReadings : public devices::ReadingSink {
  public:
   using Latest = std::optional<devices::Reading>;
 
-  /// Nothing is there before the topic's next reading of that kind.
+  /// Null until the topic's next reading of that kind.
   std::shared_ptr<const Latest> keep(const std::string& topic, std::size_t kind);
   void hand_on_to(devices::ReadingSink* sink) { next_ = sink; }
   void on_reading(const devices::Output& output, const devices::Reading& reading) override;
