@@ -12,14 +12,14 @@
 
 namespace ardee::node {
 
-/// The services (and request topics) of a node whose work may throw: what is thrown becomes success
-/// = false with the reason in status_message, or for services without these an error for the
-/// caller. None ends the node.
+/// The services (and request topics) of a node whose work may throw: an exception becomes success =
+/// false with the reason in status_message, or for services without these fields an error for the
+/// caller. No exception ends the node.
 class ServiceServers {
  public:
   explicit ServiceServers(const ros::NodeHandle& node) : node_(node) {}
 
-  /// The namespace that relative names of services are in.
+  /// The namespace of relative service names.
   const std::string& space() const { return node_.getNamespace(); }
 
   /// `act` fills the response in and returns the message of success; `label` heads the messages of
