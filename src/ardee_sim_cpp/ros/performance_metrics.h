@@ -24,7 +24,7 @@ class PerformanceCounter {
 
   /// Counts a measurement. A sensor of several topics counts once per time.
   void on_measured(const std::string& sensor, bool is_camera, const Moment& now);
-  /// Reports the time since the previous report; a sensor's rates are those of its latest
+  /// Reports on the time since the previous report; a sensor's rates are those of its latest
   /// measurements. A sensor that has been silent for a while is left out. The caller fills in the
   /// header.
   gazebo_msgs::PerformanceMetrics report(const Moment& now);
