@@ -23,7 +23,7 @@ RangeReading::Radiation read_radiation(Parameters& keys) {
   throw keys.error("radiation", "expected ultrasound or infrared");
 }
 
-/// What both plugins share; the keys that name the frame differ.
+/// Reads the keys that both plugins share; the keys of the frame differ.
 RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& keys,
                                 const char* topic, const char* frame_key, const char* frame,
                                 DeviceContext& context) {
@@ -38,7 +38,7 @@ RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& key
   return params;
 }
 
-/// The smaller span of its angles; a single row has none.
+/// Smaller span of the block's angles; a single row has no vertical span.
 double smaller_span_rad(const RayBlock& rays) {
   const double across_rad = std::abs(rays.angle_max_rad - rays.angle_min_rad);
   if (rays.rows == 1) return across_rad;

@@ -64,7 +64,7 @@ Schema::Schema(const char* format, const std::vector<SchemaRow>& rows, const Sch
   for (auto& [name, place] : places_) link_up(place);
 }
 
-/// Finds what each element of a place may hold: the longest place name that ends its path counts.
+/// Finds the place of each element: the longest place name that ends its path counts.
 void Schema::link_up(Place& place) {
   for (auto& [name, entry] : place.entries) {
     if (name[0] == '@' || entry.treatment != Treatment::kActs) continue;

@@ -11,8 +11,7 @@ std::string whole(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
 }
 
-/// Calls `found(port)` for each of the ports that `list` gives of all devices, and says their
-/// topics.
+/// Calls `found(port)` for each port that `list` gives of all devices, and returns their topics.
 template <typename List, typename Found>
 std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, List list,
                           Found found) {
