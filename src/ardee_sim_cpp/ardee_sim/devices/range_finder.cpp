@@ -16,7 +16,7 @@ constexpr double kSonarRate_hz = 10.0;  // hector_gazebo_ros_sonar's
 RangeReading::Radiation read_radiation(Parameters& keys) {
   std::string text = keys.text("radiation", "ultrasound");
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));  // also as the message's constants are written
+    return static_cast<char>(std::tolower(c));  // also accepts the message constants' spelling
   });
   if (text == "ultrasound") return RangeReading::Radiation::kUltrasound;
   if (text == "infrared") return RangeReading::Radiation::kInfrared;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t kGeoKeyDirectory = 34735;
 constexpr std::uint32_t kGdalNoData = 42113;
 constexpr tmsize_t kMostBytes = tmsize_t{1} << 29;
-/// A larger number is never an elevation, even if the file does not mark it so.
+/// A larger number is never an elevation, even if the file does not mark it as "no data".
 constexpr double kAbsurd_m = 1e5;
 
 bool is_tiff(const std::string& path) {

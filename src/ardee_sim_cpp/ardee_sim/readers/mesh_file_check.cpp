@@ -52,7 +52,8 @@ bool is_ascii_stl(const std::string& bytes) {
          bytes.find("facet") != std::string::npos;
 }
 
-/// A binary STL declares its number of triangles; an ASCII one ends in "endsolid".
+/// Checks that an STL is complete: a binary one declares its number of triangles; an ASCII one ends
+/// in "endsolid".
 void check_stl(const std::string& bytes, const std::string& path, const Source& source) {
   if (is_ascii_stl(bytes)) {
     if (bytes.find("endsolid") == std::string::npos) {
@@ -68,7 +69,7 @@ void check_stl(const std::string& bytes, const std::string& path, const Source& 
   }
 }
 
-/// A binary glTF declares its length.
+/// Checks the length that a binary glTF declares.
 void check_glb(const std::string& bytes, const std::string& path, const Source& source) {
   constexpr std::size_t kHeader = 12;
   std::uint32_t length = 0;

@@ -89,7 +89,7 @@ class EarClipping {
     for (std::size_t k = 0; k < left_.size(); ++k) {
       const Eigen::Vector2d& p = corners_[left_[k]];
       if (p == a || p == b || p == c) continue;
-      // Any points inside an ear include a corner that turns right.
+      // Skips corners that turn left: if there are points inside, one of them turns right.
       if (turn(corners_[before(k)], p, corners_[after(k)]) > 0.0) continue;
       if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0) return false;
     }

@@ -37,7 +37,7 @@ void add_exports(const ResourceLocator::PathExports& exports, const std::string&
   for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
 }
 
-/// Name of a file that does not depend on the referring file's URI form.
+/// Name of a file for messages: a relative path gets the folder of the referring file.
 std::string name_of(const std::string& uri, const Source& source) {
   return uri.find("://") == std::string::npos ? folder_of(source.file) + "/" + uri : uri;
 }

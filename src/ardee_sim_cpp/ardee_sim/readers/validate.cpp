@@ -23,7 +23,7 @@ std::string comma_list(const Eigen::Vector3d& v) {
   return text.str();
 }
 
-/// Whether a link is fixed to another one, so that it needs no mass: a frame.
+/// Checks the mass of a link. A link that is fixed to another one needs none: a frame.
 void check_mass(const Link& link, bool is_fixed, Log& log) {
   const double mass_kg = link.inertial->mass_kg;
   if (mass_kg > 0.0) return;
@@ -33,9 +33,9 @@ void check_mass(const Link& link, bool is_fixed, Log& log) {
   log.warn(link.source, what.str() + "; it moves with the link that it is fixed to");
 }
 
-/// An impossible inertia is accepted with a warning, as in Gazebo: the physics sums the inertias of
-/// links that are fixed to each other, and uses the nearest possible one if the sum is impossible
-/// too.
+/// Checks the inertia of a link. An impossible one is accepted with a warning, as in Gazebo: the
+/// physics sums the inertias of links that are fixed to each other, and uses the nearest possible
+/// one if the sum is impossible too.
 void check_inertia(const Link& link, bool is_fixed, Log& log) {
   const Eigen::Matrix3d& inertia = link.inertial->inertia_kg_m2;
   const std::string of = " of link '" + link.name + "'";
