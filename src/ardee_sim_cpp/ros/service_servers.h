@@ -42,7 +42,7 @@ class ServiceServers {
     servers_.push_back(node_.advertiseService(name, serve));
   }
 
-  /// A topic whose messages are requests without answer; what is wrong with one goes to the log.
+  /// A topic whose messages are requests without answer; errors go to the log.
   template <typename Message>
   void listen(const std::string& topic, const std::string& label,
               std::function<void(const Message&)> act) {

@@ -15,7 +15,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A word as it is compared: numbers by value, booleans as 0 and 1.
+/// Normal form of a word for comparison: numbers by value, booleans as 0 and 1.
 std::string canonical(const std::string& word) {
   if (word == "true" || word == "True") return "1";
   if (word == "false" || word == "False") return "0";
