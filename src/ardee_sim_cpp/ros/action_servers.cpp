@@ -49,7 +49,7 @@ void fill(const devices::TrajectoryControllerReading& reading,
   message.error = state.error;
 }
 
-/// A result or feedback.
+/// Converts a result or feedback.
 template <typename Message>
 void fill(const devices::GripperState& state, Message& message) {
   message.position = state.position;
@@ -115,7 +115,7 @@ class Server {
   }
 
   void on_cancel(const RosGoal& goal) {
-    const auto handles = handles_;  // what is called may change them
+    const auto handles = handles_;  // the calls may change them
     for (const auto& each : handles) {
       const auto handle = each.lock();
       if (handle && handle->is(goal)) action_.on_cancel(handle);
@@ -123,7 +123,7 @@ class Server {
   }
 
   const Action& action_;
-  std::vector<std::weak_ptr<Handle>> handles_;  // that the controller keeps
+  std::vector<std::weak_ptr<Handle>> handles_;  // owned by the controller
   actionlib::ActionServer<Spec> server_;
 };
 

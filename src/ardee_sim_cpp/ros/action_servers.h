@@ -10,11 +10,11 @@
 
 namespace ardee::node {
 
-/// Serves the actions of a device or controller by actionlib, on the queue of the node: goals come
-/// between two steps, as commands do.
+/// Serves the actions of a device or controller by actionlib, on the queue of the node: goals
+/// arrive between two steps, as commands do.
 class ActionServers {
  public:
-  /// `ports` outlive this object. Throws Error for a name that is none.
+  /// `ports` outlive this object. Throws Error for an invalid name.
   void add(const ros::NodeHandle& node, const devices::Ports& ports);
 
  private:

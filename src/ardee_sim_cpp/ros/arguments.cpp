@@ -23,7 +23,7 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
-/// The parameter's value, or `fallback` where it is not set.
+/// The parameter's value, or `fallback` if it is not set.
 template <typename Value>
 Value parameter(const ros::NodeHandle& node, const std::string& name, const Value& fallback,
                 const std::string& expected) {
@@ -46,7 +46,7 @@ double number(const ros::NodeHandle& node, const std::string& name, double fallb
   return value;
 }
 
-/// Read as a double: ROS rounds one without a word where it is asked for an int.
+/// Reads an integer as a double: ROS silently rounds a double that is read as an int.
 int whole_number(const ros::NodeHandle& node, const std::string& name, int fallback,
                  int high = std::numeric_limits<int>::max()) {
   const std::string expected = "a whole number from 0 to " + std::to_string(high);
@@ -58,7 +58,7 @@ int whole_number(const ros::NodeHandle& node, const std::string& name, int fallb
   return static_cast<int>(value);
 }
 
-/// ~plugin_aliases: a list, so that a name of a file need not be one of a parameter.
+/// ~plugin_aliases: a list, so that a file name need not be a valid parameter name.
 std::vector<devices::PluginAlias> read_aliases(const ros::NodeHandle& node) {
   const Setting list = setting_from_ros(node.resolveName("plugin_aliases"));
   return list ? devices::read_plugin_aliases(list) : std::vector<devices::PluginAlias>();

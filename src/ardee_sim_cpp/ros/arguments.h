@@ -12,7 +12,7 @@
 
 namespace ardee::node {
 
-/// What the simulator node is told on its command line; what is absent comes from its parameters.
+/// Command-line arguments of the simulator node; the node's parameters replace absent ones.
 struct CommandLine {
   std::string world;
   std::optional<bool> paused;
@@ -22,10 +22,10 @@ struct CommandLine {
   bool help = false;
 };
 
-/// Reads the command line without ROS's own arguments. Throws Error for what it does not know.
+/// Reads the command line without ROS's own arguments. Throws Error for an unknown argument.
 CommandLine parse_command_line(int argc, char** argv);
 
-/// How to call the node, for -h.
+/// Usage text of the node, for -h.
 std::string usage();
 
 /// The settings of the node.
@@ -37,7 +37,8 @@ struct Settings {
   int threads = 0;                         // of the ray casts; 0: all cores
   double clock_rate_hz = 100.0;            // of /clock, in simulated time; 0: each step
   bool publish_world_tf = false;
-  bool lenient = false;  // leave out what is missing, with an error; else refuse the whole
+  bool lenient =
+      false;  // leave missing or malformed parts out, with an error; else refuse the world
   double scenery_radius_m = 6.0;
   std::vector<devices::PluginAlias> plugin_aliases;
   int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none

@@ -10,7 +10,7 @@ namespace ardee::node {
 namespace {
 
 constexpr std::uint32_t kQueue = 10;
-// A simulation far ahead of real time does not drown its listeners.
+// Bounds the messages to subscribers of a simulation that runs far ahead of real time.
 constexpr auto kShortestPause = std::chrono::microseconds(500);
 
 }  // namespace

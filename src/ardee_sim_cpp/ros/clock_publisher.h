@@ -9,19 +9,19 @@
 
 namespace ardee::node {
 
-/// /clock: at most `rate_hz` messages a simulated second, and the exact time whenever stepping
-/// ends. Who subscribes while the clock stands still gets the time at once.
+/// /clock: at most `rate_hz` messages per simulated second, and the exact time whenever stepping
+/// ends. A subscriber that connects while the clock stands still gets the time at once.
 class ClockPublisher {
  public:
-  /// rate_hz 0: each step.
+  /// A `rate_hz` of 0 publishes at each step.
   explicit ClockPublisher(double rate_hz);
 
-  /// After each step.
+  /// Called after each step.
   void on_step(TimeNs now_ns);
-  /// The time as it is, whatever the rate: when stepping ends, and again and again while paused, so
-  /// that who comes then learns it.
+  /// Publishes the present time at once, without regard to the rate: when stepping ends, and
+  /// repeatedly while paused, for new subscribers.
   void publish(TimeNs now_ns);
-  /// The clock was set back to `now_ns`.
+  /// Called when the clock was set back to `now_ns`.
   void restart(TimeNs now_ns);
 
  private:

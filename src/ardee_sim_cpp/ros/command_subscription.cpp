@@ -24,8 +24,8 @@ namespace {
 constexpr std::uint32_t kQueue = 10;
 constexpr double kWarningPeriod_s = 5.0;
 
-/// Warns at once, and then not again for a while of wall time. ROS's own throttle counts simulated
-/// time, and says nothing in its first seconds.
+/// Warns at once, and then not again for some wall time. ROS's own throttle counts simulated time,
+/// and stays silent in its first seconds.
 class ThrottledWarning {
  public:
   void say(const std::string& text) {

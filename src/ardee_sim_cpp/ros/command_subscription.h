@@ -8,12 +8,12 @@
 
 namespace ardee::node {
 
-/// Hands a device what is said on the topic of one of its inputs. A message that the device does
-/// not take changes nothing and is a warning, not more often than each few seconds. Throws Error if
-/// the topic cannot be had.
+/// Subscribes to the topic of a device's input and passes the messages on. A message that the
+/// device refuses changes nothing and is a warning, at most once in a few seconds. Throws Error if
+/// the topic cannot be subscribed to.
 ros::Subscriber subscribe(ros::NodeHandle& node, const devices::Input& input);
 
-/// Throws Error if that is no name of a topic or service.
+/// Throws Error if the text is not a valid name of a topic or service.
 void require_valid(const std::string& topic);
 
 }  // namespace ardee::node

@@ -105,7 +105,7 @@ void ControllerServices::load(const std::string& name) {
 
 void ControllerServices::unload(const std::string& name) {
   manager_.check_unload(name);
-  topics_.erase(name);  // before what they publish
+  topics_.erase(name);  // before the outputs that they publish
   manager_.unload(name);
 }
 

@@ -17,21 +17,21 @@ namespace ardee::node {
 /// The services of a robot's controller manager, as ros_control's: list_controllers,
 /// load_controller, unload_controller, switch_controller, list_controller_types and
 /// reload_controller_libraries below <robot_namespace>/controller_manager; and the topics of the
-/// controllers, which come and go with them. A switch acts at once, between two steps, also while
-/// the physics is paused: nobody waits, and `timeout` and `start_asap` have nothing to say.
+/// controllers, which exist as long as their controllers. A switch acts at once, between two steps,
+/// also while the physics is paused; `timeout` and `start_asap` have no effect.
 class ControllerServices {
  public:
   /// All references outlive this object.
   ControllerServices(const ros::NodeHandle& node, control::RosControl& device,
                      const devices::Robot& robot, Routes& routes, Log log);
 
-  /// Services that are another's already.
+  /// Names of services that were not advertised because they are taken.
   const std::vector<std::string>& taken() const { return taken_; }
 
  private:
   template <typename Service, typename Act>
   void serve(const std::string& name, Act act);
-  /// Whether it was done; what it throws goes to the log.
+  /// Carries out a request and returns whether it succeeded; a thrown Error goes to the log.
   template <typename Act>
   bool attempt(Act act);
 

@@ -82,7 +82,7 @@ Pose from_ros(const geometry_msgs::Pose& message) {
   pose.q = Eigen::Quaterniond(message.orientation.w, message.orientation.x, message.orientation.y,
                               message.orientation.z);
   if (!pose.is_finite()) throw Error("found a pose that is not finite");
-  // Twice, as the norm of a very long quaternion overflows.
+  // Normalises twice, as the norm of a very long quaternion overflows.
   const double largest = pose.q.coeffs().cwiseAbs().maxCoeff();
   if (largest > 1.0) pose.q.coeffs() /= largest;
   if (pose.q.norm() < kSmallestNorm) {

@@ -31,11 +31,11 @@ geometry_msgs::Wrench to_ros(const physics::ForceTorque& wrench);
 
 Eigen::Vector3d from_ros(const geometry_msgs::Vector3& vector);
 Eigen::Vector3d from_ros(const geometry_msgs::Point& point);
-/// A quaternion of zeros (a message nobody filled in) is no rotation, others are normalised. Throws
-/// Error if anything is not finite.
+/// A quaternion of zeros (an unset field) is the identity, others are normalised. Throws Error if
+/// anything is not finite.
 Pose from_ros(const geometry_msgs::Pose& pose);
 Twist from_ros(const geometry_msgs::Twist& twist);
-/// A stamp of zero is no start.
+/// A stamp of zero means no start.
 devices::JointTrajectory from_ros(const trajectory_msgs::JointTrajectory& message);
 physics::ForceTorque from_ros(const geometry_msgs::Wrench& wrench);
 bool is_finite(const Twist& twist);

@@ -13,17 +13,17 @@
 
 namespace ardee::node {
 
-/// Whether nobody in this node serves that name yet.
+/// Whether this node has no service of that name yet.
 bool is_free_service(const std::string& name);
 
-/// What a device or controller does on request: services and tunings.
+/// Services and tunings of devices or controllers.
 class DeviceServices {
  public:
   explicit DeviceServices(const ros::NodeHandle& node) : node_(node), servers_(node) {}
 
   /// `ports` outlive this object.
   void add(const devices::Ports& ports);
-  /// What was not added because the name is another's already.
+  /// Names of services that were not added because they are taken.
   const std::vector<std::string>& taken() const { return taken_; }
 
  private:

@@ -15,8 +15,8 @@
 namespace ardee::node {
 namespace {
 
-/// rviz does not light triangles that have colours of their own: the light comes from above and a
-/// little from the side, on both sides of a leaf.
+/// Brightness of a triangle, as rviz does not light triangles with their own colours: light from
+/// above and a little from the side, on both sides of a leaf.
 float brightness(const Eigen::Vector3f& normal) {
   const Eigen::Vector3f to_sun = Eigen::Vector3f(0.3f, -0.4f, 1.0f).normalized();
   return 0.6f + 0.4f * std::abs(normal.dot(to_sun));
@@ -31,7 +31,7 @@ std_msgs::ColorRGBA shaded(const Color& color, float light) {
   return message;
 }
 
-/// The colours of one part of a mesh file: its texture where it has one, else its material.
+/// The colours of one part of a mesh file: its texture if it has one, else its material.
 class Paint {
  public:
   Paint(const MeshFile& file, const SubMesh& part) : part_(part) {
@@ -43,8 +43,8 @@ class Paint {
     texture_.emplace(read_color_image(material.texture_path, source));
   }
 
-  /// At a corner of a triangle, or rather half-way to its middle: coarse leaves have corners at
-  /// their edges only, whose colour is not the leaf's.
+  /// Colour near a corner of a triangle, half-way to its middle: coarse leaves have corners only at
+  /// their edges, whose colour is not the leaf's.
   Color at(const std::array<std::uint32_t, 3>& corners, std::uint32_t corner) const {
     constexpr double kFootprint = 0.05;  // of the texture's width: no veins from afar
     if (!texture_) return diffuse_;
@@ -68,7 +68,7 @@ const FarPlants::Triangles& FarPlants::triangles_of(const std::string& path) {
   if (found != files_.end()) return found->second;
   Triangles& triangles = files_[path];
   try {
-    Log quiet([](LogLevel, const std::string&) {});  // who placed the plant has been told
+    Log quiet([](LogLevel, const std::string&) {});  // spawning has reported them
     const MeshFile file = read_mesh_file(path, Source{path, 0, "mesh"}, quiet);
     for (const SubMesh& part : file.parts) {
       const Paint paint(file, part);

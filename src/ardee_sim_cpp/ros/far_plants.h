@@ -11,7 +11,7 @@
 namespace ardee::node {
 
 /// Plants that are too far away for a mesh of their own, as coloured triangles in one marker: rviz
-/// draws hundreds of plants in one go, where each mesh marker would cost it as much as all of them.
+/// draws hundreds of plants at once, at the cost of a single mesh marker.
 class FarPlants {
  public:
   /// Appends the coarse mesh file, placed and scaled, to a TRIANGLE_LIST in the world's frame. A

@@ -31,7 +31,7 @@ gazebo_msgs::ContactsState to_message(const devices::ContactsReading& reading) {
   message.header = to_ros(reading.header);
   for (std::size_t i = 0; i < reading.touches.size(); ++i) {
     const devices::ContactsReading::Touch& touch = reading.touches[i];
-    std::ostringstream info;  // as the stock plugin writes it
+    std::ostringstream info;  // as in the stock plugin
     info << "Debug:  i:(" << i << "/" << reading.touches.size()
          << ")     my geom:" << touch.collision1 << "   other geom:" << touch.collision2
          << "         time:" << to_ros(touch.time_ns) << "\n";

@@ -11,7 +11,7 @@ namespace ardee::node {
 namespace {
 
 constexpr double kMostAttenuation = 1e9;
-constexpr double kLongest = 1e9;  // of a direction, whose length means nothing
+constexpr double kLongest = 1e9;  // bound of a direction's length, which has no meaning
 
 const Light& require_light(const ServiceContext& context, const std::string& name) {
   for (const Light& light : context.simulation.world().lights) {
@@ -50,8 +50,8 @@ bool is_filled_in(const geometry_msgs::Pose& pose) {
   return q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
 }
 
-/// A script written before there were fields for shadows, specular colour, direction and pose
-/// leaves them empty, direction and pose among them, which no light can have: then all four stay.
+/// A script older than the fields for shadows, specular colour, direction and pose leaves them
+/// empty. An empty direction and pose are invalid for a light, so all four keep their values then.
 std::string set_light(ServiceContext& context,
                       const gazebo_msgs::SetLightPropertiesRequest& request) {
   Light light = require_light(context, request.light_name);

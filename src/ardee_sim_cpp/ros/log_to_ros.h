@@ -5,7 +5,7 @@
 
 namespace ardee::node {
 
-/// The engine's messages in ROS's log.
+/// Sink that writes the engine's messages to ROS's log.
 LogSink log_to_ros();
 
 }  // namespace ardee::node

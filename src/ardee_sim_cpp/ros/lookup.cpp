@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-// What requests hold: numbers; names of models, links, joints, reference frames.
+// SPDX-License-Identifier: MIT Contents of requests: numbers; names of models, links, joints,
+// reference frames.
 #include <optional>
 #include <sstream>
 

@@ -25,7 +25,7 @@ std_msgs::ColorRGBA color_of(const Material& material, double transparency) {
   return color;
 }
 
-/// Fills a marker in with the geometry of one visual; one overload a kind.
+/// Fills a marker in with the geometry of one visual; one overload per kind.
 class ShapeMaker {
  public:
   ShapeMaker(const Visual& visual, const Pose& X_ML) {
@@ -75,8 +75,8 @@ class ShapeMaker {
     }
     if (!bounds.isEmpty()) reach(mesh.scale, bounds);
   }
-  /// The file as it is, with its own materials where it has some. A plain colour that its `only`
-  /// visual gives covers them: STL files come with a grey that is nobody's.
+  /// The whole file, with its own materials if it has any. A plain colour of its `only` visual
+  /// replaces them: the mesh library gives STL files a grey of its own.
   void whole_file(const Mesh& mesh, bool only) {
     set(Marker::MESH_RESOURCE, mesh.scale, 0.0);
     Eigen::AlignedBox3f bounds;
@@ -85,7 +85,7 @@ class ShapeMaker {
     }
     if (!bounds.isEmpty()) reach(mesh.scale, bounds);
     shape_.marker.mesh_resource = file_uri(mesh.file->path);
-    // The crop models' second level of detail stands beside the first.
+    // The crop models' second level of detail lies beside the first.
     const std::filesystem::path path(mesh.file->path);
     const std::filesystem::path coarse =
         path.parent_path() / (path.stem().string() + "_lod1" + path.extension().string());
@@ -93,7 +93,7 @@ class ShapeMaker {
     if (std::filesystem::exists(coarse, absent)) shape_.coarse_path = coarse.string();
     shape_.marker.mesh_use_embedded_materials =
         !(only && has_plain_color_) && !mesh.file->materials.empty();
-    // rviz tints embedded materials with any colour but all zeros.
+    // rviz tints embedded materials with any colour except all zeros.
     if (shape_.marker.mesh_use_embedded_materials) shape_.marker.color = std_msgs::ColorRGBA();
   }
 

@@ -9,20 +9,19 @@
 
 namespace ardee::node {
 
-/// Passes the engine's messages on; who acts for a caller can keep the warnings that come
-/// meanwhile.
+/// Passes the engine's messages on; a service can record the warnings that occur during a request.
 class MessageTap {
  public:
   explicit MessageTap(LogSink next) : next_(std::move(next)) {}
   MessageTap(const MessageTap&) = delete;
   MessageTap& operator=(const MessageTap&) = delete;
 
-  /// The tap outlives it.
+  /// The tap outlives the sink.
   LogSink sink() {
     return [this](LogLevel level, const std::string& text) { pass(level, text); };
   }
 
-  /// Warnings and errors that pass while this lives, in order. One at a time.
+  /// Records the warnings and errors that pass while it lives, in order. Only one exists at a time.
   class Kept {
    public:
     explicit Kept(MessageTap& tap) : tap_(tap) { tap_.kept_ = &texts_; }

@@ -9,7 +9,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr double kMostPosition = 1e6;  // rad or m: no joint of a field's robot is there
+constexpr double kMostPosition = 1e6;  // rad or m: beyond any joint of a field robot
 
 std::string get_state(ServiceContext& context, const gazebo_msgs::GetModelStateRequest& request,
                       gazebo_msgs::GetModelStateResponse& response) {
@@ -32,8 +32,8 @@ void set_state(ServiceContext& context, const gazebo_msgs::ModelState& wanted) {
   context.simulation.set_state(wanted.model_name, state, wanted.reference_frame);
 }
 
-/// Moves all or none: what only a motion tells (a closed chain, a link out of the world) puts back
-/// those that have moved.
+/// Moves all joints or none: a fault that only the motion reveals (a closed chain, a link out of
+/// the world) puts the moved joints back.
 void move_joints(physics::PhysicsModel& dynamics, const std::vector<std::size_t>& joints,
                  const std::vector<double>& positions) {
   std::vector<double> before;
@@ -51,7 +51,7 @@ void move_joints(physics::PhysicsModel& dynamics, const std::vector<std::size_t>
   }
 }
 
-/// All joints are found and all numbers checked before the first is moved.
+/// Finds all joints and checks all numbers before the first joint moves.
 std::string set_joints(ServiceContext& context,
                        const gazebo_msgs::SetModelConfigurationRequest& request) {
   const Entity& entity = require_model(context, request.model_name);

@@ -33,7 +33,7 @@ OdometryFrames::OdometryFrames(bool enabled) {
 void OdometryFrames::on_reading(const devices::Robot& robot,
                                 const devices::OdometryReading& reading) {
   if (!reading.places_frame) return;
-  // The height in odometry messages is 0, whatever the robot's.
+  // The height in odometry messages is 0 at any height of the robot.
   learn(robot, reading.header, reading.pose, true);
 }
 

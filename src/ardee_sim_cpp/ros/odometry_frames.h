@@ -14,9 +14,9 @@
 namespace ardee::node {
 
 /// Joins the frame that a robot's odometry is given in to the frame `world`, on /tf_static, so that
-/// markers in `world` and a robot below `odom` are seen together. The transform is what the first
-/// reading says: none where odometry is the pose in the world, the starting point where it is the
-/// wheels'.
+/// markers in `world` and a robot below `odom` are seen together. The transform follows from the
+/// first reading: the identity if odometry is the pose in the world, the starting pose if it comes
+/// from the wheels.
 class OdometryFrames {
  public:
   using Send = std::function<void(const tf2_msgs::TFMessage&)>;
@@ -31,9 +31,9 @@ class OdometryFrames {
   template <typename Other>
   void on_reading(const devices::Robot&, const Other&) {}
 
-  /// The frames of this robot are no longer published.
+  /// Stops publishing the frames of this robot.
   void forget(const std::string& robot_name);
-  /// Frames are learned anew: odometry has started again.
+  /// Learns the frames anew, after a restart of odometry.
   void restart() { frames_.clear(); }
 
  private:

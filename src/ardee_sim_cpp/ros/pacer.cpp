@@ -4,7 +4,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr double kLongestLag_s = 0.1;  // of wall time that is caught up with
+constexpr double kLongestLag_s = 0.1;  // of wall time that is made up
 
 }  // namespace
 

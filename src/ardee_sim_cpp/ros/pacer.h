@@ -7,7 +7,7 @@
 
 namespace ardee::node {
 
-/// Holds simulated time to a multiple of wall time. The schedule is counted from one anchor, so
+/// Keeps simulated time at a multiple of wall time. The schedule is counted from one anchor, so
 /// that it does not drift; a simulation that falls far behind starts a new schedule instead of
 /// racing to catch up.
 class Pacer {
@@ -15,7 +15,7 @@ class Pacer {
   /// Simulated seconds per second of wall time; 0: as fast as the machine can.
   void set_factor(double factor, TimeNs now_ns);
   double factor() const { return factor_; }
-  /// A new schedule from here: after a pause, a reset.
+  /// Starts a new schedule, after a pause or a reset.
   void restart(TimeNs now_ns);
   /// Wall time in seconds until the simulation may go beyond `now_ns`; not positive: at once.
   double wait_s(TimeNs now_ns);

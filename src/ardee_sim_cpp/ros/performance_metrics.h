@@ -13,19 +13,20 @@
 
 namespace ardee::node {
 
-/// Counts what sensors measure: how fast simulated time and each sensor go.
+/// Counts measurements: the rates of simulated time and of each sensor.
 class PerformanceCounter {
  public:
-  /// One moment by the clocks of the simulation and of the machine.
+  /// One time by the clocks of the simulation and of the machine.
   struct Moment {
     TimeNs simulated_ns = 0;
     double wall_s = 0.0;
   };
 
-  /// A sensor of several topics measures once at a time.
+  /// Counts a measurement. A sensor of several topics counts once per time.
   void on_measured(const std::string& sensor, bool is_camera, const Moment& now);
-  /// Of the time since the report before; a sensor's rates are those of its latest measurements.
-  /// Who has been silent for a while is left out. The header is left to the caller.
+  /// Reports on the time since the previous report; a sensor's rates are those of its latest
+  /// measurements. A sensor that has been silent for a while is left out. The caller fills in the
+  /// header.
   gazebo_msgs::PerformanceMetrics report(const Moment& now);
 
  private:
@@ -41,15 +42,15 @@ class PerformanceCounter {
   std::map<std::string, Sensor> sensors_;
 };
 
-/// performance_metrics of Gazebo 11, published while somebody listens.
+/// performance_metrics of Gazebo 11, published while it has subscribers.
 class PerformanceMetrics {
  public:
   explicit PerformanceMetrics(ros::NodeHandle& private_node);
 
-  /// Measurements need not be told otherwise.
+  /// Whether measurements need to be reported.
   bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
   void on_measured(const std::string& sensor, bool is_camera, TimeNs now_ns);
-  /// Called a few times a second of wall time.
+  /// Called a few times per second of wall time.
   void publish(TimeNs now_ns);
 
  private:

@@ -30,13 +30,13 @@ std::string get_physics(ServiceContext& context,
   return "GetPhysicsProperties: got properties";
 }
 
-/// A number as asked for. Who sends back what get_physics_properties told is never refused: only
-/// one that differs from what is in force has to lie within the range.
+/// A number of a request. The values of get_physics_properties are always accepted: only a number
+/// that differs from the one in force must lie within the range.
 void change(const char* field, double asked, const bounds::Range& range, double& in_force) {
   if (asked != in_force) in_force = checked(field, asked, range.low, range.high);
 }
 
-/// The same of a count; 0 (a field nobody filled in) leaves what is in force.
+/// A count of a request, checked as a number; 0 (an unset field) keeps the one in force.
 void change(const char* field, std::uint32_t asked, const bounds::Range& range, int& in_force) {
   double count = in_force;
   if (asked != 0) change(field, static_cast<double>(asked), range, count);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostCount = 10000.0;
 
-/// A number that Gazebo has and this engine has not: 0, whatever is asked for.
+/// A number of Gazebo that this engine lacks: always 0.
 devices::TunableParameter inert(const char* name, devices::TunableParameter::Type type,
                                 double high) {
   return {name,
@@ -106,7 +106,8 @@ void PhysicsTuning::set(const TuningServer::Values& values) {
   wanted_ = context_.simulation.physics();
   for (const auto& [name, value] : values) {
     const devices::TunableParameter& asked = require(tuning_, name);
-    // Who sends all numbers to change one sends back some that a world may have beyond the range.
+    // A client that sends all numbers to change one may return numbers of the world beyond the
+    // range.
     if (value == asked.get()) continue;
     if (asked.type == devices::TunableParameter::Type::kInt && value != std::floor(value)) {
       throw Error(name + ": found " + std::to_string(value) + ", expected a whole number");

@@ -13,7 +13,7 @@ class PhysicsTuning {
   /// `space` is the node's namespace; `context` outlives this object.
   PhysicsTuning(const std::string& space, ServiceContext& context);
 
-  /// The physics has changed by another way: whoever follows it is told.
+  /// Publishes the numbers after another cause changed the physics.
   void publish() { server_.publish(); }
 
  private:
@@ -26,12 +26,12 @@ class PhysicsTuning {
 
   ServiceContext& context_;
   ros::NodeHandle node_;
-  PhysicsParams wanted_;  // by the request that is being served
+  PhysicsParams wanted_;  // of the present request
   const devices::ParameterGroup tuning_;
   TuningServer server_;
 };
 
-/// Says once that numbers of Gazebo's which were asked for have no effect.
+/// Warns once that requested numbers of Gazebo's have no effect.
 void warn_of_inert_physics();
 
 }  // namespace ardee::node

@@ -12,8 +12,8 @@
 
 namespace ardee::node {
 
-/// Publishes one camera's pictures from a thread of its own: a plugin of image_transport that
-/// compresses them would hold up the simulation. Where they come faster than they leave, the
+/// Publishes one camera's pictures from a separate thread: a plugin of image_transport that
+/// compresses them would delay the simulation. If pictures arrive faster than they leave, the
 /// oldest is dropped, as in a publisher's own queue.
 class PictureSender {
  public:
@@ -22,7 +22,7 @@ class PictureSender {
   PictureSender(const PictureSender&) = delete;
   PictureSender& operator=(const PictureSender&) = delete;
 
-  /// Somebody subscribes, to pictures as they are or compressed.
+  /// Whether there are subscribers, to raw or compressed pictures.
   bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
   void send(const sensor_msgs::ImageConstPtr& picture);
 

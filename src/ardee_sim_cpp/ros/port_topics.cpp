@@ -11,7 +11,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr std::uint32_t kOutputQueue = 100;  // faster than real time, messages come in bursts
+constexpr std::uint32_t kOutputQueue = 100;  // messages come in bursts if faster than real time
 constexpr std::uint32_t kImageQueue = 5;     // a picture is large
 
 template <std::size_t kKind>

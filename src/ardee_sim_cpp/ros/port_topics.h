@@ -17,34 +17,34 @@
 
 namespace ardee::node {
 
-/// Where the readings of an output go.
+/// Destination of an output's readings.
 struct Route {
   devices::Output* output = nullptr;
   const devices::Robot* robot = nullptr;
-  std::string sensor;  // its scoped name where a sensor is what measures
+  std::string sensor;  // scoped name of the sensor, or empty
   bool is_camera = false;
   ros::Publisher publisher;
-  std::unique_ptr<PictureSender> pictures;  // in its place, for pictures
+  std::unique_ptr<PictureSender> pictures;  // replaces the publisher for pictures
 
   bool has_listeners() const;
 };
 
-/// All outputs that are published now.
+/// All published outputs.
 using Routes = std::unordered_map<const devices::Output*, Route>;
 
-/// The topics, services, tunings and actions of the ports of a device or of a controller; they are
-/// there as long as this is.
+/// The topics, services, tunings and actions of the ports of a device or of a controller; they
+/// exist as long as this object.
 class PortTopics {
  public:
-  /// `sensor` is the scoped name of a sensor, or empty. Throws Error if a topic cannot be had, and
-  /// leaves none behind then. All references outlive this object.
+  /// `sensor` is the scoped name of a sensor, or empty. Throws Error if a topic cannot be created,
+  /// and leaves none behind then. All references outlive this object.
   PortTopics(const ros::NodeHandle& node, devices::Ports& ports, const devices::Robot& robot,
              const std::string& sensor, Routes& routes);
   ~PortTopics();
   PortTopics(const PortTopics&) = delete;
   PortTopics& operator=(const PortTopics&) = delete;
 
-  /// Services that are another's already.
+  /// Names of services that were not advertised because they are taken.
   const std::vector<std::string>& taken() const { return services_.taken(); }
 
  private:
@@ -59,7 +59,7 @@ class PortTopics {
   ActionServers actions_;
 };
 
-/// Says once whose services are another's already, which roscpp would of each.
+/// Warns once of a robot's services that are taken; roscpp would warn of each.
 void warn_of_taken(const std::vector<std::string>& services, const devices::Robot& robot, Log& log);
 
 }  // namespace ardee::node

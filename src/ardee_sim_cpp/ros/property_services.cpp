@@ -15,7 +15,7 @@ std::string get_world(ServiceContext& context, gazebo_msgs::GetWorldPropertiesRe
   for (const auto& entity : context.simulation.entities()) {
     response.model_names.push_back(entity->name());
   }
-  response.rendering_enabled = true;  // as gazebo_ros says at all times
+  response.rendering_enabled = true;  // always, as in gazebo_ros
   return "GetWorldProperties: got properties";
 }
 

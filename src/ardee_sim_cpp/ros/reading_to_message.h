@@ -30,12 +30,12 @@
 
 namespace ardee::node {
 
-/// The ROS message of each kind of reading: a new alternative of Reading needs its overload here.
+/// The ROS message of each kind of reading: a new alternative of Reading needs an overload here.
 nav_msgs::Odometry to_message(const devices::OdometryReading& reading);
 tf2_msgs::TFMessage to_message(const devices::TransformReading& reading);
 sensor_msgs::JointState to_message(const devices::JointStateReading& reading);
 sensor_msgs::Imu to_message(const devices::ImuReading& reading);
-/// Without a fix nothing is known of the covariance.
+/// Without a fix the covariance is marked as unknown.
 sensor_msgs::NavSatFix to_message(const devices::FixReading& reading);
 geometry_msgs::Vector3Stamped to_message(const devices::VectorReading& reading);
 sensor_msgs::MagneticField to_message(const devices::MagneticFieldReading& reading);

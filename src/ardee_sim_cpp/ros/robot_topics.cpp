@@ -12,13 +12,13 @@
 namespace ardee::node {
 namespace {
 
-/// Odometry is measured at all times: OdometryFrames reads it.
+/// Odometry is always measured: OdometryFrames reads it.
 bool always_demanded(const devices::Output& output) {
   return output.kind == devices::reading_kind<devices::OdometryReading>() ||
          output.kind == devices::reading_kind<devices::TransformReading>();
 }
 
-/// "model::link::sensor", or nothing for a device that is no sensor.
+/// "model::link::sensor", or empty for a device that is not a sensor.
 std::string sensor_name(const devices::Device& device, const devices::Robot& robot) {
   const auto* sensor = dynamic_cast<const devices::Sensor*>(&device);
   if (!sensor) return "";

@@ -17,18 +17,19 @@
 
 namespace ardee::node {
 
-/// The topics and services of the robots' devices: publishers of what they measure, subscribers to
-/// their commands. They come when a robot is spawned and go when it is removed.
+/// The topics and services of the robots' devices: publishers of their readings, subscribers to
+/// their commands. They exist from the spawn of a robot to its removal.
 class RobotTopics : public devices::ReadingSink {
  public:
   RobotTopics(OdometryFrames& frames, PerformanceMetrics& metrics, Log log)
       : frames_(frames), metrics_(metrics), log_(std::move(log)) {}
 
-  /// A sensor whose topics cannot be had is taken off the entity, with a message. Throws Error if
-  /// those of another device cannot; then none of the entity's is there.
+  /// Creates the topics of an entity. A sensor whose topics cannot be created is removed from the
+  /// entity, with a message. Throws Error if those of another device cannot, and leaves no topic of
+  /// the entity.
   void add(Entity& entity);
   void remove(const std::string& entity_name);
-  /// Tells the devices which of their outputs somebody listens to.
+  /// Tells the devices which of their outputs have subscribers.
   void update_demand();
   void on_reading(const devices::Output& output, const devices::Reading& reading) override;
 

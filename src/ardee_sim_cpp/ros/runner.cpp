@@ -10,7 +10,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr double kIdleWait_s = 0.1;  // how late a shutdown is noticed while paused
+constexpr double kIdleWait_s = 0.1;  // longest delay until a shutdown is noticed while paused
 constexpr auto kChorePeriod = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -77,7 +77,7 @@ std::uint32_t Runner::advance(std::uint32_t steps) {
   while (taken < steps && paused_ && ros::ok()) {
     const std::uint64_t before = simulation_.step_count();
     step();
-    if (simulation_.step_count() == before) break;  // it failed, and said so
+    if (simulation_.step_count() == before) break;  // it failed and reported the error
     ++taken;
     serve(0.0);
   }

@@ -14,7 +14,7 @@
 
 namespace ardee::node {
 
-/// What is told of each step.
+/// Listeners that are informed of each step.
 struct StepListeners {
   RobotTopics& robots;
   StateTopics& states;
@@ -22,24 +22,24 @@ struct StepListeners {
   OdometryFrames& frames;
 };
 
-/// Lets simulated time pass: at its pace, by single steps, or not at all. Services and commands act
+/// Advances simulated time: at its pace, by single steps, or not at all. Services and commands act
 /// between steps, all in one thread.
 class Runner {
  public:
-  /// `chores` is called a few times a second of wall time, also while paused.
+  /// `chores` is called a few times per second of wall time, also while paused.
   Runner(Simulation& simulation, const StepListeners& outlets, std::function<void()> chores);
 
-  /// Until ROS shuts down.
+  /// Runs until ROS shuts down.
   void run();
 
   bool paused() const { return paused_; }
   void set_paused(bool paused);
   /// Takes steps while paused and returns how many were taken: fewer than asked for if the node is
-  /// shut down or unpaused meanwhile. Throws Error if not paused, or called from within itself.
+  /// shut down or unpaused meanwhile. Throws Error if not paused, or if called from within itself.
   std::uint32_t advance(std::uint32_t steps);
   void reset_world();
   void reset_simulation();
-  /// The world's physics changed: its update rate sets the pace.
+  /// Called when the world's physics changed: its update rate sets the pace.
   void follow_physics();
 
  private:
@@ -47,7 +47,7 @@ class Runner {
 
   void step();
   void wait_for_pace();
-  /// Services and commands that are there, or arrive within `timeout_s`.
+  /// Serves the services and commands that wait, or arrive within `timeout_s`.
   void serve(double timeout_s);
 
   Simulation& simulation_;

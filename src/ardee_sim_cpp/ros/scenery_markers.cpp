@@ -14,10 +14,10 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kMove_m = 1.5;  // how far a model goes before the markers are renewed
+constexpr double kMove_m = 1.5;  // motion of a model after which the markers are renewed
 constexpr double kFine_m = 1.5;  // plants farther than this from all models are drawn coarsely
 constexpr char kFrame[] = "world";
-constexpr char kFar[] = " (far)";  // behind an entity's name: the marker of its far plants
+constexpr char kFar[] = " (far)";  // suffix of an entity's name: the marker of its far plants
 
 }  // namespace
 
@@ -112,7 +112,7 @@ void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArra
   far_.pose.orientation.w = 1.0;
   far_.scale = to_vector(Eigen::Vector3d::Ones());
   far_.color.a = 1.0f;
-  int first_id = 0;  // the same placement has the same ids as long as it stands
+  int first_id = 0;  // a placement keeps its ids as long as it exists
   for (const Placement& placement : entity.placements) {
     const std::vector<MarkerShape>& shapes = shapes_of(placement.model);
     for (std::size_t i = 0; i < shapes.size(); ++i) {

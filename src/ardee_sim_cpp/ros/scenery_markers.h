@@ -16,9 +16,9 @@
 
 namespace ardee::node {
 
-/// /ardee/scenery: what stands still near the moving models, for rviz; latched, frame `world`.
-/// Without a moving model, what is near the point that the world's camera looks at. It costs
-/// nothing while nobody listens.
+/// /ardee/scenery: the static models near the moving ones, for rviz; latched, frame `world`.
+/// Without a moving model, those near the point that the world's camera looks at. It costs nothing
+/// without subscribers.
 class SceneryMarkers {
  public:
   SceneryMarkers(const Simulation& simulation, double radius_m);

@@ -12,14 +12,14 @@
 
 namespace ardee::node {
 
-/// The services (and request topics) of a node whose work may throw: what is thrown becomes success
-/// = false with the reason in status_message, or for services without these an error for the
-/// caller. None ends the node.
+/// The services (and request topics) of a node whose work may throw: an exception becomes success =
+/// false with the reason in status_message, or for services without these fields an error for the
+/// caller. No exception ends the node.
 class ServiceServers {
  public:
   explicit ServiceServers(const ros::NodeHandle& node) : node_(node) {}
 
-  /// The namespace that relative names of services are in.
+  /// The namespace of relative service names.
   const std::string& space() const { return node_.getNamespace(); }
 
   /// `act` fills the response in and returns the message of success; `label` heads the messages of
@@ -42,7 +42,7 @@ class ServiceServers {
     servers_.push_back(node_.advertiseService(name, serve));
   }
 
-  /// A topic whose messages are requests without answer; what is wrong with one goes to the log.
+  /// A topic whose messages are requests without answer; errors go to the log.
   template <typename Message>
   void listen(const std::string& topic, const std::string& label,
               std::function<void(const Message&)> act) {

@@ -10,7 +10,7 @@
 
 namespace ardee::node {
 
-/// What the services act on. All references outlive them.
+/// Context of the services. All references outlive them.
 struct ServiceContext {
   Simulation& simulation;
   Loader& loader;
@@ -19,7 +19,7 @@ struct ServiceContext {
   MessageTap& messages;
 };
 
-/// The services of Gazebo's node API and /ardee/step, one file a group.
+/// The services of Gazebo's node API and /ardee/step, one file per group.
 void add_spawn_services(ServiceServers& servers, ServiceContext& context);
 void add_control_services(ServiceServers& servers, ServiceContext& context);
 void add_model_state_services(ServiceServers& servers, ServiceContext& context);
@@ -30,8 +30,8 @@ void add_physics_services(ServiceServers& servers, ServiceContext& context);
 void add_force_services(ServiceServers& servers, ServiceContext& context);
 void add_light_services(ServiceServers& servers, ServiceContext& context);
 
-/// `value` if it lies between the two; throws Error naming the request's field otherwise, and for
-/// NaN.
+/// Returns `value` if it lies between the two bounds. Throws Error naming the request's field
+/// otherwise, and for NaN.
 double checked(const std::string& field, double value, double low, double high);
 
 /// The model of that name; throws Error if there is none.
@@ -51,8 +51,8 @@ struct JointRef {
 };
 JointRef require_joint(ServiceContext& context, const std::string& name);
 
-/// State in the world of a model, a model::link or the world (""); throws Error for an unknown one
-/// with `field`, the request's field it came in.
+/// State in the world of a model, a model::link or the world (""). Throws Error for an unknown
+/// name, naming the request's `field`.
 RelativeState frame_in_world(ServiceContext& context, const std::string& reference,
                              const std::string& field);
 

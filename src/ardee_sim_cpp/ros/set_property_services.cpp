@@ -55,7 +55,7 @@ std::vector<Axis> axes_of(const physics::PhysicsModel& dynamics, std::size_t joi
   return axes;
 }
 
-/// Sets all or none.
+/// Sets all values or none.
 void set_axes(physics::PhysicsModel& dynamics, std::size_t joint, const std::vector<Axis>& wanted) {
   const auto set = [&](const std::vector<Axis>& axes) {
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
@@ -72,7 +72,7 @@ void set_axes(physics::PhysicsModel& dynamics, std::size_t joint, const std::vec
   }
 }
 
-/// Writes a request's list, a number an axis, by `field(axis)`; an empty list leaves what there is.
+/// Writes a request's list, a number per axis, by `field(axis)`; an empty list changes nothing.
 template <typename Field>
 void write_list(const char* name, const std::vector<double>& list, std::vector<Axis>& axes,
                 const Field& field) {

@@ -9,10 +9,12 @@
 
 namespace ardee::node {
 
-/// A value of the parameter server. `path` is its full name. Throws Error for a date or bytes.
+/// Converts a value of the parameter server. `path` is its full name. Throws Error for a date or
+/// bytes.
 Setting to_setting(const std::string& path, XmlRpc::XmlRpcValue& value);
 
-/// What the parameter server has of that full name; nothing if it has none.
+/// The parameter of that full name on the parameter server; a setting that does not exist if there
+/// is none.
 Setting setting_from_ros(const std::string& name);
 
 }  // namespace ardee::node

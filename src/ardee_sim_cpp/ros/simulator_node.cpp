@@ -20,7 +20,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr char kNodeName[] = "gazebo";  // its private services are those that users' code calls
+constexpr char kNodeName[] = "gazebo";  // users' code calls its private services by this name
 constexpr int kBadInput = 2;
 
 std::optional<std::string> find_package(const std::string& package) {
@@ -34,7 +34,7 @@ ResourceLocator make_locator() {
   return locator;
 }
 
-/// A name without a scheme is one below Gazebo's paths, like file://.
+/// A name without a scheme is searched below Gazebo's paths, like file://.
 std::string world_uri(const std::string& world) {
   return world.find("://") == std::string::npos ? "file://" + world : world;
 }
@@ -84,10 +84,11 @@ void use_simulated_time() {
   if (!ros::param::has("/use_sim_time")) ros::param::set("/use_sim_time", true);
 }
 
-/// Messages on their way go before what computes: a thread of roscpp's that writes an image to a
-/// socket would wait for rendering threads otherwise. Of its threads alone: to be called before
-/// there are others. Only on demand: while another thread holds roscpp's lock, the one that sends
-/// spins, and on a machine without an idle core it would keep the other from going on.
+/// Gives roscpp's threads, which write messages to sockets, priority over the computation;
+/// otherwise the one that writes an image would wait for rendering threads. It applies to roscpp's
+/// threads only if it is called before other threads exist. It acts only on request: while another
+/// thread holds roscpp's lock, the sending thread spins, and on a machine without an idle core it
+/// would block the other one.
 void let_messages_go_first(int realtime_priority) {
   const sched_param priority{realtime_priority};
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -152,7 +153,7 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
 
 namespace {
 
-/// Whether a node of this node's name is registered; to register this one would end it.
+/// Whether a node of this name is registered; registering this node would end that one.
 bool another_runs() {
   ros::V_string names;
   const std::string own = ros::this_node::getName();
@@ -160,7 +161,7 @@ bool another_runs() {
   return std::find(names.begin(), names.end(), own) != names.end();
 }
 
-/// Reads the world without a word, and throws Error where it cannot be.
+/// Reads the world without messages, and throws Error if it cannot be read.
 void check_world(const CommandLine& command_line) {
   std::string world = command_line.world;
   if (world.empty()) ros::param::get("~world", world);
@@ -183,7 +184,7 @@ void run_node(const CommandLine& command_line, const ros::NodeHandle& private_no
 }  // namespace
 
 int run_simulator(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // log lines are there when they are written
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // log lines appear as soon as they are written
   ros::init(argc, argv, kNodeName);
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   CommandLine command_line;
@@ -203,7 +204,7 @@ int run_simulator(int argc, char** argv) {
     ROS_FATAL_STREAM(error.what());
     return kBadInput;
   }
-  const ros::NodeHandle private_node("~");  // outlives the message: without a node nobody logs
+  const ros::NodeHandle private_node("~");  // outlives the message: logging needs a node
   try {
     run_node(command_line, private_node);
   } catch (const std::exception& error) {

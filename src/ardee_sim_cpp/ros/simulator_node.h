@@ -24,7 +24,7 @@ class SimulatorNode {
   /// Throws Error if the world cannot be loaded.
   SimulatorNode(const Settings& settings, ros::NodeHandle private_node);
 
-  /// Until ROS shuts down.
+  /// Runs until ROS shuts down.
   void run() { runner_.run(); }
 
  private:
@@ -42,7 +42,7 @@ class SimulatorNode {
   ServiceServers servers_;
 };
 
-/// The node from start to end; returns the process's exit code: 0, or 2 for a broken world or
+/// Runs the node from start to end. Returns the process's exit code: 0, or 2 for a broken world or
 /// setting.
 int run_simulator(int argc, char** argv);
 

@@ -11,7 +11,7 @@ namespace {
 
 Error already_exists() { return Error("Failure - entity already exists."); }
 
-/// Where a request puts the model, in the world.
+/// Pose of a request's model in the world.
 Pose requested_pose(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& request) {
   const Pose X_RM = from_ros(request.initial_pose);
   return frame_in_world(context, request.reference_frame, "reference_frame").pose * X_RM;
@@ -43,7 +43,7 @@ void spawn_model(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& 
   }
 }
 
-/// The answer's first line is gazebo_ros's; what came to light follows, a line each.
+/// The answer's first line is gazebo_ros's; warnings and errors follow, one per line.
 std::string spawn(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& request) {
   const MessageTap::Kept warnings(context.messages);
   if (request.model_name.empty()) throw Error("found an empty model_name, expected a name");

@@ -8,8 +8,8 @@
 namespace ardee::node {
 
 /// model_states and link_states of Gazebo: names, poses and velocities in the world of all models
-/// and of all their links, at each step, as long as somebody listens. Plants that a field model
-/// includes are part of that model and not listed, as in Gazebo.
+/// and of all their links, at each step, as long as there are subscribers. Plants that a field
+/// model includes are part of that model and not listed, as in Gazebo.
 class StateTopics {
  public:
   StateTopics(ros::NodeHandle& private_node, const Simulation& simulation);

@@ -20,18 +20,18 @@ namespace ardee::node {
 /// spawned.)
 class TuningServer {
  public:
-  /// The numbers of one request, by name; a truth is 0 or 1.
+  /// The numbers of one request, by name; a boolean is 0 or 1.
   using Values = std::vector<std::pair<std::string, double>>;
 
-  /// Each number is set by itself: one beyond its bounds becomes the nearest within, one that is
-  /// not finite or not known is ignored. `tuning` outlives the server.
+  /// Each number is set separately: one beyond its bounds is clamped, one that is not finite or
+  /// unknown is ignored. `tuning` outlives the server.
   TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning);
   /// `set` sets all numbers of a request together, or throws Error and sets none.
   TuningServer(ros::NodeHandle& node, const devices::ParameterGroup& tuning,
                std::function<void(const Values&)> set);
 
-  /// Tells whoever follows the numbers what they are. What changes them by other ways (a reset)
-  /// need not call it: a few times a second it is looked whether something has.
+  /// Publishes the numbers to subscribers. Code that changes them otherwise (a reset) need not call
+  /// it: changes are looked for a few times per second.
   void publish();
   static std::string service_of(const devices::ParameterGroup& tuning) {
     return tuning.name + "/set_parameters";

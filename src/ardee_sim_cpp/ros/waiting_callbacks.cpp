@@ -4,7 +4,7 @@
 namespace ardee::node {
 namespace {
 
-constexpr int kMostAtOnce = 1000;  // whoever sends without end does not hold up the caller
+constexpr int kMostAtOnce = 1000;  // so that a continuous sender does not block the caller
 
 }  // namespace
 

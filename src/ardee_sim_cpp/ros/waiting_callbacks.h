@@ -5,8 +5,8 @@
 
 namespace ardee::node {
 
-/// Calls what waits in the queue, or the first that comes within `timeout_s` of wall time. It may
-/// be called from one of these callbacks.
+/// Calls the callbacks that wait in the queue, or the first one that comes within `timeout_s` of
+/// wall time. One of these callbacks may call it again.
 void call_waiting(ros::CallbackQueue& queue, double timeout_s);
 
 }  // namespace ardee::node

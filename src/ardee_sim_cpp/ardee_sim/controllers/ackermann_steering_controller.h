@@ -25,7 +25,7 @@ class AckermannSteeringController : public DriveController {
   JointHandle& rear_wheel_;
   JointHandle& front_steer_;
   bool open_loop_;
-  double radius_m_;  // of the command
+  double radius_m_;  // used for commands
   double odometry_base_m_;
   double odometry_radius_m_;
   double steer_multiplier_;

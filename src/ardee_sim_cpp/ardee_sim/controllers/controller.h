@@ -14,29 +14,29 @@
 
 namespace ardee::control {
 
-/// What a controller is made with. All references outlive it.
+/// Arguments of a controller's construction. All references outlive it.
 struct ControllerContext {
   std::string name;             // "husky_velocity_controller", slashes allowed
   std::string robot_namespace;  // of the plugin, where /joint_states is: "/" or "/husky"
   const Setting& settings;      // its own parameters, below <robot_namespace>/<name>
-  const Model& model;           // the robot's description: sizes that no parameter says
+  const Model& model;           // the robot's description: sizes that no parameter gives
   Hardware& hardware;
   SensorHandles& sensors;
   Log& log;
 
-  /// Its name in full: "<robot_namespace>/<name>".
+  /// Full name of the controller: "<robot_namespace>/<name>".
   std::string own_name() const;
   /// A topic of the controller: "<robot_namespace>/<name>/<topic>".
   std::string topic(const std::string& relative_topic) const;
-  /// The handle of a joint with commands of that kind. Throws Error that names the joint, what the
-  /// parameter `source` says, and what there is, if there is none.
+  /// The handle of a joint with commands of that kind. If there is none, throws an Error that names
+  /// the joint, the parameter `source` and the joints that exist.
   JointHandle& joint(const std::string& joint_name, JointInterface interface,
                      const Setting& source) const;
 };
 
-/// A law of ros_control: reads joints, writes commands of those that it claims, once a control
-/// period while it runs. Made without any effect on joints; what it is made with wrongly throws
-/// Error.
+/// A controller of ros_control: while it runs, once per control period it reads joints and writes
+/// the commands of those that it claims. Its construction has no effect on joints, and throws Error
+/// for invalid parameters.
 class Controller {
  public:
   virtual ~Controller() = default;
@@ -44,24 +44,24 @@ class Controller {
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
-  /// Begins to run: the first update comes with the next period.
+  /// Starts the controller: the first update comes with the next period.
   virtual void start(TimeNs /*now_ns*/) {}
   virtual void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) = 0;
   virtual void stop(TimeNs /*now_ns*/) {}
-  /// State as when it was made, stopped; tuned numbers as in its settings.
+  /// Restores the state after construction, stopped, with tuned numbers as in its settings.
   virtual void reset(TimeNs now_ns) = 0;
 
   /// Joints that no other running controller may command.
   const std::map<JointInterface, std::set<std::string>>& claims() const { return claims_; }
-  /// Topics, services and tunings, there from when it is made until it is unloaded. Commands that
-  /// come while it does not run are refused by its inputs with an Error or forgotten at its start,
-  /// as its original does.
+  /// Topics, services and tunings, which exist from construction until the controller is unloaded.
+  /// A command that comes while it does not run is refused by the input with an Error, or forgotten
+  /// at the start, as in the original controller.
   devices::Ports& ports() { return ports_; }
   bool is_running() const { return is_running_; }
   void set_running(bool is_running) { is_running_ = is_running; }
 
  protected:
-  /// The handle, claimed.
+  /// Claims a joint and returns its handle.
   JointHandle& claim(const ControllerContext& context, const std::string& joint_name,
                      JointInterface interface, const Setting& source);
 
@@ -71,8 +71,8 @@ class Controller {
   bool is_running_ = false;
 };
 
-/// Publishes at a rate as ros_controllers do: when last + 1 / rate < now, strictly, and then last
-/// moves on by 1 / rate. A rate of 0 publishes never.
+/// Timer of publications as in ros_controllers: due when last + 1 / rate < now, strictly; last then
+/// increases by 1 / rate. A rate of 0 is never due.
 class PublishTimer {
  public:
   explicit PublishTimer(double rate_hz) : rate_hz_(rate_hz) {}

@@ -14,7 +14,7 @@ namespace ardee::control {
 using ControllerMaker = std::function<std::unique_ptr<Controller>(const ControllerContext&)>;
 using ControllerTypes = std::map<std::string, ControllerMaker>;
 
-/// All controllers that ARDEE has, a line each, by the type names of ros_controllers.
+/// All built-in controllers, one line each, by the type names of ros_controllers.
 const ControllerTypes& controller_types();
 
 }  // namespace ardee::control

@@ -37,7 +37,7 @@ class DiffDriveController : public DriveController {
   void brake() override;
   double separation_m() const { return separation_m_ * separation_multiplier_; }
   double radius_m(const Side& side) const { return radius_m_ * side.radius_multiplier; }
-  /// How far a side has rolled since the last time.
+  /// Distance that a side has rolled since the last call.
   double roll(Side& side) const;
   void update_odometry(TimeNs now_ns);
   void publish_wheels(TimeNs now_ns, double period_s, devices::ReadingSink& sink);

@@ -10,8 +10,8 @@
 
 namespace ardee::control {
 
-/// What the drives of ros_control share: commands on "cmd_vel" that grow old, odometry on "odom"
-/// and "/tf".
+/// Base class of ros_control's drives: commands on "cmd_vel" with a timeout, odometry on "odom" and
+/// "/tf".
 class DriveController : public Controller {
  public:
   void start(TimeNs now_ns) override;
@@ -21,23 +21,23 @@ class DriveController : public Controller {
  protected:
   using DriveCommand = std::variant<Twist, devices::SteeringCommand>;
 
-  /// `odometry_frame`: the frame of the odometry, whatever a parameter says of it.
+  /// `odometry_frame` is the frame of the odometry; no parameter overrides it.
   DriveController(const ControllerContext& context, std::string odometry_frame);
 
-  /// Commands all joints to rest.
+  /// Commands all joints to stop.
   virtual void brake() = 0;
 
-  /// Takes commands as the drive does while it runs. Throws Error otherwise.
+  /// Accepts a command. Throws Error if the drive is not running.
   void take(const DriveCommand& command);
-  /// The command that counts now: the last one, or zero velocity once it is too old.
+  /// The command in force: the last one, or zero velocity once it is too old.
   DriveCommand command_at(TimeNs now_ns);
   Twist twist_at(TimeNs now_ns) { return std::get<Twist>(command_at(now_ns)); }
-  /// Whether odometry is due; if so it is published.
+  /// Publishes odometry if it is due, and returns whether it was.
   bool publish_odometry(TimeNs now_ns, devices::ReadingSink& sink);
 
   PlanarOdometry& odometry() { return odometry_; }
   const std::string& base_frame() const { return base_frame_; }
-  /// Changed by dynamic_reconfigure.
+  /// Settings that dynamic_reconfigure can change.
   PublishTimer& publish_timer() { return publish_timer_; }
   bool& enable_odometry_tf() { return enable_odometry_tf_; }
 
@@ -57,7 +57,7 @@ class DriveController : public Controller {
   devices::Output& tf_output_;
 };
 
-/// "velocity_rolling_window_size". Throws Error if it is below 1.
+/// Reads "velocity_rolling_window_size". Throws Error if it is below 1.
 std::size_t read_window(const Setting& settings);
 
 }  // namespace ardee::control

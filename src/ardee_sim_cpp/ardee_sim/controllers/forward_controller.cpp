@@ -19,7 +19,7 @@ std::unique_ptr<Controller> make(const ControllerContext& context) {
 
 std::vector<std::string> commanded_joints(const Setting& settings, JointCount count) {
   if (count == JointCount::kOne) return {settings.text("joint")};
-  settings.texts("joints");  // a single text is no list
+  settings.texts("joints");  // a single text is not a list
   return joint_names(settings, "joints");
 }
 

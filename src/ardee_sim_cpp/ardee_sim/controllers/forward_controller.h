@@ -12,7 +12,7 @@ namespace ardee::control {
 /// names, by a list of numbers.
 enum class JointCount { kOne, kGroup };
 
-/// The controllers that hand what comes on "command" on to joints: {position, velocity,
+/// The controllers that pass "command" on to joints: {position, velocity,
 /// effort}_controllers/{JointPosition, JointVelocity, JointEffort, JointGroup...}Controller.
 class ForwardController : public Controller {
  public:
@@ -25,7 +25,7 @@ class ForwardController : public Controller {
 
   ForwardController(const ControllerContext& context, JointInterface interface, JointCount count);
 
-  /// Positions hold where they are; velocities and efforts are 0.
+  /// Holds the present positions, or commands velocities and efforts of 0.
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { start(now_ns); }
@@ -39,8 +39,8 @@ class ForwardController : public Controller {
 /// The joints that a controller's settings name.
 std::vector<std::string> commanded_joints(const Setting& settings, JointCount count);
 
-/// Takes what comes on "command" into `commands`, which has the right size and outlives the ports:
-/// a number, or as many as there are joints. Others, and those that are not finite, are an Error.
+/// Stores messages of "command" in `commands`, which has the right size and outlives the ports: one
+/// number, or one per joint. Another count, or a number that is not finite, is an Error.
 void add_command_input(const ControllerContext& context, JointCount count,
                        std::vector<double>& commands, devices::Ports& ports);
 

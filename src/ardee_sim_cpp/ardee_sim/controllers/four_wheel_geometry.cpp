@@ -8,7 +8,7 @@ namespace ardee::control {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStill_m_per_s = 0.001;  // a vehicle that is slower stands
+constexpr double kStill_m_per_s = 0.001;  // a slower vehicle counts as standing
 constexpr std::array<double, 2> kSides = {-1.0, 1.0};
 
 }  // namespace
@@ -38,11 +38,11 @@ std::array<AxleCommand, 2> FourWheelGeometry::for_twist(double forward, double t
 
 AxleCommand FourWheelGeometry::axle_for_steering(double angle_rad, double turn_per_m,
                                                  double speed_m_per_s) const {
-  constexpr double kPole_m = 0.001;   // nearer to a wheel's axis the turn's centre gives no angle
-  constexpr double kParallel = 0.01;  // tangents of wheels that differ by less: no turn
-  constexpr double kFastest = 1e6;    // rad/s: a sideways axle would roll without end
+  constexpr double kPole_m = 0.001;   // a turn's centre nearer to a wheel's axis gives no angle
+  constexpr double kParallel = 0.01;  // a smaller difference of the wheels' tangents: no turn
+  constexpr double kFastest = 1e6;    // rad/s: bounds the rate of a sideways axle
   AxleCommand axle;
-  const double across = std::tan(angle_rad);  // for a metre along
+  const double across = std::tan(angle_rad);  // per metre along
   const double turn_over_track = turn_per_m * steering_track_m() / 2.0;
   if (std::abs(1.0 - std::abs(turn_over_track)) * wheel_base_m > kPole_m) {
     for (std::size_t i = 0; i < kSides.size(); ++i) {
@@ -77,11 +77,13 @@ double FourWheelGeometry::virtual_angle(double left_rad, double right_rad) {
 }
 
 PlanarMotion FourWheelGeometry::velocity(const AxleState& front, const AxleState& rear) const {
-  constexpr double kPivot = 1e-6;  // a wheel that does not roll as its axle moves says nothing
+  constexpr double kPivot =
+      1e-6;  // a wheel that does not roll with its axle's motion gives no speed
   const double tan_difference = std::tan(front.angle_rad) - std::tan(rear.angle_rad);
   PlanarMotion mean;
   for (const AxleState* axle : {&front, &rear}) {
-    // at unit speed along the virtual wheel: the vehicle's turn, and how fast its wheels roll
+    // at unit speed along the virtual wheel: the vehicle's turn, and the rolling speeds of its
+    // wheels
     const double turn = std::cos(axle->angle_rad) * tan_difference / wheel_base_m;
     double speed = 0.0;
     for (std::size_t i = 0; i < kSides.size(); ++i) {

@@ -9,13 +9,13 @@
 
 namespace ardee::control {
 
-/// What the two wheels of an axle do, left and right: angles in rad, speeds in rad/s.
+/// Values of the two wheels of an axle, left and right: angles in rad, speeds in rad/s.
 struct AxleCommand {
   std::array<double, 2> angles{};
   std::array<double, 2> speeds{};
 };
 
-/// How an axle moves: the angle of the virtual wheel at its middle, the rates of its two wheels.
+/// Motion of an axle: the angle of the virtual wheel at its middle, the rates of its two wheels.
 struct AxleState {
   double angle_rad = 0.0;
   std::array<double, 2> rates_rad_per_s{};
@@ -28,15 +28,15 @@ struct FourWheelGeometry {
   double radius_m = 0.0;
   double wheel_base_m = 0.0;
 
-  /// Between the steering axes of an axle.
+  /// Distance between the steering axes of an axle.
   double steering_track_m() const { return track_m - 2.0 * steering_offset_m; }
 
-  /// Front and rear for a speed forward and a turn (m/s, rad/s), the rear steered against the
-  /// front.
+  /// Motion of the front and rear axles for a speed forward and a turn (m/s, rad/s), the rear
+  /// steered against the front.
   std::array<AxleCommand, 2> for_twist(double forward, double turn) const;
-  /// Front and rear for virtual angles and a speed along the vehicle.
+  /// Motion of the front and rear axles for virtual angles and a speed along the vehicle.
   std::array<AxleCommand, 2> for_steering(const devices::SteeringCommand& command) const;
-  /// The angle of the virtual wheel at the middle of an axle whose wheels stand so.
+  /// The angle of the virtual wheel at the middle of an axle, from the angles of its wheels.
   static double virtual_angle(double left_rad, double right_rad);
   /// Velocity of the vehicle's middle.
   PlanarMotion velocity(const AxleState& front, const AxleState& rear) const;

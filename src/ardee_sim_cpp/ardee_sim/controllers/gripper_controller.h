@@ -9,9 +9,9 @@
 
 namespace ardee::control {
 
-/// Brings a gripper's joint to the goals of "gripper_cmd", until it is there or stalls:
-/// {position, effort}_controllers/GripperActionController. Efforts come from a PID law and are
-/// limited to what the goal says.
+/// Moves a gripper's joint to the goals of "gripper_cmd", until it arrives or stalls: {position,
+/// effort}_controllers/GripperActionController. Efforts come from a PID law and are limited by the
+/// goal.
 class GripperController : public Controller {
  public:
   static std::unique_ptr<Controller> make_position(const ControllerContext& context);
@@ -40,7 +40,7 @@ class GripperController : public Controller {
   PublishTimer feedback_timer_;
 
   devices::GripperGoal command_;
-  double effort_ = 0.0;  // of the last update, as results have it
+  double effort_ = 0.0;  // of the last update, for results
   TimeNs now_ns_ = 0;
   TimeNs last_movement_ns_ = 0;
   devices::GripperAction::HandlePtr goal_;

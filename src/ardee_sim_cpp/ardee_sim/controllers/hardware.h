@@ -8,21 +8,20 @@
 
 namespace ardee::control {
 
-/// What commands of a joint are, as the interfaces of ros_control name it.
+/// Quantity of a joint's commands, by ros_control's interfaces.
 enum class JointInterface { kPosition, kVelocity, kEffort };
 
-/// "hardware_interface::VelocityJointInterface", as list_controllers has it.
+/// "hardware_interface::VelocityJointInterface", as in list_controllers.
 std::string interface_name(JointInterface interface);
 
-/// A joint as controllers see it: what is measured at the beginning of a step, and what is
-/// commanded. SI units: rad or m, their rates, N m or N. `limits` are those of the robot's
-/// description.
+/// A joint as controllers see it: the state measured at the beginning of a step, and the command.
+/// SI units: rad or m, their rates, N m or N. `limits` are those of the robot's description.
 struct JointHandle {
   std::string name;
   JointInterface interface = JointInterface::kEffort;
   JointType type = JointType::kContinuous;
   JointAxis limits;
-  double position = 0.0;  // of a turning joint: unwrapped over turns
+  double position = 0.0;  // continuous over turns for a turning joint
   double velocity = 0.0;
   double effort = 0.0;
   double command = 0.0;

@@ -21,12 +21,12 @@ struct ImuHandle {
   Eigen::Vector3d linear_acceleration{0, 0, 0};  // m/s^2; 9.8 upwards at rest
 };
 
-/// What a joint's child applies to the joint, about its origin, in the child's axes
+/// Wrench of a joint's child on the joint, about its origin, in the child's axes
 /// (hardware_interface::ForceTorqueSensorInterface).
 struct ForceTorqueHandle {
   std::string frame;
   physics::ForceTorque wrench;  // N, N m
-  bool is_wanted = false;       // else it stays 0
+  bool is_wanted = false;       // otherwise the wrench stays 0
 };
 
 struct SensorHandles {
@@ -34,8 +34,8 @@ struct SensorHandles {
   std::map<std::string, ForceTorqueHandle> force_torques;  // by the joint's name
 };
 
-/// Measures what sensor controllers publish: at each `<sensor type="imu">` of a robot, and in each
-/// of its joints that moves or, by `<provide_feedback>`, is kept.
+/// Measures for the sensor controllers: at each `<sensor type="imu">` of a robot, and at each joint
+/// that moves or has `<provide_feedback>`.
 class HardwareSensors {
  public:
   explicit HardwareSensors(devices::DeviceContext& context);

@@ -48,7 +48,7 @@ double JointActuator::wanted_effort(double dt_s, bool is_stopped) {
   return std::clamp(pid_->update(velocity - handle_.velocity, dt_s), -most, most);
 }
 
-/// What acts is measured too: the effort within the joint's limits.
+/// Stores the acting effort as the measured one: the effort within the joint's limits.
 void JointActuator::push(physics::PhysicsModel& physics, double effort) {
   const physics::JointProperties& joint = physics.joint_properties(joint_, 0);
   const double velocity = physics.joint_velocity(joint_);

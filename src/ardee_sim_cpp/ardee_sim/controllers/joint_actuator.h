@@ -11,12 +11,12 @@
 
 namespace ardee::control {
 
-/// Between a joint of the physics and its handle, as gazebo_ros_control's DefaultRobotHWSim: reads
-/// what the joint does, and does each step what its command says. An effort acts as it is. A
-/// position puts the joint there at once; a velocity is a motor's. That motor has at most the
-/// effort limit, and replaces the joint's dry friction. With gains, an effort within the limit
-/// follows position or velocity instead. Without any controller the command stays what it was, 0 at
-/// first: that brakes a joint of velocities.
+/// Connects a joint of the physics with its handle, as gazebo_ros_control's DefaultRobotHWSim does:
+/// reads the joint's state, and applies the handle's command each step. An effort acts directly. A
+/// position command sets the joint's position at once; a velocity command drives a motor. That
+/// motor has at most the effort limit, and replaces the joint's dry friction. With gains, an effort
+/// within the limit follows position or velocity instead. Without a controller the last command
+/// holds, 0 at first, which brakes a joint with velocity commands.
 class JointActuator {
  public:
   /// `handle` outlives it; `joint` is the index in the physics.
@@ -25,9 +25,9 @@ class JointActuator {
 
   void read(const physics::PhysicsModel& physics);
   /// Enforces the limits on the command, `dt_s` after the last one, and acts on the joint. An
-  /// emergency stop holds positions, brakes velocities and leaves efforts away.
+  /// emergency stop holds positions, brakes velocities and applies no effort.
   void write(physics::PhysicsModel& physics, double dt_s, bool is_stopped);
-  /// Of a physics that is as at the beginning: command 0.
+  /// Sets the command to 0, for a physics that was reset.
   void reset(physics::PhysicsModel& physics);
 
   Pid* pid() { return pid_ ? &*pid_ : nullptr; }
@@ -35,7 +35,7 @@ class JointActuator {
 
  private:
   bool is_motor() const { return handle_.interface != JointInterface::kEffort && !pid_; }
-  /// What the command asks for as an effort, before the joint's own limits.
+  /// Effort that the command demands, before the joint's own limits.
   double wanted_effort(double dt_s, bool is_stopped);
   void push(physics::PhysicsModel& physics, double effort);
 

@@ -5,14 +5,14 @@
 
 namespace ardee::control {
 
-/// The same turn in [-pi, pi].
+/// Angle wrapped to [-pi, pi].
 double shortest_turn(double angle_rad);
 
-/// The position as far as the joint's limits allow: those of a revolute or prismatic joint.
+/// Position clamped to the limits of a revolute or prismatic joint.
 double within_limits(const JointHandle& joint, double position);
 
-/// How far the joint is from a position: of a continuous joint the shortest turn, of a revolute
-/// joint the shortest that stays within its limits, of another the difference.
+/// Error of a joint's position: the shortest turn of a continuous joint, the shortest turn within
+/// its limits of a revolute joint, the difference for other joints.
 double position_error(const JointHandle& joint, double position);
 
 }  // namespace ardee::control

@@ -8,7 +8,7 @@
 namespace ardee::control {
 namespace {
 
-/// What a pair has_<name>_limits, max_<name> makes of a limit.
+/// Replaces a limit by the pair has_<name>_limits, max_<name>.
 void override_limit(const Setting& group, const std::string& name, double& limit) {
   const std::string has = "has_" + name + "_limits";
   if (!group.has(has)) return;

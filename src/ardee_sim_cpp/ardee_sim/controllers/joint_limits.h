@@ -10,8 +10,8 @@
 
 namespace ardee::control {
 
-/// What the commands of a joint are kept within; infinite where there is no limit. SI units: rad or
-/// m and their derivatives, N m or N.
+/// Limits of a joint's commands; infinite if there is no limit. SI units: rad or m and their
+/// derivatives, N m or N.
 struct CommandLimits {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -25,21 +25,21 @@ struct CommandLimits {
   bool has_position() const { return max_position < kNone; }
 };
 
-/// The limits of a joint's description, with what `overrides` says in their place: a group
+/// The limits of a joint's description, replaced by those in `overrides`, a group
 /// {has_position_limits, min_position, max_position, has_velocity_limits, max_velocity, ...} as
-/// ros_control's <namespace>/joint_limits/<joint>. Where has_... is false, there is no limit.
-/// Throws Error if something there has another type.
+/// ros_control's <namespace>/joint_limits/<joint>. A limit whose has_... is false is off. Throws
+/// Error if a value has another type.
 CommandLimits read_command_limits(const Joint& joint, const Setting& overrides, Log& log);
 
 /// Keeps a joint's commands within its limits as joint_limits_interface does: by saturation, or by
-/// the soft limits where the joint has some.
+/// the soft limits if the joint has them.
 class CommandLimiter {
  public:
   explicit CommandLimiter(const CommandLimits& limits) : limits_(limits) {}
 
-  /// Replaces the command of a joint, which is `dt_s` after the last one.
+  /// Limits the command of a joint, given `dt_s` after the last one.
   void enforce(JointHandle& joint, double dt_s);
-  /// The next command is the first one.
+  /// Forgets the last command.
   void reset() { last_.reset(); }
   const CommandLimits& limits() const { return limits_; }
 
@@ -56,7 +56,7 @@ class CommandLimiter {
   Bounds bounds(const JointHandle& joint, double dt_s) const;
 
   CommandLimits limits_;
-  std::optional<double> last_;  // command
+  std::optional<double> last_;  // the last command
 };
 
 }  // namespace ardee::control

@@ -8,7 +8,7 @@
 
 namespace ardee::control {
 
-/// joint_state_controller/JointStateController: what the joints of the hardware do, on
+/// joint_state_controller/JointStateController: publishes the states of the hardware's joints on
 /// "joint_states" of the robot.
 class JointStateController : public Controller {
  public:

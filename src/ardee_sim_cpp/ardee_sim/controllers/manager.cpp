@@ -19,7 +19,7 @@ struct Manager::Loaded {
   ControllerContext context;
   std::string type;
   bool has_run = false;
-  std::unique_ptr<Controller> controller;  // gone before what it refers to
+  std::unique_ptr<Controller> controller;  // destroyed before the objects that it refers to
 };
 
 Manager::Manager(ManagerContext context, const ControllerTypes& types)

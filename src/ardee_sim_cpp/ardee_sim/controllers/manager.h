@@ -10,8 +10,8 @@
 
 namespace ardee::control {
 
-/// What becomes of a request to switch in which something cannot be done: the whole is refused, or
-/// that part of it is passed over.
+/// Policy for a request to switch of which a part is impossible: refuse the whole request, or skip
+/// that part.
 enum class Strictness { kStrict, kBestEffort };
 
 struct SwitchRequest {
@@ -26,7 +26,7 @@ struct Claim {
   std::vector<std::string> joints;
 };
 
-/// A controller as list_controllers has it.
+/// A controller as in list_controllers.
 struct ControllerState {
   std::string name;
   std::string type;
@@ -34,7 +34,7 @@ struct ControllerState {
   std::vector<Claim> claims;
 };
 
-/// What a Manager works on. All that it refers to outlives the manager.
+/// Arguments of a Manager's construction. All references outlive the manager.
 struct ManagerContext {
   std::string robot_namespace;
   const Model& model;
@@ -44,9 +44,9 @@ struct ManagerContext {
   std::function<Setting(const std::string& name)> parameter;
 };
 
-/// Loads, starts, stops and updates the controllers of a robot, as ros_control's
-/// controller_manager. What cannot be done throws Error and changes nothing. All of it acts at
-/// once, between two updates: a controller that is started has its first update in the next one.
+/// Loads, starts, stops and updates the controllers of a robot, as ros_control's controller_manager
+/// does. A call that cannot be carried out throws Error and changes nothing. All calls act at once,
+/// between two updates: a started controller has its first update in the next one.
 class Manager {
  public:
   explicit Manager(ManagerContext context, const ControllerTypes& types = controller_types());
@@ -57,23 +57,23 @@ class Manager {
   /// Makes the controller whose parameters are at <robot_namespace>/<name>.
   Controller& load(const std::string& name);
   void unload(const std::string& name);
-  /// Throws what unload would.
+  /// Throws the Error that unload would throw.
   void check_unload(const std::string& name) const;
   void switch_controllers(const SwitchRequest& request);
-  /// Stops and unloads all that there are.
+  /// Stops and unloads all controllers.
   void unload_all();
 
-  /// In the order in which they were loaded, which is that of their updates.
+  /// States of the controllers in the order of loading, which is that of their updates.
   std::vector<ControllerState> list() const;
   std::vector<std::string> type_names() const;
   /// The controller of that name, or nullptr.
   Controller* find(const std::string& name) const;
 
-  /// Lets those that run act.
+  /// Updates the running controllers.
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink);
-  /// Stops those that run and starts them again.
+  /// Stops the running controllers and starts them again.
   void restart(TimeNs now_ns);
-  /// All are as they were made, and those that ran start again.
+  /// Restores all controllers to their state after construction, and restarts those that ran.
   void reset(TimeNs now_ns);
 
  private:
@@ -82,7 +82,7 @@ class Manager {
 
   Loaded* find_loaded(const std::string& name) const;
   Loaded& require(const std::string& name, const std::string& failure) const;
-  /// What the request makes of each controller, in the order of loading.
+  /// The change of each controller by the request, in the order of loading.
   std::vector<Change> plan(const SwitchRequest& request) const;
   void note(Change change, const std::vector<std::string>& names, Strictness strictness,
             std::vector<Change>& changes) const;

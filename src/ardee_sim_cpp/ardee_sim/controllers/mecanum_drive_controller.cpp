@@ -12,7 +12,7 @@ constexpr std::array<const char*, 4> kWheelKeys = {
     "front_left_wheel_joint", "back_left_wheel_joint", "back_right_wheel_joint",
     "front_right_wheel_joint"};
 
-/// The distance of two wheels along an axis of the robot, where no parameter says it.
+/// The distance of two wheels along an axis of the robot, if no parameter gives it.
 double read_separation(const ControllerContext& context, const std::string& key,
                        const std::string& other_wheel, int axis) {
   const Setting& settings = context.settings;

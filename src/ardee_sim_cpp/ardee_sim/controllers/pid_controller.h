@@ -10,7 +10,7 @@
 
 namespace ardee::control {
 
-/// The controllers that bring joints to what comes on "command" by a PID law:
+/// The controllers that move joints to the set points of "command" by a PID law:
 /// effort_controllers/{JointPosition, JointVelocity, JointGroupPosition}Controller and
 /// velocity_controllers/JointPositionController.
 class PidController : public Controller {
@@ -25,7 +25,7 @@ class PidController : public Controller {
   PidController(const ControllerContext& context, JointInterface interface, Quantity quantity,
                 JointCount count);
 
-  /// Positions hold where they are; velocities are 0.
+  /// Holds the present positions, or commands velocities of 0.
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
@@ -36,7 +36,7 @@ class PidController : public Controller {
     Pid pid;
   };
 
-  /// The joint's command towards the set point, published if it is due.
+  /// Computes the joint's command towards its set point, and publishes the state if it is due.
   double command(Joint& joint, double set_point, TimeNs now_ns, double period_s,
                  devices::ReadingSink& sink);
 

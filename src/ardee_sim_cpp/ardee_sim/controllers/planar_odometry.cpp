@@ -19,7 +19,7 @@ void PlanarOdometry::reset(TimeNs now_ns) {
 }
 
 void PlanarOdometry::move(const PlanarMotion& way) {
-  constexpr double kStraight = 1e-6;  // rad: below, an arc is its chord at the mean heading
+  constexpr double kStraight = 1e-6;  // rad: a shorter arc counts as its chord at the mean heading
   double along = 1.0;
   double across = 0.0;
   double heading = yaw_rad_;

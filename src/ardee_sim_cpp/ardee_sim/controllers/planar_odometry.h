@@ -7,27 +7,27 @@
 
 namespace ardee::control {
 
-/// A motion in the plane, in the axes of what moves: a way in m and rad, or a velocity in m/s and
-/// rad/s.
+/// A motion in the plane, in the axes of the moving body: a displacement in m and rad, or a
+/// velocity in m/s and rad/s.
 struct PlanarMotion {
   double forward = 0.0;
   double left = 0.0;
   double turn = 0.0;
 };
 
-/// Where a vehicle has come to on a plane, from how it says to have moved.
+/// Dead reckoning: the pose of a vehicle on a plane, from its reported motions.
 class PlanarOdometry {
  public:
-  /// `window`: how many velocities the mean is taken over.
+  /// `window` is the number of velocities in the mean.
   explicit PlanarOdometry(std::size_t window) : forward_(window), left_(window), turn_(window) {}
 
-  /// Begins again from the pose that it has.
+  /// Restarts at the present pose.
   void start(TimeNs now_ns);
   void reset(TimeNs now_ns);
-  /// The vehicle has moved by that way since the last time, on an arc. The velocity becomes the
-  /// mean of way over time, of times of 0.1 ms and more.
+  /// Adds a displacement since the last call, along an arc. The velocity becomes the mean of
+  /// displacement over time, for intervals of 0.1 ms and more.
   void add_way(const PlanarMotion& way, TimeNs now_ns);
-  /// The vehicle has moved at that velocity since the last time.
+  /// Adds a motion at constant velocity since the last call.
   void add_velocity(const PlanarMotion& velocity, TimeNs now_ns);
 
   Pose pose() const;

@@ -7,7 +7,7 @@
 
 namespace ardee::control {
 
-/// The mean of the last values, of as many as there are until the window is full.
+/// The mean of the last values; of all values until the window is full.
 class RollingMean {
  public:
   explicit RollingMean(std::size_t window) : window_(window) {}
@@ -16,7 +16,7 @@ class RollingMean {
     values_.push_back(value);
     if (values_.size() > window_) values_.pop_front();
   }
-  /// 0 without values.
+  /// The mean; 0 without values.
   double mean() const {
     if (values_.empty()) return 0.0;
     return std::accumulate(values_.begin(), values_.end(), 0.0) /

@@ -23,7 +23,7 @@ bool is_steer_bot(Parameters& parameters, Log& log) {
   return false;
 }
 
-/// 0: each step.
+/// Period in ns; 0: each step.
 TimeNs read_period(Parameters& parameters, const devices::DeviceContext& context) {
   constexpr double kLongest_s = 1e6;
   const TimeNs period_ns = nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, kLongest_s));
@@ -50,7 +50,7 @@ RosControl::Params read(Parameters& parameters, devices::DeviceContext& context)
   params.period_ns = read_period(parameters, context);
   params.stop_topic = parameters.text("eStopTopic", "");
   params.has_legacy_gains = parameters.boolean("legacyModeNS", false);
-  parameters.ignore({"robotParam"});  // the robot is its description
+  parameters.ignore({"robotParam"});  // the description is already known
   return params;
 }
 
@@ -81,7 +81,7 @@ std::unique_ptr<devices::Device> RosControl::make(const PluginDescription& plugi
                                                   Parameters& parameters,
                                                   devices::DeviceContext& context) {
   const Params params = read(parameters, context);
-  context.robot.dynamics();  // not of what stands still
+  context.robot.dynamics();  // throws for a static model
   try {
     return std::make_unique<RosControl>(plugin, params, context);
   } catch (const Error& error) {
@@ -97,7 +97,7 @@ RosControl::RosControl(const PluginDescription& plugin, const Params& params,
     : devices::Device(plugin.name), params_(params), robot_(context.robot), sensors_(context) {
   if (params_.is_steer_bot) add_steer_bot(context);
   for (const Transmission& each : robot_.model().transmissions) {
-    if (params_.is_steer_bot) break;  // which has no use for them
+    if (params_.is_steer_bot) break;  // a SteerBot does not use them
     if (each.joint.rfind(context.scope, 0) == 0) add_joint(each, context.scope, context);
   }
   if (hardware_.empty()) {

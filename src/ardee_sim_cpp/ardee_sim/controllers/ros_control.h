@@ -16,8 +16,8 @@
 namespace ardee::control {
 
 /// libgazebo_ros_control.so with its DefaultRobotHWSim, the joints that the robot's transmissions
-/// name, or with a SteerBot, as a controller manager's controllers see them. Each control period
-/// they are read and the controllers act; each step their commands do.
+/// name, or with a SteerBot, as the hardware of a controller manager. Each control period reads the
+/// joints and updates the controllers; each step applies their commands.
 class RosControl : public devices::Device {
  public:
   struct Params {
@@ -28,12 +28,12 @@ class RosControl : public devices::Device {
     bool is_steer_bot = false;
   };
 
-  /// Nothing, with an error in the log, if the robot's transmissions are not as the original needs
-  /// them: the robot is there, and nothing moves it.
+  /// Returns nothing, with an error in the log, if the robot's transmissions lack what the original
+  /// plugin requires: the robot exists, but without actuation.
   static std::unique_ptr<devices::Device> make(const PluginDescription& plugin,
                                                Parameters& parameters,
                                                devices::DeviceContext& context);
-  /// Throws Error if a joint of the transmissions is not there, or its interface is not known.
+  /// Throws Error if a joint of the transmissions does not exist, or its interface is unknown.
   RosControl(const PluginDescription& plugin, const Params& params,
              devices::DeviceContext& context);
 
@@ -43,9 +43,9 @@ class RosControl : public devices::Device {
   void before_step(TimeNs now_ns) override;
   void observe(TimeNs now_ns) override { sensors_.begin_step(now_ns); }
   void on_set_state() override { sensors_.on_set_state(); }
-  /// What the controllers have given before the step.
+  /// Gives the readings that the controllers made before the step.
   void after_step(TimeNs now_ns, devices::ReadingSink& sink) override;
-  /// Joints have the command 0; controllers that run start again.
+  /// Sets all joint commands to 0 and restarts the running controllers.
   void reset(TimeNs now_ns) override;
 
  private:

@@ -25,7 +25,8 @@ class ImuSensorController : public Controller {
   std::vector<std::pair<const ImuHandle*, devices::Output*>> sensors_;
 };
 
-/// force_torque_sensor_controller/ForceTorqueSensorController: the same of each ForceTorqueHandle.
+/// force_torque_sensor_controller/ForceTorqueSensorController: publishes each ForceTorqueHandle in
+/// this way.
 class ForceTorqueSensorController : public Controller {
  public:
   static std::unique_ptr<Controller> make(const ControllerContext& context);

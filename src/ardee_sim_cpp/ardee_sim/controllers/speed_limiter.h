@@ -7,8 +7,8 @@
 
 namespace ardee::control {
 
-/// Bounds of a speed, its acceleration and its jerk, each only where it is set: what a drive's
-/// command along one axis is cut to, with the two commands before it.
+/// Limits a drive's command along one axis by bounds of speed, acceleration and jerk, each only if
+/// set, from the two previous commands.
 class SpeedLimiter {
  public:
   struct Bounds {
@@ -23,10 +23,10 @@ class SpeedLimiter {
   /// -max_* where not given.
   SpeedLimiter(const Setting& settings, const std::string& axis);
 
-  /// The command that follows the last one, nearest to the wanted one. The jerk is bounded first,
-  /// then the acceleration, then the speed.
+  /// The admissible next command nearest to the wanted one. The jerk is bounded first, then the
+  /// acceleration, then the speed.
   double limit(double wanted, double period_s);
-  /// What limit() gave last.
+  /// Last result of limit().
   double last() const { return last_; }
   void reset() { last_ = before_last_ = 0.0; }
 

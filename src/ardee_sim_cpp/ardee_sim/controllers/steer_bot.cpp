@@ -28,8 +28,8 @@ std::vector<std::string> car_joints(const Setting& settings, const std::string& 
   return names;
 }
 
-/// Whether knuckles stand as Ackermann has it. What is no truth value, as 'true' in quotes, does
-/// not count, here as there.
+/// Whether the knuckles follow Ackermann's geometry. A value that is not a boolean, such as 'true'
+/// in quotes, is ignored, as in the original.
 bool is_linked(const Setting& settings, Log& log) {
   const Setting given = settings.at("enable_ackermann_link");
   if (const bool* value = std::get_if<bool>(&given.value())) return *value;

@@ -18,15 +18,15 @@ class SteerBot {
  public:
   static constexpr char kType[] = "steer_bot_hardware_gazebo/SteerBotHardwareGazebo";
 
-  /// Throws Error if a parameter is missing or wrong, or names a joint that the car has not.
+  /// Throws Error if a parameter is missing or wrong, or names a joint that the car does not have.
   SteerBot(const Setting& settings, const Model& model, Log& log);
 
-  /// The bicycle's and the car's.
+  /// Joints of the bicycle and of the car.
   const std::map<std::string, JointInterface>& joints() const { return joints_; }
-  /// Commands to the car those of the bicycle. A joint of the bicycle that the car has not does at
-  /// once what is commanded.
+  /// Passes the bicycle's commands on to the car. A joint of the bicycle that the car does not have
+  /// follows its command at once.
   void follow(Hardware& hardware, double dt_s) const;
-  /// Joints of the bicycle that the car has not are as at the beginning.
+  /// Resets those joints of the bicycle that the car does not have.
   void reset(Hardware& hardware) const;
 
  private:

@@ -43,9 +43,9 @@ std::array<double, 6> quintic(const Waypoint& from, const Waypoint& to, double t
           (12.0 * way - 6.0 * (v1 + v0) * t - (a0 - a1) * t2) / (2.0 * t3 * t2)};
 }
 
-/// By how much points have to be turned for `next` to lie within half a turn of `last`.
+/// Turn to add to points so that `next` lies within half a turn of `last`.
 double wrap_offset(double last, double next) {
-  constexpr double kTie = 1e-9;  // half a turn goes the way that the numbers go
+  constexpr double kTie = 1e-9;  // exactly half a turn keeps the numbers' direction
   double turn = shortest_turn(next - last);
   if (std::abs(std::abs(turn) - kHalfTurn) < kTie) turn = std::copysign(kHalfTurn, next - last);
   return last + turn - next;
@@ -113,7 +113,7 @@ JointPath resting_path(double time_s, double position) {
 }
 
 JointPath stopping_path(double time_s, const JointMotion& motion, double duration_s) {
-  // There and back with the opposite velocity is at rest half way.
+  // A path that ends at its start with the opposite velocity is at rest half way.
   const Waypoint start(motion.position, motion.velocity, 0.0);
   const Waypoint back(motion.position, -motion.velocity, 0.0);
   const Segment both_ways(time_s, start, time_s + 2.0 * duration_s, back);

@@ -10,14 +10,14 @@
 
 namespace ardee::control {
 
-/// How a joint moves at one time: rad or m, and their derivatives.
+/// State of motion of a joint at one time: rad or m, and their derivatives.
 struct JointMotion {
   double position = 0.0;
   double velocity = 0.0;
   double acceleration = 0.0;
 };
 
-/// An end of a segment, of which less may be known.
+/// An end of a segment; velocity and acceleration are optional.
 struct Waypoint {
   double position = 0.0;
   std::optional<double> velocity;
@@ -30,7 +30,7 @@ struct Waypoint {
       : position(motion.position), velocity(motion.velocity), acceleration(motion.acceleration) {}
 };
 
-/// How far a joint may be from where it shall be; 0: as far as it likes.
+/// Tolerances of a joint's errors; 0: unlimited.
 struct StateTolerance {
   double position = 0.0;
   double velocity = 0.0;
@@ -42,22 +42,22 @@ struct StateTolerance {
 struct SegmentTolerance {
   StateTolerance path;
   StateTolerance goal;
-  double goal_time_s = 0.0;  // for which it may be outside of `goal` after the end
+  double goal_time_s = 0.0;  // time after the end to come within `goal`
 };
 
-/// The way of one joint between two times, by the polynomial of the least degree that has what both
-/// ends know: positions only a line, velocities a cubic, accelerations a quintic.
+/// Path of one joint between two times: a line if the ends have positions only, a cubic polynomial
+/// if both have velocities, a quintic if both have accelerations.
 class Segment {
  public:
-  /// start_s <= end_s.
+  /// Requires start_s <= end_s.
   Segment(double start_s, const Waypoint& start, double end_s, const Waypoint& end);
 
   double start_s() const { return start_s_; }
   double end_s() const { return start_s_ + duration_s_; }
-  /// Before it begins and from its end on: at rest, at the nearer end's position.
+  /// Motion at a time; before the start and from the end on: at rest, at the nearer end's position.
   JointMotion at(double time_s) const;
 
-  std::uint64_t goal = 0;  // of an action that it belongs to; 0: of none
+  std::uint64_t goal = 0;  // number of its action's goal; 0: none
   SegmentTolerance tolerance;
 
  private:
@@ -66,32 +66,32 @@ class Segment {
   std::array<double, 6> coefficients_{};
 };
 
-/// The way of one joint: segments in the order of their times, at least one.
+/// Path of one joint: at least one segment, in the order of time.
 using JointPath = std::vector<Segment>;
 
-/// The segment in force at a time, the first one before it begins.
+/// The segment in force at a time; the first one at times before its start.
 const Segment& segment_at(const JointPath& path, double time_s);
 
-/// `time_s`, from then on at rest at `position`.
+/// A path at rest at `position` from `time_s` on.
 JointPath resting_path(double time_s, double position);
-/// From a motion at `time_s` to rest within `duration_s`.
+/// A path from a motion at `time_s` to rest within `duration_s`.
 JointPath stopping_path(double time_s, const JointMotion& motion, double duration_s);
 
-/// Points that one joint shall pass, by their times.
+/// Point that one joint is to pass, with its time.
 struct TimedWaypoint {
   double time_s = 0.0;
   Waypoint waypoint;
 };
 
-/// What `path` does from `now_s` until the new points begin at `start_s`, from there to the first
-/// of them, and on through them. `is_wrapping`: the new points are turned by whole turns, so that
-/// the first lies within half a turn. `goal` and `tolerance` are those of the new segments.
+/// Joins `path` to new points: follows `path` from `now_s` until `start_s`, then goes to the first
+/// point and on through the others. With `is_wrapping` the new points are shifted by whole turns,
+/// so that the first lies within half a turn. `goal` and `tolerance` are those of the new segments.
 JointPath spliced_path(const JointPath& path, double now_s, double start_s,
                        std::vector<TimedWaypoint> points, bool is_wrapping, std::uint64_t goal,
                        const SegmentTolerance& tolerance);
 
 /// Throws Error unless each point has a position for each of `joint_count` joints, velocities and
-/// accelerations for all or none, finite numbers, and times that rise.
+/// accelerations for all or none, finite numbers, and increasing times.
 void check_points(const std::vector<devices::JointTrajectoryPoint>& points,
                   std::size_t joint_count);
 

@@ -18,7 +18,7 @@ Error lacking(const ControllerContext& context, const std::string& interface) {
                "effort_controllers/JointTrajectoryController instead");
 }
 
-/// A tolerance of a goal over that of the parameters.
+/// Replaces a tolerance of the parameters by the goal's.
 void override_tolerance(double given, double& tolerance) {
   if (given != 0.0) tolerance = std::max(given, 0.0);
 }
@@ -216,7 +216,7 @@ void TrajectoryController::follow(const devices::JointTrajectory& trajectory,
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Joint& joint = joints_[i];
     joint.has_arrived = false;
-    if (!found[i]) {  // goes on as it did, for the new goal
+    if (!found[i]) {  // continues its path, for the new goal
       for (Segment& segment : joint.path) segment.goal = goal;
       continue;
     }

@@ -14,22 +14,22 @@
 namespace ardee::control {
 
 /// Moves joints along trajectories that come on "command" or as goals of "follow_joint_trajectory":
-/// {position, velocity, effort}_controllers/JointTrajectoryController. Positions are commanded as
-/// they are desired; velocities and efforts by a PID law of the error, and a share of the desired
-/// velocity.
+/// {position, velocity, effort}_controllers/JointTrajectoryController. Position commands are the
+/// desired positions; velocity and effort commands are a PID law of the error plus a share of the
+/// desired velocity.
 class TrajectoryController : public Controller {
  public:
   static std::unique_ptr<Controller> make_position(const ControllerContext& context);
   static std::unique_ptr<Controller> make_velocity(const ControllerContext& context);
   static std::unique_ptr<Controller> make_effort(const ControllerContext& context);
-  /// {pos_vel, pos_vel_acc}_controllers/JointTrajectoryController command interfaces that the
-  /// simulated hardware lacks, here as in Gazebo: an Error.
+  /// {pos_vel, pos_vel_acc}_controllers/JointTrajectoryController need interfaces that the
+  /// simulated hardware lacks, here as in Gazebo. Throws Error.
   static std::unique_ptr<Controller> make_pos_vel(const ControllerContext& context);
   static std::unique_ptr<Controller> make_pos_vel_acc(const ControllerContext& context);
 
   TrajectoryController(const ControllerContext& context, JointInterface interface);
 
-  /// Holds the joints where they are.
+  /// Holds the joints at their present positions.
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void stop(TimeNs now_ns) override;
@@ -39,12 +39,12 @@ class TrajectoryController : public Controller {
   using Result = devices::FollowTrajectoryResult;
   struct Joint {
     JointHandle& handle;
-    SegmentTolerance tolerance;  // of goals that say none
+    SegmentTolerance tolerance;  // of goals that give none
     std::optional<Pid> pid;      // none: positions are commanded
     double velocity_share = 0.0;
     JointPath path;
     JointMotion desired;
-    bool has_arrived = false;  // within the tolerance of the goal, once
+    bool has_arrived = false;  // it has been within the tolerance of the goal
   };
 
   void add_joint(const ControllerContext& context, const std::string& name,
@@ -54,12 +54,13 @@ class TrajectoryController : public Controller {
     return time_s - seconds(now_ns_) + seconds(uptime_ns_);
   }
   void require_running() const;
-  /// For each joint the place of its name, none if it is not among them. Throws Error for names
-  /// that are not those of the joints.
+  /// Index in `names` of each joint, none if it is absent. Throws Error for a name that is not one
+  /// of the joints.
   std::vector<std::optional<std::size_t>> places(const std::vector<std::string>& names) const;
   std::vector<SegmentTolerance> tolerances(const devices::FollowTrajectoryGoal& goal);
 
-  /// From the next update on. Throws Error if there is no way to; then nothing has changed.
+  /// Follows a trajectory from the next update on. Throws Error if that is impossible, and changes
+  /// nothing then.
   void follow(const devices::JointTrajectory& trajectory,
               const std::vector<SegmentTolerance>& tolerances, std::uint64_t goal);
   void hold(std::uint64_t goal);
@@ -70,7 +71,7 @@ class TrajectoryController : public Controller {
   void preempt();
   devices::TrajectoryState state_at(double time_s) const;
 
-  /// What is wrong with the joint for the goal, if its segment belongs to it.
+  /// Violation of the goal's tolerances by the joint, if its segment belongs to the goal.
   std::optional<Result> violation(Joint& joint, const Segment& segment, const JointMotion& error);
   void end_goal(const std::optional<Result>& failure);
   void publish(devices::TrajectoryControllerReading& state, devices::ReadingSink& sink);
@@ -85,7 +86,7 @@ class TrajectoryController : public Controller {
 
   TimeNs now_ns_ = 0;
   TimeNs period_ns_ = 0;
-  TimeNs uptime_ns_ = 0;  // the sum of all periods since the start: the clock of the paths
+  TimeNs uptime_ns_ = 0;  // sum of all periods since the start: the time of the paths
   devices::FollowTrajectoryAction::HandlePtr goal_;
   std::uint64_t goal_number_ = 0;  // of the latest goal
 };

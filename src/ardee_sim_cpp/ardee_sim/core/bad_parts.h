@@ -3,8 +3,8 @@
 
 namespace ardee {
 
-/// What becomes of a world with a part that is written wrong, cannot be built or needs a file that
-/// is not there: the whole is refused, or the part is left out with one error, as Gazebo does.
+/// Policy for a world with a part that is malformed, cannot be built or needs a file that is
+/// missing: refuse the whole world, or leave the part out with one error, as Gazebo does.
 enum class BadParts { kRefuse, kLeaveOut };
 
 }  // namespace ardee

@@ -6,8 +6,7 @@
 
 namespace ardee {
 
-/// Where in a user's input something stands: file, line (0 where the parser knows none) and element
-/// path.
+/// Place in a user's input: file, line (0 if the parser knows none) and element path.
 struct Source {
   std::string file;
   int line = 0;
@@ -17,10 +16,10 @@ struct Source {
   std::string to_string() const;
 };
 
-/// What was found, for a message: in quotes, and no more than 80 characters of it.
+/// Quotes the text that was found, for a message, cut to 80 characters.
 std::string in_quotes(const std::string& text);
 
-/// What is wrong with an input, in one line: place, what was found, what was expected.
+/// One-line description of an invalid input: place, found text, expected text.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& what) : std::runtime_error(what) {}

@@ -13,10 +13,10 @@ namespace ardee {
 
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
-/// Where the engine's messages go: a ROS node maps them to its own log, a test records them.
+/// Receiver of the engine's messages: a ROS node maps them to its own log, a test records them.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// The engine's log: a sink, and the memory that a message is given once. Copies share nothing but
+/// The engine's log: a sink, and a record of the messages that were given once. Copies share only
 /// the sink.
 class Log {
  public:
@@ -26,13 +26,14 @@ class Log {
 
   void info(const std::string& text) { sink_(LogLevel::kInfo, text); }
   void warn(const std::string& text) { add_warning(text, text); }
-  /// Says what is wrong at a place in an input. Within a LogGroup one such warning stands for all
-  /// that say the same of an element of the same name, whatever the detail that ends it (a name).
+  /// Warns of a problem at a place in an input. Within a LogGroup one such warning stands for all
+  /// with the same text about an element of the same name, even if the detail at its end (a name)
+  /// differs.
   void warn(const Source& source, const std::string& what, const std::string& detail = "") {
     add_warning(source.element + ": " + what, source.to_string() + ": " + what + detail);
   }
   void error(const std::string& text) { sink_(LogLevel::kError, text); }
-  /// The same text is given once in the life of this log.
+  /// Gives a text only once in the life of this log.
   void warn_once(const std::string& text);
 
  private:
@@ -53,8 +54,8 @@ class Log {
   std::unordered_map<std::string, std::size_t> waiting_by_kind_;
 };
 
-/// Collects a log's warnings while it lives, say for one file, and gives each kind once at its end:
-/// the first, and how many more there were. Groups nest; the outermost counts.
+/// Collects a log's warnings while it lives, say for one file, and at its end gives each kind once:
+/// the first warning, and the number of further ones. Groups nest; only the outermost one acts.
 class LogGroup {
  public:
   explicit LogGroup(Log& log) : log_(log) { ++log_.groups_; }

@@ -11,7 +11,8 @@ const NormalTable& NormalTable::get() {
   return table;
 }
 
-/// The upper half, ascending; by Newton's method on the error function, each from its neighbour.
+/// The upper half, ascending; by Newton's method on the error function, each starting from its
+/// neighbour.
 NormalTable::NormalTable() {
   std::vector<double> exact(kHalf);
   double z = 0.0;

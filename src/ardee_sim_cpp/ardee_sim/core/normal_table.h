@@ -8,9 +8,9 @@
 
 namespace ardee {
 
-/// Standard normal numbers for sixteen random bits: the 65536 quantiles of equal share, scaled to a
-/// variance of 1; the largest is 4.3. For noise of many values, where a logarithm and a cosine each
-/// would cost too much.
+/// Table that maps sixteen random bits to a standard normal number: the 65536 quantiles of equal
+/// probability, scaled to a variance of 1; the largest is 4.3. It serves noise of many values, for
+/// which a logarithm and a cosine per value would cost too much.
 class NormalTable {
  public:
   static const NormalTable& get();
@@ -19,12 +19,12 @@ class NormalTable {
     return with_sign(upper_half_[bits & (kHalf - 1)], bits);
   }
 
-  /// Those for `kCount` times sixteen bits: the same numbers, sooner.
+  /// Numbers for `kCount` times sixteen bits: equal to `kCount` single look-ups, but faster.
   template <std::size_t kCount>
   void look_up(const std::uint16_t* bits, float* numbers) const {
     const float* const half = upper_half_.data();
     for (std::size_t k = 0; k < kCount; ++k) numbers[k] = half[bits[k] & (kHalf - 1)];
-    // A loop of its own: of this one the compiler makes vector instructions.
+    // A separate loop, because the compiler can vectorise it.
     for (std::size_t k = 0; k < kCount; ++k) numbers[k] = with_sign(numbers[k], bits[k]);
   }
 
@@ -33,7 +33,7 @@ class NormalTable {
 
   NormalTable();
 
-  /// By its bit: a branch on noise could not be foreseen.
+  /// Sets the sign by its bit: the processor cannot predict a branch on noise.
   static float with_sign(float positive, std::uint16_t bits) {
     std::uint32_t number;
     std::memcpy(&number, &positive, sizeof number);

@@ -25,7 +25,7 @@ Eigen::Quaterniond quaternion_from_rpy(const Eigen::Vector3d& rpy) {
 Eigen::Vector3d rpy_from_quaternion(const Eigen::Quaterniond& q) {
   const Eigen::Matrix3d r = q.toRotationMatrix();
   const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
-  // At pitch = ±90° roll and yaw turn about one axis: all of it is given to yaw.
+  // At pitch = ±90° roll and yaw turn about one axis: yaw gets the whole turn.
   if (std::abs(r(2, 0)) > 1.0 - 1e-12) {
     return {0.0, pitch, std::atan2(-r(0, 1), r(1, 1))};
   }

@@ -27,7 +27,7 @@ Eigen::Vector3d rpy_from_quaternion(const Eigen::Quaterniond& q);
 /// Rotation from roll, pitch, yaw in radians about the fixed axes.
 Eigen::Quaterniond quaternion_from_rpy(const Eigen::Vector3d& rpy);
 
-/// Linear (m/s) and angular (rad/s) velocity; the frame is said where it is used.
+/// Linear (m/s) and angular (rad/s) velocity; the user of the struct states the frame.
 struct Twist {
   Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();

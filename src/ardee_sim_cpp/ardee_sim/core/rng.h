@@ -18,8 +18,8 @@ inline std::uint64_t mix_bits(std::uint64_t bits) {
 /// 2^64 over the golden ratio.
 constexpr std::uint64_t kGoldenGamma = 0x9E3779B97F4A7C15ULL;
 
-/// The key of the random stream `name` under a root seed: the same names give the same streams on
-/// every machine.
+/// Key of the random stream `name` under a root seed; a name gives an identical stream on every
+/// machine.
 std::uint64_t stream_key(std::uint64_t root_seed, std::string_view name);
 
 /// Counter-based random numbers: the value at a counter is a pure function of (key, counter), so
@@ -28,7 +28,7 @@ class CounterRng {
  public:
   explicit CounterRng(std::uint64_t key) : key_(key) {}
 
-  /// A stream of its own for one frame (scan, image) of this stream.
+  /// Separate stream for one frame (scan, image) of this stream.
   CounterRng frame(std::uint64_t index) const {
     return CounterRng(mix_bits(key_ ^ mix_bits(index)));
   }
@@ -37,7 +37,7 @@ class CounterRng {
   }
   /// Uniform in the open interval (0, 1).
   double uniform(std::uint64_t counter) const;
-  /// Standard normal (Box and Muller 1958), two uniforms a value.
+  /// Standard normal (Box and Muller 1958), two uniforms per value.
   double normal(std::uint64_t counter) const;
 
  private:
@@ -48,7 +48,7 @@ class CounterRng {
 class Rng {
  public:
   explicit Rng(std::uint64_t key) : stream_(key) {}
-  /// The sequence that begins at this time; each time has its own.
+  /// Sequence for a start time; each start time has a different sequence.
   Rng(std::uint64_t key, TimeNs begin_ns)
       : stream_(CounterRng(key).frame(static_cast<std::uint64_t>(begin_ns))) {}
 

@@ -7,7 +7,8 @@
 namespace ardee {
 namespace {
 
-/// Long double keeps whole nanoseconds over centuries, so that a grid of times does not drift.
+/// Long double keeps whole nanoseconds over centuries, so that the grid of firing times does not
+/// drift.
 TimeNs round_within_range(long double time_ns) {
   constexpr TimeNs kLast_ns = std::numeric_limits<TimeNs>::max();
   constexpr auto kEnd_ns = static_cast<long double>(kLast_ns);

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-/// The numbers that the physics can simulate, in SI units: readers refuse a file with others where
-/// it says so, physics refuses those that come another way.
+/// Ranges of the numbers that the physics can simulate, in SI units. Readers refuse a file with
+/// other numbers and name the place; the physics refuses such numbers from other sources.
 namespace ardee::bounds {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -12,32 +12,32 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Range {
   double low;
   double high;
-  /// False for what is not a number, too.
+  /// False for NaN, too.
   constexpr bool holds(double value) const { return value >= low && value <= high; }
 };
 
-// Of a surface. ODE itself takes infinite friction and stiffness.
+// Surfaces. ODE itself accepts infinite friction and stiffness.
 constexpr Range kFriction{0.0, kInfinity};
 constexpr Range kSlip{0.0, 1e9};
 constexpr Range kRadius_m{0.0, 1e9};
 constexpr Range kStiffness{0.0, kInfinity};
 constexpr Range kDamping{0.0, kInfinity};
-constexpr Range kMinDepth{-1e9, 1e9};           // not positive: none of its own
+constexpr Range kMinDepth{-1e9, 1e9};           // not positive: not set
 constexpr Range kMaxVelocity{-1e9, kInfinity};  // negative: unlimited
 constexpr Range kRestitution{0.0, 1.0};
 constexpr Range kBounceThreshold{0.0, kInfinity};
 
-// Of a link.
+// Links.
 constexpr Range kDecay{0.0, 1.0};
 
-// Of an axis of a joint.
+// Joint axes.
 constexpr Range kJointCoefficient{0.0, 1e9};  // damping, friction, stiffness
 constexpr Range kJointReference{-1e9, 1e9};
 constexpr Range kJointSoftness{-1e9, 1e9};  // ERP, CFM; negative: the world's
 
-// Of a world.
+// Worlds.
 constexpr Range kStep_s{1e-6, 1.0};
-constexpr Range kUpdateRate_hz{0.0, 1e6};  // 0: as fast as it goes
+constexpr Range kUpdateRate_hz{0.0, 1e6};  // 0: as fast as possible
 constexpr Range kMaxContacts{1.0, 1e6};
 constexpr Range kIterations{1.0, 100000.0};
 constexpr Range kRelaxation{1e-6, 2.0};

@@ -12,11 +12,11 @@
 
 namespace ardee {
 
-/// Whether that name of an element or attribute is another program's: it has a prefix that is not
-/// ours ("ignition:config"), or declares one.
+/// Whether the name of an element or attribute belongs to another program: it has a prefix that is
+/// not ours ("ignition:config"), or declares one.
 bool is_foreign(std::string_view name);
 
-/// A piece of XML kept as plain data: what a sensor's or plugin's own parser reads once its kind is
+/// XML element kept as plain data, which a sensor's or plugin's own parser reads once its kind is
 /// known.
 struct Element {
   std::string name;
@@ -24,8 +24,7 @@ struct Element {
   std::map<std::string, std::string> attributes;
   std::vector<Element> children;
   Source source;
-  std::shared_ptr<KeyLog> key_log =
-      nullptr;  // takes down what is asked for, if anybody wants to know
+  std::shared_ptr<KeyLog> key_log = nullptr;  // records the keys that are read; may be null
 
   /// The first child of that name, or nullptr.
   const Element* child(const std::string& child_name) const;

@@ -51,12 +51,12 @@ struct Box {
 struct Sphere {
   double radius_m = 1.0;
 };
-/// Along z, centred at the origin.
+/// Cylinder along z, centred at the origin.
 struct Cylinder {
   double radius_m = 1.0;
   double length_m = 1.0;
 };
-/// Infinite for collisions; `size_m` bounds what is seen of it.
+/// Plane, infinite for collisions; `size_m` bounds its visible part.
 struct Plane {
   Eigen::Vector3d normal{0, 0, 1};
   Eigen::Vector2d size_m{1, 1};

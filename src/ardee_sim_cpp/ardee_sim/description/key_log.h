@@ -10,15 +10,15 @@ namespace ardee {
 struct AskedKey {
   std::string name;
   std::string kind;      // number, text, ...; empty: the element itself
-  std::string fallback;  // what counts without it
+  std::string fallback;  // value if the key is absent
   bool is_required = false;
-  bool is_ignored = false;  // known, and nothing is done with it
+  bool is_ignored = false;  // known, but without effect
 };
 
 /// Keys in the order in which they were first asked for.
 class KeyLog {
  public:
-  /// What is known of a key when it is asked for again stays; a kind is added to one without.
+  /// Adds a key. A repeated key keeps its record; a kind is added to a record without one.
   void add(const AskedKey& key) {
     for (AskedKey& known : keys_) {
       if (known.name != key.name) continue;

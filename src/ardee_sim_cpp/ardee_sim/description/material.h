@@ -9,7 +9,7 @@ namespace ardee {
 /// Red, green, blue, opacity in [0, 1].
 using Color = Eigen::Vector4f;
 
-/// The look of a surface, already resolved from SDF, OGRE script, URDF colour or mesh file.
+/// Appearance of a surface, already resolved from SDF, OGRE script, URDF colour or mesh file.
 struct Material {
   std::string name;
   Color ambient{0.7f, 0.7f, 0.7f, 1.0f};

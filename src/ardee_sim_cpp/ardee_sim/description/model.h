@@ -16,9 +16,9 @@
 
 namespace ardee {
 
-/// How a body meets others. Friction as in ODE: mu along fdir1 (or the first axis of the friction
-/// pyramid), mu2 across it. kp (N/m) and kd (N s/m) are the contact's spring and damper. Defaults:
-/// SDF 1.6.
+/// Contact properties of a body's surface. Friction as in ODE: mu along fdir1 (or the first axis of
+/// the friction pyramid), mu2 across it. kp (N/m) and kd (N s/m) are the contact's spring and
+/// damper. Defaults: SDF 1.6.
 struct Surface {
   double mu = 1.0;
   double mu2 = 1.0;
@@ -29,15 +29,15 @@ struct Surface {
   double kp_n_per_m = 1e12;
   double kd_n_s_per_m = 1.0;
   double max_correcting_velocity_m_per_s = 0.01;  // negative: unlimited
-  double min_depth_m = 0.0;                       // not positive: none of its own
+  double min_depth_m = 0.0;                       // not positive: not set
   double restitution = 0.0;
   double bounce_threshold_m_per_s = 1e5;
   int max_contacts = 10;
-  // Two surfaces meet where one's category and the other's mask have a bit in common.
+  // Two surfaces collide if the category of one and the mask of the other share a bit.
   std::uint32_t collide_bitmask = 0xFFFF;
   std::uint32_t category_bitmask = 0xFFFF;
-  // Friction against turning on the spot: what a round patch of that radius has, or the patch of a
-  // surface of that radius at the depth of the contact.
+  // Friction against turning on the spot: that of a round patch of this radius, or of the patch
+  // that a surface of this radius has at the depth of the contact.
   double torsional_mu = 1.0;
   bool use_patch_radius = true;
   double patch_radius_m = 0.0;
@@ -75,11 +75,11 @@ struct PluginDescription {
   std::string name;
   std::string filename;
   Element element;
-  std::string scope = "";  // "arm::" if it came with a nested model, whose links it names without
+  std::string scope = "";  // "arm::" of a nested model; link names lack it
 };
 
-/// A <sensor> as written: what all kinds share is read here, the rest by the sensor's own parser
-/// from `element`.
+/// A <sensor> as written: the keys that all kinds share, and `element`, from which the sensor's own
+/// parser reads the rest.
 struct SensorDescription {
   std::string name;
   std::string type;
@@ -117,7 +117,7 @@ enum class JointType {
   kScrew
 };
 
-/// One axis of a joint, with what acts along it. SI units: rad or m, N m or N.
+/// One axis of a joint, with the limits and forces that act along it. SI units: rad or m, N m or N.
 struct JointAxis {
   Eigen::Vector3d axis{0, 0, 1};  // unit, in the joint's frame
   double lower = -std::numeric_limits<double>::infinity();
@@ -130,9 +130,9 @@ struct JointAxis {
   double spring_reference = 0.0;
 };
 
-/// What ros_control keeps a joint within, short of its limits (URDF <safety_controller>): the
-/// velocity is at most k_position (1/s) times the way to the soft limit, and the effort at most
-/// k_velocity (N m s/rad or N s/m) times what the velocity is short of that.
+/// Soft limits, inside the joint's limits, that ros_control enforces (URDF <safety_controller>):
+/// the velocity is at most k_position (1/s) times the distance to the soft limit, and the effort at
+/// most k_velocity (N m s/rad or N s/m) times the difference between that bound and the velocity.
 struct SafetyLimits {
   double soft_lower = 0.0;
   double soft_upper = 0.0;
@@ -149,9 +149,9 @@ struct Joint {
   JointAxis axis;
   JointAxis axis2;              // universal, revolute2
   double thread_pitch_m = 0.0;  // screw: metres a turn
-  /// A fixed joint that is to tell its wrench: its links stay two bodies.
+  /// Whether a fixed joint reports its wrench: its links then stay two bodies.
   bool is_measured = false;
-  // ODE's own: softness and correction at the stops and of the joint itself (negative: the
+  // ODE's softness (CFM) and correction (ERP) at the stops and of the joint itself (negative: the
   // world's).
   double stop_cfm = -1.0;
   double stop_erp = -1.0;
@@ -159,7 +159,7 @@ struct Joint {
   Source source;
 };
 
-/// Which commands ros_control gives a joint (URDF <transmission>).
+/// Command interfaces that ros_control gives a joint (URDF <transmission>).
 struct Transmission {
   std::string name;
   std::string joint;
@@ -167,8 +167,8 @@ struct Transmission {
   Source source;
 };
 
-/// One joint follows another: its position is multiplier * that of the leader + offset, of their
-/// first axes (rad or m), whatever loads either of them.
+/// Coupling by which one joint follows another under any load: position of the follower =
+/// multiplier * position of the leader + offset, of their first axes (rad or m).
 struct Coupling {
   std::string leader;
   std::string follower;
@@ -187,7 +187,7 @@ struct NamedFrame {
 
 struct Model;
 
-/// Where a link stands in the world and how its origin moves, in the world's axes.
+/// Pose of a link in the world and velocity of its origin, in the world's axes.
 struct LinkState {
   Pose X_WL;
   Twist twist_W;
@@ -198,11 +198,12 @@ using LinkStates = std::map<std::string, LinkState>;  // by link
 struct Instance {
   std::shared_ptr<const Model> model;
   std::string name;
-  Pose pose;  // in the frame of what holds it
+  Pose pose;  // in the frame of its parent
   double scale = 1.0;
   std::uint32_t label = 0;  // class for segmentation; 0: none
   bool is_static = false;
-  /// How a moving model's links start where not as described and at rest (a saved world).
+  /// Initial states of a moving model's links, if they differ from the description at rest (a saved
+  /// world).
   std::shared_ptr<const LinkStates> link_states = nullptr;
 };
 
@@ -213,7 +214,7 @@ struct Model {
   bool is_static = false;
   bool self_collide = false;
   bool allow_auto_disable = true;  // physics may leave it out of steps while it is at rest
-  Pose own_pose;             // <pose> of its own file, which includes replace and spawns add to
+  Pose own_pose;  // <pose> of its own file, which an include replaces and a spawn composes with
   std::optional<Pose> X_MP;  // the frame that a <pose> of the model places; none: its own
   std::vector<Link> links;
   std::vector<Joint> joints;
@@ -227,8 +228,8 @@ struct Model {
 
   const Link* find_link(const std::string& link_name) const;
   const Joint* find_joint(const std::string& joint_name) const;
-  /// The frame of a link or joint, a named one, with the link that it moves with, or that of a
-  /// static model within or of what is in it ("shed::door").
+  /// Looks up the frame of a link or joint, or a named frame, with the link that it moves with;
+  /// also the frame of a nested static model or of one of its parts ("shed::door").
   std::optional<NamedFrame> find_frame(const std::string& frame_name) const;
 };
 

@@ -14,9 +14,9 @@
 namespace ardee {
 
 /// Reads the children of one element (a plugin's or sensor's block) as typed values and remembers
-/// which keys were asked for, so that finish() can name the ones that nobody reads. A value that
-/// does not parse or lies outside its bounds is an Error with file, line and element; an empty one
-/// is its default; an unknown key is a warning.
+/// which keys were asked for, so that finish() can name the keys that were not read. A value that
+/// does not parse or lies outside its bounds is an Error with file, line and element; an empty
+/// value is its default; an unknown key is a warning.
 class Parameters {
  public:
   explicit Parameters(const Element& element) : element_(element) {}
@@ -44,17 +44,17 @@ class Parameters {
  private:
   const Element* find(const std::string& key);
   void note(const AskedKey& key) const;
-  /// None if it is empty.
+  /// No value if the text is empty.
   const Element* find_filled(const std::string& key);
 
   const Element& element_;
   std::set<std::string> known_;
 };
 
-/// The one reader of numbers: the value of a decimal number, with or without the suffix f of a
-/// float, of "inf" or of "nan" in any case; none if the word is anything else.
+/// Parses a number: the value of a decimal number, with or without the suffix f of a float, of
+/// "inf" or of "nan" in any case; none if the word is anything else.
 std::optional<double> to_double(std::string_view word);
-/// A finite number with nothing but space around it, or an Error.
+/// Parses a finite number with nothing but space around it; throws Error otherwise.
 double parse_number(const std::string& text, const Source& source);
 bool parse_boolean(const std::string& text, const Source& source);
 Eigen::Vector3d parse_vector3(const std::string& text, const Source& source);

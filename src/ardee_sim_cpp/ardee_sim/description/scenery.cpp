@@ -16,7 +16,8 @@ void flatten_into(const Instance& instance, const Pose& X_WP, double parent_scal
   }
 }
 
-/// Counts `left` down to the placement; gives its name, or an empty one if it is not within.
+/// Counts `left` down to the placement; returns its name, or an empty one if it is not in this
+/// model.
 std::string name_within(const Instance& instance, const std::string& name, std::size_t& left) {
   if (!instance.model->links.empty() && left-- == 0) return name;
   for (const Instance& child : instance.model->instances) {

@@ -20,12 +20,11 @@ struct Placement {
   std::uint32_t label = 0;
 };
 
-/// All that a static instance holds, itself and what it includes at any depth, in the order of the
+/// Placements of a static instance and of all that it includes at any depth, in the order of the
 /// description. A model without links of its own gives no placement.
 std::vector<Placement> flatten_scenery(const Instance& instance);
 
-/// The scoped name of the model of each placement, by its place in flatten_scenery:
-/// "field::corn_7".
+/// Scoped names of the placements' models, in the order of flatten_scenery: "field::corn_7".
 using PlacementNames = std::function<std::string(std::size_t placement)>;
 PlacementNames placement_names(const Instance& instance);
 

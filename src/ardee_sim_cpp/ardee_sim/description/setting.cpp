@@ -45,7 +45,7 @@ Setting Setting::at(const std::string& relative_path) const {
   const std::string full = path_ == "/" ? path_ + relative_path : path_ + "/" + relative_path;
   const auto* map = std::get_if<Map>(&value_);
   if (!map) return {full, {}};
-  // a key may hold slashes itself, where it was written so in a file
+  // a key of a file may itself contain slashes
   for (const auto& [key, setting] : *map) {
     if (key == relative_path) return setting;
     if (relative_path.compare(0, key.size() + 1, key + "/") == 0) {

@@ -22,13 +22,14 @@ class Setting {
 
   const std::string& path() const { return path_; }
   const Value& value() const { return value_; }
-  /// Whether anything is there.
+  /// Whether the parameter exists.
   explicit operator bool() const { return !std::holds_alternative<std::monostate>(value_); }
-  /// The one below, by name or path ("linear/x"); one that is not there if there is none.
+  /// The parameter below this one, by name or path ("linear/x"); if there is none, a setting that
+  /// does not exist.
   Setting at(const std::string& relative_path) const;
   bool has(const std::string& relative_path) const { return static_cast<bool>(at(relative_path)); }
 
-  // What roscpp's getParam takes: a number may be written without a point, nothing else is
+  // Values that roscpp's getParam accepts: a number may be written without a point, nothing else is
   // converted. Without a fallback the parameter is required.
   double number(const std::string& name) const;
   double number(const std::string& name, double fallback) const;
@@ -36,7 +37,7 @@ class Setting {
   bool boolean(const std::string& name, bool fallback) const;
   std::string text(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;
-  /// This one itself, which is a list or a group of what `expected` says.
+  /// This setting, which is a list or a group; `expected` describes it in the message.
   const List& list(const std::string& expected) const;
   const Map& group(const std::string& expected) const;
   /// A list of names.

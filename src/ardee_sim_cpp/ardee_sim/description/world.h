@@ -54,7 +54,7 @@ struct Scene {
   bool shadows = true;
 };
 
-/// Where on the Earth the world's origin lies; angles in degrees as in SDF.
+/// Position of the world's origin on the Earth; angles in degrees as in SDF.
 struct SphericalCoordinates {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;

@@ -11,9 +11,8 @@
 
 namespace ardee::devices {
 
-/// A goal of an action that a client has set, as its server sees it. A goal is accepted or rejected
-/// when it comes, and ends once: succeeded, aborted or cancelled. After its end, or when the client
-/// is gone, calls do nothing.
+/// Server's handle of a client's goal. A goal is accepted or rejected on arrival, and ends once:
+/// succeeded, aborted or cancelled. Calls do nothing after its end, or when the client is gone.
 template <typename Result, typename Feedback>
 class GoalHandle {
  public:
@@ -23,27 +22,27 @@ class GoalHandle {
   virtual void feed_back(const Feedback& feedback) = 0;
   virtual void succeed(const Result& result) = 0;
   virtual void abort(const Result& result) = 0;
-  /// At the client's wish, or because another goal takes its place.
+  /// Ends the goal at the client's request, or because another goal takes its place.
   virtual void cancel() = 0;
 };
 
-/// Something that a device does over some time when asked, as ROS's actionlib has it. `on_goal`
-/// and `on_cancel` are called between two steps.
+/// Action of a device: a request that takes some time, as in ROS's actionlib. `on_goal` and
+/// `on_cancel` are called between two steps.
 template <typename GoalType, typename ResultType, typename FeedbackType>
 struct ActionOf {
   using Goal = GoalType;
   using Result = ResultType;
   using Feedback = FeedbackType;
   using Handle = GoalHandle<Result, Feedback>;
-  using HandlePtr = std::shared_ptr<Handle>;  // the same as long as the goal lives
+  using HandlePtr = std::shared_ptr<Handle>;  // one address as long as the goal lives
 
   std::string name;
   std::function<void(const Goal&, const HandlePtr&)> on_goal;
   std::function<void(const HandlePtr&)> on_cancel;
 };
 
-/// How far a joint may be from where it shall be: > 0, in the joint's units; 0: as the controller's
-/// parameters say; < 0: as far as it likes.
+/// Tolerance of a joint's error: > 0, in the joint's units; 0: by the controller's parameters; < 0:
+/// unlimited.
 struct JointTolerance {
   std::string joint;
   double position = 0.0;
@@ -87,7 +86,7 @@ using GripperAction = ActionOf<GripperGoal, GripperState, GripperState>;
 
 using Action = std::variant<FollowTrajectoryAction, GripperAction>;
 
-/// Where joints shall be at a time, by their names (control_msgs/QueryTrajectoryState).
+/// Desired state of joints at a time, by their names (control_msgs/QueryTrajectoryState).
 struct TrajectoryState {
   std::vector<std::string> names;
   std::vector<double> positions;

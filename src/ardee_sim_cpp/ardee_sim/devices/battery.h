@@ -10,9 +10,9 @@
 namespace ardee::devices {
 
 /// libardee_ros_battery.so (thesis 4.3.1, Listings A.8, A.12), in two modes. Quick: the voltage
-/// falls by a fixed amount each update, to try in seconds what an algorithm does when the battery
-/// runs low. Current-driven, if <constantCoef> is given: the drive command asks for a current, and
-/// the voltage follows the linear model of Gazebo's LinearBatteryPlugin,
+/// falls by a fixed amount each update, to test within seconds how an algorithm reacts to a low
+/// battery. Current-driven, if <constantCoef> is given: the drive command draws a current, and the
+/// voltage follows the linear model of Gazebo's LinearBatteryPlugin,
 ///   V = constant + linear (1 - q / capacity) - resistance i,
 /// where i is the current smoothed with a time constant and q the charge left.
 class Battery : public Device {

@@ -11,10 +11,10 @@ std::unique_ptr<Device> BlockLidar::make(const SensorDescription& sensor, Parame
                                          std::size_t link, DeviceContext& context) {
   Params params = read_lidar_params(sensor, keys, scene_of(sensor), "/world", context);
   params.frame = resolve_frame(keys.text("frameName", "/world"), plugin_namespace(keys, context),
-                               context);  // of the lasers this one alone has no namespace there
+                               context);  // the only laser without the namespace there
   const double coordinate_std = read_gaussian_noise(keys);
   const double rate_hz = read_rate_hz(sensor, keys, 0.0);
-  keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads it and does nothing with it
+  keys.ignore({"hokuyoMinIntensity"});  // Gazebo reads and ignores it
   const Mount mount{context.robot, link, sensor.X_LS, rate_hz, context.seed};
   return std::make_unique<BlockLidar>(sensor.name, mount, params, coordinate_std, context.scenes);
 }
@@ -30,7 +30,7 @@ void BlockLidar::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sin
   cloud.header = {now_ns, frame()};
   cloud.points.reserve(echoes.size());
   cloud.channel.reserve(echoes.size());
-  const std::uint64_t used = echoes.size();  // the ranges have used as many counters
+  const std::uint64_t used = echoes.size();  // number of counters that the ranges have used
   for (std::size_t beam = 0; beam < echoes.size(); ++beam) {
     const BeamEcho& echo = echoes[beam];
     const auto error = [&](std::uint64_t k) {

@@ -9,8 +9,8 @@
 namespace ardee::devices {
 
 /// A lidar over a grid of angles that gives sensor_msgs/PointCloud, row by row, with one unnamed
-/// channel of intensities. Each beam has a point; by REP 117 the coordinates of one without a range
-/// are all +inf (nothing within the maximum) or all -inf (nearer than the minimum).
+/// channel of intensities. Each beam has a point; by REP 117 the coordinates of a point without a
+/// range are all +inf (nothing within the maximum) or all -inf (nearer than the minimum).
 class BlockLidar : public RaySensor {
  public:
   /// libgazebo_ros_block_laser.so; its <gaussianNoise> is added to each coordinate, and to the

@@ -8,7 +8,7 @@
 namespace ardee::devices {
 namespace {
 
-/// The name that a collision had before Gazebo lumped its link into the one that it is fixed to:
+/// Name of a collision before Gazebo lumped its link into the link that it is fixed to:
 /// "deck_fixed_joint_lump__guard_collision_1" was "guard_collision".
 std::vector<std::string> names_before_lumping(const std::string& name) {
   const std::string mark = "_fixed_joint_lump__";
@@ -30,8 +30,8 @@ bool has_collision(const Link& link, const std::string& name) {
   return false;
 }
 
-/// The scoped name of a collision of the sensor's link, or of another of the model's where there is
-/// none: fixed links are one in Gazebo. Throws Error if the model has none of that name.
+/// Scoped name of a collision of the sensor's link, or if there is none, of another link of the
+/// model: Gazebo merges fixed links. Throws Error if the model has no such collision.
 std::string scoped_collision(const Element& given, std::size_t link, const Robot& robot) {
   std::vector<std::string> names{given.text};
   for (const std::string& name : names_before_lumping(given.text)) names.push_back(name);

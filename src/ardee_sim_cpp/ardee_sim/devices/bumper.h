@@ -10,9 +10,9 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_bumper.so in a sensor of type contact: whatever touches the collisions that the
+/// libgazebo_ros_bumper.so in a sensor of type contact: contacts of the collisions that the
 /// sensor's <contact> names. A message holds each step since the last one, as the stock plugin's
-/// does; what it holds is in the world's axes whatever <frameName> says.
+/// does. Its vectors are in the world's axes; <frameName> does not change that.
 class Bumper : public Sensor {
  public:
   struct Params {

@@ -9,7 +9,7 @@ namespace {
 struct Format {
   render::PixelFormat format;
   const char* encoding;
-  std::initializer_list<const char*> names;  // SDF's, Gazebo's, and what people write besides
+  std::initializer_list<const char*> names;  // SDF's, Gazebo's, and other common spellings
 };
 
 const Format kFormats[] = {
@@ -23,13 +23,13 @@ const Format kFormats[] = {
     {render::PixelFormat::kBayerGrbg8, "bayer_grbg8", {"BAYER_GRBG8"}},
 };
 
-/// Gazebo's and SDF's names of what no picture here has.
+/// Gazebo's and SDF's names of formats that no picture here has.
 const std::set<std::string> kOthers{
     "R8G8B8A8",  "A8R8G8B8",   "RGBA_INT8", "BGRA_INT8",  "R16G16B16",   "B16G16R16",
     "RGB_INT16", "RGB_UINT16", "BGR_INT16", "BGR_UINT16", "RGB_INT32",   "RGB_UINT32",
     "BGR_INT32", "BGR_UINT32", "R_FLOAT16", "R_FLOAT32",  "RGB_FLOAT16", "RGB_FLOAT32"};
 
-constexpr char kPlain16[] = "16UC1";  // the same bytes as mono16, not said to be brightness
+constexpr char kPlain16[] = "16UC1";  // bytes as in mono16, but not declared as brightness
 
 }  // namespace
 

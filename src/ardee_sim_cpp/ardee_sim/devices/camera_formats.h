@@ -9,16 +9,15 @@
 
 namespace ardee::devices {
 
-/// The format that SDF's <format> names, as SDF, Gazebo or ROS spells it. One of more channels or
-/// bits than a picture has here is a warning, and red, green and blue of eight bits. Throws Error
-/// for one that is not known.
+/// The format that SDF's <format> names, as SDF, Gazebo or ROS spells it. A format with more
+/// channels or bits than a picture has here gives a warning and becomes red, green and blue of
+/// eight bits. Throws Error for an unknown format.
 render::PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log);
 
-/// The format of an encoding of sensor_msgs/image_encodings. Throws Error for one that is not
-/// known.
+/// The format of an encoding of sensor_msgs/image_encodings. Throws Error for an unknown encoding.
 render::PixelFormat read_encoding(const std::string& name, const Source& source);
 
-/// Its name in sensor_msgs/image_encodings.
+/// Name of a format in sensor_msgs/image_encodings.
 const char* encoding_of(render::PixelFormat format);
 
 }  // namespace ardee::devices

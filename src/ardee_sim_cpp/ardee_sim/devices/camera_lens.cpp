@@ -10,7 +10,7 @@ namespace {
 constexpr double kMostDistortion = 1e3;
 constexpr double kMost_px = 1e6;
 constexpr double kShortest_px = 1e-3;  // focal length
-/// Relative: of a focal length against what the field of view says.
+/// Relative tolerance of a focal length against that of the field of view.
 constexpr double kSameFocalLength = 1e-2;
 
 std::array<double, 5> read_distortion(const Element& distortion) {
@@ -52,7 +52,7 @@ bool read_lens_block(const Element& block, render::Lens& lens, Log& log) {
   return intrinsics != nullptr;
 }
 
-/// Focal length and middle as the plugin overrides those of the field of view.
+/// Overrides the focal length and principal point of the field of view by the plugin's.
 void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, render::Lens& lens,
                             Log& log) {
   const double focal_px = plugin.number("focalLength", 0.0, 0.0, kMost_px);
@@ -80,7 +80,7 @@ void read_plugin_intrinsics(Parameters& plugin, const SdfLens& of_sdf, render::L
   if (cy_px != 0.0) lens.cy_px = cy_px;
 }
 
-/// Sets what bends the picture, and returns what camera_info says.
+/// Sets the distortion of the picture, and returns that of camera_info.
 std::array<double, 5> read_bend(Parameters& plugin, const SdfLens& of_sdf, render::Lens& lens,
                                 Log& log) {
   std::array<double, 5> of_plugin{};

@@ -56,7 +56,7 @@ Pose read_pose(const Element* pose) {
                             {numbers[3], numbers[4], numbers[5]});
 }
 
-/// SDF's <camera>; the lens is still without what the plugin says.
+/// Reads SDF's <camera>; the plugin's keys are not yet applied to the lens.
 CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) {
   CameraParams camera;
   Parameters parameters(block);
@@ -102,7 +102,7 @@ DepthParams read_depth(Parameters& parameters, const CameraParams& camera, Camer
   return depth;
 }
 
-/// What the image is published as; without the key it is as <format> says.
+/// Encoding of the published image; without the key, that of <format>.
 void read_image_encoding(Parameters& parameters, CameraParams& camera) {
   camera.cloud_format = camera.development.format;
   camera.encoding = parameters.text("imageEncoding", encoding_of(camera.cloud_format));
@@ -126,7 +126,7 @@ void read_plugin(Parameters& parameters, CameraKind kind, const std::string& suf
                  bool has_baseline, const SdfLens& of_sdf, CameraParams& camera, CamerasParams& all,
                  DeviceContext& context) {
   const std::string robot = plugin_namespace(parameters, context);
-  // As in Gazebo a camera's name is below the robot's namespace, with a slash before it too.
+  // As in Gazebo a camera's name is below the robot's namespace, even with a leading slash.
   const std::string name = without_slashes(parameters.text("cameraName", "")) + suffix;
   const std::string space = "/" + without_slashes(robot + "/" + name);
   const auto topic = [&](const char* key, const char* fallback) {
@@ -158,7 +158,8 @@ void read_plugin(Parameters& parameters, CameraKind kind, const std::string& suf
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");
   all.rate_hz = slower_rate_hz(all.rate_hz, parameters.number("updateRate", 0.0, 0.0));
-  // Rays bend through the lens: there is no border to crop. The last two Gazebo does not read.
+  // Rays pass through the lens model: there is no border to crop. Gazebo does not read the last
+  // two.
   parameters.ignore({"alwaysOn", "borderCrop", "baseline", "distortion_k1", "distortion_k2",
                      "distortion_k3", "distortion_t1", "distortion_t2", "imageTopic"});
 }

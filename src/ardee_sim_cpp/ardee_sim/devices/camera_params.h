@@ -10,14 +10,14 @@
 
 namespace ardee::devices {
 
-/// What a camera of Gazebo's gives.
+/// Outputs of a Gazebo camera.
 enum class CameraKind { kColor, kDepth, kOpenni };
 
-/// Which of Gazebo's camera plugins is meant.
+/// Variant of Gazebo's camera plugins.
 struct CameraPlugin {
   CameraKind kind = CameraKind::kColor;
-  bool several = false;    // all <camera> blocks of the sensor
-  bool triggered = false;  // a picture for each message on the trigger's topic
+  bool several = false;    // uses all <camera> blocks of the sensor
+  bool triggered = false;  // takes a picture for each message on the trigger's topic
 };
 
 /// The error and the limits of measured depths.
@@ -25,8 +25,8 @@ struct DepthParams {
   double noise_constant_m = 0.0;  // standard deviation: constant + linear * z + quadratic * z^2
   double noise_linear = 0.0;
   double noise_quadratic_per_m = 0.0;
-  double nearest_m = 0.0;    // nearer is not a number
-  double farthest_m = 0.0;   // likewise
+  double nearest_m = 0.0;    // NaN for nearer depths
+  double farthest_m = 0.0;   // NaN for farther depths
   bool millimetres = false;  // 16UC1 instead of 32FC1
 
   bool has_noise() const {
@@ -34,7 +34,7 @@ struct DepthParams {
   }
 };
 
-/// The topics of one camera; an empty one is not there.
+/// The topics of one camera; an empty one does not exist.
 struct CameraTopics {
   std::string image;
   std::string info;
@@ -43,7 +43,7 @@ struct CameraTopics {
   std::string points;
   std::string labels;
   std::string instances;
-  std::string fov;  // that it listens to
+  std::string fov;  // subscribed: sets the field of view
 };
 
 /// One camera: SDF's <camera> block and the plugin's keys.
@@ -52,19 +52,19 @@ struct CameraParams {
   int width = 320;
   int height = 240;
   CameraLens lens;
-  double fov_min_rad = 0.0;  // what it may be zoomed to
+  double fov_min_rad = 0.0;  // lower bound of the zoom
   double fov_max_rad = 0.0;
   double near_m = 0.1;
   double far_m = 100.0;
   render::ImageFormation development;  // of the image
-  std::string encoding;                // of the image, as sensor_msgs has it
+  std::string encoding;                // of the image, as in sensor_msgs
   render::PixelFormat cloud_format =
-      render::PixelFormat::kRgb8;  // in which the cloud has its colours: <format>
+      render::PixelFormat::kRgb8;  // of the cloud's colours: <format>
   DepthParams depth;
   CameraTopics topics;
   std::string frame;  // the optical one
 
-  /// What camera_info says, but for its header.
+  /// Contents of camera_info without its header.
   CameraInfoReading info() const;
 };
 

@@ -91,7 +91,8 @@ ImageReading label_image(const render::Frame& frame) {
 ImageReading instance_image(const render::Frame& frame) {
   std::vector<std::uint32_t> numbers;
   numbers.reserve(frame.entities.size());
-  for (const std::uint32_t entity : frame.entities) numbers.push_back(entity + 1);  // nothing: 0
+  for (const std::uint32_t entity : frame.entities)
+    numbers.push_back(entity + 1);  // no instance: 0
   return image_of(frame, "32SC1", numbers);
 }
 

@@ -6,8 +6,8 @@
 
 namespace ardee::devices {
 
-/// Takes pictures of the world as of this step. What it needs (textures, rays) is loaded when the
-/// first one is taken.
+/// Takes pictures of the world as of this step. Textures and ray scenes are loaded for the first
+/// picture.
 class CameraRenderer {
  public:
   virtual ~CameraRenderer() = default;

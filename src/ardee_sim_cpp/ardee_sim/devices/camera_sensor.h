@@ -10,8 +10,8 @@
 
 namespace ardee::devices {
 
-/// Colour and depth cameras, one or several in a sensor. What nobody listens to is not worked out:
-/// depth costs no shading, camera_info no picture.
+/// Colour and depth cameras, one or several in a sensor. Outputs without a subscriber are not
+/// computed: depth costs no shading, camera_info no picture.
 class CameraSensor : public Sensor {
  public:
   static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& parameters,
@@ -30,9 +30,9 @@ class CameraSensor : public Sensor {
     CameraParams params;
     render::Lens unzoomed;
     std::shared_ptr<const render::UndistortionMap> unzoomed_table;
-    render::Camera camera;       // but for its pose
-    std::shared_ptr<void> view;  // tells the scenes where rays start
-    Output* image = nullptr;     // null: there is no such topic
+    render::Camera camera;       // without its pose
+    std::shared_ptr<void> view;  // announces the rays' origin to the scenes
+    Output* image = nullptr;     // null: no such topic
     Output* info = nullptr;
     Output* depth = nullptr;
     Output* depth_info = nullptr;

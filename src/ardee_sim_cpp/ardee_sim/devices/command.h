@@ -14,16 +14,16 @@ namespace ardee::devices {
 /// A request to act now, without content.
 struct Trigger {};
 
-/// How a four-wheel steered vehicle shall move: angles of the virtual wheels at the middle of the
-/// axles (rad), speed along the vehicle (m/s).
+/// Command of a four-wheel steered vehicle: angles of the virtual wheels at the middle of the axles
+/// (rad), speed along the vehicle (m/s).
 struct SteeringCommand {
   double front_angle_rad = 0.0;
   double rear_angle_rad = 0.0;
   double speed_m_per_s = 0.0;
 };
 
-/// A point of a trajectory, joint by joint in the order of the trajectory's names; a list is empty
-/// where it is not given. rad or m, and their derivatives; N m or N.
+/// A point of a trajectory, joint by joint in the order of the trajectory's names; a list that is
+/// not given is empty. Units: rad or m, and their derivatives; N m or N.
 struct JointTrajectoryPoint {
   std::vector<double> positions;
   std::vector<double> velocities;
@@ -32,14 +32,14 @@ struct JointTrajectoryPoint {
   double time_from_start_s = 0.0;
 };
 
-/// Where joints shall be when (trajectory_msgs/JointTrajectory). No start: at once.
+/// Desired motion of joints over time (trajectory_msgs/JointTrajectory). No start: at once.
 struct JointTrajectory {
   std::optional<double> start_s;  // simulated time
   std::vector<std::string> joints;
   std::vector<JointTrajectoryPoint> points;
 };
 
-/// Whatever a device may be told on a topic.
+/// Any command that a device takes on a topic.
 using Command = std::variant<Trigger, Twist, double, bool, std::vector<double>, SteeringCommand,
                              JointTrajectory, physics::ForceTorque>;
 

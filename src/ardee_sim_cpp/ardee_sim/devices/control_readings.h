@@ -16,8 +16,8 @@ struct TwistReading {
   Twist twist;
 };
 
-/// How a controller moves one joint (control_msgs/JointControllerState): rad or m, their rates; the
-/// command in the joint's interface.
+/// State of a controller of one joint (control_msgs/JointControllerState): rad or m, their rates;
+/// the command in the joint's interface.
 struct JointControllerReading {
   Header header;
   double set_point = 0.0;
@@ -33,7 +33,7 @@ struct JointControllerReading {
   bool antiwindup = false;
 };
 
-/// What joints shall do, what they do, and the difference
+/// Desired and actual state of joints, and the difference
 /// (control_msgs/JointTrajectoryControllerState).
 struct TrajectoryControllerReading {
   Header header;
@@ -43,7 +43,7 @@ struct TrajectoryControllerReading {
   JointTrajectoryPoint error;
 };
 
-/// How a four-wheel steered vehicle moves (four_wheel_steering_msgs/FourWheelSteeringStamped):
+/// Motion of a four-wheel steered vehicle (four_wheel_steering_msgs/FourWheelSteeringStamped):
 /// angles of the virtual wheels at the middle of the axles, speed along the vehicle.
 struct FourWheelSteeringReading {
   Header header;

@@ -21,46 +21,45 @@
 
 namespace ardee::devices {
 
-/// The ray scenes, made when first asked for and brought up to the present state of the world when
-/// used.
+/// The ray scenes, made on first use and brought up to date with the world on each use.
 class RaySceneProvider {
  public:
   using Eye = std::function<Eigen::Vector3d()>;
 
   virtual ~RaySceneProvider() = default;
-  /// Announces a point that rays will start from, as long as the returned token lives: ground near
+  /// Announces a point from which rays will start, as long as the returned token lives: ground near
   /// it is kept ready.
   virtual std::shared_ptr<void> register_eye(raycast::SceneKind kind, Eye eye) = 0;
   /// The scene as of this step.
   virtual const raycast::RayScene& now(raycast::SceneKind kind) = 0;
-  /// The visual scene, from now on ready for pictures too.
+  /// The visual scene, prepared for pictures too from now on.
   virtual const raycast::RayScene& for_pictures() = 0;
 };
 
-/// Receives what devices measure; the ROS node publishes it, a test records it.
+/// Receives the readings of devices; the ROS node publishes them, a test records them.
 class ReadingSink {
  public:
   virtual ~ReadingSink() = default;
   virtual void on_reading(const Output& output, const Reading& reading) = 0;
 };
 
-/// What a device may know of the world that its robot is in.
+/// Facts of the world that a device may ask for.
 struct WorldInfo {
-  std::function<Eigen::Vector3d()> gravity_m_per_s2;  // as it is now
+  std::function<Eigen::Vector3d()> gravity_m_per_s2;  // present value
   std::optional<SphericalCoordinates> spherical_coordinates;
-  /// Files that the static models come from, each once.
+  /// Returns the files of the static models, each once.
   std::function<std::vector<std::string>()> scenery_files;
-  /// How often static models have come or gone so far.
+  /// Returns the number of additions and removals of static models so far.
   std::function<std::uint64_t()> scenery_changes;
-  /// Asks, before a step, for its contacts.
+  /// Requests the contacts of the coming step.
   std::function<void()> want_contacts;
-  /// Contacts of the last step, if they were asked for.
+  /// Returns the contacts of the last step, if they were requested.
   std::function<const std::vector<physics::Contact>&()> contacts;
 };
 
 inline Setting no_parameter(const std::string& name) { return {name, {}}; }
 
-/// What a device is given when it is made. All references outlive the device.
+/// Arguments of a device's construction. All references outlive the device.
 struct DeviceContext {
   Robot& robot;
   RaySceneProvider& scenes;
@@ -68,16 +67,17 @@ struct DeviceContext {
   const ResourceLocator& locator;  // of the files that plugins name
   Log& log;
   std::uint64_t seed = 0;            // of this robot's streams
-  std::string robot_namespace = "";  // where plugins without one of their own put their topics
+  std::string robot_namespace = "";  // of plugins without a namespace of their own
   TimeNs step_ns = 0;
   /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
   std::function<std::string(const std::string& robot_namespace)> tf_prefix = nullptr;
   WorldInfo world_info = {};
   std::string scope = "";  // of the plugin (PluginDescription)
-  /// A parameter by its full name ("/robot/base"); nothing is there without ROS's parameter server.
+  /// A parameter by its full name ("/robot/base"); without ROS's parameter server no parameter
+  /// exists.
   std::function<Setting(const std::string& name)> parameter = no_parameter;
 
-  /// Of the link or joint that the plugin names. Throws Error at `source` if there is none.
+  /// Index of the link or joint that the plugin names. Throws Error at `source` if there is none.
   std::size_t link_index(const std::string& name, const Source& source) const {
     return robot.link_index(name, source, scope);
   }
@@ -86,7 +86,7 @@ struct DeviceContext {
   }
 };
 
-/// Something active on a robot: a controller, a sensor, a publisher of state.
+/// Active part of a robot: a controller, a sensor, a publisher of state.
 class Device {
  public:
   explicit Device(std::string name) : name_(std::move(name)) {}
@@ -95,23 +95,24 @@ class Device {
   Device& operator=(const Device&) = delete;
 
   const std::string& name() const { return name_; }
-  /// Whether the robot does without it where it cannot be, as it does without a sensor.
+  /// Whether the robot may be spawned without this device if the device is invalid, as with a
+  /// sensor.
   bool is_optional() const { return is_optional_; }
   void set_optional(bool is_optional) { is_optional_ = is_optional; }
   Ports& ports() { return ports_; }
   const Ports& ports() const { return ports_; }
 
-  /// Before physics: controllers act.
+  /// Called before physics: controllers act.
   virtual void before_step(TimeNs /*now_ns*/) {}
-  /// Before physics, after all controllers: what measures over the step notes where it begins.
+  /// Called before physics, after all controllers: a device that measures over the step records its
+  /// beginning.
   virtual void observe(TimeNs /*now_ns*/) {}
-  /// Between two steps the model was put elsewhere or given another velocity, by no force.
+  /// Called when the model's pose or velocity was set between two steps, without a force.
   virtual void on_set_state() {}
-  /// After physics, at the new time: sensors measure.
+  /// Called after physics, at the new time: sensors measure.
   virtual void after_step(TimeNs /*now_ns*/, ReadingSink& /*sink*/) {}
-  /// State goes back to what it was when the device was made, with the numbers of the description;
-  /// commands are forgotten. A random stream begins anew at time zero, and at no other time repeats
-  /// what it has given.
+  /// Restores the state and the numbers of the time when the device was made, and forgets commands.
+  /// A random stream begins anew at time zero; at any other time it does not repeat itself.
   virtual void reset(TimeNs now_ns) = 0;
 
  protected:

@@ -12,7 +12,7 @@ namespace ardee::devices {
 namespace {
 
 constexpr WithoutPrefix kBelowNamespace = WithoutPrefix::kNamespace;
-constexpr double kFastest = 1e6;  // m/s: what a command can ask of a wheel
+constexpr double kFastest = 1e6;  // m/s: bound of a wheel's command
 
 bool read_legacy_mode(Parameters& parameters, Log& log) {
   if (!parameters.has("legacyMode")) {

@@ -39,14 +39,14 @@ class DiffDrive : public Device {
   void reset(TimeNs now_ns) override;
 
  private:
-  /// Rim speeds in m/s, left and right, that the command asks for.
+  /// Rim speeds in m/s, left and right, of the command.
   std::array<double, kWheelCount> wanted_speeds(const Twist& command) const;
 
   Params params_;
   Robot& robot_;
   RateTimer command_timer_;
   DriveCommand command_;
-  std::array<double, kWheelCount> speeds_m_per_s_{};  // asked of the wheels now
+  std::array<double, kWheelCount> speeds_m_per_s_{};  // present set points of the wheels
   TimeNs last_command_ns_ = 0;
   OdometryPublisher odometry_;
   WheelPublisher wheels_;

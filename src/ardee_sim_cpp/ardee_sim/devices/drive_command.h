@@ -6,8 +6,8 @@
 
 namespace ardee::devices {
 
-/// The command that a drive follows. The last one stays, as the stock plugins have it, unless a
-/// timeout is set.
+/// The command that a drive follows. The last one holds, as in the stock plugins, unless a timeout
+/// is set.
 class DriveCommand {
  public:
   /// 0: no timeout.

@@ -8,8 +8,7 @@
 
 namespace ardee::devices {
 
-/// libardee_ros_encoder.so (thesis 4.3.1, Listing A.5): one encoder on a joint, on a topic of its
-/// own.
+/// libardee_ros_encoder.so (thesis 4.3.1, Listing A.5): one encoder on a joint, with its own topic.
 class Encoder : public Device {
  public:
   static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,

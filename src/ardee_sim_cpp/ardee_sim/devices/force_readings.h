@@ -9,7 +9,7 @@
 
 namespace ardee::devices {
 
-/// What touched the collisions of a sensor since the reading before. Vectors have the world's axes,
+/// Contacts of a sensor's collisions since the previous reading. Vectors have the world's axes,
 /// positions are in the world, torques are about the first body's centre of mass.
 struct ContactsReading {
   /// Two collisions that touched in a step; the first is the sensor's.

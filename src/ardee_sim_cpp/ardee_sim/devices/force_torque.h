@@ -9,8 +9,8 @@
 namespace ardee::devices {
 
 /// libgazebo_ros_ft_sensor.so: the wrench that a joint's child applies to the joint, about the
-/// joint's origin, in the axes of the child link, whose name is the frame. A mass that hangs on the
-/// joint reads m g downwards.
+/// joint's origin, in the axes of the child link, whose name is the frame. A mass hanging on the
+/// joint gives m g downwards.
 class ForceTorqueSensor : public Sensor {
  public:
   struct Params {

@@ -10,22 +10,23 @@
 namespace ardee::devices {
 
 /// libgazebo_ros_imu.so, a model plugin, and libgazebo_ros_imu_sensor.so, in a <sensor type="imu">.
-/// The first has no gravity in its acceleration (0 at rest) unless <gravity> is true; the second
-/// has, and the errors of its <imu> block. Both add white noise of <gaussianNoise>. <xyzOffset> and
-/// <rpyOffset> are the mounting in the body. Unlike the stock ones they rotate the right way, find
-/// bodies in their own robot only, and keep orientations of unit length.
+/// The acceleration of the first excludes gravity (0 at rest) unless <gravity> is true; that of the
+/// second includes gravity and the errors of its <imu> block. Both add white noise of
+/// <gaussianNoise>. <xyzOffset> and <rpyOffset> are the mounting in the body. Unlike the stock ones
+/// they rotate the right way, find bodies in their own robot only, and keep orientations of unit
+/// length.
 class GazeboImu : public InertialSensor {
  public:
   struct Params {
     Mount mount;
     SdfImuNoise noise{};
-    double gaussian_noise = 0.0;     // rad/s and m/s^2, as the stock plugins have it
+    double gaussian_noise = 0.0;     // rad/s and m/s^2, as in the stock plugins
     bool noisy_orientation = false;  // gaussian_noise on the quaternion's components too
     bool feels_gravity = true;
     bool initial_orientation_is_reference = false;
     std::string topic{};
     std::string frame{};
-    std::string service{};  // that answers, and does nothing: white noise has no bias; empty: none
+    std::string service{};  // it answers and does nothing: white noise has no bias; empty: none
   };
 
   static std::unique_ptr<Device> make_on_model(const PluginDescription& plugin,

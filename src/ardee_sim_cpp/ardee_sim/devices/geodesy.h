@@ -16,16 +16,16 @@ struct GeoPoint {
 /// east and y north).
 class LocalFrame {
  public:
-  /// kFlat: metres to degrees by the radii of curvature at the origin, as hector_gazebo does;
-  /// 1 km off it is within about 0.3 m at middle latitudes. kTangent: the plane that touches the
-  /// ellipsoid at the origin, without an approximation.
+  /// kFlat: metres to degrees by the radii of curvature at the origin, as hector_gazebo does; 1 km
+  /// off it is within about 0.3 m at middle latitudes. kTangent: the plane that touches the
+  /// ellipsoid at the origin, exact.
   enum class Projection { kFlat, kTangent };
 
   LocalFrame(const GeoPoint& origin, double heading_rad, Projection projection);
 
   GeoPoint to_geodetic(const Eigen::Vector3d& local_m) const;
   Eigen::Vector3d to_local(const GeoPoint& point) const;
-  /// A vector's components to north, west and up; east, north and up.
+  /// Components of a vector to north, west and up, and to east, north and up.
   Eigen::Vector3d to_nwu(const Eigen::Vector3d& local) const;
   Eigen::Vector3d to_enu(const Eigen::Vector3d& local) const;
 

@@ -49,7 +49,7 @@ void Gps::set_reference(const GeoPose& pose) {
                 std::to_string(origin.altitude_m) +
                 ", expected at most 89.9 and 360 degrees and a finite altitude");
   }
-  // In east-north-up a yaw counts from east against the clock; a heading from north with it.
+  // In east-north-up a yaw counts counterclockwise from east; a heading clockwise from north.
   const double heading_rad = M_PI / 2.0 - rpy_from_quaternion(pose.orientation).z();
   frame_on_earth_ = LocalFrame(origin, heading_rad, frame_on_earth_.projection());
 }
@@ -101,7 +101,7 @@ void Gps::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) 
   const Sky sky = this->sky(position_W, now_ns);
   const Vector3d error_W = position_error(position_W, sky);
   const Vector3d velocity_W = velocity_.corrupt(twist().linear, elapsed_s());
-  // As hector: what drifts in the velocity drifts in the position as its integral.
+  // As in hector: the drift of the velocity drifts in the position as its integral.
   position_.set_drift(position_.drift() + elapsed_s() * velocity_.drift());
   const Vector3d variance_m2 = sky.variance_factor * position_.variance() +
                                Vector3d::Constant(sky.extra_std_m * sky.extra_std_m);

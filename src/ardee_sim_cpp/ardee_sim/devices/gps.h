@@ -18,22 +18,22 @@ class Gps : public Sensor {
   void reset(TimeNs now_ns) override;
 
  protected:
-  /// What the sky does to the receiver at one moment.
+  /// Reception at one time.
   struct Sky {
     double offset_factor = 1.0;              // of the position's offset
-    double variance_factor = 1.0;            // of the variance of its noise and drift
+    double variance_factor = 1.0;            // of the variance of the position's noise and drift
     Eigen::Vector3d extra_error_m{0, 0, 0};  // in the world's axes
-    double extra_std_m = 0.0;                // standard deviation of that
+    double extra_std_m = 0.0;                // standard deviation of extra_error_m
     bool has_fix = true;
   };
-  /// Of an antenna at a place in the world.
+  /// Reception of an antenna at a place in the world.
   virtual Sky sky(const Eigen::Vector3d& position_W, TimeNs now_ns);
-  /// What came of it: the error in the world's axes and its standard deviation by axis.
+  /// Reports the resulting error in the world's axes and its standard deviation by axis.
   virtual void report(TimeNs /*now_ns*/, const Sky& /*sky*/, const Eigen::Vector3d& /*error_W*/,
                       const Eigen::Vector3d& /*std_m*/, ReadingSink& /*sink*/) {}
 
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
-  /// Errors drift on whether or not somebody listens.
+  /// Always true: errors drift on without subscribers.
   bool wanted() const override { return true; }
   const LocalFrame& frame_on_earth() const { return frame_on_earth_; }
 

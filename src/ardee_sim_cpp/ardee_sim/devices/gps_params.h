@@ -23,11 +23,11 @@ struct GpsParams {
   std::string frame{};
 };
 
-/// Reads them; the caller reads what it has of its own.
+/// Reads these keys; the caller reads its own further keys.
 GpsParams read_gps_params(Parameters& parameters, DeviceContext& context);
 
 /// <topic>/status: a fix or none, its augmentation and the systems, as hector_gazebo_plugins/GNSS
-/// for dynamic_reconfigure. Valid as long as the two numbers stay where they are.
+/// for dynamic_reconfigure. Valid as long as the two numbers stay at their addresses.
 ParameterGroup gnss_tuning(const std::string& name, int& status, int& service);
 
 }  // namespace ardee::devices

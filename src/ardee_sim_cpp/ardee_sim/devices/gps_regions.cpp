@@ -14,7 +14,7 @@ namespace ardee::devices {
 namespace {
 
 constexpr double kFarthest_m = 1e6;
-constexpr double kBelowGround_m = 2.0;  // how far ground within a plot may lie below its middle
+constexpr double kBelowGround_m = 2.0;  // greatest depth of ground in a plot below its centre
 
 constexpr const char* kBands = "field_gps_noise_characteristics";
 constexpr const char* kHeightBand = "biomass_height_noise_coefficient";
@@ -42,7 +42,7 @@ GpsNoise noise_of(const NoiseBands& bands, double value) {
 
 }  // namespace
 
-/// What files and plugins say, before the bands are known for all plots.
+/// Contents of files and plugins, before the bands are known for all plots.
 struct GpsRegions::Parts {
   struct Plot {
     GpsRegion region;
@@ -121,9 +121,9 @@ struct GpsRegions::Parts {
     boxes.push_back(box);
   }
 
-  /// An id stands for one plot of its file; fields each number their own.
+  /// An id denotes one plot of its file; each field has its own numbering.
   void add_all(const Element& parent, Log& log) {
-    std::map<std::string, int> ids;  // and their lines
+    std::map<std::string, int> ids;  // with their lines
     for (const Element& child : parent.children) {
       if (child.name == kBands) add_bands(child, log);
       if (child.name == kPlot) {
@@ -139,7 +139,7 @@ struct GpsRegions::Parts {
     }
   }
 
-  /// `source`: of what names the file.
+  /// `source` is the place that names the file.
   void add_file(const std::string& path, const Source& source, Log& log) {
     const Element root = read_element_file(path, source);
     if (root.children.empty()) {
@@ -187,7 +187,7 @@ struct GpsRegions::Parts {
     add_file(path, source, log);
   }
 
-  /// In one message: a field has hundreds of plots that are alike.
+  /// Warns in one message: a field has hundreds of similar plots.
   void warn_outside(const NoiseBands& bands, const char* band, double Plot::*quantity,
                     const char* unit, Log& log) const {
     constexpr std::size_t kMostNamed = 3;
@@ -209,7 +209,7 @@ struct GpsRegions::Parts {
     log.warn(text.str());
   }
 
-  /// Bands of density are for those who want them.
+  /// Bands of density are optional.
   void warn_of_plots_in_no_band(Log& log) const {
     if (!height_bands.empty() || density_bands.empty()) {
       warn_outside(height_bands, kHeightBand, &Plot::height_m, "m", log);

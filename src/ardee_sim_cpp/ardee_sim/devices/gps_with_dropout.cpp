@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// "gps/fix" and "gps" stand for the topics of "gps"; "fix" for those of the namespace.
+/// "gps/fix" and "gps" mean the topics below "gps"; "fix" means those of the namespace.
 std::string topic_beside(const std::string& fix_topic, const char* name) {
   const std::string ending = "/fix";
   std::string base = fix_topic;
@@ -23,8 +23,8 @@ std::string topic_beside(const std::string& fix_topic, const char* name) {
   return base + "/" + name;
 }
 
-/// Green where a region does nothing, over yellow to red at an error of 1.5 m or a variance
-/// multiplied by 5 (the worst band of Listing A.6).
+/// Colour of a region: green if it has no effect, over yellow to red at an error of 1.5 m or a
+/// variance multiplied by 5 (the worst band of Listing A.6).
 std::array<float, 4> colour_of(const GpsRegion& region) {
   constexpr double kWorst_m = 1.5, kWorstFactor = 5.0, kOpacity = 0.25;
   const double variance =
@@ -117,8 +117,8 @@ void GpsWithDropout::move_fix(const GpsNoise& noise) {
   const double recoveries_hz = loss_duration_s_ > 0.0 ? 1.0 / loss_duration_s_ : 0.0;
   const double draw = random_.uniform();
   if (losses_hz + recoveries_hz <= 0.0) return;
-  // Two states in continuous time, seen dt apart: the chance to be lost is the stationary one, away
-  // from which the present state decays.
+  // Two states in continuous time, seen dt apart: the probability of loss is the stationary one
+  // plus the decaying influence of the present state.
   const double both_hz = losses_hz + recoveries_hz;
   const double stationary = losses_hz / both_hz;
   const double kept = std::exp(-both_hz * elapsed_s());
@@ -129,7 +129,7 @@ void GpsWithDropout::move_fix(const GpsNoise& noise) {
 GpsNoise GpsWithDropout::noise_in(const GpsRegion& region, TimeNs now_ns) const {
   if (!region.periodic) return region.noise;
   const auto number = static_cast<std::uint64_t>(&region - regions_.all().data());
-  return region.periodic->at(now_ns, periods_.frame(number));  // each box draws for itself
+  return region.periodic->at(now_ns, periods_.frame(number));  // each box has its own draws
 }
 
 Gps::Sky GpsWithDropout::sky(const Vector3d& position_W, TimeNs now_ns) {

@@ -9,17 +9,17 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_gps_with_dropout.so (thesis 4.3.1): hector's GPS that is worse in regions, and in
-/// none of them as good as ever. In a region its noise is multiplied; an error that is correlated
-/// in time is added (first-order Gauss-Markov, <correlationTime> s); and the fix is lost and found
-/// at random (a two-state Markov process). Beside the fix it publishes what degrades it, and once
-/// the regions for rviz.
+/// libgazebo_ros_gps_with_dropout.so (thesis 4.3.1): hector's GPS, degraded within regions and
+/// unchanged outside of them. In a region its noise is multiplied; an error that is correlated in
+/// time is added (first-order Gauss-Markov, <correlationTime> s); and the fix is lost and regained
+/// at random (a two-state Markov process). Beside the fix it publishes the present degradation, and
+/// once the regions for rviz.
 class GpsWithDropout : public Gps {
  public:
   struct Params {
     GpsParams gps;
-    Element plugin{};  // what it says of regions
-    // Measured under 2 m of corn with a receiver without RTK at 1 Hz.
+    Element plugin{};  // its keys of regions
+    // Measured with a receiver without RTK under 2 m of corn at 1 Hz.
     double correlation_time_s = 12.0;
     std::string quality_topic{};
     std::string regions_topic{};
@@ -37,7 +37,7 @@ class GpsWithDropout : public Gps {
               const Eigen::Vector3d& std_m, ReadingSink& sink) override;
 
  private:
-  /// Regions follow fields that come and go.
+  /// Updates the regions when fields are added or removed.
   void follow_scenery();
   GpsNoise noise_in(const GpsRegion& region, TimeNs now_ns) const;
   void move_error();
@@ -48,7 +48,7 @@ class GpsWithDropout : public Gps {
   WorldInfo world_info_;
   const ResourceLocator& locator_;
   Log& log_;
-  std::vector<std::string> scenery_files_;  // that the regions are of
+  std::vector<std::string> scenery_files_;  // from which the regions were read
   std::uint64_t scenery_changes_;
   GpsRegions regions_;
   double correlation_time_s_;

@@ -9,10 +9,9 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_p3d.so: where a link really is, in the world or seen from another link of the
-/// robot
+/// libgazebo_ros_p3d.so: true pose of a link, in the world or relative to another link of the robot
 /// (<frameName>), turned by <rpyOffset> and shifted by <xyzOffset> in that frame. <gaussianNoise>
-/// is on the velocities. These are in the axes of <frameName>, as the stock plugin has them;
+/// acts on the velocities. These are in the axes of <frameName>, as in the stock plugin;
 /// <local_twist> turns them into the link's, as nav_msgs/Odometry says.
 class GroundTruth : public Sensor {
  public:

@@ -13,9 +13,9 @@ namespace ardee::devices {
 
 /// libhector_gazebo_ros_imu.so: specific force, angular velocity and the orientation of an attitude
 /// filter that trusts its biased sensors, each with hector's errors (<accel...>, <rate...>,
-/// <yaw...>). <xyzOffset> and <rpyOffset> are the mounting in the body (hector reads the first and
-/// does not apply it, and turns by the second in the world). <vibrationStdAccel> shakes it with the
-/// robot's speed over ground.
+/// <yaw...>). <xyzOffset> and <rpyOffset> are the mounting in the body (hector reads the first but
+/// does not apply it, and applies the second in the world). <vibrationStdAccel> adds vibration in
+/// proportion to the robot's speed over ground.
 class HectorImu : public InertialSensor {
  public:
   struct Params {
@@ -44,7 +44,7 @@ class HectorImu : public InertialSensor {
  private:
   Eigen::Quaterniond orientation_error(const Eigen::Quaterniond& q_WS) const;
   void shake(double dt_s);
-  /// Mean since the last call.
+  /// Mean vibration since the last call.
   Eigen::Vector3d take_vibration();
   void set_covariances(ImuReading& reading) const;
 
@@ -52,7 +52,7 @@ class HectorImu : public InertialSensor {
   SensorModel rate_;
   SensorModel yaw_;
   std::optional<Vibration> vibration_;
-  Eigen::Vector3d mean_vibration_{0, 0, 0};  // of the last shaken_s_
+  Eigen::Vector3d mean_vibration_{0, 0, 0};  // over the last shaken_s_
   double shaken_s_ = 0.0;
   TimeNs followed_ns_ = 0;
   std::string frame_;

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Axis times angle in rad of the shorter way.
+/// Axis times angle in rad of the shorter turn.
 Vector3d rotation_vector(Eigen::Quaterniond q) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();

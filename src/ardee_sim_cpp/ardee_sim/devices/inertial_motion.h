@@ -6,12 +6,12 @@
 
 namespace ardee::devices {
 
-/// How a point of a robot moves, from its poses before and after each step: what the physics did,
-/// whatever the mounting, and what drives did. A model whose state is set between steps makes no
+/// Motion of a point of a robot, from its poses before and after each step. It includes the effects
+/// of physics and of drives, for any mounting. Setting a model's state between steps causes no
 /// spike.
 class InertialMotion {
  public:
-  /// X_LS: the point and its axes in the link.
+  /// X_LS is the pose of the point and its axes in the link.
   InertialMotion(const Robot& robot, std::size_t link, const Pose& X_LS)
       : robot_(robot), link_(link), X_LS_(X_LS) {}
 
@@ -21,7 +21,7 @@ class InertialMotion {
     Eigen::Vector3d gravity{0, 0, 0};
     Eigen::Vector3d angular_velocity{0, 0, 0};
 
-    /// What an accelerometer feels: +g upwards at rest, 0 in free fall.
+    /// Reading of an ideal accelerometer: +g upwards at rest, 0 in free fall.
     Eigen::Vector3d specific_force() const { return acceleration - gravity; }
   };
 
@@ -29,7 +29,7 @@ class InertialMotion {
   void on_set_state();
   void begin_step(TimeNs now_ns);
   void end_step(TimeNs now_ns, const Eigen::Vector3d& gravity_W);
-  /// Of the steps since the last call.
+  /// Means over the steps since the last call.
   Mean take();
 
  private:
@@ -41,7 +41,7 @@ class InertialMotion {
   TimeNs begun_ns_ = 0;
   Pose X_WS_;                            // when the step began
   Eigen::Vector3d velocity_W_{0, 0, 0};  // mean over the last step
-  Mean sum_;                             // times seconds
+  Mean sum_;                             // integral over summed_s_
   double summed_s_ = 0.0;
 };
 

@@ -6,8 +6,9 @@
 
 namespace ardee::devices {
 
-/// What all inertial units share: they follow the motion of their mounting through every step. A
-/// sample is the mean since the sample before, as of a unit that integrates between its outputs.
+/// Base class of all inertial units: they follow the motion of their mounting through every step. A
+/// sample is the mean since the previous sample, as from a unit that integrates between its
+/// outputs.
 class InertialSensor : public Sensor {
  public:
   InertialSensor(const std::string& name, const Mount& mount,
@@ -25,7 +26,7 @@ class InertialSensor : public Sensor {
 
  protected:
   void follow(TimeNs now_ns) override { motion_.end_step(now_ns, gravity()); }
-  /// Errors drift on whether or not somebody listens.
+  /// Always true: errors drift on without subscribers.
   bool wanted() const override { return true; }
   InertialMotion::Mean take_motion() { return motion_.take(); }
   Eigen::Vector3d gravity() const { return gravity_m_per_s2_(); }

@@ -11,7 +11,7 @@
 namespace ardee::devices {
 namespace {
 
-/// 1/s: how fast what a disturbance has moved goes back.
+/// 1/s: rate at which the displacement by a disturbance decays.
 constexpr double kStiffness_hz = 20.0;
 constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
@@ -67,7 +67,7 @@ void JointPosition::move_setpoint(double dt_s) {
     velocity_ = 0.0;
     return;
   }
-  // As fast as it can still be braked from, and not beyond the goal in this step.
+  // The greatest speed from which it can still brake, and not beyond the goal in this step.
   const double fastest = std::min({params_.max_velocity, std::abs(way) / dt_s,
                                    std::sqrt(2.0 * params_.max_acceleration * std::abs(way))});
   velocity_ =

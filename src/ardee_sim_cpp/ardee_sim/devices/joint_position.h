@@ -8,11 +8,11 @@
 
 namespace ardee::devices {
 
-/// libardee_ros_joint_position.so: a servo that holds a joint where it is told to on a topic
+/// libardee_ros_joint_position.so: a servo that holds a joint at the position commanded on a topic
 /// (std_msgs/Float64, rad or m), as effort_controllers/JointPositionController does below
-/// gazebo_ros_control. On its way it keeps to a greatest speed and acceleration: from rest to rest
-/// over s it takes s / v + v / a, or 2 sqrt(s / a) where v is not reached. Commands beyond the
-/// joint's limits lead to the limit.
+/// gazebo_ros_control. It limits its speed and acceleration: from rest to rest over a distance s it
+/// takes s / v + v / a, or 2 sqrt(s / a) if it does not reach v. Commands beyond the joint's limits
+/// lead to the limit.
 class JointPosition : public Device {
  public:
   struct Params {
@@ -30,7 +30,7 @@ class JointPosition : public Device {
   JointPosition(const std::string& name, const Params& params, Robot& robot);
 
   void before_step(TimeNs now_ns) override;
-  /// The joint is held where it is.
+  /// Holds the joint at its present position.
   void reset(TimeNs now_ns) override;
 
  private:

@@ -9,8 +9,8 @@
 namespace ardee::devices {
 
 /// libgazebo_ros_joint_state_publisher.so: positions and velocities of the named joints on
-/// joint_states; no effort, no frame, as the stock plugin. Without a namespace of its own or of the
-/// spawn it publishes below the model's name.
+/// joint_states; no effort, no frame, as in the stock plugin. Without a namespace of its own or of
+/// the spawn it publishes below the model's name.
 class JointStatePublisher : public Device {
  public:
   static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,

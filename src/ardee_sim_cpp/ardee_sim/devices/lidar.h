@@ -10,15 +10,15 @@
 namespace ardee::devices {
 
 /// A planar lidar. Beam i leaves the sensor's origin at angle_min + i * increment about z. All
-/// beams are taken at the stamp; the times of a scan are told as the drivers of turning lidars tell
-/// them.
+/// beams are measured at the stamp; the times of a scan are reported as by the drivers of rotating
+/// lidars.
 class Lidar : public RaySensor {
  public:
   /// libgazebo_ros_laser.so on collision bodies, libgazebo_ros_gpu_laser.so on visual ones.
   static std::unique_ptr<Device> make(const SensorDescription& sensor, Parameters& keys,
                                       std::size_t link, raycast::SceneKind scene,
                                       DeviceContext& context);
-  /// time_increment_s: from beam to beam; none: that of a mirror that turns once a scan.
+  /// `time_increment_s` is the time between beams; none: that of a mirror that turns once per scan.
   Lidar(const std::string& name, const Mount& mount, const Params& params,
         std::optional<double> time_increment_s, RaySceneProvider& scenes);
 

@@ -9,10 +9,10 @@ namespace ardee::devices {
 namespace {
 
 constexpr std::size_t kMostSubRays = std::size_t(1) << 23;
-/// Beams whose axes are up to so many widths apart tell of each other's footprints.
+/// Beams whose axes are at most this many widths apart predict each other's footprints.
 constexpr double kNeighbourWidths = 2.0;
-/// A neighbour is on the same surface if it is so near to its tangent plane: less than a lidar's
-/// noise (nominal).
+/// A neighbour within this distance of the tangent plane is on one surface with the beam: less than
+/// a lidar's noise (nominal).
 constexpr float kSameSurface_m = 0.02f;
 
 std::vector<Eigen::Vector3f> make_axes(const RayBlock& block) {
@@ -31,11 +31,11 @@ std::vector<Eigen::Vector3f> make_axes(const RayBlock& block) {
   return axes_S;
 }
 
-/// Whether two beams side by side, which met something at those points, have met two surfaces that
-/// one pulse would not tell apart.
+/// Whether two adjacent beams with hits at those points have hit two surfaces that one pulse cannot
+/// separate.
 bool mix(const raycast::RayHit& a, const Eigen::Vector3f& point_a_W, const raycast::RayHit& b,
          const Eigen::Vector3f& point_b_W, float pulse_length_m) {
-  if (!(std::abs(a.range_m - b.range_m) <= pulse_length_m)) return false;  // NaN: both met nothing
+  if (!(std::abs(a.range_m - b.range_m) <= pulse_length_m)) return false;  // NaN: neither has a hit
   const Eigen::Vector3f apart_W = point_b_W - point_a_W;
   return std::abs(apart_W.dot(a.normal_W)) > kSameSurface_m ||
          std::abs(apart_W.dot(b.normal_W)) > kSameSurface_m;
@@ -54,7 +54,7 @@ class LidarBeams::Poses {
 
  private:
   const Pose* first_;
-  int columns_;  // 1: the same for all
+  int columns_;  // 1: one pose for all
 };
 
 LidarBeams::LidarBeams(const RayBlock& block, const LidarOptics& optics, bool look_through_near,
@@ -181,7 +181,7 @@ void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const raycast::Ra
     for (std::size_t i = 0; i < count; ++i) {
       if (!(own[i].range_m < hits[i].range_m)) continue;
       hits[i] = own[i];
-      // The normal of now, as a sensor that was then where it is now would have seen it.
+      // The present normal, turned into the frame of the column's own time.
       const Pose& then = poses.of(rays.beam(i));
       hits[i].normal_W =
           (then.q * (X_WS.back().q.conjugate() * own[i].normal_W.cast<double>())).cast<float>();
@@ -206,7 +206,7 @@ void LidarBeams::pick_mixing(const Poses& X_WS) const {
   const auto columns = static_cast<std::size_t>(columns_);
   const auto each = static_cast<std::size_t>(mixing_.each);
   const auto pulse_length_m = static_cast<float>(optics_.pulse_length_m);
-  std::size_t next = 0;  // all before it are picked, or not to be
+  std::size_t next = 0;  // all beams before it are decided
   for (std::size_t beam = 0; beam + 1 < count(); ++beam) {
     const std::size_t row_end = beam - beam % columns + columns;
     if (beam + 1 == row_end ||

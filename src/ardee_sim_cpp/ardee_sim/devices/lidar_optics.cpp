@@ -12,10 +12,9 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kGoldenAngle_rad = 2.39996322972865332;
-/// The target that <reflectivityRange> speaks of.
+/// Reflectivity of the target of <reflectivityRange>.
 constexpr double kReferenceReflectivity = 0.1;
-/// No surface swallows all light, and none is smooth enough to be met exactly along itself
-/// (nominal).
+/// Least reflectivity and cosine: no surface absorbs all light or is perfectly smooth (nominal).
 constexpr double kDarkest = 0.01;
 constexpr double kLeastCosine = 1e-3;
 constexpr double kLeastRange_m = 1e-3;
@@ -116,7 +115,7 @@ BeamEcho ReturnModel::single(const raycast::RayHit& hit, float cosine) const {
   return {hit.range_m, intensity(hit, cosine), hit.label};
 }
 
-/// Returns within a pulse's length of the nearest of them are one; the next one begins beyond.
+/// Merges returns within a pulse's length of the nearest one; the next group begins beyond.
 ReturnModel::Pulse ReturnModel::choose_pulse() const {
   Pulse best{nullptr, nullptr, 0.0};
   const Return* const end = returns_.data() + returns_.size();

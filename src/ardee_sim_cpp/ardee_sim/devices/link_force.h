@@ -8,10 +8,10 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_f3d.so: the force with which whatever touches a link presses on it, and the torque
-/// about the centre of mass of what moves with it as one body, in the world's axes whatever
-/// <frameName> says, after each step. (The stock plugin reads the engine's sum of applied forces,
-/// which the step has set to zero.)
+/// libgazebo_ros_f3d.so: the contact force on a link, and its torque about the centre of mass of
+/// the link's rigid body, after each step. Both are in the world's axes; <frameName> does not
+/// change that. (The stock plugin reads the engine's sum of applied forces, which the step has set
+/// to zero.)
 class LinkForce : public Sensor {
  public:
   struct Params {

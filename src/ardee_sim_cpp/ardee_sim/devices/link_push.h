@@ -8,8 +8,8 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_force.so: pushes a link at its centre of mass with the last wrench that came on a
-/// topic, in the world's axes, at each step until another comes.
+/// libgazebo_ros_force.so: pushes a link at its centre of mass with the last wrench received on a
+/// topic, in the world's axes, at each step until the next one.
 class LinkPush : public Device {
  public:
   static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,

@@ -22,7 +22,7 @@ Coupling read(Parameters& parameters, DeviceContext& context) {
   coupling.multiplier = parameters.number("multiplier", 1.0, -kMost, kMost);
   coupling.offset = parameters.number("offset", 0.0, -kMost, kMost);
   coupling.source = parameters.source();
-  // Without a PID the plugin sets the position, whatever effort that takes.
+  // Without a PID the plugin sets the position, with unlimited effort.
   const double max_effort = parameters.number("maxEffort", 1.0, 0.0);
   const bool has_pid = parameters.has("hasPID");
   parameters.text("hasPID", "");

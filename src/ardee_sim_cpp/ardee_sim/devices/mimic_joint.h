@@ -7,8 +7,8 @@
 
 namespace ardee::devices {
 
-/// libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another. Where the plugin
-/// puts the follower into place, here both feel what loads either of them.
+/// libroboticsgroup_gazebo_mimic_joint_plugin.so: a joint that follows another. The plugin sets the
+/// follower's position; here a load on either joint acts on both.
 class MimicJoint : public Device {
  public:
   static std::unique_ptr<Device> make(const PluginDescription& plugin, Parameters& parameters,

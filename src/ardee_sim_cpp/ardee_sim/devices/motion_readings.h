@@ -22,7 +22,7 @@ struct OdometryReading {
   Twist twist;
   std::array<double, 6> pose_covariance{};
   std::array<double, 6> twist_covariance{};
-  bool places_frame = true;  // false: the frame in header has a place already (ground truth)
+  bool places_frame = true;  // false: the header's frame is placed already (ground truth)
 };
 
 /// A transform for the tf tree.
@@ -30,11 +30,11 @@ struct TransformReading {
   Header header;
   std::string child_frame_id;
   Pose pose;
-  bool places_frame = false;  // true: of odometry, whose frame in header has no place without it
+  bool places_frame = false;  // true: odometry, which places the header's frame
 };
 
 /// Positions in rad (m), velocities in rad/s (m/s), efforts in N m (N), joint by joint; no efforts
-/// where nobody knows them.
+/// if they are unknown.
 struct JointStateReading {
   Header header;
   std::vector<std::string> names;
@@ -80,7 +80,7 @@ struct MagneticFieldReading {
   Eigen::Vector3d field_T{0, 0, 0};
 };
 
-/// What degrades a satellite receiver now: the region it is in (empty: open sky), the standard
+/// Present degradation of a satellite receiver: its region (empty: open sky), the standard
 /// deviation of its position error in m, whether it has a fix, and its error in m (east, north,
 /// up), which no real receiver knows.
 struct GpsQualityReading {
@@ -95,7 +95,7 @@ struct GpsQualityReading {
 struct RegionsReading {
   struct Region {
     std::string name;
-    Pose pose;  // of the box's middle
+    Pose pose;  // of the box's centre
     Eigen::Vector3d size_m{0, 0, 0};
     std::array<float, 4> rgba{};
   };

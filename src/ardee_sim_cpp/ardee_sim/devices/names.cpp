@@ -31,7 +31,7 @@ std::string resolve_frame(const std::string& frame, const std::string& robot_nam
   if (prefix.empty() && without_prefix == WithoutPrefix::kNamespace) {
     prefix = without_slashes(robot_namespace);
   }
-  // An absolute frame is taken as it stands, as tf::resolve does.
+  // An absolute frame is used unchanged, as in tf::resolve.
   if (prefix.empty() || (!frame.empty() && frame.front() == '/')) return without_slashes(frame);
   return prefix + "/" + without_slashes(frame);
 }

@@ -13,7 +13,7 @@
 
 namespace ardee::devices {
 
-/// What a drive tells of its motion: odometry, and the transform between its frames.
+/// Publisher of a drive's odometry and of the transform between its frames.
 class OdometryPublisher {
  public:
   struct Params {
@@ -21,11 +21,11 @@ class OdometryPublisher {
     std::optional<WheelOdometry::Params> wheels;  // none: of the true motion
     bool has_message = true;
     bool has_transform = true;
-    bool is_level = false;  // the message's pose has no height, the transform's has
+    bool is_level = false;  // the message's pose has no height, but the transform's has
     std::string topic;
     std::string frame;
     std::string base_frame;
-    /// x, y, z, roll, pitch, yaw; the stock plugins say none of the twist.
+    /// x, y, z, roll, pitch, yaw; the stock plugins give none for the twist.
     std::array<double, 6> pose_covariance = {1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3};
     std::array<double, 6> twist_covariance{};
   };
@@ -33,7 +33,7 @@ class OdometryPublisher {
   OdometryPublisher(const Params& params, Ports& ports, Robot& robot);
 
   bool due(TimeNs now_ns) { return timer_.due(now_ns); }
-  /// To be called when due.
+  /// Publishes; to be called when due.
   void publish(TimeNs now_ns, ReadingSink& sink);
   void reset(TimeNs now_ns);
 
@@ -53,8 +53,8 @@ OdometryPublisher::Params read_odometry_params(
     Parameters& parameters, const std::string& robot_namespace, const DeviceContext& context,
     const char* base_frame, WithoutPrefix without_prefix = WithoutPrefix::kNothing);
 
-/// Whether <odometrySource> is encoder, the turns of the wheels; else it is world, the truth (the
-/// stock plugins' way). Their numbers are 0 and 1.
+/// Whether <odometrySource> is encoder, the turns of the wheels, and not world, the truth (the
+/// stock plugins' default). Their numbers are 0 and 1.
 bool reads_wheels(Parameters& parameters);
 
 }  // namespace ardee::devices

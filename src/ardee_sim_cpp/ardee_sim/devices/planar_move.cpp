@@ -9,14 +9,14 @@
 namespace ardee::devices {
 namespace {
 
-constexpr double kFastest = 1e3;  // m/s, rad/s: what a command can ask
+constexpr double kFastest = 1e3;  // m/s, rad/s: bound of a command
 
 double bounded(double speed) { return std::clamp(speed, -kFastest, kFastest); }
 
 PlanarMove::Params read(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   PlanarMove::Params params;
-  // The stock plugin's way to say "never" is a negative number.
+  // In the stock plugin a negative number means "never".
   params.command_timeout_s = std::max(parameters.number("cmdTimeout", -1.0), 0.0);
   params.command_topic = resolve_topic(parameters.text("commandTopic", "cmd_vel"), space);
   OdometryPublisher::Params odometry =

@@ -11,8 +11,8 @@
 
 namespace ardee::devices {
 
-/// libgazebo_ros_planar_move.so: moves the model over the plane as commanded, forwards, sideways
-/// and turning, whatever it stands on; gravity acts as ever.
+/// libgazebo_ros_planar_move.so: moves the model in the plane as commanded, forwards, sideways and
+/// turning, on any ground; gravity still acts.
 class PlanarMove : public Device {
  public:
   struct Params {

@@ -27,7 +27,8 @@ PluginAlias read_alias(const Setting& given) {
   return alias;
 }
 
-/// A node of YAML, whose words are texts. Its path is its file and line and the keys above it.
+/// Converts a node of YAML with its scalars as texts. Its path is its file and line and the keys
+/// above it.
 Setting to_setting(const YAML::Node& node, const std::string& file, const std::string& keys) {
   const std::string path = Source{file, node.Mark().line + 1, ""}.to_string() + ": " + keys;
   if (node.IsSequence()) {

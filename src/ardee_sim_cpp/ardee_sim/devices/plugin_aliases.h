@@ -9,11 +9,11 @@
 
 namespace ardee::devices {
 
-/// A plugin file of another name whose work one of the registry's does.
+/// A plugin file of another name whose work a plugin of the registry does.
 struct PluginAlias {
   std::string filename;
   std::string plugin;                       // of the registry
-  std::map<std::string, std::string> keys;  // name of a key in the other plugin: in ours
+  std::map<std::string, std::string> keys;  // from the other plugin's key to ours
 };
 
 /// Reads a list of maps of filename, plugin and, where they differ, keys. Throws Error.

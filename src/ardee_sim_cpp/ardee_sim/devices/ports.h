@@ -35,17 +35,17 @@ constexpr std::size_t command_kind() {
   return index_in<Command, T>();
 }
 
-/// Something a device gives: one topic with one kind of reading. `kind` is the index in the Reading
+/// Output of a device: one topic with one kind of reading. `kind` is the index in the Reading
 /// variant.
 struct Output {
   std::string topic;
   std::size_t kind = 0;
-  bool demanded = true;  // false: nobody listens, the device need not measure
-  bool latched = false;  // whoever comes later still gets the last reading
+  bool demanded = true;  // false: no subscriber, the device need not measure
+  bool latched = false;  // a later subscriber still gets the last reading
 };
 
-/// Something a device takes: one topic with one kind of command, the index in the Command variant.
-/// What the device throws is an Error in the command, which has then changed nothing.
+/// Input of a device: one topic with one kind of command, the index in the Command variant. If
+/// `on_command` throws Error, the command is invalid and has changed nothing.
 struct Input {
   std::string topic;
   std::size_t kind = 0;
@@ -55,7 +55,7 @@ struct Input {
   bool needs_one_publisher = false;  // commands are refused while several publish them
 };
 
-/// Where a satellite receiver's local frame lies: WGS-84, orientation in east-north-up.
+/// Pose of a satellite receiver's local frame: WGS-84, orientation in east-north-up.
 struct GeoPose {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
@@ -63,8 +63,8 @@ struct GeoPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Something a device does when asked: nothing to say, a vector (a bias), a geographic pose, or the
-/// time (s) at which the state of a trajectory is asked for. What it throws is the caller's answer.
+/// Service of a device. The request is empty, a vector (a bias), a geographic pose, or the time (s)
+/// for which the state of a trajectory is requested. The caller gets the text of a thrown Error.
 struct Service {
   using Act =
       std::variant<std::function<void()>, std::function<void(const Eigen::Vector3d&)>,
@@ -86,13 +86,13 @@ struct TunableParameter {
   std::function<void(double)> set;  // called with a number within the bounds
 };
 
-/// A group of tunables under one name, as dynamic_reconfigure has them.
+/// A group of tunables under one name, as in dynamic_reconfigure.
 struct ParameterGroup {
   std::string name;
   std::vector<TunableParameter> parameters;
 };
 
-/// All that a device, or a controller that it has loaded, exchanges with the outside.
+/// All inputs and outputs of a device, or of a controller that it has loaded.
 struct Ports {
   std::deque<Output> outputs;  // addresses stay valid as more are added
   std::vector<Input> inputs;
@@ -101,7 +101,7 @@ struct Ports {
   std::vector<Action> actions;
 
   Output& add_output(const std::string& topic, std::size_t kind);
-  /// Of commands that need no check.
+  /// Adds an input of commands that need no check.
   template <typename T>
   Input& add_input(const std::string& topic, std::function<void(const T&)> act) {
     inputs.push_back({topic, command_kind<T>(), [act = std::move(act)](const Command& command) {
@@ -109,12 +109,13 @@ struct Ports {
                       }});
     return inputs.back();
   }
-  /// Velocities: one that is not finite is an Error.
+  /// Adds an input of velocities; one that is not finite is an Error.
   Input& add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act);
-  /// Wrenches in the world's axes: one beyond what the physics takes is an Error.
+  /// Adds an input of wrenches in the world's axes; one beyond the limits of the physics is an
+  /// Error.
   Input& add_wrench_input(const std::string& topic,
                           std::function<void(const physics::ForceTorque&)> act);
-  /// A number within [low, high]; another is an Error.
+  /// Adds an input of numbers within [low, high]; another number is an Error.
   Input& add_number_input(const std::string& topic, double low, double high,
                           std::function<void(double)> act);
 };

@@ -8,7 +8,7 @@ namespace ardee::devices {
 void PoseTrack::add(TimeNs time_ns, const Pose& X_WS) {
   if (!track_.empty() && track_.back().time_ns == time_ns) track_.pop_back();
   track_.push_back({time_ns, X_WS});
-  // The last pose before the while begins is needed, to interpolate from.
+  // Interpolation needs the last pose before the kept duration.
   while (track_.size() > 2 && track_[1].time_ns <= time_ns - duration_ns_) track_.pop_front();
 }
 

@@ -8,7 +8,7 @@
 
 namespace ardee::devices {
 
-/// Where something was in the last while, step by step.
+/// Recent poses of an object, step by step.
 class PoseTrack {
  public:
   /// Remembers poses for `duration_ns`.
@@ -17,8 +17,8 @@ class PoseTrack {
   /// Times must not decrease; a pose at the time of the last one replaces it.
   void add(TimeNs time_ns, const Pose& X_WS);
   void clear() { track_.clear(); }
-  /// Between the poses before and after, straight and by the shortest turn; before the first pose
-  /// and after the last one it stands still. There must be a pose.
+  /// Pose at a time, interpolated along a line and by the shortest turn; constant before the first
+  /// pose and after the last one. At least one pose is required.
   Pose at(double time_ns) const;
 
  private:

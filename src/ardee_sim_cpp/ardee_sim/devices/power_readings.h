@@ -8,8 +8,8 @@
 
 namespace ardee::devices {
 
-/// A rotary encoder on a wheel: angle in rad, speed of the wheel's rim in m/s, quadrature pulses a
-/// second.
+/// A rotary encoder on a wheel: angle in rad, speed of the wheel's rim in m/s, quadrature pulses
+/// per second.
 struct EncoderReading {
   Header header;
   std::int32_t id = 0;
@@ -26,8 +26,8 @@ struct BatteryReading {
   double voltage_min_V = 0.0;
 };
 
-/// The same as sensor_msgs/BatteryState tells it; current in A, negative while discharging, charges
-/// in Ah; NaN where not modelled.
+/// Battery in the layout of sensor_msgs/BatteryState: voltage in V, current in A, negative while
+/// discharging, charges in Ah; NaN where not modelled.
 struct BatteryStateReading {
   Header header;
   double voltage_V = 0.0;

@@ -16,14 +16,14 @@ constexpr double kSonarRate_hz = 10.0;  // hector_gazebo_ros_sonar's
 RangeReading::Radiation read_radiation(Parameters& keys) {
   std::string text = keys.text("radiation", "ultrasound");
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));  // also as the message's constants are written
+    return static_cast<char>(std::tolower(c));  // also accepts the message constants' spelling
   });
   if (text == "ultrasound") return RangeReading::Radiation::kUltrasound;
   if (text == "infrared") return RangeReading::Radiation::kInfrared;
   throw keys.error("radiation", "expected ultrasound or infrared");
 }
 
-/// What both plugins share; the keys that name the frame differ.
+/// Reads the keys that both plugins share; the keys of the frame differ.
 RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& keys,
                                 const char* topic, const char* frame_key, const char* frame,
                                 DeviceContext& context) {
@@ -38,7 +38,7 @@ RangeFinder::Params read_params(const SensorDescription& sensor, Parameters& key
   return params;
 }
 
-/// The smaller span of its angles; a single row has none.
+/// Smaller span of the block's angles; a single row has no vertical span.
 double smaller_span_rad(const RayBlock& rays) {
   const double across_rad = std::abs(rays.angle_max_rad - rays.angle_min_rad);
   if (rays.rows == 1) return across_rad;

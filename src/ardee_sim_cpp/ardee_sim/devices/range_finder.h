@@ -10,13 +10,13 @@
 namespace ardee::devices {
 
 /// A sonar or infrared ranger: the nearest range of all rays over its cone. Without a return it
-/// tells its maximum; what is nearer than its minimum is told as the minimum.
+/// reports its maximum; a range below its minimum is reported as the minimum.
 class RangeFinder : public RaySensor {
  public:
   struct Params {
     RaySensor::Params ray;
     RangeReading::Radiation radiation = RangeReading::Radiation::kUltrasound;
-    double field_of_view_rad = 0.0;  // as told
+    double field_of_view_rad = 0.0;  // as reported
     SensorErrors errors;             // of a range below the maximum, m
     bool is_tunable = false;         // the errors can be changed while it runs
   };
@@ -34,11 +34,11 @@ class RangeFinder : public RaySensor {
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;
-  /// Its errors move on whether anybody listens or not; rays are cast only if somebody does.
+  /// Always true: its errors move on without subscribers; rays are cast only for subscribers.
   bool wanted() const override { return true; }
 
  private:
-  /// By REP 117: +inf nothing, -inf nearer than the minimum.
+  /// Range by REP 117: +inf no return, -inf nearer than the minimum.
   double nearest_m(const CounterRng& noise);
 
   Params params_;

@@ -3,7 +3,7 @@
 
 namespace ardee::devices {
 
-/// Errors of a measured range: normal, with a deviation that grows with it.
+/// Errors of a measured range: normal, with a standard deviation that grows with the range.
 struct RangeNoise {
   double mean_m = 0.0;
   double std_m = 0.0;
@@ -13,7 +13,7 @@ struct RangeNoise {
   bool is_none() const {
     return mean_m == 0.0 && std_m <= 0.0 && growth <= 0.0 && precision_m <= 0.0;
   }
-  /// A finite range as it is measured, before the device's limits; `normal` is a standard normal.
+  /// Corrupts a finite range, before the device's limits apply; `normal` is a standard normal.
   double corrupt(double range_m, double normal) const;
 };
 

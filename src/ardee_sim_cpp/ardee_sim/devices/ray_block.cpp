@@ -18,7 +18,7 @@ const Element& required_block(const Element& parent, const char* name) {
   return *block;
 }
 
-/// Gazebo reads a whole number and passes over what follows it.
+/// Gazebo reads a whole number and ignores any text after it.
 int read_samples(Parameters& direction, int fallback, Log& log) {
   const double written = direction.number("samples", fallback, 1, kMostRays);
   const double samples = std::floor(written);
@@ -64,7 +64,7 @@ void read_range(const Element& range, RayBlock& block) {
   if (block.range_max_m <= block.range_min_m) {
     throw parameters.error("max", "expected more than <min>");
   }
-  // Checked alone: Gazebo does not quantise ranges either.
+  // The precision is only checked: Gazebo does not quantise ranges either.
   parameters.number("resolution", 0.0, 0.0, 1e6);
 }
 

@@ -8,9 +8,9 @@
 
 namespace ardee::devices {
 
-/// SDF's <ray> block: rays from one point over a grid of angles, and what limits and disturbs their
-/// ranges. Column i leaves at angle_min + i * increment about z, row j at an elevation likewise,
-/// from the lowest up; a single row lies level.
+/// SDF's <ray> block: rays from one point over a grid of angles, and the limits and errors of their
+/// ranges. Column i leaves at angle_min + i * increment about z; row j has an elevation by the same
+/// formula, from the lowest up; a single row is level.
 struct RayBlock {
   int columns = 640;           // SDF's samples * resolution
   double angle_min_rad = 0.0;  // may exceed angle_max_rad: the scan then runs backwards
@@ -38,7 +38,7 @@ struct RayBlock {
   }
 };
 
-/// Reads and checks it.
+/// Reads and checks a <ray> block.
 RayBlock read_ray_block(const SensorDescription& sensor, Log& log);
 
 }  // namespace ardee::devices

@@ -21,13 +21,13 @@ class RaySensor : public Sensor {
     LidarOptics optics;
     raycast::SceneKind scene = raycast::SceneKind::kCollision;
     bool look_through_near =
-        false;  // Gazebo's way: what is nearer than the minimum is not seen at all
+        false;  // as in Gazebo, rays pass through surfaces nearer than the minimum
     std::string topic;
     std::string frame;
   };
 
  protected:
-  /// `kind`: of its reading.
+  /// `kind` is that of its reading.
   RaySensor(const std::string& name, const Mount& mount, const Params& params,
             RaySceneProvider& scenes, std::size_t kind);
 
@@ -35,10 +35,10 @@ class RaySensor : public Sensor {
   /// The echoes of all beams now, with the noise of their ranges; beam i uses counter i. Valid
   /// until it is called again.
   const std::vector<BeamEcho>& measure(const CounterRng& noise);
-  /// The same where the beams of column k leave from X_WS[k].
+  /// Returns of all beams if those of column k leave from X_WS[k].
   const std::vector<BeamEcho>& measure_moving(const std::vector<Pose>& X_WS,
                                               const CounterRng& noise);
-  /// From one scan to the next; in sample().
+  /// Time since the previous scan; for use in sample().
   double scan_time_s() const;
 
   const RayBlock& rays() const { return params_.rays; }
@@ -57,18 +57,18 @@ class RaySensor : public Sensor {
   Output& output_;
 };
 
-/// Reads and checks SDF's <ray> block and the keys that all lidars share; the caller reads what
-/// keys are left.
+/// Reads and checks SDF's <ray> block and the keys that all lidars share; the caller reads the
+/// other keys.
 RaySensor::Params read_lidar_params(const SensorDescription& sensor, Parameters& plugin,
                                     raycast::SceneKind scene, const char* default_topic,
                                     DeviceContext& context);
 
-/// What a sensor's rays meet where the plugin's name does not say it: a sensor of type gpu_ray
-/// meets visual bodies, one of type ray collision bodies (thesis 4.3.3).
+/// Scene of a sensor's rays if the plugin's name does not define it: rays of type gpu_ray hit
+/// visual bodies, those of type ray collision bodies (thesis 4.3.3).
 raycast::SceneKind scene_of(const SensorDescription& sensor);
 
-/// The rate of a plugin with an <updateRate> of its own: the slower of it and the sensor's. A rate
-/// of 0 is no limit.
+/// The rate of a plugin with its own <updateRate>: the slower of that and the sensor's. A rate of 0
+/// is no limit.
 double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz);
 
 /// The plugin's <gaussianNoise>: a standard deviation.

@@ -12,7 +12,7 @@
 
 namespace ardee::devices {
 
-/// Whatever a device may give.
+/// Any reading that a device may give.
 using Reading =
     std::variant<LidarReading, OdometryReading, TransformReading, JointStateReading, ImuReading,
                  FixReading, VectorReading, MagneticFieldReading, EncoderReading, BatteryReading,

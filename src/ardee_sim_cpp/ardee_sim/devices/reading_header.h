@@ -7,7 +7,7 @@
 
 namespace ardee::devices {
 
-/// When and in which frame something was measured.
+/// Time and frame of a measurement.
 struct Header {
   TimeNs stamp_ns = 0;
   std::string frame_id;

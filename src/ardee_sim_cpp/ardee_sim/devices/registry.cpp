@@ -44,7 +44,8 @@ std::string stem(const std::string& filename) {
   return text.rfind("lib", 0) == 0 ? text.substr(3) : text;
 }
 
-/// What `make` makes; if it throws, nothing, and the log says why. `what`: "sensor" or "plugin".
+/// Returns the result of `make`; if that throws, nothing, with an error in the log. `what` is
+/// "sensor" or "plugin".
 template <typename Make>
 std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescription& plugin,
                                          const char* what, const std::string& name, Log& log) {
@@ -57,7 +58,7 @@ std::unique_ptr<Device> made_or_left_out(const Make& make, const PluginDescripti
   }
 }
 
-/// All that an element says, wherever it is written.
+/// Content of an element without its place in the file.
 std::string text_of(const Element& element) {
   std::string text = "<" + element.name;
   for (const auto& [name, value] : element.attributes) text += " " + name + "='" + value + "'";
@@ -66,7 +67,7 @@ std::string text_of(const Element& element) {
   return text + "</" + element.name + ">";
 }
 
-/// The plugin as it is written under the registry's name.
+/// The plugin with the registry's names of file and keys.
 PluginDescription renamed(PluginDescription plugin, const PluginAlias& alias) {
   plugin.filename = alias.plugin;
   for (Element& key : plugin.element.children) {
@@ -76,7 +77,7 @@ PluginDescription renamed(PluginDescription plugin, const PluginAlias& alias) {
   return plugin;
 }
 
-/// As in Gazebo 0 is as fast as can be: each step.
+/// As in Gazebo 0 means each step.
 void check_update_rate(const SensorDescription& sensor) {
   Parameters(sensor.element).number("update_rate", 0.0, 0.0);
 }
@@ -88,7 +89,7 @@ void add(Map& plugins, const std::string& filename, Make make) {
   }
 }
 
-/// A sensor's factory with what the plugin's name says.
+/// A sensor's factory with the scene that the plugin's name defines.
 template <typename Make, typename What>
 Registry::SensorPlugin with(Make make, const What& what) {
   return [make, what](const SensorDescription& sensor, Parameters& keys, std::size_t link,
@@ -179,7 +180,7 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
     keys.finish(context.log);
     return device;
   };
-  // A static model keeps those of its devices that do without motion.
+  // A static model keeps the devices that do not need motion.
   const bool may_fail =
       candidate.sensor || of_model->second.is_sensor || !context.robot.is_dynamic();
   const char* what = candidate.sensor ? "sensor" : "plugin";
@@ -195,8 +196,7 @@ std::vector<std::unique_ptr<Device>> Registry::make_devices(const DeviceContext&
   for (const Candidate& candidate : candidates_of(robot.robot.model())) {
     DeviceContext context = robot;
     context.scope = candidate.plugin->scope;
-    // A device's errors follow from seed and name: of two with one name each gets a seed of its
-    // own.
+    // A device's errors follow from seed and name: devices of equal name get different seeds.
     const int before = namesakes[candidate.name]++;
     if (before > 0) context.seed = stream_key(robot.seed, "namesake " + std::to_string(before));
     if (auto device = make(candidate, context)) devices.push_back(std::move(device));

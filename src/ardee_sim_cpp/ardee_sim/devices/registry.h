@@ -16,26 +16,26 @@ namespace ardee::devices {
 /// Maps the plugin file names that users write to the devices that do their work.
 class Registry {
  public:
-  /// Factories read the plugin's keys from the Parameters that they are given; keys that they did
-  /// not ask for are warnings.
+  /// Factories read the plugin's keys from the Parameters that they are given; keys that they do
+  /// not read are warnings.
   using ModelPlugin =
       std::function<std::unique_ptr<Device>(const PluginDescription&, Parameters&, DeviceContext&)>;
   using SensorPlugin = std::function<std::unique_ptr<Device>(const SensorDescription&, Parameters&,
                                                              std::size_t link, DeviceContext&)>;
 
-  /// A controller: the robot cannot do without it.
+  /// Adds a controller, which the robot requires.
   void add_model_plugin(const std::string& filename, ModelPlugin make);
-  /// A sensor that Gazebo attaches to the model (GPS, IMU, encoder, battery, ...).
+  /// Adds a sensor that Gazebo attaches to the model (GPS, IMU, encoder, battery, ...).
   void add_model_sensor(const std::string& filename, ModelPlugin make);
   void add_sensor_plugin(const std::string& filename, SensorPlugin make);
 
-  /// Throws Error for a plugin that there is not, or a name that is taken.
+  /// Adds another name of a plugin. Throws Error for an unknown plugin, or a name that is taken.
   void add_alias(const PluginAlias& alias);
 
-  /// A device for each plugin of the robot and of its links' sensors, in the order of their names,
-  /// whatever the order of the description: that in which they act. A plugin of unknown file name
-  /// is a warning that says where the known ones are listed. A bad value inside a controller is an
-  /// Error; a sensor with one is left out, and the log says why.
+  /// Makes a device for each plugin of the robot and of its links' sensors, in the order of their
+  /// names, in which they act; the order of the description has no effect. A plugin of unknown file
+  /// name is a warning that says where the known ones are listed. An invalid value in a controller
+  /// is an Error; a sensor with one is left out, with an error in the log.
   std::vector<std::unique_ptr<Device>> make_devices(const DeviceContext& robot) const;
   /// File names, sorted.
   std::vector<std::string> model_plugin_files() const { return files_of(model_plugins_); }
@@ -45,7 +45,7 @@ class Registry {
   struct Candidate;
 
   static std::vector<Candidate> candidates_of(const Model& model);
-  /// Nothing for a plugin that is unknown or left out.
+  /// Makes a device; none for a plugin that is unknown or left out.
   std::unique_ptr<Device> make(const Candidate& candidate, DeviceContext& context) const;
   template <typename Plugins>
   static std::vector<std::string> files_of(const Plugins& plugins) {
@@ -63,7 +63,7 @@ class Registry {
   std::map<std::string, PluginAlias> aliases_;
 };
 
-/// All devices that ARDEE has, a line each.
+/// All built-in devices, one line each.
 Registry builtin_registry();
 
 }  // namespace ardee::devices

@@ -10,8 +10,8 @@
 
 namespace ardee::devices {
 
-/// A model in the world as its devices see it: its description, and where its links are now. A
-/// static model stands still and has no dynamics.
+/// A model in the world as its devices see it: its description, and the present poses of its links.
+/// A static model has a fixed pose and no dynamics.
 class Robot {
  public:
   Robot(std::string name, std::shared_ptr<const Model> model, std::uint32_t entity)
@@ -20,13 +20,13 @@ class Robot {
   const std::string& name() const { return name_; }
   const Model& model() const { return *model_; }
   std::shared_ptr<const Model> shared_model() const { return model_; }
-  /// What the ray scenes call it.
+  /// Number of the robot in the ray scenes.
   std::uint32_t entity() const { return entity_; }
 
   bool is_dynamic() const { return dynamics_ != nullptr; }
   /// Throws Error if the model is static.
   physics::PhysicsModel& dynamics() const;
-  /// The moving state; nullptr and a fixed pose for a static model.
+  /// Sets the moving state; a static model has nullptr and a fixed pose.
   void attach(physics::PhysicsModel* dynamics) { dynamics_ = dynamics; }
   void place(const Pose& X_WM) { fixed_pose_ = X_WM; }
 
@@ -35,11 +35,11 @@ class Robot {
   Twist link_twist(std::size_t link) const;
   /// Velocity of the model's frame, which moves with the canonical link; axes of the world.
   Twist twist() const;
-  /// The part of it that odometry in a plane has, as the stock drives give it: forwards, to the
-  /// left, and the turn, all seen from above.
+  /// Planar part of twist(), as the odometry of the stock drives gives it: forwards, to the left,
+  /// and the turn, all seen from above.
   Twist planar_twist() const;
-  /// Of the link scope + link_name ("arm::" + "hand"), or where there is none of link_name. Throws
-  /// Error at `source` if there is neither.
+  /// Index of the link scope + link_name ("arm::" + "hand"), or if there is none, of link_name.
+  /// Throws Error at `source` if there is neither.
   std::size_t link_index(const std::string& link_name, const Source& source,
                          const std::string& scope = "") const;
   std::size_t joint_index(const std::string& joint_name, const Source& source,

@@ -7,7 +7,7 @@ namespace ardee::devices {
 
 /// The errors of SDF's <imu> block, in rad/s and m/s^2.
 struct SdfImuNoise {
-  /// Of one vector.
+  /// Errors of one vector.
   struct Axes {
     SensorErrors errors{};
     Eigen::Vector3d precision{0, 0, 0};  // values are multiples of it; 0: not quantised
@@ -18,9 +18,9 @@ struct SdfImuNoise {
   Axes accel;
 };
 
-/// Reads <angular_velocity> and <linear_acceleration> with a <noise> an axis, or SDF 1.4's <noise>
+/// Reads <angular_velocity> and <linear_acceleration> with a <noise> per axis, or SDF 1.4's <noise>
 /// with <rate> and <accel>. Means add to the value; a bias is drawn once, N(bias_mean, bias_stddev)
-/// of either sign, as Gazebo does it; <dynamic_bias_stddev> (of the driving noise, per root Hz) and
+/// of either sign, as in Gazebo; <dynamic_bias_stddev> (of the driving noise, per root Hz) and
 /// <dynamic_bias_correlation_time> make a drift.
 SdfImuNoise read_sdf_imu_noise(const Element& imu, std::uint64_t key);
 

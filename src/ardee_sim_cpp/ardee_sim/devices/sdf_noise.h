@@ -5,15 +5,15 @@
 
 namespace ardee::devices {
 
-/// What SDF's <noise> says of every sensor's values, in their unit.
+/// Contents of SDF's <noise> that all sensors share, in the unit of their values.
 struct SdfNoise {
-  bool is_none = false;  // all else is then 0
+  bool is_none = false;  // all other fields are then 0
   double mean = 0.0;
   double std = 0.0;
   double precision = 0.0;  // values are multiples of it; 0: not quantised
 };
 
-/// Reads type, mean, stddev and, where values may be quantised, precision; a type that is not
+/// Reads type, mean, stddev and, if values may be quantised, precision; a type that is not
 /// gaussian, gaussian_quantized or none is an Error.
 SdfNoise read_sdf_noise(const Element& noise, bool may_be_quantised);
 

@@ -20,7 +20,7 @@ void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!timer_.due(now_ns) || !wanted()) return;
   elapsed_s_ = seconds(now_ns - last_ns_);
   last_ns_ = now_ns;
-  // The frame's index counts unwanted frames too, so that noise does not depend on who listens.
+  // The frame's index counts unwanted frames too, so that noise does not depend on subscribers.
   sample(now_ns, stream_.frame(timer_.count() - 1), sink);
 }
 

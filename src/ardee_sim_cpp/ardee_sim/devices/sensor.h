@@ -9,7 +9,8 @@
 
 namespace ardee::devices {
 
-/// What all sensors share: where they sit and when they measure. A subclass says what is measured.
+/// Base class of all sensors: their mounting and their times of measurement. A subclass defines the
+/// measurement.
 class Sensor : public Device {
  public:
   struct Mount {
@@ -18,7 +19,7 @@ class Sensor : public Device {
     Pose X_LS;
     double rate_hz = 0.0;    // 0: at each step
     std::uint64_t seed = 0;  // of the robot; the sensor's own stream is derived from it by name
-    TimeNs offset_ns = 0;    // of the times at which it measures
+    TimeNs offset_ns = 0;    // offset of the times of measurement
   };
 
   Sensor(const std::string& name, const Mount& mount);
@@ -28,17 +29,17 @@ class Sensor : public Device {
   void reset(TimeNs now_ns) override;
 
  protected:
-  /// Measures and corrupts with `noise`, a stream of this frame's own; called when due and wanted.
+  /// Measures, and corrupts with `noise`, a stream for this frame only; called when due and wanted.
   virtual void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) = 0;
-  /// True if somebody listens to any output.
+  /// Whether any output has a subscriber.
   virtual bool wanted() const = 0;
-  /// After each step, also those at which no sample is due.
+  /// Follows each step, also those at which no sample is due.
   virtual void follow(TimeNs /*now_ns*/) {}
   Pose pose() const { return mount_.robot.link_pose(mount_.link) * mount_.X_LS; }
   const Mount& mount() const { return mount_; }
-  /// Velocity of the sensor's origin, and angular velocity, in world axes.
+  /// Linear velocity of the sensor's origin and angular velocity, in world axes.
   Twist twist() const;
-  /// Since the sample before, or the reset; in sample().
+  /// Time since the previous sample, or the reset; for use in sample().
   double elapsed_s() const { return elapsed_s_; }
 
  private:
@@ -49,11 +50,11 @@ class Sensor : public Device {
   double elapsed_s_ = 0.0;
 };
 
-/// The slower of two rates in Hz, of which 0 is no limit.
+/// The slower of two rates in Hz; 0 is no limit.
 double slower_rate_hz(double one_hz, double other_hz);
 
-/// When a hector_gazebo plugin measures: <updateRate> in Hz (0: at each step) or <updatePeriod> in
-/// s, from <updateOffset> in s on.
+/// Reads the times at which a hector_gazebo plugin measures: <updateRate> in Hz (0: at each step)
+/// or <updatePeriod> in s, from <updateOffset> in s on.
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount);
 
 }  // namespace ardee::devices

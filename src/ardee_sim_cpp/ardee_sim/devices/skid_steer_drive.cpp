@@ -10,8 +10,8 @@
 namespace ardee::devices {
 namespace {
 
-constexpr double kFastest = 1e6;           // rad/s: what a command can ask of a wheel
-constexpr double kUnknownVariance = 1e12;  // of z, roll and pitch, as the stock plugin says
+constexpr double kFastest = 1e6;           // rad/s: bound of a wheel's command
+constexpr double kUnknownVariance = 1e12;  // of z, roll and pitch, as in the stock plugin
 
 std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& parameters,
                                                                  const DeviceContext& context) {
@@ -26,7 +26,7 @@ std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& par
   return joints;
 }
 
-/// Encoders on all wheels, where the plugin asks for them.
+/// Encoders on all wheels, if the plugin requests them.
 void read_encoders(Parameters& parameters, const std::string& space, bool always,
                    const DeviceContext& context, SkidSteerDrive::Params& params) {
   static constexpr std::array<const char*, SkidSteerDrive::kWheelCount> kKeys = {

@@ -14,7 +14,7 @@ namespace ardee::devices {
 
 /// libgazebo_ros_skid_steer_drive.so (thesis 4.4.4, Listing A.3): four wheels, those of a side at
 /// one speed. Each wheel's motor has at most `torque`; there is no PID and no acceleration limit,
-/// and the last command stays unless a timeout is set. With <pulsesPR> each wheel has an encoder
+/// and the last command holds unless a timeout is set. With <pulsesPR> each wheel has an encoder
 /// (thesis 4.3.1); libardee_ros_skid_steer_drive.so has them always.
 class SkidSteerDrive : public Device {
  public:
@@ -29,7 +29,7 @@ class SkidSteerDrive : public Device {
     double command_timeout_s = 0.0;  // 0: the last command stays
     std::string command_topic;
     OdometryPublisher::Params odometry;
-    std::vector<WheelEncoder::Params> encoders;  // none, or one a wheel
+    std::vector<WheelEncoder::Params> encoders;  // none, or one per wheel
     std::array<std::string, kWheelCount> encoder_topics;
   };
 

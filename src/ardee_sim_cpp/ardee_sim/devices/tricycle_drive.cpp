@@ -11,7 +11,7 @@
 namespace ardee::devices {
 namespace {
 
-constexpr double kFastest = 1e6;  // m/s, rad/s: what a command can ask of a wheel
+constexpr double kFastest = 1e6;  // m/s, rad/s: bound of a wheel's command
 
 OdometryPublisher::Params read_odometry(Parameters& parameters, const std::string& space,
                                         const TricycleDrive::Params& drive,

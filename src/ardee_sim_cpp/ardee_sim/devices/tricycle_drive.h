@@ -12,10 +12,10 @@
 namespace ardee::devices {
 
 /// libgazebo_ros_tricycle_drive.so: one wheel that is driven and steered, two that carry encoders.
-/// Of a command linear.x is the speed of the driven wheel's rim in m/s and angular.z the steering
-/// angle in rad, at most a quarter turn. Without <steeringSpeed> the wheel stands at its angle
-/// after one update, turned by its motor (the stock plugin makes it jump there). Odometry of the
-/// encoders turns as the robot does (the stock plugin's turns the other way).
+/// In a command, linear.x is the speed of the driven wheel's rim in m/s and angular.z the steering
+/// angle in rad, at most a quarter turn. Without <steeringSpeed> the motor turns the wheel to its
+/// angle within one update (in the stock plugin it jumps there). The encoders' odometry turns in
+/// the robot's direction (the stock plugin's turns the other way).
 class TricycleDrive : public Device {
  public:
   enum Joint { kSteering, kActuated, kEncoderLeft, kEncoderRight, kJointCount };
@@ -51,7 +51,7 @@ class TricycleDrive : public Device {
   Robot& robot_;
   RateTimer command_timer_;
   DriveCommand command_{0.0};
-  double speed_m_per_s_ = 0.0;  // asked of the driven wheel now
+  double speed_m_per_s_ = 0.0;  // present set point of the driven wheel
   TimeNs last_command_ns_ = 0;
   OdometryPublisher odometry_;
   WheelPublisher wheels_;

@@ -37,7 +37,7 @@ std::unique_ptr<Device> VelodyneLidar::make(const SensorDescription& sensor, Par
   params.min_intensity = keys.number("min_intensity", params.min_intensity);
   params.organised = keys.boolean("organised", keys.boolean("organize_cloud", false));
   params.motion_distortion = keys.boolean("motionDistortion", false);
-  // Two independent errors make one.
+  // Combines two independent errors.
   RangeNoise& noise = params.lidar.rays.noise;
   noise.std_m = std::hypot(noise.std_m, read_gaussian_noise(keys));
   const Mount mount{context.robot, link, sensor.X_LS, sensor.update_rate_hz, context.seed};

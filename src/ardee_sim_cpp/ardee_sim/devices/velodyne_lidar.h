@@ -11,18 +11,18 @@
 
 namespace ardee::devices {
 
-/// A turning lidar of several rings that gives point clouds in the layout of Velodyne's driver,
+/// A rotating lidar of several rings that gives point clouds in the layout of Velodyne's driver,
 /// with each point's label in bytes that are free there, and its time counted from the stamp.
 ///
 /// Points come column by column and in a column from the lowest ring up. By default a scan is taken
-/// at one moment; a scan with motion distortion ends at its time stamp, its columns are taken
-/// evenly over the turn before, and each point is told, as by the real device, in the sensor's
-/// frame of its own moment. Other models stand where they are at the stamp.
+/// at one time; a scan with motion distortion ends at its stamp, its columns are spread evenly over
+/// the preceding turn, and each point is given, as by the real device, in the sensor's frame at the
+/// point's own time. Other models keep their poses of the stamp.
 class VelodyneLidar : public RaySensor {
  public:
   struct Params {
     RaySensor::Params lidar;
-    // Points out of (min_range_m, max_range_m), or less bright, are left out.
+    // Points out of (min_range_m, max_range_m), or below the minimum intensity, are left out.
     double min_range_m = 0.0;
     double max_range_m = std::numeric_limits<double>::max();
     double min_intensity = std::numeric_limits<double>::lowest();
@@ -46,9 +46,9 @@ class VelodyneLidar : public RaySensor {
 
  private:
   bool is_distorted() const { return params_.motion_distortion && mount().robot.is_dynamic(); }
-  /// At the columns' own times.
+  /// Poses at the columns' own times.
   const std::vector<BeamEcho>& measure_distorted(TimeNs now_ns, const CounterRng& noise);
-  /// Of a column's beams, counted from the stamp: 0 or less.
+  /// Time of a column's beams from the stamp: 0 or less.
   double column_time_ns(int column) const;
   bool keeps(const BeamEcho& echo) const;
   PointCloudReading to_cloud(const std::vector<BeamEcho>& echoes) const;

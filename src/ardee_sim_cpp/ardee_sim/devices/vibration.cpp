@@ -9,7 +9,7 @@ namespace ardee::devices {
 namespace {
 
 constexpr double kMostHz = 1e5;
-constexpr double kBelowNyquist = 0.45;  // a band's end is at most this share of the sampling rate
+constexpr double kBelowNyquist = 0.45;  // greatest upper corner, as a share of the sampling rate
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void BandNoise::design(double dt_s) {
   dt_s_ = dt_s;
   high_pass_ = filter(low_hz_, true);
   low_pass_ = filter(high_hz_, false);
-  // The variance of filtered white noise is the energy of the impulse response, which has died away
+  // The variance of filtered white noise is the energy of the impulse response, which has decayed
   // after some periods of the lower corner.
   constexpr double kPeriods = 10.0, kMostSamples = 1e6;
   const auto samples =

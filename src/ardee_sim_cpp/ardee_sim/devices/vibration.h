@@ -11,7 +11,7 @@
 
 namespace ardee::devices {
 
-/// How a robot that drives over clods shakes its sensors.
+/// Parameters of the vibration of sensors on a robot that drives over clods.
 struct VibrationParams {
   Eigen::Vector3d std_m_per_s2{0, 0, 0};  // at speed_m_per_s, proportional to the speed
   double speed_m_per_s = 1.0;
@@ -20,8 +20,8 @@ struct VibrationParams {
   double high_hz = 20.0;
 };
 
-/// <vibrationStdAccel> (x y z), <vibrationSpeed>, <vibrationBand> (two frequencies); none if the
-/// first is absent or zero.
+/// <vibrationStdAccel> (x y z), <vibrationSpeed>, <vibrationBand> (two frequencies); returns none
+/// if the first is absent or zero.
 std::optional<VibrationParams> read_vibration(Parameters& parameters);
 
 /// Gaussian noise in a band of frequencies: white noise through Butterworth filters of second
@@ -31,7 +31,7 @@ class BandNoise {
   BandNoise(double low_hz, double high_hz) : low_hz_(low_hz), high_hz_(high_hz) {}
 
   void reset();
-  /// The next sample, made of one of white noise.
+  /// Returns the next sample, made from one sample of white noise.
   double next(double white, double dt_s);
 
  private:
@@ -53,7 +53,7 @@ class BandNoise {
   Biquad low_pass_;
 };
 
-/// The shaking in the sensor's axes, step by step.
+/// Vibration in the sensor's axes, step by step.
 class Vibration {
  public:
   Vibration(const VibrationParams& params, std::uint64_t key);

@@ -7,7 +7,7 @@ namespace ardee::devices {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * M_PI;
-/// Of a pulse: an angle that lies on an edge but for rounding counts as having passed it.
+/// Tolerance in pulses: an angle that misses an edge by rounding only counts as past it.
 constexpr double kEdge = 1e-6;
 
 }  // namespace

@@ -19,15 +19,15 @@ class WheelEncoder {
     int id = 0;
     double wheel_diameter_m = 0.15;
     double pulses_per_turn = 150.0;
-    double speed_window_s = 0.1;  // 0: from one reading to the next
-    bool ideal = false;           // angle and speed of the joint as they are, not in pulses
+    double speed_window_s = 0.1;  // 0: the time between readings
+    bool ideal = false;           // exact angle and speed of the joint, not in pulses
     std::string frame;
   };
 
   WheelEncoder(const Params& params, Robot& robot) : params_(params), robot_(robot) { reset(0); }
 
   EncoderReading read(TimeNs now_ns);
-  /// Counts from the wheel's present angle; angles stay those of the joint.
+  /// Restarts the count at the wheel's present angle; reported angles remain those of the joint.
   void reset(TimeNs now_ns);
 
  private:

@@ -19,11 +19,11 @@ class WheelOdometry {
 
   WheelOdometry(const Params& params, const Robot& robot);
 
-  /// Takes in how far the wheels have turned since the last call. The vehicle moves along the chord
-  /// of the arc: Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, eq. 5.7.
+  /// Adds the wheels' turns since the last call. The vehicle moves along the chord of the arc:
+  /// Siegwart and Nourbakhsh, Introduction to Autonomous Mobile Robots, eq. 5.7.
   void update();
   const Pose& pose() const { return pose_; }
-  /// In the vehicle's axes, of the wheels' present speeds.
+  /// Twist by the wheels' present speeds, in the vehicle's axes.
   Twist twist() const;
   /// Begins anew at the origin, from the wheels' present angles.
   void reset();

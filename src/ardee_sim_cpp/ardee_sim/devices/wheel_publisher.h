@@ -10,8 +10,8 @@
 
 namespace ardee::devices {
 
-/// What a drive tells of its wheels, where its plugin is asked to: the states of their joints, and
-/// their links' transforms.
+/// Publisher of a drive's wheels, on the plugin's request: the states of their joints, and their
+/// links' transforms.
 class WheelPublisher {
  public:
   struct Wheel {
@@ -20,7 +20,7 @@ class WheelPublisher {
     std::string frame;
   };
   struct Params {
-    std::vector<Wheel> wheels;  // in the order in which they are told
+    std::vector<Wheel> wheels;  // in the order in which they are published
     bool has_states = false;
     bool has_transforms = false;
     std::string topic;  // of the states

@@ -12,13 +12,13 @@ namespace ardee::physics {
 namespace {
 
 constexpr char kWorldName[] = "world";
-// From a grain of dust to a mountain: within these the engine's arithmetic cannot overflow.
+// Bounds from a grain of dust to a mountain, within which the engine's arithmetic cannot overflow.
 constexpr double kMinMass = 1e-9, kMaxMass = 1e12;       // kg
 constexpr double kMinMoment = 1e-15, kMaxMoment = 1e18;  // kg m^2
-constexpr double kLeastShare = 1e-9;  // of the largest moment that the least one has to be
+constexpr double kLeastShare = 1e-9;  // least moment, as a share of the largest one
 
 /// The steps of union-find: each link points at a link of lower index in its group, the root at
-/// itself. The last element stands for the world.
+/// itself. The last element represents the world.
 std::size_t find_root(std::vector<std::size_t>& parents, std::size_t element) {
   while (parents[element] != element) {
     parents[element] = parents[parents[element]];
@@ -127,7 +127,7 @@ void check_mass(const Model& model, const BodyGroup& group) {
   throw Error(link.source, what.str());
 }
 
-/// Whether the engine can use it: positive moments of one order.
+/// Whether the engine can use an inertia: positive moments of similar magnitude.
 bool is_usable(const Eigen::Matrix3d& inertia_kg_m2) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_kg_m2,
                                                               Eigen::EigenvaluesOnly);

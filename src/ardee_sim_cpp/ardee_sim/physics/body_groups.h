@@ -12,11 +12,11 @@
 
 namespace ardee::physics {
 
-/// Links that fixed joints hold together: one rigid body. Masses in kg, lengths in m, in the
+/// Rigid body made of links that fixed joints hold together. Masses in kg, lengths in m, in the
 /// model's frame M with all joints at zero.
 struct BodyGroup {
   std::vector<std::size_t> links;
-  /// Moved by no force: a kinematic link is among them, or they are fixed to the world.
+  /// Whether no force moves the body: one of its links is kinematic, or it is fixed to the world.
   bool kinematic = false;
   double mass_kg = 0.0;
   Eigen::Vector3d com_M{0, 0, 0};
@@ -24,7 +24,7 @@ struct BodyGroup {
   /// The part of the mass that gravity pulls on.
   double gravity_mass_kg = 0.0;
   Eigen::Vector3d gravity_com_M{0, 0, 0};
-  // Share of the momentum that a step takes away: each link's part loses its own.
+  // Share of the momentum that a step takes away: the mean of the links' shares, weighted by mass.
   double linear_decay = 0.0;
   double angular_decay = 0.0;
 };
@@ -41,7 +41,7 @@ struct BodyGroups {
 using LinkIndex = std::unordered_map<std::string, std::size_t>;
 LinkIndex index_links(const Model& model);
 
-/// Whether a joint makes one body of its links: a fixed one does, unless it is measured and has
+/// Whether a joint joins its links into one body: a fixed joint does, unless it is measured and has
 /// mass on both sides.
 bool is_lumped(const Model& model, const Joint& joint);
 
@@ -49,14 +49,14 @@ bool is_lumped(const Model& model, const Joint& joint);
 std::vector<LinkProperties> described_links(const Model& model);
 
 /// Throws Error naming the link if a body that must move has no mass or an inertia that is not
-/// finite. The inertia of a body is the nearest possible one if the sum of its links' is none.
+/// finite. If the summed inertia is impossible, the body gets the nearest possible one.
 BodyGroups group_links(const Model& model, const std::vector<LinkProperties>& links);
 
-/// What becomes of an inertia that no body has.
+/// Policy for an inertia that no body can have.
 enum class OnImpossible { kMend, kRefuse };
 
-/// Sums the links' masses and inertias anew; throws as group_links, and for an inertia that no body
-/// has if it is to be as given.
+/// Recomputes the sums of the links' masses and inertias. Throws as group_links does, and with
+/// kRefuse also for an impossible inertia.
 void sum_masses(const Model& model, const std::vector<LinkProperties>& links, BodyGroup& group,
                 OnImpossible what_then);
 

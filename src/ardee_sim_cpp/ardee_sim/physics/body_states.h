@@ -8,7 +8,7 @@
 
 namespace ardee::physics {
 
-/// All that a step changes of bodies, to take it back.
+/// State of bodies that a step changes, saved to undo the step.
 class BodyStates {
  public:
   void save(const std::vector<dBodyID>& bodies) {

@@ -16,7 +16,7 @@ bool is_size(const Eigen::Vector3d& value) {
   return is_size(value.x()) && is_size(value.y()) && is_size(value.z());
 }
 
-/// What is wrong with a geometry; empty if nothing.
+/// Fault of a geometry; empty if there is none.
 struct Fault {
   std::string operator()(const Box& box) const {
     return is_size(box.size_m) ? "" : "found a box whose size is not positive";
@@ -126,7 +126,7 @@ Pose shape_pose(const Collision& collision, const Pose& X_WC, double scale) {
   return X_WC * Pose{scale * heightmap->position_m, Eigen::Quaterniond::Identity()};
 }
 
-/// Gives a shape that knows its collision, scale and pose what the contacts are found by.
+/// Creates the contact geometry of a shape with known collision, scale and pose.
 struct ShapeFactory::Make {
   ShapeFactory& factory;
   CollisionShape& shape;

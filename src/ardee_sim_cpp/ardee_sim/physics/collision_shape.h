@@ -22,14 +22,15 @@ struct CollisionShape {
   GeomHandle geom;
   std::shared_ptr<const TriangleMesh> mesh;
   std::shared_ptr<const HeightField> field;
-  Pose X_WS;                   // as made; a geom on a body moves on
+  Pose X_WS;                   // at creation; a geom on a body moves away from it
   Eigen::AlignedBox3d bounds;  // at X_WS
-  /// "model::link::collision", put together when asked for.
+  /// "model::link::collision", composed on request.
   std::function<std::string()> scoped_name;
-  bool has_sensor = false;  // its link has, which may ask for its contacts at any time
+  bool has_sensor = false;  // its link has a sensor, which may ask for contacts at any time
 };
 
-/// Sizes positive, meshes and heights there: throws Error naming model, link and collision if not.
+/// Checks that sizes are positive and that meshes and heights exist. Throws Error naming model,
+/// link and collision otherwise.
 void check_collision(const Model& model, const Link& link, const Collision& collision);
 
 /// Bounds of a shape whose frame is at X_WS; infinite for a plane.
@@ -38,10 +39,10 @@ Eigen::AlignedBox3d shape_bounds(const Geometry& geometry, double scale, const P
 /// Frame of the shape itself: the collision's, moved by a heightmap's own position.
 Pose shape_pose(const Collision& collision, const Pose& X_WC, double scale);
 
-/// Descriptions share height grids; so do their fields.
+/// Makes shapes. Descriptions that share a height grid share its field.
 class ShapeFactory {
  public:
-  /// A shape at rest at X_WC, in no space.
+  /// Makes a shape at rest at X_WC, in no ODE space.
   CollisionShape make(const Collision& collision, const Pose& X_WC, double scale);
 
  private:

@@ -19,8 +19,8 @@ struct Contact {
   Eigen::Vector3d position{0, 0, 0};
   Eigen::Vector3d normal{0, 0, 0};  // from the second into the first
   double depth_m = 0.0;
-  /// What acted on each over the step: about the centre of mass of the links that move as one body,
-  /// or of scenery, which has none, about the collision's frame.
+  /// Wrench on each collision over the step: about the centre of mass of its body, or for scenery,
+  /// which has no body, about the collision's frame.
   ForceTorque on1;
   ForceTorque on2;
 };

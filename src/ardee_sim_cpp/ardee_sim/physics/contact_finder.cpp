@@ -40,7 +40,7 @@ void ContactFinder::gather(const std::vector<DynamicModel*>& models) {
 
 void ContactFinder::touch_scenery(Moving& item, const PhysicsParams& params) {
   if (item.bounds.empty()) return;
-  // Links may be far apart: what lies between them is not looked at.
+  // Links may be far apart: scenery between them is not tested.
   const bool at_once = SceneryIndex::is_small(item.all);
   near_.clear();
   if (at_once) scenery_.query(item.all, near_);
@@ -79,7 +79,7 @@ void ContactFinder::touch(std::size_t first, std::size_t second, const PhysicsPa
     if (!a.bounds[i].intersects(b.all)) continue;
     for (std::size_t j = 0; j < b.bounds.size(); ++j) {
       if (!a.bounds[i].intersects(b.bounds[j])) continue;
-      // The first side of a contact is one that moves.
+      // The first side of a contact is a moving model.
       if (moves(*a.model, i)) {
         contacts_.collide(side(*a.model, i, params), side(*b.model, j, params), params);
       } else if (moves(*b.model, j)) {

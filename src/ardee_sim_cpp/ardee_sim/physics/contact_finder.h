@@ -11,17 +11,17 @@
 
 namespace ardee::physics {
 
-/// Finds what touches what in a step: each model against the scenery near it, itself and the other
-/// models, always in the order in which they are given.
+/// Finds the contacts of a step: each model against the scenery near it, itself and the other
+/// models, always in the order in which the models are given.
 class ContactFinder {
  public:
   ContactFinder(SceneryIndex& scenery, ContactJoints& contacts)
       : scenery_(scenery), contacts_(contacts) {}
 
-  /// In a step of the awake models.
+  /// Finds the contacts of the awake models in a step.
   void find(const std::vector<DynamicModel*>& models, const PhysicsParams& params);
 
-  /// Models that touch one another, which are solved together, in the order of the models.
+  /// Groups of models that touch one another and are solved together, in the order of the models.
   std::vector<Island> islands();
   /// Models of islands that stand on scenery, none of which has a sensor, and are wholly at rest.
   std::vector<DynamicModel*> at_rest();
@@ -34,7 +34,7 @@ class ContactFinder {
     Eigen::AlignedBox3d all;
     std::size_t rows;
     bool on_scenery;
-    bool is_felt;        // by scenery that has sensors
+    bool is_felt;        // touches scenery that has sensors
     std::size_t island;  // index of a model of the same island, its own at the root
   };
 

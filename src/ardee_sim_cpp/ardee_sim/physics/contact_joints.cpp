@@ -8,12 +8,12 @@
 namespace ardee::physics {
 namespace {
 
-constexpr double kMaxStiffness = 1e15;    // N/m, N s/m: as good as rigid
-constexpr double kLeastStiffness = 1e-6;  // N s/m: as good as nothing
-constexpr double kSlidingSpeed = 0.02;    // m/s: slower than that a contact sticks in part
+constexpr double kMaxStiffness = 1e15;    // N/m, N s/m: rigid in practice
+constexpr double kLeastStiffness = 1e-6;  // N s/m: none in practice
+constexpr double kSlidingSpeed = 0.02;    // m/s: a slower contact sticks in part
 
-/// The first friction direction in the world: the first surface's that has one, along the contact
-/// plane.
+/// The first friction direction in the world: that of the first surface that has one, along the
+/// contact plane.
 std::optional<Eigen::Vector3d> friction_direction(const ContactSide& a, const ContactSide& b,
                                                   const Eigen::Vector3d& normal) {
   for (const ContactSide* side : {&a, &b}) {
@@ -40,8 +40,8 @@ Eigen::Vector3d velocity_at(dBodyID body, const Eigen::Vector3d& p) {
 
 /// Coulomb's friction within ODE's pyramid: while a contact slides, each axis carries the share
 /// that dissipates the most, (mu^2 v1, mu2^2 v2) / |(mu v1, mu2 v2)|, which for mu = mu2 points
-/// against the sliding; while it sticks, both carry all they can. The pyramid alone, whose axes
-/// slide independently, has a skid-steering robot turn about its heavier axle, or not at all.
+/// against the sliding; while it sticks, both carry their full limit. With the pyramid alone, whose
+/// axes slide independently, a skid-steering robot turns about its heavier axle, or not at all.
 void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& normal,
                     dContact& contact) {
   if (std::isinf(contact.surface.mu) || std::isinf(contact.surface.mu2)) return;  // never slides
@@ -56,10 +56,9 @@ void narrow_to_cone(const Eigen::Vector3d& sliding, const Eigen::Vector3d& norma
   contact.surface.mu2 *= 1.0 - slides * (1.0 - grip2 / grip);
 }
 
-/// How deep a body may lie in another before it is pushed out: what its surface says, which takes
-/// the place of the world's layer. A surface that says nothing has no depth of its own in Gazebo
-/// either; here it keeps of the world's layer what ODE has by default, so that it rests and does
-/// not hop.
+/// Depth that a body may have in another before it is pushed out: that of its surface, which
+/// replaces the world's layer. A surface without a depth has none in Gazebo either; here it keeps
+/// at most ODE's default layer, so that the body rests and does not hop.
 double own_layer(const ContactSide& side, const PhysicsParams& params) {
   constexpr double kDefaultLayer_m = 0.001;
   if (!side.body) return dInfinity;
@@ -67,13 +66,13 @@ double own_layer(const ContactSide& side, const PhysicsParams& params) {
   return own_m > 0.0 ? own_m : std::min(params.contact_surface_layer_m, kDefaultLayer_m);
 }
 
-/// How fast a body may be pushed out.
+/// Greatest speed at which a body is pushed out.
 double own_push(const ContactSide& side) {
   const double own = side.shape->collision->surface.max_correcting_velocity_m_per_s;
   return side.body && own >= 0.0 ? own : dInfinity;
 }
 
-/// Radius of the sphere that meets a plane as two spheres meet; zero: flat.
+/// Radius of the sphere whose contact with a plane equals that of two spheres; zero: flat.
 double combine_radii(double a_m, double b_m) {
   if (a_m > 0.0 && b_m > 0.0) return 1.0 / (1.0 / a_m + 1.0 / b_m);
   return std::max(a_m, b_m);
@@ -87,7 +86,7 @@ double spinning_lever(const ContactParameters& law, double depth_m) {
   return radius_m > 0.0 ? 3.0 * M_PI / 16.0 * radius_m * law.torsional_mu : 0.0;
 }
 
-/// The same forces on scenery, which has no body, about the frame of its collision.
+/// Wrench of a contact on scenery, which has no body, about the frame of its collision.
 ForceTorque reaction(const ContactSide& a, const ContactSide& b, const ContactPoint& point,
                      const ForceTorque& on_a) {
   const Eigen::Vector3d arm = point.position - to_vector(dBodyGetPosition(a.body));
@@ -96,7 +95,7 @@ ForceTorque reaction(const ContactSide& a, const ContactSide& b, const ContactPo
   return {force, (point.position - b.shape->X_WS.p).cross(force) - spin};
 }
 
-/// The axis that ODE itself takes for the first of its pyramid.
+/// The axis that ODE uses as the first one of its pyramid.
 Eigen::Vector3d default_direction(const Eigen::Vector3d& normal) {
   dVector3 n, p, q;
   for (int i = 0; i < 3; ++i) n[i] = normal[i];
@@ -190,8 +189,8 @@ void ContactJoints::join(const ContactSide& a, const ContactSide& b, const Conta
   copy(point.normal, contact.geom.normal);
   contact.surface.rhoN = spinning_lever(law, point.depth_m);
   if (contact.surface.rhoN > 0.0) contact.surface.mode |= dContactRolling;
-  // The engine knows one layer and one greatest push for all contacts; here each has its own, so
-  // the push is worked out here and handed on as the depth that gives it.
+  // The engine has one layer and one greatest push for all contacts; here each contact has its own,
+  // so the push is computed here and passed on as the depth that produces it.
   const double rate = law.erp / step_s;
   const double push =
       std::min(rate * std::max(0.0, point.depth_m - law.min_depth_m), law.max_push_m_per_s);

@@ -19,9 +19,9 @@ struct ContactSide {
   double weight_n = 0.0;  // of the whole model
 };
 
-/// How two surfaces meet, combined as Gazebo Classic combines them: springs in series, dampers in
-/// parallel, the smaller friction, restitution and threshold of the two. Depth and speed of
-/// correction are those of bodies, which scenery is not: the smaller of two bodies'.
+/// Contact parameters of two surfaces, combined as Gazebo Classic combines them: springs in series,
+/// dampers in parallel, the smaller friction, restitution and threshold of the two. Depth and speed
+/// of correction come from bodies, not from scenery: the smaller value of two bodies.
 struct ContactParameters {
   double mu = 0.0;
   double mu2 = 0.0;
@@ -42,11 +42,11 @@ struct ContactParameters {
 
 /// Whether two surfaces touch at all, by their bitmasks.
 bool meet(const Surface& a, const Surface& b);
-/// Whether they do not act on each other where they touch.
+/// Whether a contact of the two surfaces exerts no force.
 bool is_forceless(const Surface& a, const Surface& b);
 
-/// A soft contact may always push with twice the weight of the lighter model, else it would sink
-/// for ever.
+/// Force bound of a soft contact: always at least twice the weight of the lighter model, which
+/// would sink for ever otherwise.
 ContactParameters combine_surfaces(const ContactSide& a, const ContactSide& b,
                                    const PhysicsParams& params);
 
@@ -59,13 +59,13 @@ class ContactJoints {
   void collide(const ContactSide& a, const ContactSide& b, const PhysicsParams& params);
   void clear();
   std::size_t count() const { return count_; }
-  /// Whether the contacts that are found from now on are to be told.
+  /// Sets whether the contacts that are found from now on are reported.
   void set_told(bool told) { told_ = told; }
-  /// Those told, once the solver has taken its step, in the order in which they were found.
+  /// Reported contacts, valid after the solver's step, in the order in which they were found.
   std::vector<Contact> contacts() const;
 
  private:
-  /// A contact to tell, and what the solver says of it.
+  /// A contact to report, and the solver's forces for it.
   struct Told {
     ContactSide a;
     ContactSide b;

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kRowsPerJoint = 8;  // five of the joint, stop, motor or friction, spring
 
-/// The rotation by a rate that is held for a step.
+/// The rotation by a constant rate over a step.
 Quaterniond turn_of(const Vector3d& rate, double step_s) {
   const double speed = rate.norm();
   if (speed == 0.0) return Quaterniond::Identity();
@@ -190,7 +190,7 @@ void DynamicModel::order_carriers() {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (!joints_[i]) continue;
     const std::size_t child = child_group(model_->joints[i]);
-    if (is_carried[child]) continue;  // held by two: the first counts
+    if (is_carried[child]) continue;  // carried by two: the first counts
     is_carried[child] = true;
     carries[parent_group(model_->joints[i])].push_back(child);
   }
@@ -217,7 +217,7 @@ void DynamicModel::turn_with_carriers(double step_s) {
     turns_[each.group] = turns_[each.carrier] * turn_of(relative, step_s);
     const Quaterniond now = to_quaternion(dBodyGetQuaternion(body(each.group)));
     const Quaterniond turned = turns_[each.group] * before * now;
-    if (!turned.coeffs().allFinite()) continue;  // who asks for the state says so
+    if (!turned.coeffs().allFinite()) continue;  // the check of the state reports it
     const dQuaternion q = {turned.w(), turned.x(), turned.y(), turned.z()};
     dBodySetQuaternion(body(each.group), q);
   }

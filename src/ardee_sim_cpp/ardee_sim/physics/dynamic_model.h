@@ -81,7 +81,7 @@ class DynamicModel : public PhysicsModel {
   void fall_asleep(std::uint64_t rest);
   void wake();
   Eigen::AlignedBox3d bounds() const;
-  /// Model, link and how it has left the contract of a valid state; empty if it has not.
+  /// Model, link and the limit of a valid state that it has left; empty if it has not.
   std::string state_fault() const;
 
  private:
@@ -89,11 +89,11 @@ class DynamicModel : public PhysicsModel {
   void make_shapes(ShapeFactory& factory);
   void make_joints(dWorldID world, const Pose& X_WM);
   void find_self_pairs();
-  /// Orders groups and what carries each, for turn_with_carriers.
+  /// Orders the groups and finds the carrier of each, for turn_with_carriers.
   void order_carriers();
-  /// Turns each body first with the body that carries it, then by its rate against that. Turned by
-  /// the sum of both at once, as the engine does, a wheel of a robot that turns leans out by half
-  /// the product of both rates and the step, and then rolls on one edge.
+  /// Turns each body first with the body that carries it, then by its rate relative to that body.
+  /// If both are summed first, as ODE does, a wheel of a turning robot leans out by half the
+  /// product of both rates and the step, and then rolls on one edge.
   void turn_with_carriers(double step_s);
   std::size_t parent_group(const Joint& joint) const;
   std::size_t child_group(const Joint& joint) const;
@@ -110,9 +110,9 @@ class DynamicModel : public PhysicsModel {
   /// Throws Error naming the joint if it has no such axis.
   JointDrive& drive(std::size_t joint, std::size_t axis) const;
   void set_mass(std::size_t group);
-  /// Follows how long the bodies have stayed where they are.
+  /// Measures for how long the bodies have kept their places.
   void watch_rest(double step_s);
-  /// Moves the frame of a body, not what it carries, by so much in its own axes.
+  /// Moves the frame of a body, but not its links, by an offset in its own axes.
   void shift_frame(std::size_t group, const Eigen::Vector3d& shift_B);
 
   std::shared_ptr<const Model> model_;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: MIT
-// What can be changed of a model while it moves.
+// SPDX-License-Identifier: MIT Properties of a model that can be changed while it moves.
 #include <cmath>
 
 #include "ardee_sim/core/error.h"
@@ -12,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What is wrong with an axis's numbers; empty if nothing.
+/// Fault of an axis's numbers; empty if there is none.
 std::string fault_of(const JointProperties& properties) {
   const JointSpring& spring = properties.spring;
   if (!(properties.lower <= properties.upper)) {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: MIT
-// When a model is left out of steps.
+// SPDX-License-Identifier: MIT Conditions under which a model is left out of steps.
 #include <algorithm>
 
 #include "ardee_sim/physics/dynamic_model.h"
@@ -7,15 +6,15 @@
 namespace ardee::physics {
 namespace {
 
-// A body is at rest that has stayed within these bounds for that long. Speeds alone would not do: a
-// pendulum is slow where it turns, and a contact that comes and goes gives a body the speed of one
-// step's fall.
+// A body that has stayed within these bounds for that long is at rest. Speeds alone do not suffice:
+// a pendulum is slow at its turning points, and an intermittent contact gives a body the speed of
+// one step's fall.
 constexpr double kRestTime_s = 0.5;
 constexpr double kRestShift_m = 5e-4;
 constexpr double kRestTurn_rad = 1e-3;
 
 bool is_near(const Pose& now, const Pose& before) {
-  // The vector part of a small turn is half of it. What is not finite is not near.
+  // The vector part of a small turn is half of it. Values that are not finite are not near.
   const double half_turn = (before.q.conjugate() * now.q).vec().norm();
   return (now.p - before.p).norm() <= kRestShift_m && half_turn <= 0.5 * kRestTurn_rad;
 }

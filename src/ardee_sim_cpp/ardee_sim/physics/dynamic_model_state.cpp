@@ -52,7 +52,7 @@ void DynamicModel::set_velocities(const Twist& twist_W) {
 
 void DynamicModel::set_link_states(const LinkStates& states) {
   wake();
-  // Of links that are one body the first counts.
+  // The first link of a body counts.
   for (std::size_t i = model_->links.size(); i-- > 0;) {
     const auto found = states.find(model_->links[i].name);
     if (found == states.end()) continue;

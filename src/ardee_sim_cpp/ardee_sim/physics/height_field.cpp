@@ -37,7 +37,7 @@ int clamp_cell(double cell, int cells) {
 }  // namespace
 
 bool FieldTriangle::covers(double x, double y) const {
-  // A point on a shared edge belongs to both triangles whichever way it was rounded.
+  // A point on a shared edge belongs to both triangles for any rounding.
   const double tolerance = -1e-9 * side(a, b, c.x(), c.y());
   return side(a, b, x, y) >= tolerance && side(b, c, x, y) >= tolerance &&
          side(c, a, x, y) >= tolerance;

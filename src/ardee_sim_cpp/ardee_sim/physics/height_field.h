@@ -15,7 +15,7 @@ struct FieldTriangle {
   Eigen::Vector3d a, b, c;
   Eigen::Vector3d normal;
 
-  /// Whether (x, y) lies in the triangle's plan, its edges included.
+  /// Whether (x, y) lies within the triangle in plan view, edges included.
   bool covers(double x, double y) const;
   /// Height of the triangle's plane at (x, y).
   double height(double x, double y) const;
@@ -44,7 +44,7 @@ class HeightField {
   /// The triangle under (x, y); none outside the field.
   std::optional<FieldTriangle> triangle_at(double x, double y) const;
   Eigen::Vector3d vertex(int column, int row) const;
-  /// The highest corner of a range of cells.
+  /// Height of the highest corner of a range of cells.
   double highest(const CellRange& range) const;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
   const Eigen::Vector2d& cell_size() const { return cell_; }

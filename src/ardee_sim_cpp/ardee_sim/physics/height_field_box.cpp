@@ -9,8 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRidgeHeight =
-    1e-4;  // m: how far the ground must rise above its surroundings to count as a ridge
+constexpr double kRidgeHeight = 1e-4;  // m: least rise of a ridge above its surroundings
 constexpr int kMaxEdgePoints = 64;
 
 Vector3d corner(const Box& box, int index) {
@@ -18,8 +17,8 @@ Vector3d corner(const Box& box, int index) {
   return 0.5 * box.size_m.cwiseProduct(sign);
 }
 
-/// Points between the ends of an edge touch only where the ground rises above the line between what
-/// the ends see.
+/// Points between the ends of an edge touch only if the ground rises above the line between the
+/// ground points under the ends.
 void touch_edge(const HeightField& field, const Vector3d& start, const Vector3d& end,
                 GroundContacts& contacts) {
   Vector3d normal;
@@ -52,7 +51,7 @@ bool is_peak(const HeightField& field, int column, int row, const CellRange& all
   return false;
 }
 
-/// A peak inside the box leaves it by the nearest of the faces that look down.
+/// A peak inside the box leaves it by the nearest of the downward faces.
 void touch_peak(const Pose& X_FB, const Box& box, const Vector3d& peak, GroundContacts& contacts) {
   const Vector3d local = X_FB.inverse() * peak;
   const Vector3d inside = 0.5 * box.size_m - local.cwiseAbs();
@@ -61,7 +60,7 @@ void touch_peak(const Pose& X_FB, const Box& box, const Vector3d& peak, GroundCo
   bool found = false;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d direction = X_FB.q * Vector3d::Unit(axis);
-    const double outward = direction.z() > 0.0 ? -1.0 : 1.0;  // the face that looks down
+    const double outward = direction.z() > 0.0 ? -1.0 : 1.0;  // the downward face
     if (std::abs(direction.z()) < 1e-3) continue;
     const double depth_m = 0.5 * box.size_m[axis] - outward * local[axis];
     if (found && depth_m >= best.depth_m) continue;

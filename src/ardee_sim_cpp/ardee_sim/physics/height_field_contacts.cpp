@@ -10,11 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSamePoint = 1e-6;    // m: two contacts nearer than this are one
-constexpr double kRidgeHeight = 1e-4;  // m: how far the ground must rise to touch between the rims
+constexpr double kSamePoint = 1e-6;    // m: nearer contacts are merged
+constexpr double kRidgeHeight = 1e-4;  // m: least rise of the ground that touches between the rims
 constexpr double kPastEnd = 1e-9;      // share of an edge: rounding at its ends
 constexpr double kOnEnd =
-    0.7;  // |cos| of a cylinder's axis to the vertical from which it stands on end
+    0.7;  // |cos| of a cylinder's axis to the vertical, above which it stands on end
 constexpr int kRimPoints = 8;
 
 /// The point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
@@ -208,7 +208,7 @@ void collide_sphere(const HeightField& field, const Vector3d& center, double rad
   }
   for (const auto& touch : touched) {
     const Vector3d& point = touch.second;
-    // On an edge whose other face comes nearer, the point is no nearest point of the ground.
+    // If the other face of the edge is nearer, the point is not the nearest point of the ground.
     const double distance = (point - center).norm();
     const bool nearest = std::none_of(touched.begin(), touched.end(), [&](const auto& other) {
       return (other.second - center).norm() < distance - 1e-9 &&

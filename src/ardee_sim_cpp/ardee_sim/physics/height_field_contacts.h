@@ -21,11 +21,11 @@ struct GroundContact {
 };
 using GroundContacts = std::vector<GroundContact>;
 
-/// How far a point lies below the ground, measured down, with the ground's normal there; negative
-/// above it, minus infinity outside the field.
+/// Vertical depth of a point below the ground, with the ground's normal there; negative above the
+/// ground, minus infinity outside the field.
 double depth_below(const HeightField& field, const Eigen::Vector3d& point, Eigen::Vector3d& normal);
 
-/// Adds a contact unless one stands there already.
+/// Adds a contact unless one exists at that point.
 void add_contact(const GroundContact& contact, GroundContacts& contacts);
 
 /// Adds a contact at a point of a shape if it lies below the ground.

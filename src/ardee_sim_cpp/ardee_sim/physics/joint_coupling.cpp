@@ -8,10 +8,10 @@ namespace ardee::physics {
 namespace {
 
 constexpr double kErp = 0.2;            // share of an error that a step takes away
-constexpr double kFastest = 1.0;        // rad/s or m/s: an error goes no faster than that
+constexpr double kFastest = 1.0;        // rad/s or m/s: greatest rate of correction
 constexpr double kTrialImpulse = 1e-6;  // N m s or N s
 constexpr double kLeastExcess = 1e-9;   // rad/s or m/s
-constexpr double kSoftness = 1e-6;      // rad/s for an N m s, or the like
+constexpr double kSoftness = 1e-6;      // rad/s per N m s, or the linear equivalent
 constexpr int kMostCorrections = 8;
 
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
@@ -74,7 +74,7 @@ void step_coupled(const std::vector<JointCoupling*>& couplings, const std::vecto
       impulses = wanted;
       least = excess;
     } else {
-      share *= 0.5;  // a contact came, went or slipped between the two
+      share *= 0.5;  // a contact appeared, ended or slipped
     }
   }
   if (!is_best) excess_with(impulses);

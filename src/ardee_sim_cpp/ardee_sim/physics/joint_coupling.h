@@ -9,18 +9,18 @@
 
 namespace ardee::physics {
 
-/// One joint that follows another. What holds them together is an impulse (N m s or N s) on the
-/// follower and, the multiplier's times as much, against the leader.
+/// Coupling of a joint to the leader that it follows. An impulse (N m s or N s) on the follower,
+/// and multiplier times that impulse in the opposite sense on the leader, hold them together.
 class JointCoupling {
  public:
   JointCoupling(const Coupling& coupling, ModelJoint& leader, ModelJoint& follower)
       : coupling_(coupling), leader_(&leader), follower_(&follower) {}
 
-  /// What the follower's velocity is too high after a step from the positions before it.
+  /// Excess of the follower's velocity after a step, given the positions before it.
   double excess(double step_s) const;
   void push(double impulse, double step_s) const;
   double clamp(double impulse, double step_s) const;
-  /// Of the last step.
+  /// Impulse of the last step.
   double impulse = 0.0;
 
  private:
@@ -29,9 +29,10 @@ class JointCoupling {
   ModelJoint* follower_;
 };
 
-/// Takes a step such that couplings hold after it. ODE has no row for four bodies, but the
-/// velocities after a step are linear in an impulse before it, as long as no contact comes, goes or
-/// slips: they are measured by trial, and what is left is taken away by the same measure.
+/// Takes a step after which all couplings hold. ODE has no constraint row for four bodies, but the
+/// velocities after a step are linear in an impulse before it, as long as no contact appears, ends
+/// or slips. The response to an impulse is therefore measured by a trial step, and scaled to remove
+/// the remaining error.
 void step_coupled(const std::vector<JointCoupling*>& couplings, const std::vector<dBodyID>& bodies,
                   double step_s, const std::function<void()>& step);
 

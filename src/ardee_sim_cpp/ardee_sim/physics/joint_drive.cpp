@@ -11,11 +11,11 @@ constexpr int kMotorRow = 0;
 constexpr int kFrictionRow = 1;
 constexpr int kSpringRow = 2;
 constexpr int kRows = 3;
-// A stop has a row when it is within this reach (rad or m) or this many steps away, so that no load
-// carries a joint past it.
+// A stop has a row if it is within this reach (rad or m) or this many steps away, so that no load
+// can move a joint past it.
 constexpr double kStopReach = 0.2;
 constexpr double kStopSteps = 4.0;
-constexpr double kLeastSpring = 1e-12;  // N m s/rad: what is weaker does nothing
+constexpr double kLeastSpring = 1e-12;  // N m s/rad: a weaker spring has no effect
 
 JointHandle angular_motor(dWorldID world, dBodyID child, dBodyID parent, int rel,
                           const Eigen::Vector3d& axis_W, int rows) {
@@ -99,7 +99,8 @@ void JointDrive::set_row(int row, double velocity, double max_effort, double cfm
       dJointSetLMotorParam(rows_.get(), parameter + group, value);
     }
   };
-  // Along a direction of length g a velocity is g times the axis's, an effort the g-th part of it.
+  // Along a direction of length g a velocity is g times, and an effort 1 / g times, that of the
+  // axis.
   set(dParamVel, gain_ * velocity);
   set(dParamFMax, max_effort / gain_);
   set(dParamCFM, gain_ * gain_ * cfm);
@@ -115,7 +116,7 @@ void JointDrive::set_stop_row(double low, double high, double position, double e
 }
 
 void JointDrive::prepare_stops(double position, double velocity, const StepSettings& step) {
-  // A slider's row compares with its own measure of the position, which may differ in the last bit.
+  // A slider's row uses its own measured position, which may differ in the last bit.
   if (!rotational_) position = dJointGetSliderPosition(slider_);
   const double erp = properties_.stop_erp >= 0.0 ? properties_.stop_erp : step.erp;
   const double cfm = properties_.stop_cfm >= 0.0 ? properties_.stop_cfm : step.cfm;
@@ -131,9 +132,9 @@ void JointDrive::prepare_stops(double position, double velocity, const StepSetti
     set_stop_row(-dInfinity, dInfinity, position, erp);
     return;
   }
-  // A joint past its stop comes back by ERP. One short of it may take the gap within the step and
-  // no more: the row allows the velocity gap / h, which the engine gives for a stop passed by the
-  // gap and an ERP of -1.
+  // A joint past its stop comes back by ERP. A joint before its stop may close the gap within the
+  // step, but not pass it: the row allows the velocity gap / h, which the engine computes for a
+  // stop exceeded by the gap and an ERP of -1.
   const double passed = std::abs(gap);
   const double stop = is_upper ? position - passed : position + passed;
   set_stop_row(is_upper ? -dInfinity : stop, is_upper ? stop : dInfinity, position,

@@ -16,9 +16,9 @@ struct StepSettings {
   double cfm = 0.0;
 };
 
-/// What acts along one axis of a joint: stops, motor, dry friction, spring and damper, each a
-/// constraint row of its own, so that each holds while the others act. (A joint of ODE has one row
-/// for both stop and motor.)
+/// Stops, motor, dry friction, spring and damper along one axis of a joint, each a separate
+/// constraint row, so that each holds while the others act. (A joint of ODE has one row for both
+/// stop and motor.)
 class JointDrive {
  public:
   /// About an axis fixed in body 1 (the child; `rel` 1) or 2 (the parent; `rel` 2).
@@ -35,14 +35,14 @@ class JointDrive {
   void set_motor(const JointMotor& motor) { motor_ = motor; }
 
   double clamp(double position) const;
-  /// What is left of an effort within the limits of effort and, at this velocity, of velocity.
+  /// Effort clamped to the limit of effort and, at this velocity, to the limit of velocity.
   double clamp_effort(double effort, double velocity) const;
 
-  /// Turns the rows to a direction of length `gain`: what the axis does is `gain` times as fast
-  /// along it.
+  /// Points the rows along a direction of length `gain`: motion along it is `gain` times as fast as
+  /// that of the axis.
   void aim(const Eigen::Vector3d& direction_W, double gain);
 
-  /// The engine's joints behind the rows; none of a slider's own.
+  /// ODE joints behind the rows, without the slider's own joint.
   std::vector<dJointID> joints() const;
 
   /// Sets the rows for a step from the state before it: ERP and CFM depend on the step.
@@ -59,7 +59,7 @@ class JointDrive {
   bool rotational_ = true;
   int rel_ = 2;
   double gain_ = 1.0;
-  JointHandle stops_;          // rotational: an angular motor that is told the angle
+  JointHandle stops_;          // rotational: an angular motor that is given the angle
   dJointID slider_ = nullptr;  // linear
   JointHandle rows_;           // motor, friction, spring
   JointProperties properties_;

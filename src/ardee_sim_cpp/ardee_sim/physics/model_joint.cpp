@@ -89,7 +89,7 @@ ModelJoint::ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyI
   frames_.anchor_C = X_WC.inverse() * X_WJ.p;
   joint_ = kind_.make(world, frames_, placement);
   if (dBodyIsKinematic(child) && dBodyIsKinematic(parent)) {
-    dJointDisable(joint_.get());  // nothing moves either of them
+    dJointDisable(joint_.get());  // neither body moves
     return;
   }
   make_drives(world, joint, placement);
@@ -115,9 +115,9 @@ void ModelJoint::make_drives(dWorldID world, const Joint& joint, const JointPlac
   }
 }
 
-/// The direction along which a turn of one axis is measured and pushed, so that the other axis has
-/// no part in it: of two axes that are not at right angles, the one that is at right angles to the
-/// other, with 1 along its own.
+/// The direction along which a turn of one axis is measured and driven without an effect on the
+/// other axis: for two axes that are not at right angles, the direction at right angles to the
+/// other axis, with component 1 along its own.
 Vector3d ModelJoint::direction(std::size_t axis) const {
   if (!inclined_) return axis == 0 ? frames_.axis_W() : frames_.axis2_W();
   const Vector3d own = axis == 0 ? frames_.axis_W() : frames_.axis2_W();

@@ -13,46 +13,46 @@
 
 namespace ardee::physics {
 
-/// A joint between two bodies, with the bodies standing as all joints at zero when it is made.
-/// Positions and velocities are those of the child against the parent about the first axis, as SDF
-/// and URDF count them.
+/// A joint between two bodies, which stand as with all joints at zero when it is made. Positions
+/// and velocities are those of the child against the parent about the first axis, as SDF and URDF
+/// count them.
 class ModelJoint {
  public:
   /// X_WJ: the joint's frame in the world.
   ModelJoint(dWorldID world, const Joint& joint, dBodyID child, dBodyID parent, const Pose& X_WJ);
 
-  /// False of a ball joint and one that is fixed.
+  /// False for a ball joint and a fixed joint.
   bool has_position() const { return kind_.axes() > 0; }
   double position() const { return position_; }
   double velocity() const;
-  /// Where the child has to go, as a motion of the world, for the first axis to stand at `position`
-  /// within its limits.
+  /// Rigid motion of the child, in world axes, that brings the first axis to `position`, clamped to
+  /// its limits.
   Pose motion_to(double position) const;
-  /// The position is taken as it is from now on, whatever turns it has made.
+  /// Sets the recorded position as given, with any number of turns.
   void set_position(double position) { position_ = position; }
-  /// The position is measured anew: of the turns that give it the one within the limits.
+  /// Measures the position anew: of the possible numbers of turns, the one within the limits.
   void take_position();
   double clamp(double position) const;
 
-  /// Axes that can be driven; none of a ball joint, or between bodies that nothing moves.
+  /// Number of axes that can be driven; 0 for a ball joint, or between bodies that no force moves.
   std::size_t axes() const { return drive2_ ? 2 : drive_ ? 1 : 0; }
-  /// Whether a motor acts on one of them.
+  /// Whether a motor acts on an axis.
   bool is_driven() const;
   JointDrive& drive(std::size_t axis) { return axis == 0 ? drive_.value() : drive2_.value(); }
-  /// The frames of the bodies have moved within them by so much, in their own axes.
+  /// Follows a shift of the bodies' frames within the bodies, in their own axes.
   void shift_frames(const Eigen::Vector3d& child_C, const Eigen::Vector3d& parent_P);
-  /// From now on each step's wrench is kept.
+  /// Keeps each step's wrench from now on.
   void keep_wrench();
-  /// What the child applied to the joint in the last step, about the joint's origin, world axes.
+  /// Wrench of the child on the joint in the last step, about the joint's origin, world axes.
   ForceTorque wrench() const;
-  /// Kept for the next step.
+  /// Stores an effort for the next step.
   void add_effort(double effort);
-  /// Acts on the bodies at once, whatever the limits.
+  /// Applies an effort to the bodies at once, without limits.
   void push(double effort) const;
 
-  /// Before a step: rows, efforts.
+  /// Prepares rows and efforts before a step.
   void prepare(const StepSettings& step);
-  /// After a step: follows the position over many turns.
+  /// Tracks the position over many turns, after a step.
   void measure();
 
  private:

@@ -14,7 +14,7 @@ constexpr int kMaxPoints = 64;
 constexpr int kLeastOfCylinder = 3;   // two ends and the middle
 constexpr double kLying = 0.1;        // |cos| of a cylinder's axis to a contact's normal
 constexpr double kSameNormal = 0.99;  // cos between two contacts of one flat ground
-constexpr double kLeastWidth = 1e-4;  // m: two contacts nearer than this are one
+constexpr double kLeastWidth = 1e-4;  // m: nearer contacts are merged
 
 Pose geom_pose(dGeomID geom) {
   dQuaternion q;
@@ -22,7 +22,7 @@ Pose geom_pose(dGeomID geom) {
   return {to_vector(dGeomGetPosition(geom)), to_quaternion(q)};
 }
 
-/// The middle of a lying cylinder stands for its ends where few contacts are wanted.
+/// The middle of a lying cylinder replaces its ends if few contacts are wanted.
 void keep_nearest(const Eigen::Vector3d& center, int max_contacts, GroundContacts& contacts) {
   const auto nearest = std::min_element(
       contacts.begin(), contacts.end(), [&center](const GroundContact& a, const GroundContact& b) {
@@ -34,8 +34,8 @@ void keep_nearest(const Eigen::Vector3d& center, int max_contacts, GroundContact
   contacts.front().share = share;
 }
 
-/// Finds where a shape reaches below a field, in the field's own frame and unscaled metres: the
-/// shape is shrunk by the field's scale instead.
+/// Finds the points of a shape below a field, in the field's own frame and unscaled metres: the
+/// shape is divided by the field's scale instead.
 struct OnField {
   const CollisionShape& shape;
   const HeightField& field;
@@ -59,7 +59,7 @@ struct OnField {
   void operator()(const Mesh&) const {
     collide_vertices(field, X_FS, shrink, *shape.mesh->tree, contacts);
   }
-  /// Ground does not touch ground.
+  /// Two grounds have no contacts.
   void operator()(const Plane&) const {}
   void operator()(const Heightmap&) const {}
 };
@@ -81,8 +81,8 @@ void collide_field(const CollisionShape& shape, const CollisionShape& ground, in
   }
 }
 
-/// The deepest vertices of a mesh below a plane, spread out: of too many the engine takes those
-/// that it meets first.
+/// The deepest vertices of a mesh below a plane, spread out: of too many, ODE would take the first
+/// that it finds.
 void collide_plane(const CollisionShape& shape, dGeomID plane, int max_contacts,
                    std::vector<ContactPoint>& points) {
   dVector4 equation;
@@ -124,7 +124,7 @@ bool is_cylinder(const CollisionShape& shape) {
   return std::holds_alternative<Cylinder>(shape.collision->geometry);
 }
 
-/// Where two ends of a lying cylinder touch, or nothing if it does not lie.
+/// Contacts of the two ends of a lying cylinder, or nothing if it does not lie.
 std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
                                       const std::vector<ContactPoint>& points) {
   const Pose X_WS = geom_pose(cylinder.geom.get());
@@ -144,9 +144,10 @@ std::optional<ContactPoint> middle_of(const CollisionShape& cylinder,
                       0.5 * (low->depth_m + high->depth_m)};
 }
 
-/// Two ends of a lying cylinder that touch do not say where it rolls: the solver may give either of
-/// them all of the load. A third contact between them is where a wheel as wide as it is rolls;
-/// where fewer are wanted it stands for all. Together they are as stiff as they are without it.
+/// Two touching ends of a lying cylinder do not define where it rolls: the solver may put the whole
+/// load on either of them. A third contact between them is the rolling point of a wheel of that
+/// width; if fewer contacts are wanted, it replaces all. Together they are as stiff as the two ends
+/// alone.
 void collide_cylinder_geoms(const CollisionShape& cylinder, dGeomID a, dGeomID b, int max_contacts,
                             std::vector<ContactPoint>& points) {
   collide_geoms(a, b, std::max(max_contacts, kLeastOfCylinder), points);

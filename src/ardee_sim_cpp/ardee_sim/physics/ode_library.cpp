@@ -17,14 +17,14 @@ std::mutex holders_mutex;
 int holders = 0;
 thread_local bool complained = false;
 
-// ODE ends the process when this returns.
+// ODE ends the process if this handler returns.
 [[noreturn]] void on_failure(int, const char* format, va_list arguments) {
   std::array<char, 256> text{};
   std::vsnprintf(text.data(), text.size(), format, arguments);
   throw EngineFault(std::string("physics engine: ") + text.data());
 }
 
-// The solver's only messages say that it met a singular system.
+// The solver's only messages report a singular system.
 void on_message(int, const char*, va_list) { complained = true; }
 
 }  // namespace

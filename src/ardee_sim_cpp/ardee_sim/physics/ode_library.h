@@ -5,7 +5,7 @@
 
 namespace ardee::physics {
 
-/// A number that is none, met by ODE in the midst of its work: what it was doing is half done.
+/// Thrown when ODE meets a NaN in the middle of its work, which is then half done.
 class EngineFault : public Error {
  public:
   using Error::Error;
@@ -20,10 +20,10 @@ class OdeLibrary {
   OdeLibrary(const OdeLibrary&) = delete;
   OdeLibrary& operator=(const OdeLibrary&) = delete;
 
-  /// ODE keeps collision data for each thread: called by a thread before it collides.
+  /// Allocates ODE's collision data of this thread. Each thread calls it before it collides shapes.
   static void prepare_thread();
-  /// Whether ODE has complained, on this thread since the last call, that a system was too
-  /// ill-conditioned to solve.
+  /// Whether ODE has warned, on this thread since the last call, of a system too ill-conditioned to
+  /// solve.
   static bool take_singular_warning();
 };
 

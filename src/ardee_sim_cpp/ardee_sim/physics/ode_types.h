@@ -48,7 +48,7 @@ inline Eigen::AlignedBox3d geom_bounds(dGeomID geom) {
   return {Eigen::Vector3d(aabb[0], aabb[2], aabb[4]), Eigen::Vector3d(aabb[1], aabb[3], aabb[5])};
 }
 
-/// A row-major 3 x 4 rotation as ODE keeps it.
+/// Row-major 3 x 4 rotation, ODE's layout.
 inline Eigen::Matrix3d to_matrix(const dReal* r) {
   Eigen::Matrix3d m;
   m << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];

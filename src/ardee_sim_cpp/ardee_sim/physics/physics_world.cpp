@@ -121,7 +121,7 @@ void PhysicsWorld::Impl::step() {
     model->prepare_step({params.step_s, params.erp, std::max(params.cfm, physics::kLeastCfm)},
                         params.gravity_m_per_s2);
   }
-  contacts.clear();  // what a step that threw may have left
+  contacts.clear();  // remains of a step that threw
   contacts.set_told(wants_contacts);
   wants_contacts = false;
   finder.find(awake, params);

@@ -27,19 +27,19 @@ class PhysicsModel {
   /// Gives each link the rigid velocity whose value at the model's origin is `twist_W` (world
   /// axes).
   virtual void set_twist(const Twist& twist_W) = 0;
-  /// Puts links, with what is fixed to them, where a saved world says; joints follow.
+  /// Puts links, and the links fixed to them, at the poses of a saved world; joints follow.
   virtual void set_link_states(const LinkStates& states) = 0;
-  /// Moves the whole model, joints as they are, and gives it that twist: throws Error and changes
-  /// neither if one of them is not valid.
+  /// Moves the whole model, with its joints as they are, and sets its twist. Throws Error and
+  /// changes neither if the pose or the twist is not valid.
   virtual void set_state(const Pose& X_WM, const Twist& twist_W) = 0;
   virtual Pose link_pose(std::size_t link) const = 0;
-  /// Velocity of the link frame's origin, and angular velocity, in world axes.
+  /// Linear velocity of the link frame's origin and angular velocity, in world axes.
   virtual Twist link_twist(std::size_t link) const = 0;
 
   /// Angle (rad, continuous over turns) or displacement (m) of the joint's first axis.
   virtual double joint_position(std::size_t joint) const = 0;
   virtual double joint_velocity(std::size_t joint) const = 0;
-  /// Moves the child side of the joint, all that hangs on it included; limits are respected.
+  /// Moves the child side of the joint, with all links below it; limits are respected.
   virtual void set_joint_position(std::size_t joint, double position) = 0;
   /// Drives the joint towards `velocity` with at most `max_effort`; max_effort 0 lets it coast.
   /// Holds until changed.
@@ -51,24 +51,24 @@ class PhysicsModel {
   /// Asks, before a step, for the wrench of a joint. Throws Error naming a fixed joint that is not
   /// measured: its links are one body.
   virtual void want_joint_wrench(std::size_t joint) = 0;
-  /// What the child applied to the joint in the last step, if it was asked for: about the joint's
-  /// origin, in the world's axes, with all that acts along its axes (stops, motor, spring,
-  /// efforts).
+  /// Wrench of the child on the joint in the last step, if it was asked for: about the joint's
+  /// origin, in the world's axes, including all that acts along the joint's axes (stops, motor,
+  /// spring, efforts).
   virtual ForceTorque joint_wrench(std::size_t joint) const = 0;
 
-  // Properties hold until changed; those of a model that is added are its description's. The
-  // setters throw Error and change nothing if a number has no meaning or the body could not be
-  // simulated.
+  // Properties hold until changed; at first they are those of the description. The setters throw
+  // Error and change nothing if a number has no meaning or the body could not be simulated.
   virtual const LinkProperties& link_properties(std::size_t link) const = 0;
-  /// Poses and velocities of the links' frames stay as they are.
+  /// Replaces the properties of a link. Poses and velocities of the links' frames stay as they are.
   virtual void set_link_properties(std::size_t link, const LinkProperties& properties) = 0;
-  /// Axes that can be driven: 0 of a fixed or ball joint, 2 of a universal or revolute2, else 1.
+  /// Number of axes that can be driven: 0 for a fixed or ball joint, 2 for a universal or revolute2
+  /// joint, else 1.
   virtual std::size_t joint_axes(std::size_t joint) const = 0;
   virtual const JointProperties& joint_properties(std::size_t joint, std::size_t axis) const = 0;
   virtual void set_joint_properties(std::size_t joint, std::size_t axis,
                                     const JointProperties& properties) = 0;
-  /// Has a joint follow another from now on; replaces what it followed. Throws Error and changes
-  /// nothing if one of them is not there or has no axis.
+  /// Couples a joint to a leader from now on and replaces its earlier coupling. Throws Error and
+  /// changes nothing if one of the joints does not exist or has no axis.
   virtual void couple_joints(const Coupling& coupling) = 0;
   virtual const JointMotor& joint_motor(std::size_t joint, std::size_t axis) const = 0;
   virtual void set_joint_motor(std::size_t joint, std::size_t axis, const JointMotor& motor) = 0;
@@ -79,13 +79,13 @@ class PhysicsModel {
   /// Adds an effort along the joint's axis for the next step only.
   virtual void apply_joint_effort(std::size_t joint, double effort) = 0;
 
-  /// Number of the model's present rest, which no other rest of the world has; 0 while it is awake.
-  /// A model at rest is left out of steps until something touches it or one of the calls above
+  /// Number of the model's present period of rest, unique in this world; 0 while it is awake. A
+  /// model at rest is left out of steps until something touches it or one of the calls above
   /// changes it. One with sensors, plugins or a running motor stays awake.
   virtual std::uint64_t rest() const = 0;
 };
 
-/// A model that has left the contract of a valid state (core/limits.h), and how.
+/// A model that has left the limits of a valid state (core/limits.h), and the limit in question.
 struct LostModel {
   PhysicsModel* model = nullptr;
   std::string why;
@@ -102,9 +102,9 @@ class PhysicsWorld {
   /// Takes effect with the next step.
   void set_params(const PhysicsParams& params);
 
-  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind. What
-  /// a step does follows from the names of models and scenery, not from the order in which they
-  /// were added; those of one name go in that order.
+  /// Throws Error (singular inertia, unknown link in a joint, ...) and leaves nothing behind. The
+  /// result of a step depends on the names of models and scenery, not on the order in which they
+  /// were added; equal names keep that order.
   PhysicsModel& add_model(std::shared_ptr<const Model> model, const Pose& X_WM,
                           const std::string& name = "");
   void remove_model(PhysicsModel& model);
@@ -115,14 +115,15 @@ class PhysicsWorld {
                         const PlacementNames& placement_names = nullptr);
   void remove_scenery(SceneryId id);
 
-  /// One step of params().step_s. Returns the models that have left the contract of a valid state:
-  /// while one of them is there, no further step is taken. Throws Error if memory runs out.
+  /// One step of params().step_s. Returns the models that have left the limits of a valid state; no
+  /// further step is taken until they are gone. Throws Error if memory runs out.
   std::vector<LostModel> step();
   /// Asks for the contacts of the next step; without it they are not kept, at no cost.
   void want_contacts();
-  /// Those of the last step, if they were asked for. Their order depends on no order of adding.
+  /// Contacts of the last step, if they were asked for. Their order does not depend on the order of
+  /// adding.
   const std::vector<Contact>& contacts() const;
-  /// What the last step dealt with.
+  /// Counts of the last step.
   struct Stats {
     std::size_t models = 0;          // awake
     std::size_t contacts = 0;        // points of contact
@@ -131,7 +132,7 @@ class PhysicsWorld {
     bool solved_directly = false;    // not by iterations
   };
   Stats stats() const;
-  /// ODE's solver shuffles with a global random number: called on each reset.
+  /// Resets the random number with which ODE's solver shuffles rows; called on each reset.
   void reset_random(std::uint64_t seed);
 
  private:

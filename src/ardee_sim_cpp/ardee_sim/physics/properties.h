@@ -8,8 +8,8 @@
 
 namespace ardee::physics {
 
-/// What can be changed of a link while it moves. Links that fixed joints hold together move by the
-/// sum of theirs.
+/// Properties of a link that can be changed while it moves. Links that fixed joints hold together
+/// move by the sum of their properties.
 struct LinkProperties {
   std::optional<Inertial> inertial;  // none: massless
   bool gravity = true;
@@ -29,7 +29,7 @@ struct JointMotor {
   double max_effort = 0.0;  // N m (N)
 };
 
-/// What can be changed of one axis of a joint while it moves. SI units: rad or m, N m or N.
+/// Properties of one joint axis that can be changed while it moves. SI units: rad or m, N m or N.
 struct JointProperties {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();

@@ -11,10 +11,10 @@ namespace ardee::physics {
 namespace {
 
 constexpr float kCellSize =
-    1.0f;  // m: a robot's bounds meet a few cells, a cell holds a few plants
-constexpr double kMaxCells = 64.0;      // a shape over more cells than this is looked at everywhere
-constexpr float kMaxCoordinate = 1e6f;  // m: beyond, cells are not counted
-constexpr std::uint64_t kKeepSteps = 1000;  // a shape unused for so long may be dropped
+    1.0f;  // m: a robot's bounds overlap a few cells, a cell holds a few plants
+constexpr double kMaxCells = 64.0;          // a shape over more cells is tested by every query
+constexpr float kMaxCoordinate = 1e6f;      // m: bound of the grid of cells
+constexpr std::uint64_t kKeepSteps = 1000;  // steps after which an unused shape may be dropped
 constexpr std::uint64_t kSweepSteps = 256;
 
 struct Cells {
@@ -31,7 +31,7 @@ std::uint64_t cell_key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
-/// How many cells a box meets; infinitely many if it reaches beyond where cells are counted.
+/// Number of cells that a box overlaps; infinite if it reaches beyond the grid.
 double count_cells(const Eigen::AlignedBox3f& box) {
   const bool counted = box.min().head<2>().minCoeff() > -kMaxCoordinate &&
                        box.max().head<2>().maxCoeff() < kMaxCoordinate;
@@ -70,7 +70,7 @@ std::uint32_t SceneryIndex::prototype_of(const std::shared_ptr<const Model>& mod
   for (const Link& link : model->links) {
     for (const Collision& collision : link.collisions) {
       check_collision(*model, link, collision);
-      // Reads the mesh or the heights once, so that what is wrong with them is said now.
+      // Reads the mesh or the heights once, so that errors in them are reported now.
       shape_bounds(collision.geometry, 1.0, Pose{});
       prototype.shapes.push_back({&link, &collision, link.X_ML * collision.X_LC});
     }
@@ -231,7 +231,7 @@ void SceneryIndex::query(const Eigen::AlignedBox3d& box,
       if (cell != cells_.end()) gather(cell->second, bounds);
     });
   } else {
-    // Fewer cells hold something than lie under the box.
+    // Fewer cells are occupied than lie under the box.
     for (const auto& cell : cells_) gather(cell.second, bounds);
   }
   std::sort(hits_.begin(), hits_.end(),

@@ -14,9 +14,10 @@
 
 namespace ardee::physics {
 
-/// All static shapes, in a uniform grid over the ground plan, so that what lies near a robot is
-/// found at a cost that does not depend on how much there is. Shapes are built when something first
-/// comes near and dropped when nothing has been near for a while: a far plant is a pose and a box.
+/// All static shapes, in a uniform grid over the ground plan, so that the cost of finding the
+/// shapes near a robot does not depend on the size of the scenery. A shape is built when a robot
+/// first comes near and dropped when none has been near for a while: a far plant is only a pose and
+/// a box.
 class SceneryIndex {
  public:
   explicit SceneryIndex(ShapeFactory& factory) : factory_(factory) {}
@@ -25,19 +26,20 @@ class SceneryIndex {
   std::uint32_t add(const std::vector<Placement>& placements, const std::string& name = "",
                     const PlacementNames& placement_names = nullptr);
   void remove(std::uint32_t id);
-  /// About all of one addition.
+  /// Bounds of all shapes of one addition.
   Eigen::AlignedBox3d bounds(std::uint32_t id) const;
 
-  /// Begins a step: shapes that were long not asked for may be dropped.
+  /// Begins a step; may drop shapes that no query has returned for a while.
   void begin_step();
-  /// Shapes whose bounds meet `box`, in the order of the names given, of one name in that in which
-  /// they were added. They stay until the next begin_step.
+  /// Shapes whose bounds meet `box`, in the order of the given names, and for equal names in the
+  /// order of adding. They stay until the next begin_step.
   void query(const Eigen::AlignedBox3d& box, std::vector<const CollisionShape*>& shapes);
 
-  /// Whether a box lies over few cells.
+  /// Whether a box covers only a few cells.
   static bool is_small(const Eigen::AlignedBox3d& box);
 
-  /// Bounds compared by the queries of this step, and shapes alive: what a step costs.
+  /// Number of bounds compared by the queries of this step, and of shapes alive: the cost of a
+  /// step.
   std::size_t tested() const { return tested_; }
   std::size_t built() const { return active_.size(); }
 

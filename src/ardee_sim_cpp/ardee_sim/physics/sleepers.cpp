@@ -8,8 +8,7 @@
 namespace ardee::physics {
 namespace {
 
-constexpr double kReach_m =
-    0.01;  // what is nearer to something that goes away may have leaned on it
+constexpr double kReach_m = 0.01;  // m: a nearer model may have leaned on the one that moves away
 
 bool touch(const DynamicModel::Shape& a, const DynamicModel::Shape& b) {
   const Surface& one = a.shape.collision->surface;

@@ -15,11 +15,12 @@ class Sleepers {
   void add(const std::vector<DynamicModel*>& models);
   void remove(const DynamicModel& model);
 
-  /// Wakes what lies close to sleepers that something else has woken and perhaps moved.
+  /// Wakes the models close to sleepers that another call has woken and perhaps moved.
   void wake_beside_woken();
-  /// Wakes what awake models touch, and what that touches in turn. Returns whether there is any.
+  /// Wakes the models that awake models touch, and in turn the models that these touch. Returns
+  /// whether it woke any.
   bool wake_touched(std::vector<DynamicModel*> awake);
-  /// Wakes those whose bounds come close to a box.
+  /// Wakes the models whose bounds come close to a box.
   void wake_near(const Eigen::AlignedBox3d& box);
   void wake_all();
 

@@ -17,7 +17,7 @@ void disable(const Island& island) {
   for (dBodyID body : island.bodies) dBodyDisable(body);
 }
 
-/// Enables all that joints join to a body.
+/// Enables all bodies that joints connect to a body.
 void enable_joined(dBodyID from) {
   std::vector<dBodyID> open{from};
   dBodyEnable(from);
@@ -37,9 +37,9 @@ void enable_joined(dBodyID from) {
   }
 }
 
-/// Has the engine step an island. It gathers what is joined from an enabled body on, and begins
-/// with the one that was created last: where several models touch, one body alone is enabled of all
-/// that are joined, so that the order of rows does not depend on that of creation.
+/// Steps an island by the engine. The engine gathers connected bodies from an enabled body on,
+/// beginning with the one created last. Where several models touch, only one of the connected
+/// bodies is therefore enabled, so that the order of rows does not depend on the order of creation.
 void enable(const Island& island) {
   if (island.models == 1) {
     for (dBodyID body : island.bodies) dBodyEnable(body);
@@ -55,7 +55,7 @@ void enable(const Island& island) {
   for (dBodyID body : first) dBodyEnable(body);
 }
 
-/// ODE refuses to free a list with work left in it, which a fault leaves.
+/// ODE refuses to free a list that still holds work, as it does after a fault.
 void keep_for_ever(ThreadingHandle threads) {
   static std::mutex mutex;
   static auto* const kept = new std::vector<ThreadingHandle>;

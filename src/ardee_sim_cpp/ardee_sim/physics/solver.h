@@ -11,11 +11,11 @@
 
 namespace ardee::physics {
 
-/// s/kg: the least constraint force mixing of any row. It keeps rows that say the same thing from
-/// making the direct system singular. Under 30 N it lets slip 0.03 um/s.
+/// Least constraint force mixing of any row, in s/kg. It keeps redundant rows from making the
+/// direct system singular. Under 30 N it permits a slip of 0.03 um/s.
 constexpr double kLeastCfm = 1e-9;
 
-/// Models that touch one another.
+/// Island of models that touch one another.
 struct Island {
   std::size_t rows = 0;  // an upper bound of its constraint rows
   std::size_t models = 0;
@@ -24,10 +24,10 @@ struct Island {
 };
 
 /// Solves one step, island by island. The direct solver costs no more than 50 iterations of the
-/// other for the few dozen rows of a robot and its contacts, and leaves no error behind: what rests
-/// stays where it is, whatever the lever arms. So it takes small islands even where the world asks
-/// for `quick`; its time grows with the cube of the rows, so it leaves the large ones. What is
-/// singular to it is solved again by iterations.
+/// iterative solver for the few dozen rows of a robot and its contacts, and leaves no error: a body
+/// at rest stays at its place for any lever arm. It therefore solves small islands even where the
+/// world asks for `quick`. Its time grows with the cube of the rows, so the iterative solver takes
+/// the large islands, and those that the direct solver finds singular.
 class Solver {
  public:
   explicit Solver(dWorldID world);
@@ -39,7 +39,7 @@ class Solver {
   /// world has its own, lent to ODE for each step.
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
 
-  /// Throws Error if the engine runs out of memory, or what it is given cannot be solved at all.
+  /// Throws Error if the engine runs out of memory, or the system cannot be solved at all.
   void step(const PhysicsParams& params, std::vector<Island> islands);
   /// Whether all of the last step was solved directly.
   bool was_direct() const { return was_direct_; }
@@ -48,7 +48,7 @@ class Solver {
   void step_plain(const PhysicsParams& params, const std::vector<Island>& islands);
   bool solve_directly(const PhysicsParams& params, const std::vector<dBodyID>& bodies);
   void iterate(const PhysicsParams& params, const Island& island);
-  /// The engine's list of work, from now on empty: a fault leaves one half done.
+  /// Empties the engine's list of work, which a fault leaves half done.
   void renew_threads();
 
   dWorldID world_;

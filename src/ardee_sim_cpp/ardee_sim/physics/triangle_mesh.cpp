@@ -56,7 +56,7 @@ std::shared_ptr<TriangleMesh> build(const Mesh& mesh, const Eigen::Vector3f& sca
     if (is_used(part, mesh)) append_part(part, shift, scale, *result);
   }
   if (result->triangles.empty()) throw Error("mesh '" + mesh.uri + "': found no triangles");
-  // A mirrored mesh keeps its outside outside.
+  // A mirrored mesh keeps its outward orientation.
   if (scale.prod() < 0.0f) {
     for (auto& triangle : result->triangles) std::swap(triangle[1], triangle[2]);
   }
@@ -86,7 +86,7 @@ std::shared_ptr<const TriangleMesh> MeshCache::get(const Mesh& mesh, double scal
   std::weak_ptr<const TriangleMesh>& slot = meshes_[key];
   std::shared_ptr<const TriangleMesh> result = slot.lock();
   if (!result) {
-    // The file is held along with the mesh, so that its address cannot come to name another file.
+    // The cache holds the file as well as the mesh, so that no other file can get its address.
     const auto built = build(mesh, s.cast<float>());
     const std::shared_ptr<const MeshFile> file = mesh.file;
     result =

@@ -15,7 +15,7 @@
 
 namespace ardee::physics {
 
-/// The triangles of a Mesh, scaled and centred, in the form that ODE wants.
+/// The triangles of a Mesh, scaled and centred, in ODE's form.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -24,10 +24,10 @@ struct TriangleMesh {
   std::optional<VertexTree> tree;  // of those vertices
 };
 
-/// Corner to corner bounds of a mesh as scaled and centred, without building it.
+/// Bounds of a mesh as scaled and centred, without building it.
 Eigen::AlignedBox3d mesh_bounds(const Mesh& mesh);
 
-/// Meshes built so far: shapes that use the same part at the same scale share one.
+/// Cache of the meshes built so far: shapes that use one part at one scale share a mesh.
 class MeshCache {
  public:
   std::shared_ptr<const TriangleMesh> get(const Mesh& mesh, double scale);

@@ -7,13 +7,13 @@
 
 namespace ardee::physics {
 
-/// The vertices of a mesh, each place once, in a tree of boxes: those that may lie below the ground
-/// are found without a look at the others.
+/// The vertices of a mesh, each place once, in a tree of boxes: the tree finds those that may lie
+/// below the ground without visiting the others.
 class VertexTree {
  public:
   explicit VertexTree(std::vector<Eigen::Vector3f> vertices);
 
-  /// Calls `visit` with each vertex of the boxes for which `may_touch` says so, box after box.
+  /// Calls `visit` with each vertex of the boxes for which `may_touch` is true, box after box.
   template <typename MayTouch, typename Visit>
   void visit(const MayTouch& may_touch, const Visit& visit, std::size_t node = 0) const {
     if (node >= nodes_.size() || !may_touch(nodes_[node].box)) return;

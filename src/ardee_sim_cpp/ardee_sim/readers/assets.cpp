@@ -13,7 +13,7 @@ namespace ardee {
 namespace fs = std::filesystem;
 namespace {
 
-/// The script files that a place stands for: itself, or the *.material of a folder in alphabetical
+/// The script files at a path: the file itself, or the *.material files of a folder in alphabetical
 /// order.
 std::vector<std::string> script_files(const std::string& place) {
   std::error_code error;

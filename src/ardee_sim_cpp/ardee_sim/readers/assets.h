@@ -22,12 +22,11 @@ class Assets {
   Assets(ResourceLocator locator, Log& log, BadParts bad_parts)
       : locator_(std::move(locator)), log_(log), bad_parts_(bad_parts) {}
 
-  /// Begins a world or a model of its own: errors of files left out in an earlier one are said
-  /// again.
+  /// Begins another world or model: errors of files left out are reported again.
   void begin() { left_out_.clear(); }
 
-  /// Runs `read`, and returns whether its files are there. Where one is not, and such parts are to
-  /// be left out, says so once a file; else passes the FileError on.
+  /// Runs `read`, and returns whether its files exist. If one is missing and such parts are to be
+  /// left out, reports it once per file; otherwise passes the FileError on.
   template <typename Read>
   bool has_files(Read read) {
     try {
@@ -40,8 +39,8 @@ class Assets {
     }
   }
 
-  /// Runs `read`, which reads a part of a world that the rest can do without. Where that is bad,
-  /// and such parts are to be left out, says so once; else passes the Error on. `part` names it.
+  /// Runs `read`, which reads an optional part of a world. If the part is malformed and such parts
+  /// are to be left out, reports it once; otherwise passes the Error on. `part` names it.
   template <typename Read>
   bool is_good(const std::string& part, Read read) {
     try {
@@ -64,12 +63,12 @@ class Assets {
   /// as well) or of Gazebo's own; grey with a warning if there is none.
   Material material(const std::string& name, const std::vector<std::string>& uris,
                     const Source& source);
-  /// The image file behind a texture's URI; empty with a warning if there is none.
+  /// The image file of a texture's URI; empty with a warning if there is none.
   std::string texture(const std::string& uri, const Source& source);
 
  private:
   std::optional<std::string> try_resolve(const std::string& uri, const Source& source) const;
-  /// Says that `part` is, once for each `key`.
+  /// Reports that `part` is left out, once per `key`.
   void leave_out(const Error& problem, const std::string& key, const std::string& part);
   const MaterialScript& script(const std::string& path);
   std::string find_texture(const std::string& file, const std::vector<std::string>& folders) const;
@@ -77,7 +76,7 @@ class Assets {
   ResourceLocator locator_;
   Log& log_;
   BadParts bad_parts_;
-  std::set<std::string> left_out_;  // files and problems that were said
+  std::set<std::string> left_out_;  // files and problems that were reported
   std::map<std::string, std::shared_ptr<const MeshFile>> meshes_;
   std::map<std::string, std::shared_ptr<const HeightGrid>> heights_;
   std::map<std::string, MaterialScript> scripts_;

@@ -27,7 +27,7 @@ void each_word(const std::string& text, Use use) {
   }
 }
 
-/// How many numbers an element's text holds; an Error if anything else is in it.
+/// Number of numbers in an element's text. Throws Error if it holds anything else.
 template <typename Number>
 std::size_t count_numbers(const Node& node) {
   std::size_t count = 0;
@@ -67,7 +67,7 @@ class ColladaCheck {
   }
 
  private:
-  /// All ids and numbers, in one walk.
+  /// Collects all ids and numbers in one traversal.
   void collect(const Node& node) {
     static const Names kIndices{"p", "v", "vcount", "h"};
     static const Names kValues{"float_array", "matrix", "translate", "rotate", "scale",
@@ -108,8 +108,8 @@ class ColladaCheck {
     arrays_[id] = found;
   }
 
-  /// The mesh library takes an element by its name wherever it stands, and then looks for what is
-  /// not there.
+  /// The mesh library reads an element by its name at any place, and then looks for parts that do
+  /// not exist there.
   static void check_place(const Node& child, std::string_view parent) {
     static const Names kPrimitives{"triangles",  "polylist", "polygons", "lines",
                                    "linestrips", "trifans",  "tristrips"};
@@ -136,7 +136,7 @@ class ColladaCheck {
                       *found->second.begin() + ">");
   }
 
-  /// A parameter of an effect names another; the mesh library follows them round and round.
+  /// A parameter of an effect names another; the mesh library would follow a cycle for ever.
   static void check_parameters(const Node& effect) {
     std::map<std::string, std::string> named;
     const std::function<void(const Node&)> collect_named = [&](const Node& node) {
@@ -171,7 +171,7 @@ class ColladaCheck {
       whole_number(node, "offset", 0);
       whole_number(node, "set", 0);
     }
-    if (target[0] != '#') return;  // in another file, which nobody opens
+    if (target[0] != '#') return;  // in another file, which is never opened
     if (ids_.count(target.substr(1)) == 0) {
       throw node.error("found a reference to '" + target + "', expected an id of the file");
     }
@@ -195,14 +195,14 @@ class ColladaCheck {
     }
   }
 
-  /// How many nodes a node becomes when each <instance_node> is replaced by what it names, and how
-  /// deep they lie in each other.
+  /// Number of nodes, and their depth, after each <instance_node> of a node is replaced by its
+  /// target.
   struct Extent {
     std::size_t count = 1;
     std::size_t depth = 1;
   };
 
-  /// Throws Error if a node comes again within itself, or becomes too many.
+  /// Throws Error if a node contains itself, or the nodes become too many.
   Extent extent(const Node& node, std::size_t above) {
     constexpr std::size_t kMost = 200'000;
     constexpr std::size_t kDeepest = 1000;
@@ -226,7 +226,7 @@ class ColladaCheck {
     return made;
   }
 
-  /// The same of a node that has an id, each of which is looked at once.
+  /// Extent of a node with an id; each is computed once.
   Extent extent_of(const std::string& id, const Node& node, std::size_t above) {
     const auto [known, is_new] = extents_.emplace(id, std::nullopt);
     if (is_new) known->second = extent(node, above);
@@ -239,7 +239,7 @@ class ColladaCheck {
   Names ids_;
   std::map<std::string, std::size_t> arrays_;  // numbers in each
   std::map<std::string, Node, std::less<>> nodes_;
-  std::map<std::string, std::optional<Extent>> extents_;  // by id; none: being looked at
+  std::map<std::string, std::optional<Extent>> extents_;  // by id; none: being computed
   std::vector<Node> scenes_;
   std::vector<Node> references_;
 };

@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// How many indices a corner has.
+/// Number of indices of a corner.
 std::size_t stride_of(const XMLElement& fans) {
   unsigned last = 0;
   for (const auto* input = fans.FirstChildElement("input"); input != nullptr;
@@ -24,7 +24,7 @@ std::size_t stride_of(const XMLElement& fans) {
   return std::size_t{last} + 1;
 }
 
-/// Appends the triangles of one fan: its first corner with each two that follow each other.
+/// Appends the triangles of one fan: its first corner with each pair of consecutive corners.
 std::size_t add_triangles(const std::string& fan, std::size_t stride, std::string& triangles) {
   std::istringstream stream(fan);
   std::vector<std::string> corners;

@@ -5,8 +5,8 @@
 
 namespace ardee {
 
-/// A checked Collada document, as plain_xml gives it, with each <trifans>, which the mesh library
-/// takes for a polygon, as <triangles>. `name` stands for the document in messages.
+/// Replaces each <trifans> of a checked Collada document, as plain_xml gives it, with <triangles>:
+/// the mesh library takes a fan for a polygon. `name` denotes the document in messages.
 std::string fans_to_triangles(const std::string& collada, const std::string& name);
 
 }  // namespace ardee

@@ -7,8 +7,8 @@
 
 namespace ardee {
 
-/// The root element of an XML file, for those who know what it holds. Throws FileError at `source`,
-/// which names the file, or Error where the file is malformed.
+/// Reads the root element of an XML file, for a caller that knows its format. Throws FileError at
+/// `source`, which names the file, or Error if the file is malformed.
 Element read_element_file(const std::string& path, const Source& source);
 
 }  // namespace ardee

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint32_t kGeoKeyDirectory = 34735;
 constexpr std::uint32_t kGdalNoData = 42113;
 constexpr tmsize_t kMostBytes = tmsize_t{1} << 29;
-/// Beyond it a number stands for no elevation, whatever the file says of such numbers.
+/// A larger number is never an elevation, even if the file does not mark it as "no data".
 constexpr double kAbsurd_m = 1e5;
 
 bool is_tiff(const std::string& path) {
@@ -36,7 +36,7 @@ bool is_tiff(const std::string& path) {
   return false;
 }
 
-/// A TIFF file of one channel, or whose first channel counts, by libtiff.
+/// A TIFF file, read by libtiff; only its first channel counts.
 class TiffFile {
  public:
   TiffFile(const std::string& path, const Source& source) : path_(path), source_(source) {
@@ -108,7 +108,7 @@ class TiffFile {
                              "', expected floats of 32 or 64 or whole numbers of 8, 16 or 32");
   }
 
-  /// NaN, which no elevation equals, if the file names none.
+  /// The value of "no data"; NaN, which no elevation equals, if the file names none.
   double no_data_value() const {
     std::uint32_t count = 0;
     const char* text = nullptr;

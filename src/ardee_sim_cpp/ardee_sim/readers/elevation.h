@@ -13,7 +13,7 @@ namespace ardee {
 struct Elevation {
   int width = 0;
   int height = 0;
-  std::vector<float> elevations_m;  // NaN: the file has none there
+  std::vector<float> elevations_m;  // NaN: no data in the file
 
   float at(int column, int row) const {
     return elevations_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -21,8 +21,8 @@ struct Elevation {
   }
 };
 
-/// Reads a TIFF of elevations: of floats, of signed or of 32-bit numbers, or of 16-bit ones with a
-/// GeoTIFF's tags; any other file is a picture, and nothing is returned. Throws Error at `source`.
+/// Reads a TIFF of elevations: floats, signed or 32-bit integers, or 16-bit integers with GeoTIFF
+/// tags. Returns nothing for any other file, which is a picture. Throws Error at `source`.
 std::optional<Elevation> read_elevation(const std::string& path, const Source& source);
 
 }  // namespace ardee

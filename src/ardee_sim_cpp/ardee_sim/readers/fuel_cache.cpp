@@ -45,7 +45,7 @@ fs::path newest_version(const fs::path& model) {
 std::vector<fs::path> places_in_fuel_cache(const fs::path& cache, const std::string& address) {
   const fs::path written(with_spaces(address));
   const std::vector<fs::path> parts(written.begin(), written.end());
-  // Servers say which version of their interface they mean between their name and the owner.
+  // The version of the server's interface stands between server and owner.
   const auto kind = std::find(parts.begin(), parts.end(), "models");
   if (kind - parts.begin() < 2 || parts.end() - kind < 2) return {};
   const std::string owner = *(kind - 1);

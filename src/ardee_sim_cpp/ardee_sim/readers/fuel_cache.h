@@ -7,10 +7,10 @@
 
 namespace ardee {
 
-/// Where a model of Fuel, or a file of it, lies in a folder in which Gazebo's tools keep what they
-/// downloaded. `address` is its URI without the scheme:
-/// SERVER/1.0/OWNER/models/NAME[/VERSION[/files/FILE]]; without a version, or with "tip", the
-/// newest one counts. Empty if the address is none of a model or no version is there.
+/// Path of a model of Fuel, or of a file of it, in a download folder of Gazebo's tools. `address`
+/// is its URI without the scheme: SERVER/1.0/OWNER/models/NAME[/VERSION[/files/FILE]]; without a
+/// version, or with "tip", the newest one counts. Empty if the address is not that of a model or no
+/// version exists.
 std::vector<std::filesystem::path> places_in_fuel_cache(const std::filesystem::path& cache,
                                                         const std::string& address);
 

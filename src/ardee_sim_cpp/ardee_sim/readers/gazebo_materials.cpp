@@ -63,7 +63,7 @@ const std::vector<Entry>& entries() {
   return all;
 }
 
-/// The glowing ones: Gazebo/RedGlow and so on.
+/// The glowing materials: Gazebo/RedGlow and so on.
 void add_glowing(MaterialScript& script) {
   for (const auto& [name, rgb] : {std::pair<const char*, Eigen::Vector3f>{"Red", {1, 0, 0}},
                                   {"Green", {0, 1, 0}},

@@ -16,7 +16,7 @@ std::string text_at(const Element& element, const std::vector<std::string>& path
   return at ? at->text : "";
 }
 
-/// What newer Gazebo calls the frame of a sensor's messages.
+/// Newer Gazebo's name of the frame of a sensor's messages.
 std::string frame_of(const SensorDescription& sensor, const Link& link) {
   for (const std::vector<std::string>& path :
        {std::vector<std::string>{"camera", "optical_frame_id"},
@@ -38,7 +38,7 @@ PluginDescription make_plugin(const SensorDescription& sensor, const char* filen
   return made;
 }
 
-/// The block without what the stock plugin says by keys of its own.
+/// The block without the elements that the stock plugin gives by its own keys.
 void take_out(Element& block, const std::set<std::string>& names) {
   auto& children = block.children;
   children.erase(std::remove_if(children.begin(), children.end(),
@@ -62,7 +62,7 @@ PluginDescription make_lidar(const SensorDescription& sensor, const std::string&
   return made;
 }
 
-/// "camera/image" -> "camera/camera_info", as newer Gazebo does it.
+/// "camera/image" -> "camera/camera_info", as in newer Gazebo.
 std::string info_topic(const SensorDescription& sensor, const std::string& topic) {
   const std::string given = text_at(sensor.element, {"camera", "camera_info_topic"});
   if (!given.empty()) return given;
@@ -105,7 +105,7 @@ PluginDescription make_imu(const SensorDescription& sensor, const std::string& t
   return made;
 }
 
-/// Of one axis of a <noise>; "0" if it says none.
+/// Value for one axis of a <noise>; "0" if it is absent.
 std::string deviation(const SensorDescription& sensor, const std::vector<std::string>& path) {
   std::vector<std::string> whole = path;
   whole.insert(whole.end(), {"noise", "stddev"});
@@ -159,7 +159,7 @@ PluginDescription make_magnetometer(const SensorDescription& sensor, const std::
   return made;
 }
 
-/// What newer Gazebo's contact system measures.
+/// Collisions that newer Gazebo's contact system measures.
 PluginDescription make_bumper(const SensorDescription& sensor, const std::string& topic,
                               const std::string& frame) {
   PluginDescription made = make_plugin(sensor, "libgazebo_ros_bumper.so");
@@ -168,7 +168,8 @@ PluginDescription make_bumper(const SensorDescription& sensor, const std::string
   return made;
 }
 
-/// The topic of a sensor, within its own block for a contact sensor; empty if it says none.
+/// The topic of a sensor, which a contact sensor has in its <contact> block; empty if there is
+/// none.
 std::string topic_of(const SensorDescription& sensor) {
   std::string topic = text_at(sensor.element, {"topic"});
   if (topic.empty() && sensor.type == "contact") {

@@ -9,8 +9,8 @@
 
 namespace ardee {
 
-/// Gives a link's sensors that newer Gazebo publishes by themselves the stock plugin that does so:
-/// those of its own types, and those of others that name a <topic>. Satellite receivers and
+/// Adds a stock plugin to those sensors of a link that newer Gazebo publishes without one: sensors
+/// of its own types, and sensors of other types that name a <topic>. Satellite receivers and
 /// magnetometers become plugins of the model.
 void adopt_gz_sensors(Link& link, std::vector<PluginDescription>& model_plugins, Log& log);
 

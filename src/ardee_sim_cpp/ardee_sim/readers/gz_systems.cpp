@@ -12,14 +12,15 @@
 namespace ardee {
 namespace {
 
-/// A key of a system and that of the stock plugin which says the same; a number is multiplied.
+/// A key of a system, the corresponding key of the stock plugin, and a factor for numbers.
 struct Key {
   const char* gz;
   const char* ours;
   double factor = 1.0;
 };
 
-/// A system, the stock plugin that does its work, and what the plugin needs to do it alike.
+/// A system, the stock plugin that does its work, and the keys that the plugin needs for equal
+/// behaviour.
 struct System {
   const char* name;
   const char* plugin;
@@ -146,7 +147,7 @@ std::string wheel_torque(const Model& model, const std::vector<Element>& joints)
   return text.str();
 }
 
-/// One stock drive for each pair of wheels, all at one command; the first says the odometry.
+/// One stock drive for each pair of wheels, all with one command; the first publishes the odometry.
 void add_diff_drives(PluginDescription drive, const Model& model,
                      std::vector<PluginDescription>& made) {
   const std::vector<Element> left = take_all(drive, "left_joint");
@@ -173,7 +174,7 @@ void add_diff_drives(PluginDescription drive, const Model& model,
   }
 }
 
-/// The joints that it names, or all that move.
+/// The joints that the system names, or all moving joints.
 void add_joint_names(const Model& model, PluginDescription& publisher) {
   std::string names;
   for (const Element& joint : take_all(publisher, "joint_name")) names += joint.text + ",";

@@ -14,7 +14,7 @@ namespace {
 constexpr double kWhite = 65535.0;
 constexpr int kOneOf255 = 257;  // of kWhite
 
-/// Heights as shares of the greatest, row by row from the upper edge.
+/// Heights as shares of the greatest height, row by row from the upper edge.
 struct Shares {
   int width = 0;
   int height = 0;
@@ -25,7 +25,7 @@ Shares shares_of(const Image& image) {
   int full = static_cast<int>(kWhite);
   if (image.bits == 8) {
     const int brightest = *std::max_element(image.samples16.begin(), image.samples16.end());
-    // Gazebo takes a colour of 1 for the whole of it: corn rows are drawn so. 0: all is black.
+    // Gazebo takes a colour of 1 for full white: corn rows are drawn in this way. 0: all black.
     if (brightest > kOneOf255) full = brightest;
   }
   Shares shares{image.width, image.height, {}};

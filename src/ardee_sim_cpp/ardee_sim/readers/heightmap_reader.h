@@ -7,10 +7,10 @@
 
 namespace ardee {
 
-/// Heights from an image or an elevation file that spans size_m.x by size_m.y, its upper edge at
-/// +y. As in Gazebo, black lies at 0 and the brightest pixel of an 8-bit image at size_m.z,
-/// whatever its grey; but an image whose brightest value is 1 counts as one with white in it. White
-/// of a 16-bit image lies at size_m.z. The least elevation of a file lies at 0 and the greatest at
+/// Reads heights from an image or an elevation file that spans size_m.x by size_m.y, its upper edge
+/// at +y. As in Gazebo, black lies at 0 and the brightest pixel of an 8-bit image at size_m.z, even
+/// if that is grey; but an image whose brightest value is 1 is scaled as if it had white. White of
+/// a 16-bit image lies at size_m.z. The least elevation of a file lies at 0 and the greatest at
 /// size_m.z. A negative size_m.z turns heights upside down. Throws Error at `source`.
 HeightGrid read_height_grid(const std::string& path, const Eigen::Vector3d& size_m,
                             const Source& source, Log& log);

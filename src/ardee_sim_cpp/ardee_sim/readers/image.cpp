@@ -24,7 +24,7 @@ constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 29;
 void initialize_library() {
   static std::once_flag once;
   std::call_once(once, [] {
-    // One thread: the cores are the simulation's. The library starts its threads while it
+    // One thread: the simulation uses the cores. The library starts its threads while it
     // initialises, before a limit set by a call could hold it back.
     setenv("MAGICK_THREAD_LIMIT", "1", 0);
     Magick::InitializeMagick(nullptr);
@@ -51,24 +51,24 @@ std::string format_of(const std::string& path, const Source& source) {
   throw Error(source, "found '" + path + "', expected a PNG, JPEG, TIFF, TGA or BMP image");
 }
 
-/// The library's message without the program's name before it.
+/// The library's message without the leading program name.
 std::string reason(const Magick::Exception& problem) {
   const std::string text = problem.what();
   const std::size_t colon = text.find(": ");
   const std::string bare = colon == std::string::npos ? text : text.substr(colon + 2);
-  // It tells of none where an image takes more memory than its policy lets it have.
+  // The library gives no message if an image exceeds the memory of its policy.
   if (bare != "No image was loaded.") return bare;
   return "no more than ImageMagick's policy lets it hold: `identify -list resource` tells";
 }
 
-/// Errors, and warnings of a corrupt image (truncation is one of them), are let through; remarks of
-/// a decoder about tags that it does not know are not.
+/// Passes errors on, and warnings of a corrupt image (such as truncation), but not a decoder's
+/// remarks about unknown tags.
 template <typename Action>
 void tolerate_remarks(Action action) {
   try {
     action();
   } catch (const Magick::WarningCoder&) {
-    // What was asked for has been done.
+    // The request was carried out.
   }
 }
 
@@ -118,8 +118,8 @@ Image empty_image(const Magick::Image& decoded, int channels) {
   return image;
 }
 
-/// A PNG without the chunks by which a decoder would change its samples for a screen: those of a
-/// heightmap are no brightness.
+/// A PNG without the chunks by which a decoder would adapt samples to a screen: a heightmap's
+/// samples are not brightness.
 std::string without_gamma(const std::string& png) {
   constexpr std::size_t kSignature = 8;
   constexpr std::size_t kAround = 12;  // length, type and checksum of a chunk

@@ -15,7 +15,7 @@ struct Image {
   int width = 0;
   int height = 0;
   int channels = 4;                      // 4: red, green, blue, opacity; 1: brightness
-  int bits = 8;                          // that the file has for a channel, 8 or 16
+  int bits = 8;                          // per channel in the file, 8 or 16
   std::vector<std::uint16_t> samples16;  // brightness of 0..65535, filled by read_gray_image
   std::vector<std::uint8_t> samples8;    // 0..255, filled by read_color_image
 
@@ -26,7 +26,7 @@ struct Image {
   }
 };
 
-/// Throws Error at `source` if the file of an image so large is not to be read.
+/// Throws Error at `source` if an image of this size is too large to be read.
 void check_image_size(std::size_t width, std::size_t height, const std::string& path,
                       const Source& source);
 
@@ -39,7 +39,7 @@ Image read_color_image(const std::string& path, const Source& source);
 Image read_gray_image(const std::string& path, const Source& source);
 
 /// Writes red, green and blue of a colour image; the same image gives the same bytes. Throws Error
-/// and leaves what was there if it cannot be written.
+/// and keeps an earlier file if it cannot be written.
 void write_png(const std::string& path, const Image& image);
 
 }  // namespace ardee

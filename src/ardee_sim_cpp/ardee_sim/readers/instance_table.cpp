@@ -18,7 +18,7 @@ constexpr std::size_t kColumns = 10;
 constexpr std::size_t kLongestLine = 1024;
 using Fields = std::array<std::string_view, kColumns>;
 
-/// With a mark for what cannot be printed.
+/// Text with a mark for each unprintable character.
 std::string quoted_line(std::string_view text) {
   std::string shown(text);
   std::replace_if(
@@ -26,7 +26,7 @@ std::string quoted_line(std::string_view text) {
   return in_quotes(shown);
 }
 
-/// The fields of the line at hand as values.
+/// The fields of the present line as values.
 class RowReader {
  public:
   RowReader(const std::string& path, int line) : path_(path), line_(line) {}

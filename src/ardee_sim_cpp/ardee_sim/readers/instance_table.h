@@ -11,12 +11,12 @@
 
 namespace ardee {
 
-/// The first line of a table of instances. Positions in metres in the frame of the model that holds
-/// them, angles in radians; label 0: none.
+/// The first line of a table of instances. Positions are in metres in the frame of the parent
+/// model, angles in radians; label 0: none.
 constexpr std::string_view kInstanceColumns =
     "model,name,x_m,y_m,z_m,roll_rad,pitch_rad,yaw_rad,scale,label";
 
-/// One line of the table; the texts are those of the line and gone with it.
+/// One line of the table; its texts refer to the line and are valid as long as it.
 struct InstanceRow {
   int line = 0;
   std::string_view model;  // URI
@@ -27,8 +27,8 @@ struct InstanceRow {
 };
 
 /// Reads a table of instances line by line, holding no more than a line, and calls visit(row) for
-/// each. Throws Error with file and line for the first row that is not good, one without a line end
-/// (a file cut off) among them; at `source` where there is no file to read.
+/// each. Throws Error with file and line for the first invalid row, such as a row without a line
+/// end (a truncated file), and at `source` if there is no file to read.
 void read_instance_table(const std::string& path, const Source& source,
                          const std::function<void(const InstanceRow&)>& visit);
 

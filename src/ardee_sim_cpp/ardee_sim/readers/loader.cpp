@@ -18,7 +18,7 @@ std::string read_description(const std::string& path) {
   return read_text_file(path, Source{path, 0, ""}, kMaxXmlBytes);
 }
 
-/// Gives the memory of a large parsed document back to the system, as the C library would keep it.
+/// Returns the memory of a large parsed document to the system; the C library would keep it.
 void release_free_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

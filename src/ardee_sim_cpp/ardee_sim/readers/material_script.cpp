@@ -53,7 +53,7 @@ class ScriptReader {
     while (at_ < tokens_.size()) {
       std::vector<Token> words = statement();
       if (!opens()) continue;
-      // Those that others start from.
+      // Materials that serve as parents.
       if (!words.empty() && words[0].text == "abstract") words.erase(words.begin());
       if (!words.empty() && words[0].text == "material") {
         material_or_warning(words);
@@ -94,7 +94,7 @@ class ScriptReader {
     } while (depth > 0);
   }
 
-  /// One that is written wrong does not cost the others.
+  /// Reads one material; an error in it does not affect the others.
   void material_or_warning(const std::vector<Token>& words) {
     const std::size_t begin = at_;
     try {
@@ -112,7 +112,7 @@ class ScriptReader {
       throw Error(Source{name_, words[0].line, ""}, "found 'material', expected a name after it");
     }
     std::string material_name = words[1].text;
-    Material made;  // white, as OGRE starts from: a texture keeps its own colours
+    Material made;  // white, OGRE's default: a texture keeps its own colours
     made.ambient = made.diffuse = Color::Ones();
     for (std::size_t i = 2; i + 1 < words.size(); ++i) {
       if (words[i].text == ":") made = parent(words[i + 1].text, words[0].line);
@@ -173,7 +173,7 @@ class ScriptReader {
     return parse_number(word.text, Source{name_, word.line, ""});
   }
 
-  /// r g b [a] [shininess]; "vertexcolour" and the like are passed over.
+  /// r g b [a] [shininess]; "vertexcolour" and the like are skipped.
   void set_color(const std::vector<Token>& words, Color& color) const {
     if (words.size() < 4) return;
     for (int i = 0; i < 3; ++i) {

@@ -12,14 +12,14 @@ namespace ardee {
 /// The materials of an OGRE script by name; Material::texture_path holds the file name as written.
 using MaterialScript = std::map<std::string, Material>;
 
-/// Reads the materials of an OGRE script: of each the first technique, its colours, cull modes,
-/// alpha rejection and first texture. What else a script may say is passed over. `known` holds the
-/// materials that a parent may be taken from. A material that is written wrong is left out with a
-/// warning. Throws Error with `name` and the line if a block does not end.
+/// Reads the materials of an OGRE script: for each the first technique, its colours, cull modes,
+/// alpha rejection and first texture. Other entries of a script are skipped. `known` holds the
+/// materials that may serve as parents. A malformed material is left out with a warning. Throws
+/// Error with `name` and the line if a block does not end.
 MaterialScript parse_material_script(const std::string& text, const std::string& name, Log& log,
                                      const MaterialScript& known = {});
 
-/// The colours that Gazebo brings with it (Gazebo/Grey, Gazebo/Orange, ...).
+/// Gazebo's built-in colours (Gazebo/Grey, Gazebo/Orange, ...).
 const MaterialScript& gazebo_materials();
 
 }  // namespace ardee

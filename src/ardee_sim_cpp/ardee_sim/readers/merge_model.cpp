@@ -59,7 +59,7 @@ void merge_model(const Model& nested, const Pose& X_MN, const std::string& name,
     frame.link = scoped(frame.link.empty() ? nested.canonical_link : frame.link);
     made.frames.push_back({prefix + frame.name, X_MN * frame.X_MF, frame.link});
   }
-  // The model itself is a frame, for what is placed or held by it.
+  // The model itself is a frame, to which other elements may refer.
   if (!name.empty()) made.frames.push_back({name, X_MN, prefix + nested.canonical_link});
   for (PluginDescription plugin : nested.plugins) {
     plugin.scope = prefix + plugin.scope;

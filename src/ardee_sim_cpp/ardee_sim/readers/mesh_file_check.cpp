@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMaxFileBytes = std::size_t{1} << 29;
 
-/// The mesh library would pass over a fourth corner.
+/// Refuses a fourth corner, which the mesh library would ignore.
 void check_facets(const std::string& text, const std::string& path, const Source& source) {
   constexpr std::size_t kCorners = 3;
   for (std::size_t at = text.find("outer loop"); at != std::string::npos;) {
@@ -40,7 +40,7 @@ void check_facets(const std::string& text, const std::string& path, const Source
 constexpr std::size_t kStlHeader = 84;
 constexpr std::size_t kStlTriangle = 50;
 
-/// Of a binary STL with as many triangles as it says.
+/// Size of a binary STL with the number of triangles that it declares.
 std::size_t whole_stl_size(const std::string& bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= kStlHeader) std::memcpy(&count, bytes.data() + 80, sizeof(count));
@@ -52,7 +52,8 @@ bool is_ascii_stl(const std::string& bytes) {
          bytes.find("facet") != std::string::npos;
 }
 
-/// A binary STL says its number of triangles; an ASCII one ends in "endsolid".
+/// Checks that an STL is complete: a binary one declares its number of triangles; an ASCII one ends
+/// in "endsolid".
 void check_stl(const std::string& bytes, const std::string& path, const Source& source) {
   if (is_ascii_stl(bytes)) {
     if (bytes.find("endsolid") == std::string::npos) {
@@ -68,7 +69,7 @@ void check_stl(const std::string& bytes, const std::string& path, const Source& 
   }
 }
 
-/// A binary glTF says its length.
+/// Checks the length that a binary glTF declares.
 void check_glb(const std::string& bytes, const std::string& path, const Source& source) {
   constexpr std::size_t kHeader = 12;
   std::uint32_t length = 0;
@@ -109,7 +110,8 @@ bool has_line(const std::string& bytes, const std::string& line) {
   return false;
 }
 
-/// The mesh library looks for the end of a header beyond the end of the file, for ever.
+/// Requires the end of the header, which the mesh library would seek beyond the end of the file,
+/// for ever.
 void check_ply(const std::string& bytes, const std::string& path, const Source& source) {
   if (!has_line(bytes, "end_header")) {
     throw Error(source, "found no line 'end_header' in PLY '" + path + "', expected one");

@@ -8,14 +8,15 @@
 namespace ardee {
 
 /// Refuses, before the mesh library sees it, a file that is missing, empty, huge, truncated, nested
-/// so deeply that it would overflow the stack, or of a format that is not read. Returns its bytes.
+/// so deeply that it would overflow the stack, or of an unsupported format. Returns its bytes.
 /// Throws Error at `source`.
 std::string check_mesh_file(const std::string& path, const Source& source);
 
-/// ".stl", in small letters.
+/// Extension of a path in small letters: ".stl".
 std::string mesh_file_extension(const std::string& path);
 
-/// Of a checked STL: where the triangles of a binary one end, or all bytes of an ASCII one.
+/// Length of a checked STL in bytes: up to the end of the triangles of a binary file, all bytes of
+/// an ASCII file.
 std::size_t binary_stl_size(const std::string& bytes);
 
 }  // namespace ardee

@@ -8,9 +8,9 @@
 
 namespace ardee {
 
-/// The bytes of a checked mesh file with what is valid in it, or does no harm, written as the mesh
-/// library reads it: numbers of an OBJ that begin with a point, fans of a DAE. Bytes after the last
-/// triangle of a binary STL are cut off, with a warning.
+/// Rewrites parts of a checked mesh file that are valid or harmless, but that the mesh library does
+/// not read: numbers of an OBJ that begin with a point, fans of a DAE. Returns the bytes. Bytes
+/// after the last triangle of a binary STL are cut off, with a warning.
 std::string repair_mesh_file(std::string bytes, const std::string& path, const Source& source,
                              Log& log);
 

@@ -49,7 +49,7 @@ Material read_mesh_material(const aiMaterial& source, const std::string& mesh_pa
   if (source.GetTexture(aiTextureType_DIFFUSE, 0, &text) == AI_SUCCESS &&
       text.C_Str()[0] != kInsideTheFile) {
     material.texture_path = texture_beside(text.C_Str(), mesh_path);
-    // The picture gives the colour: assimp's stand-in for an absent one would darken it.
+    // The picture gives the colour: assimp's default for an absent colour would darken it.
     material.diffuse.head<3>().setOnes();
     material.ambient.head<3>().setOnes();
   }

@@ -9,8 +9,8 @@
 
 namespace ardee {
 
-/// A mesh file's own material. Its texture is looked for beside the mesh and in
-/// ../materials/textures; one that is nowhere is left out.
+/// Material of a mesh file. Its texture is searched beside the mesh and in ../materials/textures; a
+/// missing one is left out.
 Material read_mesh_material(const aiMaterial& source, const std::string& mesh_path);
 
 }  // namespace ardee

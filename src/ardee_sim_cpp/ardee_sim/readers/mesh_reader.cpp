@@ -17,8 +17,8 @@
 
 namespace Assimp {
 
-/// Takes the place of the mesh library's own function of this name, which ends the process: what it
-/// asserts of a file becomes an error like others.
+/// Replaces the mesh library's function of this name, which ends the process: a failed assertion
+/// about a file becomes an ordinary error.
 ASSIMP_API void aiAssertViolation(const char* failed, const char* file, int line);
 void aiAssertViolation(const char* failed, const char* /*file*/, int /*line*/) {
   throw ardee::Error(std::string("the mesh library expects ") + failed);
@@ -30,13 +30,13 @@ namespace ardee {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 20'000'000;
-/// Of a polygon: cutting it takes time that grows with their cube.
+/// Greatest number of a polygon's corners: the time to cut it grows with their cube.
 constexpr std::size_t kMaxCorners = 1000;
-/// Comparisons of corners when the polygons of a file are cut: some seconds.
+/// Greatest number of comparisons of corners when the polygons of a file are cut: some seconds.
 constexpr std::uint64_t kMaxWork = 2'000'000'000;
 constexpr float kAbsurdCoordinate = 1e9f;
 
-/// What of a file is not in the mesh.
+/// Parts of a file that are not in the mesh.
 struct LeftOut {
   std::size_t points = 0;
   std::size_t lines = 0;
@@ -56,7 +56,7 @@ struct LeftOut {
   }
 };
 
-/// Gives `bytes` for the file at `path`, and what lies beside it from the disk.
+/// Gives `bytes` for the file at `path`, and reads other files from the disk.
 class OneFileInMemory : public Assimp::DefaultIOSystem {
  public:
   OneFileInMemory(std::string path, const std::string& bytes)
@@ -73,8 +73,8 @@ class OneFileInMemory : public Assimp::DefaultIOSystem {
   const std::string& bytes_;
 };
 
-/// The library's validation asks for these marks, which its OBJ reader forgets for a face of two
-/// corners; what has fewer than three is removed afterwards.
+/// Sets the marks that the library's validation requires, and that its OBJ reader omits for a face
+/// of two corners; faces of fewer than three corners are removed afterwards.
 void mark_kinds_of_faces(const aiScene& scene) {
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     aiMesh& mesh = *scene.mMeshes[i];
@@ -109,18 +109,18 @@ void set_properties(Assimp::Importer& importer) {
 
 const aiScene& import(Assimp::Importer& importer, const std::string& path, const Source& source,
                       const std::string& bytes, LeftOut& left_out) {
-  // Polygons stay as they are: the library's triangles go beyond some that are not convex.
+  // Polygons are not triangulated by the library, whose triangles exceed some concave polygons.
   constexpr unsigned kSteps =
       aiProcess_JoinIdenticalVertices | aiProcess_SortByPType | aiProcess_ValidateDataStructure;
   set_properties(importer);
   const aiScene* scene = nullptr;
   try {
-    importer.SetIOHandler(new OneFileInMemory(path, bytes));  // its own from now on
+    importer.SetIOHandler(new OneFileInMemory(path, bytes));  // the importer owns it
     scene = importer.ReadFile(path, 0);
     if (scene) {
       mark_kinds_of_faces(*scene);
       left_out = count_left_out(*scene);
-      // Two cameras of one name would not pass as valid, and no camera is looked at.
+      // Two cameras of one name would fail the validation, and cameras are not used.
       scene = importer.ApplyPostProcessing(aiProcess_RemoveComponent);
     }
     if (scene) scene = importer.ApplyPostProcessing(kSteps);
@@ -157,7 +157,7 @@ class PartReader {
     SubMesh part;
     part.name = node.mName.length > 0 ? node.mName.C_Str() : mesh.mName.C_Str();
     const Material& material = file_.materials.at(mesh.mMaterialIndex);
-    // The library makes up a material where the file has none.
+    // The library invents a material if the file has none.
     if (material.name != AI_DEFAULT_MATERIAL_NAME) {
       part.material = static_cast<int>(mesh.mMaterialIndex);
     }

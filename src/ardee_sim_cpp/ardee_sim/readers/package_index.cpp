@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMaxDepth = 12;
 
-/// The name in a package.xml; that of its folder if the file is broken (rospack's own way out).
+/// The name in a package.xml; that of its folder if the file is broken, as in rospack.
 std::string package_name(const tinyxml2::XMLElement* root, const std::string& folder) {
   const auto* name = root ? root->FirstChildElement("name") : nullptr;
   if (name && name->GetText()) {
@@ -33,8 +33,8 @@ std::string expand_prefix(std::string text, const std::string& folder) {
   return text;
 }
 
-/// Appends the folders that an attribute of a manifest's <gazebo_ros> exports, of which it may have
-/// several, names.
+/// Appends the folders that an attribute names in a manifest's <gazebo_ros> exports, of which there
+/// may be several.
 void add_exports(const tinyxml2::XMLElement* root, const std::string& folder, const char* attribute,
                  std::vector<std::string>& all) {
   const auto* exports = root ? root->FirstChildElement("export") : nullptr;

@@ -8,14 +8,14 @@
 
 namespace ardee {
 
-/// Where the packages of ROS_PACKAGE_PATH lie, found by their package.xml as rospack does. The
-/// folders are walked once, at the first question.
+/// Folders of the packages of ROS_PACKAGE_PATH, found by their package.xml as rospack does. The
+/// folders are searched once, at the first look-up.
 class PackageIndex {
  public:
   explicit PackageIndex(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   std::optional<std::string> find(const std::string& package);
-  /// What packages add to Gazebo's paths by <export><gazebo_ros gazebo_model_path="..."
+  /// Entries that packages add to Gazebo's paths by <export><gazebo_ros gazebo_model_path="..."
   /// gazebo_media_path="..."/>.
   const std::vector<std::string>& exported_model_paths();
   const std::vector<std::string>& exported_media_paths();

@@ -38,7 +38,8 @@ std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3f>& corners
   return flat;
 }
 
-/// Cuts off corner after corner that no other one lies in ("ear clipping", Meisters 1975).
+/// Cuts off, one by one, corners whose triangle contains no other corner ("ear clipping", Meisters
+/// 1975).
 class EarClipping {
  public:
   explicit EarClipping(const std::vector<Eigen::Vector2d>& corners)
@@ -59,7 +60,7 @@ class EarClipping {
       tried = 0;
       add(at, triangles);
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(at));
-      // From the next but one on, or the triangles would all be a fan of slivers.
+      // Continues two corners on; otherwise the triangles would be a fan of slivers.
       at = (at + 1) % left_.size();
     }
     add(1, triangles);
@@ -88,7 +89,7 @@ class EarClipping {
     for (std::size_t k = 0; k < left_.size(); ++k) {
       const Eigen::Vector2d& p = corners_[left_[k]];
       if (p == a || p == b || p == c) continue;
-      // Of what lies within some corner turns right.
+      // Skips corners that turn left: if there are points inside, one of them turns right.
       if (turn(corners_[before(k)], p, corners_[after(k)]) > 0.0) continue;
       if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0) return false;
     }
@@ -116,7 +117,7 @@ Triangles cut_polygon(const std::vector<Eigen::Vector3f>& corners, std::uint64_t
     }
     fan.push_back({0, k, k + 1});
   }
-  return fan;  // all of it is seen from its first corner, as of a convex one
+  return fan;  // all of it is visible from its first corner, as if convex
 }
 
 }  // namespace ardee

@@ -8,10 +8,10 @@
 
 namespace ardee {
 
-/// Cuts a polygon, which need not be convex, into triangles of its corners, turned as it is.
-/// Corners off its plane are cut as their shadows on it are. A polygon without area has no
-/// triangles. `work`, if given, grows by how many corners were compared: for a polygon that is not
-/// convex up to the third power of their number.
+/// Cuts a polygon, which need not be convex, into triangles of its corners, with its orientation.
+/// Corners off its plane count by their projection on it. A polygon without area has no triangles.
+/// `work`, if given, grows by the number of corners compared: up to the third power of the number
+/// of corners for a polygon that is not convex.
 std::vector<std::array<std::uint32_t, 3>> cut_polygon(const std::vector<Eigen::Vector3f>& corners,
                                                       std::uint64_t* work = nullptr);
 

@@ -12,10 +12,10 @@ constexpr const char* kFarthest_m = "10";
 
 /// One of the device's cameras.
 struct Eye {
-  std::string sensor;  // its name after the prefix
-  std::string key;     // what its keys begin with: colorTopicName
+  std::string sensor;  // name after the prefix
+  std::string key;     // prefix of its keys: colorTopicName
   std::string rate;    // the key of its rate
-  std::string folder;  // of its topics without a key: as the driver of the real device has it
+  std::string folder;  // default folder of its topics, as in the real device's driver
 };
 
 SensorDescription* find_sensor(Model& model, const std::string& name) {
@@ -27,7 +27,7 @@ SensorDescription* find_sensor(Model& model, const std::string& name) {
   return nullptr;
 }
 
-/// Adds a key of the stock plugin with what the device's plugin says by its own, and where.
+/// Adds a key of the stock plugin with the value and place of the device plugin's own key.
 void copy_key(Parameters& given, const std::string& theirs, const std::string& fallback,
               const std::string& ours, PluginDescription& made) {
   const Element* key = given.block(theirs);
@@ -43,7 +43,7 @@ void add_depth_keys(Parameters& given, PluginDescription& made) {
   copy_key(given, "rangeMinDepth", kNearest_m, "pointCloudCutoff", made);
   copy_key(given, "rangeMaxDepth", kFarthest_m, "pointCloudCutoffMax", made);
   add_key(made, "useDepth16UC1Format", "true");
-  // What the cloud has its colours from; the stock plugin's names may be those of an infrared eye.
+  // Source of the cloud's colours; the stock plugin's names may be those of an infrared camera.
   add_key(made, "imageTopicName", "depth/color/image_raw");
   add_key(made, "cameraInfoTopicName", "depth/color/camera_info");
 }
@@ -61,7 +61,7 @@ PluginDescription make_camera(const PluginDescription& device, const Eye& eye,
   copy_key(given, eye.rate, "0", "updateRate", made);
   copy_key(given, eye.key + "OpticalframeName", sensor, "frameName", made);
   std::string& frame = made.element.children.back().text;
-  frame.insert(0, "/");  // taken as it stands, whatever the namespace
+  frame.insert(0, "/");  // used unchanged in any namespace
   if (is_depth) {
     add_depth_keys(given, made);
   } else {
@@ -100,7 +100,7 @@ void adopt(const PluginDescription& device, Model& model, Log& log) {
     }
   }
   check_cutoff(given, log);
-  given.ignore({"pointCloud"});  // a cloud is made while somebody listens
+  given.ignore({"pointCloud"});  // a cloud is made for subscribers only
   given.finish(log);
 }
 

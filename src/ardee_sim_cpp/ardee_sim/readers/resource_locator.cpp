@@ -29,15 +29,15 @@ bool is_there(const fs::path& place) {
   return fs::exists(place, error);
 }
 
-/// What packages export is asked for only where nothing else is found: their folders are walked
-/// then.
+/// The exports of packages are used only if nothing else is found, as they require a search of
+/// their folders.
 void add_exports(const ResourceLocator::PathExports& exports, const std::string& rest,
                  std::vector<fs::path>& places) {
   if (!exports || std::any_of(places.begin(), places.end(), is_there)) return;
   for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
 }
 
-/// One name of a file, whoever refers to it.
+/// Name of a file for messages: a relative path gets the folder of the referring file.
 std::string name_of(const std::string& uri, const Source& source) {
   return uri.find("://") == std::string::npos ? folder_of(source.file) + "/" + uri : uri;
 }
@@ -80,7 +80,7 @@ std::string choose_sdf(const Node& config) {
 ResourceLocator ResourceLocator::from_environment() {
   ResourceLocator locator;
   locator.model_paths_ = environment_list("GAZEBO_MODEL_PATH");
-  // Gazebo's own default place, where users keep the models that it downloaded.
+  // Gazebo's default folder of downloaded models.
   if (const char* home = std::getenv("HOME")) {
     std::error_code error;
     const std::string kept = normal(fs::path(home) / ".gazebo" / "models");

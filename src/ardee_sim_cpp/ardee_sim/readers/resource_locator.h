@@ -10,22 +10,22 @@
 
 namespace ardee {
 
-/// That a file is not there, or cannot be read as what it should be.
+/// Thrown for a file that is missing or cannot be read in its format.
 class FileError : public Error {
  public:
   FileError(const Source& source, const std::string& file, const std::string& what)
       : Error(source, what), file_(file) {}
   FileError(const Error& problem, const std::string& file) : Error(problem), file_(file) {}
 
-  /// Its path or URI.
+  /// Path or URI of the file.
   const std::string& file() const { return file_; }
 
  private:
   std::string file_;
 };
 
-/// Finds the file behind a URI: model://, package://, file://, an absolute path, a path beside the
-/// referring file, or https:// of a model of Fuel that was downloaded before.
+/// Finds the file that a URI names: model://, package://, file://, an absolute path, a path beside
+/// the referring file, or https:// for a downloaded model of Fuel.
 class ResourceLocator {
  public:
   using PackageFinder = std::function<std::optional<std::string>(const std::string& package)>;
@@ -41,7 +41,7 @@ class ResourceLocator {
   void add_fuel_cache(const std::string& folder) { fuel_caches_.push_back(folder); }
   void set_package_finder(PackageFinder finder) { find_package_ = std::move(finder); }
 
-  /// Further model folders; asked for only when a model is in none of the others.
+  /// Further model folders; used only if a model is in none of the others.
   void set_model_path_exports(PathExports exports) { model_exports_ = std::move(exports); }
   /// Further folders for file://; likewise.
   void set_media_path_exports(PathExports exports) { media_exports_ = std::move(exports); }

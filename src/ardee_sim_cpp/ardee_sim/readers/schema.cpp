@@ -15,7 +15,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// A word as it is compared: numbers by value, booleans as 0 and 1.
+/// Normal form of a word for comparison: numbers by value, booleans as 0 and 1.
 std::string canonical(const std::string& word) {
   if (word == "true" || word == "True") return "1";
   if (word == "false" || word == "False") return "0";
@@ -64,7 +64,7 @@ Schema::Schema(const char* format, const std::vector<SchemaRow>& rows, const Sch
   for (auto& [name, place] : places_) link_up(place);
 }
 
-/// Finds what each element of a place may hold: the longest place name that ends its path counts.
+/// Finds the place of each element: the longest place name that ends its path counts.
 void Schema::link_up(Place& place) {
   for (auto& [name, entry] : place.entries) {
     if (name[0] == '@' || entry.treatment != Treatment::kActs) continue;

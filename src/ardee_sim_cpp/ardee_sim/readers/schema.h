@@ -11,30 +11,30 @@
 
 namespace ardee {
 
-/// What becomes of an element or attribute.
+/// Treatment of an element or attribute.
 enum class Treatment {
   kActs,
-  kSettled,   // nothing to do: it asks for what happens anyway, or Gazebo does nothing with it too
-  kNoEffect,  // known and without effect here, which is a warning
-  kElsewhere  // left to whoever knows what it holds (a plugin)
+  kSettled,   // nothing to do: it is the behaviour anyway, or Gazebo ignores it too
+  kNoEffect,  // known, but without effect here: a warning
+  kElsewhere  // left to another parser (a plugin's)
 };
 
 /// One line of a table of elements.
 struct SchemaRow {
-  const char* place;  // the parent; "joint/physics" where its name alone means two things
+  const char* place;  // the parent; "joint/physics" if its name alone is ambiguous
   Treatment treatment;
   const char* names;      // of child elements and @attributes
-  const char* note = "";  // why it is without effect or settled; of what acts: how, if not plain
-  /// What those without effect may say without a warning: their default, or what happens here
+  const char* note = "";  // reason of no effect or of settled; effect, if it is not obvious
+  /// Values of an element without effect that give no warning: its default, or the behaviour here
   /// anyway. Alternatives are separated by |.
   const char* harmless = "";
 };
 
-/// Which elements and attributes may stand in which, and what becomes of them.
+/// Elements and attributes that may stand in each element, and their treatment.
 class Schema {
  public:
   struct Place;
-  /// What is known of a name at a place.
+  /// Entry of a name at a place.
   struct Entry {
     Treatment treatment = Treatment::kActs;
     std::string note;
@@ -47,13 +47,14 @@ class Schema {
     std::map<std::string, Entry, std::less<>> entries;
   };
 
-  /// `format`: its name in messages. `base` has the places that these rows name and do not have.
+  /// `format` is its name in messages. `base` holds the places that these rows refer to but do not
+  /// define.
   Schema(const char* format, const std::vector<SchemaRow>& rows, const Schema* base = nullptr);
   Schema(const Schema&) = delete;
   Schema& operator=(const Schema&) = delete;
 
-  /// Warns of what is unknown or without effect in `node`, a root or what a row calls `place`. What
-  /// has a foreign XML namespace is left to its owners.
+  /// Warns of names that are unknown or without effect in `node`, a root or an element whose row
+  /// has the name `place`. Names in a foreign XML namespace are skipped.
   void check(const Node& node, const std::string& place, Log& log) const;
   void check(const Node& root, Log& log) const { check(root, std::string(root.name()), log); }
   /// The place of that name; throws std::logic_error if there is none.
@@ -74,10 +75,10 @@ class Schema {
 
 /// SDF 1.2 to 1.12 and ARDEE's own elements.
 const Schema& sdf_schema();
-/// URDF without what is in <gazebo> blocks.
+/// URDF without the contents of <gazebo> blocks.
 const Schema& urdf_schema();
-/// What a URDF's <gazebo> block may hold, by what it is about: "gazebo link", "gazebo joint" or
-/// "gazebo robot".
+/// Contents of a URDF's <gazebo> block by its subject: "gazebo link", "gazebo joint" or "gazebo
+/// robot".
 const Schema& gazebo_schema();
 
 }  // namespace ardee

@@ -6,12 +6,12 @@
 namespace ardee {
 namespace {
 
-/// So many frames may lie one in the other; more are taken for a circle.
+/// Greatest depth of nested frames; a greater depth counts as a cycle.
 constexpr std::size_t kDeepest = 1000;
-/// So many names are listed in a message.
+/// Greatest number of names in a message.
 constexpr std::size_t kListed = 10;
 
-/// The <pose> that says something.
+/// The <pose> of an element, if it is not empty.
 std::optional<Node> pose_of(const Node& element) {
   const auto pose = element.child("pose");
   if (!pose || (pose->text().empty() && pose->attribute("relative_to").empty())) return {};
@@ -154,7 +154,7 @@ std::string SdfFrames::body_of(const std::string& name) const {
 
 std::vector<NamedFrame> SdfFrames::named_frames(const Node& parent) const {
   std::vector<NamedFrame> made;
-  std::unordered_map<std::string, std::size_t> before;  // what lies in one of them is soon found
+  std::unordered_map<std::string, std::size_t> before;  // shortens the search for frames below them
   parent.each("frame", [&](const Node& node) {
     const std::string name = node.required_attribute("name");
     const Frame& frame = frames_.at(name);

@@ -24,7 +24,7 @@ Box read_box(const Node& shape) {
   return box;
 }
 
-/// A plane that collides has no end, whatever its size.
+/// A colliding plane is infinite, for any size.
 Plane read_plane(const Node& shape, bool collides, Log& log) {
   Plane plane;
   plane.normal = shape.vector3("normal", plane.normal);

@@ -101,7 +101,7 @@ const SdfReader::ModelFile& SdfReader::read_file(const std::string& path, const 
   return files_[key] = std::move(file);
 }
 
-/// Last adds it to the frames: on a throw it is not there.
+/// Adds the model to the frames last, so that it is absent after a throw.
 Instance SdfReader::read_include(const Node& include, const ModelFile& file,
                                  const std::string& name, SdfFrames& frames) {
   Instance made;

@@ -41,7 +41,7 @@ std::string frame_of_axis(const Node& axis, int sdf_version) {
                                                                                   : "";
 }
 
-/// SDF says "no limit" by a negative value.
+/// A negative value means "no limit" in SDF.
 double unlimited_if_negative(const Node& axis, const char* path) {
   const double value = axis.limit(path, kInfinity);
   return value < 0.0 ? kInfinity : value;
@@ -85,8 +85,8 @@ std::string link_of(const std::string& frame, const JointScope& scope) {
   return body.empty() ? scope.model.canonical_link : body;
 }
 
-/// Puts the joint where its <pose> says, in the frame of its child by default, and returns how it
-/// is turned in the model.
+/// Places the joint by its <pose>, in the frame of its child by default, and returns its
+/// orientation in the model.
 Eigen::Quaterniond place(const Node& node, const std::string& child, const JointScope& scope,
                          Joint& joint) {
   const std::string& held = joint.child == "world" ? joint.parent : joint.child;
@@ -156,7 +156,7 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
 
 namespace {
 
-/// A joint by which a link turns against the reference body, and how it counts about an axis.
+/// A joint by which a link turns relative to the reference body, and its sign about an axis.
 struct HeldBy {
   const Joint* joint = nullptr;
   double sign = 1.0;

@@ -11,7 +11,7 @@
 
 namespace ardee {
 
-/// What the joints of a model refer to; all its links are there.
+/// Context that the joints of a model refer to; it holds all links.
 struct JointScope {
   JointScope(int version, const SdfFrames& known_frames, const Model& of);
 
@@ -21,12 +21,12 @@ struct JointScope {
   std::unordered_map<std::string, Pose> X_ML;  // of its links
 };
 
-/// An SDF <joint> between links, or frames that move with them; one whose child is the world
-/// becomes one whose parent is. An axis that is not written is z, with a warning if there is no
-/// <axis> at all. Throws Error if one of the links does not exist.
-/// Adds a joint of type gearbox to a model whose other joints have been read: as what couples the
+/// Adds a joint of type gearbox to a model whose other joints have been read: as a coupling of the
 /// two joints that hold its links on the reference body. One warning if there are no such joints.
 void read_sdf_gearbox(const Node& node, const JointScope& scope, Log& log, Model& model);
+/// Reads an SDF <joint> between links, or frames that move with them; a joint whose child is the
+/// world becomes one whose parent is the world. A missing axis is z, with a warning if there is no
+/// <axis> at all. Throws Error if one of the links does not exist.
 Joint read_sdf_joint(const Node& joint, const JointScope& scope, Log& log);
 
 }  // namespace ardee

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaxContacts = 100000;
 
-/// "nan" is a number here, which what never moves may have.
+/// Accepts "nan", which a link that never moves may have.
 double read_inertia(const Node& element, const char* name, double fallback) {
   const auto value = to_double(element.text(name, ""));
   return value && std::isnan(*value) ? *value : element.number(name, fallback);
@@ -148,7 +148,7 @@ SensorDescription read_sensor(const Node& sensor, const Pose& X_LS) {
   try {
     made.update_rate_hz = sensor.number("update_rate", 0.0);
   } catch (const Error&) {
-    made.update_rate_hz = 0.0;  // whoever makes the sensor reads it again, says so and goes on
+    made.update_rate_hz = 0.0;  // the sensor's parser reads it again and reports the error
   }
   made.X_LS = X_LS;
   made.element = sensor.to_element();

@@ -8,13 +8,14 @@
 
 namespace ardee {
 
-/// An SDF <link> with all it holds, one of the model's `frames`. Throws Error with file and line.
+/// An SDF <link> with all its parts; it is one of the model's `frames`. Throws Error with file and
+/// line.
 Link read_sdf_link(const Node& link, const SdfFrames& frames, Assets& assets);
 
-/// `made` with what a <collision>'s <surface> and <max_contacts> say.
+/// Applies the <surface> and <max_contacts> of a <collision> to `made`.
 Surface read_sdf_surface(const Node& collision, Surface made = {});
 
-/// A <mu>: a negative one is infinite, as in Gazebo; `otherwise` where it is empty.
+/// Reads a <mu>: a negative value is infinite, as in Gazebo; an empty one is `otherwise`.
 double read_friction(const Node& mu, double otherwise);
 
 SensorDescription read_sensor(const Node& sensor, const Pose& X_LS);

@@ -6,8 +6,8 @@
 
 namespace ardee {
 
-/// An SDF <material>: its script's material, or Gazebo's, with the colours given beside it put over
-/// that.
+/// An SDF <material>: its script's material, or Gazebo's, with the colours given beside it taking
+/// precedence.
 Material read_sdf_material(const Node& material, Assets& assets);
 
 }  // namespace ardee

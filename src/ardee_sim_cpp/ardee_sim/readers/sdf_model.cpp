@@ -16,7 +16,7 @@
 namespace ardee {
 namespace {
 
-/// The one named by the attribute, else the first.
+/// The link named by the attribute, else the first.
 void choose_canonical_link(const Node& node, const SdfFrames& frames, Model& model) {
   if (model.links.empty()) return;
   const std::string named = node.attribute("canonical_link");
@@ -56,7 +56,7 @@ std::shared_ptr<const Model> SdfReader::read_model(const Node& root) {
   const Scope scope{read_version(root), std::nullopt};
   sdf_schema().check(root, assets_.log());
   reading_.assign(1, root.file());
-  // gazebo_ros's spawn scripts wrap what they take from the model database in a world.
+  // gazebo_ros's spawn scripts wrap models of the model database in a world.
   const auto world = root.child("world");
   const auto include = world ? world->child("include") : std::nullopt;
   std::shared_ptr<const Model> model;
@@ -152,7 +152,7 @@ SdfReader::Placed SdfReader::placed_instance(const Node& child, const Scope& sco
     if (!file.model) return {std::nullopt, file.lights};
     const auto given = child.child("name");
     const std::string name = given ? given->required_text() : file.model->name;
-    // A link may have the name of the model that it is merged out of.
+    // A link may have the name of the merged model.
     const std::string own_name = is_merged ? "_merged__" + name + "__model__" : name;
     Instance made = read_include(child, file, names.find_free(own_name), frames);
     names.take(made.name);

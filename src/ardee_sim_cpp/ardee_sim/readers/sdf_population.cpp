@@ -14,7 +14,7 @@ struct Region {
   Eigen::Vector3d size_m;
   bool is_round = false;
 
-  /// The place of three shares of [0, 1], by which equal volumes get equally many.
+  /// The position for three numbers in [0, 1], uniform by volume.
   Eigen::Vector3d at(const Eigen::Vector3d& shares) const {
     Eigen::Vector3d place = shares.array() - 0.5;
     if (is_round) {
@@ -42,7 +42,7 @@ Region read_region(const Node& population) {
   return {size_m, false};
 }
 
-/// The share of [0, 1] that has the digits of a number to a base behind the point, in reverse.
+/// Radical inverse of a number: its digits to a base in reverse, behind the point.
 double mirrored(int number, int base) {
   double share = 0.0;
   for (double digit = 1.0 / base; number > 0; number /= base, digit /= base) {

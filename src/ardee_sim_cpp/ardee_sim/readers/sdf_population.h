@@ -8,8 +8,8 @@
 
 namespace ardee {
 
-/// Where the models of a <population> stand, in its frame [m]: in its box or cylinder, whose middle
-/// is the origin, as its <distribution> says. Random places follow from the population's name.
+/// Positions of the models of a <population>, in its frame [m]: within its box or cylinder, centred
+/// at the origin, by its <distribution>. The population's name seeds random positions.
 std::vector<Eigen::Vector3d> read_population(const Node& population);
 
 }  // namespace ardee

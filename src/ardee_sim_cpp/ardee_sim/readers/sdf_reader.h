@@ -27,37 +27,36 @@ class SdfReader {
   Light read_light(const Node& root);
 
  private:
-  /// An included file: a model, or lights alone; neither where it is left out.
+  /// An included file: a model, or lights alone; neither if it is left out.
   struct ModelFile {
     std::shared_ptr<const Model> model;
     std::vector<Light> lights;
   };
-  /// What a nested <model> or an <include> adds; nothing where it is left out.
+  /// Addition of a nested <model> or an <include>; empty if it is left out.
   struct Placed {
     std::optional<Instance> instance;
     std::vector<Light> lights;
   };
-  /// How a model is to be read: the version of its file, and whether what holds it makes it static
-  /// or not.
+  /// Context of a model: the version of its file, and whether its parent makes it static or not.
   struct Scope {
     int version = 0;  // 107: SDF 1.7
     std::optional<bool> make_static;
   };
   class Reading;
 
-  /// A file's own model; its pose is relative to nothing.
+  /// Reads a file's top-level model; its pose has no reference frame.
   std::shared_ptr<const Model> read_own_model(const Node& model, const Scope& scope);
-  /// But for its own pose, which depends on what holds it.
+  /// Reads a model without its pose, which depends on its parent.
   std::shared_ptr<Model> read_model(const Node& model, const Scope& scope);
-  /// All nested models and includes of a model or world, known to `frames` from now on; where they
-  /// stand is asked of those when all are.
+  /// Reads all nested models and includes of a model or world and adds them to `frames`; their
+  /// poses are looked up there once all are added.
   std::vector<Placed> read_placed(const Node& parent, const Scope& scope, UniqueNames& names,
                                   SdfFrames& frames);
   Placed placed_instance(const Node& child, const Scope& scope, bool is_merged, UniqueNames& names,
                          SdfFrames& frames);
   void add_nested_models(const Node& model, std::vector<Placed> placed, UniqueNames& names,
                          const SdfFrames& frames, Model& made);
-  /// The models below one, of about `bytes` so far, that are merged into it.
+  /// Merges the models below a model into it; `bytes` is its approximate size so far.
   void add_nested(const Node& asker, Instance nested, std::size_t& bytes, Model& made);
   void merge(const Node& asker, const Instance& nested, const std::string& name, std::size_t& bytes,
              Model& made);
@@ -79,28 +78,28 @@ class SdfReader {
 
   Assets& assets_;
   std::map<std::string, ModelFile> files_;                    // by path and staticness
-  std::unordered_map<std::string, const ModelFile*> by_uri_;  // the same by how they are named
+  std::unordered_map<std::string, const ModelFile*> by_uri_;  // entries of files_ by URI
   std::unordered_map<const Model*, std::size_t>
       placements_;                    // of models that files_ or a world hold
   std::vector<std::string> reading_;  // files being read, outermost first
 };
 
-/// Whether an element is one of Placed.
+/// Whether an element is of a kind that Placed describes.
 bool is_nested(const Node& child);
 
-/// A part of a world in messages: "<model> 'wall'".
+/// Name of a part of a world in messages: "<model> 'wall'".
 std::string label_of(const Node& part);
 
-/// X_HM of a model in what holds it, of the place of its placement frame.
+/// X_HM of a model in its parent, from the pose of its placement frame.
 inline Pose place_model(const Pose& X_HP, const std::optional<Pose>& X_MP) {
   return X_MP ? X_HP * X_MP->inverse() : X_HP;
 }
 
-/// About how much memory a model takes, but for what it shares with others.
+/// Approximate memory of a model in bytes, without the data that it shares with others.
 std::size_t bytes_of(const Model& model);
 
-/// Takes a nested model into the one that holds it: links and joints get names `child::link`; with
-/// an empty name they keep their own.
+/// Merges a nested model into its parent: links and joints get names `child::link`; with an empty
+/// name they keep their own.
 void merge_model(const Model& nested, const Pose& X_MN, const std::string& name, Model& made);
 
 }  // namespace ardee

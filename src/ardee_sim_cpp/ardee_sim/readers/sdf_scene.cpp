@@ -44,9 +44,9 @@ void read_ode(const Node& physics, PhysicsParams& made) {
                                       made.contact_surface_layer_m, bounds::kSurfaceLayer_m);
 }
 
-/// Steps per second of wall time, 0: as fast as the machine can. Gazebo heeds
-/// <real_time_update_rate> alone, so a positive one counts. Where it is 0 or absent (thesis Listing
-/// A.15), a <real_time_factor> that is written there is what its author wants to see.
+/// Steps per second of wall time, 0: as fast as possible. Gazebo uses <real_time_update_rate>
+/// alone, so a positive one counts. If it is 0 or absent (thesis Listing A.15), a given
+/// <real_time_factor> is the author's intended pace.
 double read_update_rate(const Node& physics, double step_s) {
   constexpr bounds::Range kRate = bounds::kUpdateRate_hz;
   const auto now = physics.child("real_time_update_rate");
@@ -66,7 +66,7 @@ PhysicsParams read_sdf_physics(const Node& world, Log& log) {
     if (type != "ode") {
       log.warn(physics->source().to_string() + ": found type '" + type + "', ode is used");
     }
-    // SDF 1.2 and 1.3 said <ode><solver><dt> and <update_rate>.
+    // SDF 1.2 and 1.3 used <ode><solver><dt> and <update_rate>.
     const double old_step =
         physics->number("ode/solver/dt", made.step_s, bounds::kStep_s.low, bounds::kStep_s.high);
     made.step_s =

@@ -7,7 +7,7 @@
 
 namespace ardee {
 
-/// What a world holds besides models.
+/// Parts of a world other than models.
 Light read_sdf_light(const Node& light, const Pose& X_WL);
 Scene read_sdf_scene(const Node& scene);
 SphericalCoordinates read_spherical_coordinates(const Node& coordinates);

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-// What becomes of each element and attribute of SDF 1.2 to 1.12. docs/support.md is made from this.
+// SPDX-License-Identifier: MIT Treatment of each element and attribute of SDF 1.2 to 1.12.
+// docs/support.md is made from this.
 #include "ardee_sim/readers/schema.h"
 
 namespace ardee {
@@ -318,7 +318,7 @@ const std::vector<SchemaRow>& sensor_rows() {
   return rows;
 }
 
-/// The <noise> of one axis, where the plugin reads all of it or its deviation alone.
+/// The <noise> of one axis, of which the plugin reads all or only the deviation.
 std::vector<SchemaRow> noise_rows() {
   std::vector<SchemaRow> rows;
   for (const char* place : {"x/noise", "y/noise", "z/noise", "imu/noise/rate", "imu/noise/accel"}) {

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What the state speaks of and the world does not have.
+/// Entries of the state that the world does not have.
 class Unknown {
  public:
   void add(const char* kind, const std::string& name) {
@@ -60,7 +60,7 @@ Twist read_velocity(const Node& velocity) {
   return {{numbers[0], numbers[1], numbers[2]}, {numbers[3], numbers[4], numbers[5]}};
 }
 
-/// Equal as far as the digits that Gazebo saves go.
+/// Equal to the precision that Gazebo saves.
 bool is_same(const Pose& a, const Pose& b) {
   constexpr double kSaved = 1e-5;
   return (a.p - b.p).norm() <= kSaved * (1.0 + b.p.norm()) && a.q.angularDistance(b.q) <= kSaved;
@@ -82,7 +82,7 @@ struct ScaleShape {
   void operator()(Heightmap&) const {}
 };
 
-/// As Gazebo scales a model: its shapes grow where they stand, masses stay.
+/// As Gazebo scales a model: shapes are scaled at their places, masses are kept.
 void scale_shapes(const Node& scale, Model& model, Log& log) {
   const Vector3d factors = scale.to_vector3();
   if (!(factors.minCoeff() > 0.0)) {
@@ -111,7 +111,7 @@ std::map<std::string, Item*> by_name(std::vector<Item>& items) {
   return found;
 }
 
-/// Visits the children of a kind, of several of one name the first.
+/// Visits the children of a kind; of several with one name only the first.
 template <typename Visit>
 void each_named(const Node& parent, const char* kind, Log& log, Visit visit) {
   std::set<std::string> seen;
@@ -130,7 +130,8 @@ class ModelState {
  public:
   ModelState(Unknown& unknown, Log& log) : unknown_(unknown), log_(log) {}
 
-  /// Models of a static model stay models; `X_WP` and `scale_P` are where what holds it stands.
+  /// Models of a static model stay models; `X_WP` and `scale_P` are the pose and scale of the
+  /// parent.
   void apply(const Node& saved, Instance& model, const Pose& X_WP, double scale_P) {
     if (saved.child("pose")) {
       model.pose = X_WP.inverse() * saved.pose();
@@ -163,7 +164,7 @@ class ModelState {
   }
 
  private:
-  /// Links by their names in the model; those of models merged into it have these before theirs.
+  /// Links by their names in the model; links of merged models have the model's name as a prefix.
   void collect(const Node& saved, const std::string& prefix, const Model& model,
                LinkStates& states) {
     each_named(saved, "link", log_, [&](const Node& link, const std::string& own) {
@@ -213,7 +214,7 @@ class ModelState {
   std::map<std::string, Instance*> held_;
 };
 
-/// Takes out what has one of the names, and these from the names.
+/// Removes the items with one of the names, and removes these names.
 template <typename Item>
 void erase_named(std::vector<Item>& items, std::set<std::string>& names) {
   std::set<std::string> found;

@@ -7,9 +7,9 @@
 
 namespace ardee {
 
-/// Puts the clock, models, links and lights of a world to where its <state> says, which Gazebo
-/// writes where it saves a world, and takes out what is in <deletions>. Poses of links are in the
-/// world's frame. One warning names what the world does not have.
+/// Sets the clock, models, links and lights of a world to its <state>, which Gazebo writes when it
+/// saves a world, and removes the models in <deletions>. Poses of links are in the world's frame.
+/// One warning names the entries that the world does not have.
 void apply_sdf_state(const Node& state, World& world, Log& log);
 
 }  // namespace ardee

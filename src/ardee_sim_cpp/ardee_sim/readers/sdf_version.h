@@ -12,7 +12,7 @@ constexpr int kOldestSdf = 102;
 constexpr int kNewestSdf = 112;
 constexpr int kNewestClassicSdf = 107;
 
-/// None if the text is no version.
+/// Parses a version; none if the text is not one.
 std::optional<int> parse_sdf_version(const std::string& text);
 std::string sdf_version_text(int version);
 

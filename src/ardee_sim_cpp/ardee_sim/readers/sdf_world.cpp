@@ -23,7 +23,7 @@ std::optional<Node> saved_state(const Node& world, Log& log) {
   return first;
 }
 
-/// A light alone in its file stands where its <include> says, under the name that this gives it.
+/// A light alone in its file has the pose and the name of its <include>.
 void adopt_place(const Node& include, const SdfFrames& frames, Light& light) {
   light.name = include.text("name", light.name);
   if (include.child("pose")) light.pose = frames.pose(include);
@@ -62,7 +62,7 @@ World SdfReader::read_world(const Node& root) {
   return made;
 }
 
-/// Adds what was put into the world after it had been loaded.
+/// Adds the models inserted after the world was loaded.
 void SdfReader::read_insertions(const Node& insertions, const Scope& scope, World& made) {
   std::set<std::string> models;
   std::set<std::string> lights;
@@ -98,7 +98,7 @@ void SdfReader::read_insertions(const Node& insertions, const Scope& scope, Worl
   });
 }
 
-/// A line of text asks for as many models as it likes; they have to fit into memory.
+/// Bounds the number of models, as one line of text can ask for any number.
 void SdfReader::check_size(const World& world) const {
   std::size_t placements = 0;
   std::size_t moving_links = 0;
@@ -161,7 +161,7 @@ void SdfReader::read_world_models(const Node& world, const Scope& scope, World& 
   world.each([&](const Node& child) { assets_.is_good(label_of(child), [&] { add(child); }); });
 }
 
-/// Copies are named as Gazebo does it.
+/// Copies are named as in Gazebo.
 void SdfReader::add_population(const Node& population, const Scope& scope, UniqueNames& names,
                                const SdfFrames& frames, World& made) {
   const std::vector<Eigen::Vector3d> places = read_population(population);

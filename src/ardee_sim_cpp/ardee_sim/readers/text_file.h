@@ -8,8 +8,8 @@
 
 namespace ardee {
 
-/// The bytes of a file. Throws Error at `source` if it is no readable regular file or larger than
-/// `max_bytes`.
+/// Reads the bytes of a file. Throws Error at `source` if it is not a readable regular file or
+/// larger than `max_bytes`.
 std::string read_text_file(const std::string& path, const Source& source, std::size_t max_bytes);
 
 /// The folder of a path; empty for a bare name.

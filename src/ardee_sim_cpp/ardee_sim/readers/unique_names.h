@@ -7,7 +7,7 @@
 
 namespace ardee {
 
-/// Gives each thing a name of its own, as Gazebo does: plant, plant_0, plant_1, ...
+/// Makes names unique, as Gazebo does: plant, plant_0, plant_1, ...
 class UniqueNames {
  public:
   std::string claim(const std::string& wanted) {

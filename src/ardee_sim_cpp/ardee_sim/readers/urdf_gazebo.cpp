@@ -22,7 +22,7 @@ void each_surface(Link& link, const std::function<void(Surface&)>& change) {
   for (Collision& collision : link.collisions) change(collision.surface);
 }
 
-/// A property of all collisions of a link, by the names that it goes by.
+/// A property of all collisions of a link, by its names.
 using SurfaceRule = std::function<void(const Node&, Surface&)>;
 const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   static const std::map<std::string, SurfaceRule, std::less<>> rules = [] {
@@ -53,7 +53,7 @@ const std::map<std::string, SurfaceRule, std::less<>>& surface_rules() {
   return rules;
 }
 
-/// An element that holds nothing is as one that is not there.
+/// An empty element counts as absent.
 bool is_empty(const Node& node) {
   bool has_children = false;
   node.each([&has_children](const Node&) { has_children = true; });
@@ -70,7 +70,7 @@ void set_material(const Node& material, Link& link, Assets& assets) {
   for (Visual& visual : link.visuals) visual.material = made;
 }
 
-/// A <visual> block speaks for all visuals of the link.
+/// Applies a <visual> block to all visuals of the link.
 void apply_visual(const Node& node, Link& link, Assets& assets) {
   if (const auto material = node.child("material")) set_material(*material, link, assets);
   for (Visual& visual : link.visuals) {
@@ -79,7 +79,7 @@ void apply_visual(const Node& node, Link& link, Assets& assets) {
   }
 }
 
-/// A <collision> block speaks for all collisions of the link.
+/// Applies a <collision> block to all collisions of the link.
 void apply_collision(const Node& node, Link& link) {
   for (Collision& collision : link.collisions) {
     collision.surface = read_sdf_surface(node, collision.surface);

@@ -8,7 +8,7 @@
 namespace ardee {
 
 /// Applies the <gazebo> blocks of a <robot> to the model: those with a reference to a link or
-/// joint, the others to the model itself. What is not known is a warning.
+/// joint, the others to the model itself. An unknown element is a warning.
 void apply_gazebo_blocks(const Node& root, Model& model, Assets& assets);
 
 }  // namespace ardee

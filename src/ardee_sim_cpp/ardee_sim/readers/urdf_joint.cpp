@@ -14,7 +14,7 @@ namespace {
 constexpr double kMostTurns = 1e6;  // multiplier, or rad
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// None if nothing holds the child.
+/// Type of a joint; none if nothing holds the child.
 std::optional<JointType> read_type(const Node& joint) {
   static const std::map<std::string, std::optional<JointType>> types{
       {"fixed", JointType::kFixed},
@@ -30,8 +30,8 @@ std::optional<JointType> read_type(const Node& joint) {
                     "', expected fixed, revolute, continuous, prismatic, floating or planar");
 }
 
-/// Exporters write effort="0" velocity="0", which URDF requires, where nothing is known; Gazebo's
-/// drives turn such wheels all the same.
+/// Exporters write effort="0" velocity="0" for unknown limits, as URDF requires the attributes;
+/// Gazebo's drives still turn such wheels.
 double unlimited_unless_positive(const Node& limit, const char* name) {
   limit.required_attribute(name);
   const double value = limit.attribute_number(name, 0.0, -kInfinity, kInfinity);
@@ -66,7 +66,7 @@ Eigen::Vector3d read_axis(const Node& joint) {
   throw node->error("found '" + node->attribute("xyz") + "', expected an axis longer than zero");
 }
 
-/// Springs are not of URDF itself, but written by some for Gazebo's sake.
+/// Springs are not part of URDF, but some files have them for Gazebo.
 void read_dynamics(const Node& node, JointAxis& axis) {
   const auto dynamics = node.child("dynamics");
   if (!dynamics) return;
@@ -79,7 +79,7 @@ void read_dynamics(const Node& node, JointAxis& axis) {
   axis.spring_reference = read("spring_reference", bounds::kJointReference);
 }
 
-/// One without the gain that it needs is left out.
+/// A safety controller without its required gain is left out.
 std::optional<SafetyLimits> read_safety(const Node& joint, Log& log) {
   const auto node = joint.child("safety_controller");
   if (!node) return std::nullopt;

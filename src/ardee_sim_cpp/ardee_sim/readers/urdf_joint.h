@@ -9,12 +9,12 @@
 
 namespace ardee {
 
-/// A URDF <joint>: how it moves, and where it hangs its child.
+/// A URDF <joint>: its kind of motion, and the pose of its child.
 struct UrdfJoint {
   Joint joint;
   std::optional<Coupling> mimic;
   Pose X_PC;             // at zero, in the parent link's frame
-  bool is_free = false;  // nothing holds the child of a floating or planar joint, as in Gazebo
+  bool is_free = false;  // floating or planar: nothing holds the child, as in Gazebo
 };
 
 UrdfJoint read_urdf_joint(const Node& joint, Log& log);

@@ -54,7 +54,7 @@ std::optional<Geometry> read_geometry(const Node& body, Assets& assets) {
   return made;
 }
 
-/// As libsdformat names them: base_collision, base_collision_1, ...
+/// Name as libsdformat gives it: base_collision, base_collision_1, ...
 std::string body_name(const Node& body, const std::string& link, const char* kind,
                       std::size_t index) {
   const std::string given = body.attribute("name");
@@ -62,7 +62,7 @@ std::string body_name(const Node& body, const std::string& link, const char* kin
   return link + "_" + kind + (index == 0 ? "" : "_" + std::to_string(index));
 }
 
-/// A number that is required; "nan" is one, which what never moves may have.
+/// A required number; accepts "nan", which a link that never moves may have.
 double read_inertia(const Node& element, const char* name) {
   const std::string text = element.required_attribute(name);
   const auto value = to_double(text);
@@ -86,7 +86,7 @@ std::optional<Inertial> read_inertial(const Node& link) {
   return made;
 }
 
-/// None if the element says no more than a name.
+/// The material of an element; none if it holds only a name.
 std::optional<Material> read_material(const Node& node, Assets& assets) {
   const auto color = node.child("color");
   const auto texture = node.child("texture");

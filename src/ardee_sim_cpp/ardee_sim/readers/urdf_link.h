@@ -11,13 +11,13 @@
 
 namespace ardee {
 
-/// The <material>s of a <robot> by name. The first definition counts, be it the robot's or that of
-/// a <visual> that comes before.
+/// The <material>s of a <robot> by name. The first definition counts, in the robot or in an earlier
+/// <visual>.
 class UrdfMaterials {
  public:
   UrdfMaterials(const Node& robot, Assets& assets);
 
-  /// Of a <visual>; none, with a warning, if nothing defines the material that it names.
+  /// Material of a <visual>; none, with a warning, if the material that it names is not defined.
   std::optional<Material> read(const Node& visual);
 
  private:
@@ -25,10 +25,10 @@ class UrdfMaterials {
   std::map<std::string, Material> by_name_;
 };
 
-/// The <origin> of an element; none is the identity.
+/// The <origin> of an element; an absent one is the identity.
 Pose read_urdf_origin(const Node& element);
 
-/// A URDF <link> but for its place. A <visual> or <collision> without a shape is left out with a
+/// A URDF <link> without its pose. A <visual> or <collision> without a shape is left out with a
 /// warning.
 Link read_urdf_link(const Node& link, UrdfMaterials& materials, Assets& assets);
 

@@ -25,9 +25,9 @@ void refuse_xacro(const Node& robot) {
   });
 }
 
-/// Nothing can move what has no mass: the joint of a link that has none, nor anything fixed to it
-/// further out, is held. Gazebo leaves such a link out with all that hangs on it; here it keeps its
-/// place. A robot without any mass is as it is: a drawing, or an error of the physics.
+/// Fixes the joint of a link if neither the link nor the links fixed to it have mass, as it could
+/// not move. Gazebo leaves such a link out with all links below it; here it keeps its place. A
+/// robot without any mass is not changed: it is a drawing, or an error of the physics.
 void hold_massless_links(const std::vector<Link>& links, const std::vector<std::size_t>& order,
                          std::vector<UrdfJoint>& joints, Log& log) {
   const auto has_mass = [](const Link& link) {
@@ -36,7 +36,7 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
   if (std::none_of(links.begin(), links.end(), has_mass)) return;
   std::unordered_map<std::string, UrdfJoint*> joint_above;
   for (UrdfJoint& each : joints) joint_above[each.joint.child] = &each;
-  std::unordered_map<std::string, bool> has_inertial;  // of a link or what is fixed to it
+  std::unordered_map<std::string, bool> has_inertial;  // of a link or the links fixed to it
   for (const Link& link : links) has_inertial[link.name] = has_mass(link);
   for (auto link = order.rbegin(); link != order.rend(); ++link) {  // children before parents
     const auto above = joint_above.find(links[*link].name);
@@ -55,8 +55,8 @@ void hold_massless_links(const std::vector<Link>& links, const std::vector<std::
   }
 }
 
-/// The root link stands for the robot, but one called "world" is the world: then the first link
-/// that hangs on it does.
+/// The root link represents the robot; but if it is called "world", it is the world, and the first
+/// link below it represents the robot.
 void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log) {
   const Link& root = made.links[order.front()];
   made.canonical_link = root.name;
@@ -70,7 +70,7 @@ void take_out_world(const std::vector<std::size_t>& order, Model& made, Log& log
   made.links.erase(made.links.begin() + static_cast<std::ptrdiff_t>(order.front()));
 }
 
-/// Couples each joint that mimics another; one that is fixed, or floats, leads and follows nothing.
+/// Couples each joint that mimics another; a fixed or floating joint neither leads nor follows.
 void couple_joints(const std::vector<UrdfJoint>& joints, Model& model, Log& log) {
   const auto moves = [](const UrdfJoint& each) {
     return !each.is_free && each.joint.type != JointType::kFixed;

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// What becomes of each element and attribute of URDF, and of <gazebo> blocks in it.
-// docs/support.md is made from this.
+// SPDX-License-Identifier: MIT Treatment of each element and attribute of URDF, and of <gazebo>
+// blocks in it. docs/support.md is made from this.
 #include "ardee_sim/readers/schema.h"
 
 namespace ardee {

@@ -9,9 +9,9 @@
 
 namespace ardee {
 
-/// Reads a <transmission> as ros_control's parser and DefaultRobotHWSim take it
-/// (http://wiki.ros.org/urdf/XML/Transmission). One that lacks something is left out with an error
-/// in the log, one of several joints with a warning.
+/// Reads a <transmission> as ros_control's parser and DefaultRobotHWSim do
+/// (http://wiki.ros.org/urdf/XML/Transmission). An incomplete transmission is left out with an
+/// error in the log, one of several joints with a warning.
 std::optional<Transmission> read_transmission(const Node& transmission, Log& log);
 
 }  // namespace ardee

@@ -7,7 +7,7 @@
 
 namespace ardee {
 
-/// How the joints of a robot hang its links on each other.
+/// Tree of a robot's links.
 struct UrdfTree {
   std::vector<std::size_t> order;  // indices of the links, parents before children
   std::vector<Pose> X_ML;          // of each link in the root link's frame, with all joints at zero

@@ -23,7 +23,7 @@ std::string comma_list(const Eigen::Vector3d& v) {
   return text.str();
 }
 
-/// A link that is fixed to another can do without a mass of its own: a frame.
+/// Checks the mass of a link. A link that is fixed to another one needs none: a frame.
 void check_mass(const Link& link, bool is_fixed, Log& log) {
   const double mass_kg = link.inertial->mass_kg;
   if (mass_kg > 0.0) return;
@@ -33,8 +33,9 @@ void check_mass(const Link& link, bool is_fixed, Log& log) {
   log.warn(link.source, what.str() + "; it moves with the link that it is fixed to");
 }
 
-/// What no body has is taken with a warning, as in Gazebo: the physics sums the inertias of links
-/// that are fixed to each other, and takes the nearest possible one where even the sum is none.
+/// Checks the inertia of a link. An impossible one is accepted with a warning, as in Gazebo: the
+/// physics sums the inertias of links that are fixed to each other, and uses the nearest possible
+/// one if the sum is impossible too.
 void check_inertia(const Link& link, bool is_fixed, Log& log) {
   const Eigen::Matrix3d& inertia = link.inertial->inertia_kg_m2;
   const std::string of = " of link '" + link.name + "'";
@@ -101,7 +102,7 @@ void validate_model(const Model& model, Log& log) {
   std::set<std::string> links;
   for (const Link& link : model.links) {
     links.insert(link.name);
-    // What no force moves may have any.
+    // Static and kinematic links may have any inertia.
     if (!link.inertial || model.is_static || link.kinematic) continue;
     check_mass(link, fixed.count(link.name) != 0, log);
     check_inertia(link, fixed.count(link.name) != 0, log);

@@ -8,13 +8,13 @@
 
 namespace ardee {
 
-/// Checks what holds between the parts of a model: names that are unique and not empty, joints
-/// between links that exist, masses and inertias that a body can have. Throws Error at the link or
-/// joint concerned; an inertia that no body has is a warning. What no force moves may have any
-/// inertia, URDF's massless links need none.
+/// Checks the consistency of a model: names are unique and not empty, joints connect links that
+/// exist, masses and inertias are possible. Throws Error at the link or joint concerned; an
+/// impossible inertia is a warning. Static and kinematic links may have any inertia, URDF's
+/// massless links need none.
 void validate_model(const Model& model, Log& log);
 
-/// For messages: what was found and which links there are.
+/// Message text with the name that was found and the links that exist.
 std::string unknown_link(const std::string& name, const Model& model);
 
 }  // namespace ardee

@@ -19,7 +19,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-/// Numbers between space; none if one of the words is no number.
+/// Numbers separated by space; none if a word is not a number.
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   std::size_t at = text.find_first_not_of(kSpace);
@@ -81,7 +81,7 @@ std::string Node::text() const {
   for (const auto* piece = element_->FirstChild(); piece; piece = piece->NextSibling()) {
     if (const auto* text = piece->ToText()) all += text->Value();
   }
-  // Older robots say <mu1 value="0.9"/> in their <gazebo> blocks, and libsdformat reads that.
+  // Older robots have <mu1 value="0.9"/> in their <gazebo> blocks, and libsdformat reads that.
   if (!element_->FirstChild()) all = attribute("value");
   return trimmed(all);
 }
@@ -241,7 +241,7 @@ Pose Node::pose() const {
     throw node->error("found relative_to='" + node->attribute("relative_to") +
                       "', expected none here");
   }
-  return node && !node->text().empty() ? node->to_pose() : Pose{};  // <pose/> is no pose
+  return node && !node->text().empty() ? node->to_pose() : Pose{};  // <pose/> counts as absent
 }
 
 Color Node::color(std::string_view path, const Color& fallback) const {

@@ -34,7 +34,7 @@ class Node {
   /// The child at the end of a path "a/b/c".
   std::optional<Node> find(std::string_view path) const;
   Node required(const char* name) const;
-  /// Calls visit(Node) for each child element, or each of that name.
+  /// Calls visit(Node) for each child element, or each one of that name.
   template <typename Visit>
   void each(const char* child_name, Visit visit) const {
     for (const auto* e = element_->FirstChildElement(child_name); e;
@@ -56,7 +56,7 @@ class Node {
   }
   bool has_attribute(const char* name) const { return element_->Attribute(name) != nullptr; }
   std::string attribute(const char* name, const std::string& fallback = "") const;
-  /// Not empty, or an Error.
+  /// A text that is not empty; throws Error otherwise.
   std::string required_attribute(const char* name) const;
   /// From `least` to `most` numbers of an attribute; none if it is absent or empty.
   std::vector<double> attribute_numbers(const char* name, std::size_t least, std::size_t most,
@@ -65,23 +65,23 @@ class Node {
                           double high = kAbsurd) const;
   Eigen::Vector3d attribute_vector3(const char* name, const Eigen::Vector3d& fallback) const;
 
-  /// All text directly inside, trimmed; of an empty element its attribute "value".
+  /// All text directly inside, trimmed; for an empty element its attribute "value".
   std::string text() const;
   std::string required_text() const;
-  /// An infinite number only where the bounds are.
+  /// A number, infinite only if the bounds are.
   double to_number(double low = -kAbsurd, double high = kAbsurd) const;
-  /// May be infinite; magnitudes from 1e15 on count as that.
+  /// A number that may be infinite; magnitudes from 1e15 on count as infinite.
   double to_limit() const;
   int to_integer(int low, int high) const;
   bool to_boolean() const;
   Eigen::Vector2d to_vector2() const;
   Eigen::Vector3d to_vector3() const;
-  /// In whatever frame the attribute relative_to names (SdfFrames).
+  /// Pose in the frame that the attribute relative_to names (SdfFrames).
   Pose to_pose() const;
   Color to_color() const;
 
-  // The same of a child (or of what a path "a/b" leads to), with a value for one that is absent or
-  // empty.
+  // The values above for a child (or the element at a path "a/b"), with a default if it is absent
+  // or empty.
   std::string text(std::string_view path, const std::string& fallback) const;
   double number(std::string_view path, double fallback, double low = -kAbsurd,
                 double high = kAbsurd) const;
@@ -89,7 +89,8 @@ class Node {
   int integer(std::string_view path, int fallback, int low, int high) const;
   bool boolean(std::string_view path, bool fallback) const;
   Eigen::Vector3d vector3(std::string_view path, const Eigen::Vector3d& fallback) const;
-  /// Of <pose>; none or an empty one is the identity. An Error if it is relative to another frame.
+  /// Pose in <pose>; an absent or empty one is the identity. Throws Error if it is relative to
+  /// another frame.
   Pose pose() const;
   Color color(std::string_view path, const Color& fallback) const;
 
@@ -97,19 +98,19 @@ class Node {
   Element to_element() const;
 
  private:
-  /// From `least` to `most` numbers of magnitude up to kAbsurd; `what` says that in words.
+  /// From `least` to `most` numbers of magnitude up to kAbsurd; `what` describes them in messages.
   std::vector<double> to_numbers(std::size_t least, std::size_t most, const char* what) const;
-  /// The element at the end of a path if it has a text.
+  /// The element at the end of a path, if it has text.
   std::optional<Node> find_filled(std::string_view path) const;
 
   const tinyxml2::XMLElement* element_;
   const std::string* file_;
 };
 
-/// A parsed XML document and the name that stands for it in messages.
+/// A parsed XML document and its name in messages.
 class XmlFile {
  public:
-  /// Throws Error if the text is no well-formed XML with one root, or nothing that plain_xml takes.
+  /// Throws Error if the text is not well-formed XML with one root, or if plain_xml refuses it.
   XmlFile(const std::string& text, const std::string& name);
   static XmlFile read(const std::string& path, const Source& source);
   XmlFile(const XmlFile&) = delete;

@@ -24,7 +24,7 @@ Error error_at(std::string_view text, std::size_t at, const std::string& name,
   return Error(Source{name, static_cast<int>(line), ""}, what);
 }
 
-/// The encoding that the first bytes or the XML declaration name; empty: none but UTF-8 or ASCII.
+/// The encoding that the first bytes or the XML declaration name; empty for UTF-8 or ASCII.
 std::string encoding_of(std::string_view text) {
   if (starts_with(text, "\xFF\xFE") || starts_with(text, "\xFE\xFF")) return "UTF-16";
   if (starts_with(text, std::string_view("<\0", 2))) return "UTF-16LE";
@@ -71,7 +71,7 @@ std::size_t behind(std::string_view text, std::string_view ending, std::size_t f
   return found == std::string_view::npos ? text.size() : found + ending.size();
 }
 
-/// The position behind the tag or document type at `at`. What is in quotes does not end it.
+/// The position behind the tag or document type at `at`. Quoted text does not end it.
 std::size_t behind_tag(std::string_view text, std::size_t at) {
   char quote = '\0';
   for (; at < text.size(); ++at) {
@@ -93,7 +93,8 @@ void blank(std::string& text, std::size_t begin, std::size_t end) {
   }
 }
 
-/// Takes a document type out; one that declares something would change what the text means.
+/// Removes a document type; refuses one with declarations, which would change the meaning of the
+/// text.
 std::size_t remove_document_type(std::string& text, std::size_t at, const std::string& name) {
   const std::size_t end = behind_tag(text, at);
   const std::string_view whole = std::string_view(text).substr(at, end - at);

@@ -26,7 +26,7 @@ class ReadingPort {
   std::shared_ptr<const std::optional<devices::Reading>> latest_;
 };
 
-/// Keeps the latest readings of some topics and hands all on.
+/// Keeps the latest readings of some topics and passes all on.
 class LatestReadings : public devices::ReadingSink {
  public:
   using Latest = std::optional<devices::Reading>;

@@ -8,7 +8,7 @@
 
 namespace ardee {
 
-/// An effort (N m or N) along a joint's first axis for a while.
+/// An effort (N m or N) along a joint's first axis for a limited time.
 struct JointEffort {
   devices::Robot* robot = nullptr;
   std::size_t joint = 0;
@@ -24,7 +24,7 @@ class JointEfforts {
   void clear(const devices::Robot& robot, std::size_t joint);
   void clear(const devices::Robot& robot);
   void clear_all() { efforts_.clear(); }
-  /// Applies those in force at `now_ns` and forgets those that are over.
+  /// Applies the efforts in force at `now_ns` and removes expired ones.
   void apply(TimeNs now_ns);
 
  private:

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: MIT
-// The world's lights: the part of Simulation that services ask for.
+// SPDX-License-Identifier: MIT The world's lights: the part of Simulation for services.
 #include <algorithm>
 
 #include "ardee_sim/core/limits.h"

@@ -42,7 +42,7 @@ void RaySceneSet::add(const Entity& entity) {
     try {
       add_to(*each.scene, entity);
     } catch (...) {
-      for (View& view : views_) view.scene.reset();  // made anew, without it, when next wanted
+      for (View& view : views_) view.scene.reset();  // rebuilt without it on next use
       throw;
     }
   }
@@ -78,7 +78,7 @@ const raycast::RayScene& RaySceneSet::now(raycast::SceneKind kind) {
     auto made = std::make_unique<raycast::RayScene>(kind, options_, log_);
     for (const auto& entity : entities_) add_to(*made, *entity);
     wanted.rests.clear();
-    wanted.scene = std::move(made);  // whole or not at all
+    wanted.scene = std::move(made);  // only after complete success
   }
   if (!wanted.current) {
     for (const auto& entity : entities_) {

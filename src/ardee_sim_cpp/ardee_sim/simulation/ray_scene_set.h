@@ -11,7 +11,7 @@
 
 namespace ardee {
 
-/// The visual and the collision scene of a simulation, each made when a sensor first needs it.
+/// The visual and the collision scene of a simulation, each made on first use by a sensor.
 class RaySceneSet : public devices::RaySceneProvider {
  public:
   RaySceneSet(const raycast::RayOptions& options,
@@ -23,7 +23,7 @@ class RaySceneSet : public devices::RaySceneProvider {
 
   void add(const Entity& entity);
   void remove(const Entity& entity);
-  /// Something moved: the next use brings the scenes up to date.
+  /// Marks the scenes as outdated: the next use updates them.
   void invalidate();
 
  private:
@@ -31,7 +31,8 @@ class RaySceneSet : public devices::RaySceneProvider {
     std::unique_ptr<raycast::RayScene> scene;
     std::vector<std::weak_ptr<Eye>> eyes;
     bool current = false;
-    std::map<std::uint32_t, std::uint64_t> rests;  // of models, by entity, when they were placed
+    std::map<std::uint32_t, std::uint64_t>
+        rests;  // by entity: number of the model's rest at placing
     bool pictures = false;
   };
   static void add_to(raycast::RayScene& scene, const Entity& entity);

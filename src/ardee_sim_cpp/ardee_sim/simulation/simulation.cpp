@@ -48,7 +48,7 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
   const LogGroup group(log_);
   for (const devices::PluginAlias& alias : options.plugin_aliases) registry_.add_alias(alias);
   physics_.reset_random(options_.seed);
-  world_.models.clear();  // from here on they live in entities_
+  world_.models.clear();  // entities_ holds them from now on
   for (const PluginDescription& plugin : world.plugins) {
     log_.warn(plugin.element.source.to_string() + ": found world plugin '" + plugin.filename +
               "', expected none: it is left out");
@@ -59,8 +59,8 @@ Simulation::Simulation(const World& world, const SimulationOptions& options, Log
 Simulation::~Simulation() = default;
 
 void Simulation::add_world_models(const std::vector<Instance>& models) {
-  // Entities are numbered by their names, so that neither these numbers nor which of two surfaces
-  // in one plane a ray meets depends on the order of the file.
+  // Entities are numbered by their names, so that neither the numbers nor the surface that a ray
+  // hits of two coplanar ones depend on the order of the file.
   std::map<std::string, std::size_t> place;
   for (const Instance& instance : models) {
     if (!place.emplace(instance.name, place.size()).second) throw taken(instance.name);
@@ -222,7 +222,7 @@ void Simulation::run_controllers() {
   for (const auto& [name, entity] : by_name_) {
     try {
       for (const auto& device : entity->devices) device->before_step(now_ns_);
-    } catch (const Error& error) {  // it asks for what no model can do
+    } catch (const Error& error) {  // it requests the impossible
       if (entity->is_static()) throw;
       put_back(*entity, error.what());
     }
@@ -275,7 +275,7 @@ void Simulation::reset_entities() {
   wrenches_.clear_all();
   joint_efforts_.clear_all();
   physics_.reset_random(options_.seed);
-  // Moving models are made anew, so that a reset leaves no trace of what was before it.
+  // Moving models are rebuilt, so that no earlier state survives a reset.
   for (const auto& entity : entities_) {
     if (!entity->is_static()) physics_.remove_model(entity->robot->dynamics());
   }

@@ -24,34 +24,33 @@ struct SimulationOptions {
   std::uint64_t seed = 0;
   raycast::RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
-  ResourceLocator locator = ResourceLocator::from_environment();  // of the files of plugins
+  ResourceLocator locator = ResourceLocator::from_environment();  // finds files that plugins name
   std::function<std::string(const std::string& robot_namespace)> tf_prefix;
   std::function<Setting(const std::string& name)> parameter =
       devices::no_parameter;                         // of DeviceContext
   std::vector<devices::PluginAlias> plugin_aliases;  // added to the built-in ones
-  /// What plugins there are; null: known_plugins(). One with more is made by adding to a copy of
-  /// that.
+  /// Known plugins; null: known_plugins(). A larger registry is made by adding to a copy of that.
   std::shared_ptr<const devices::Registry> registry;
 };
 
 struct SpawnRequest {
   std::string name;
   std::shared_ptr<const Model> model;
-  Pose X_WM;  // where the model is put: the <pose> of its own file counts from there
+  Pose X_WM;  // frame in which the <pose> of the model's own file is given
   std::string robot_namespace;
   std::map<std::string, double> joint_positions;  // rad or m, by joint name
-  bool is_static = false;                         // makes a model static whose description is not
-  double scale = 1.0;                             // of static models
+  bool is_static = false;  // makes the model static even if its description is not
+  double scale = 1.0;      // of static models
   std::uint32_t label = 0;
 };
 
-/// Pose and velocity of something relative to something.
+/// Pose and velocity of a model or link relative to another, or to the world.
 struct RelativeState {
   Pose pose;
   Twist twist;
 };
 
-/// Whether a reference is the world: "", "world", "map" or "/map", as in gazebo_ros.
+/// Whether a reference names the world: "", "world", "map" or "/map", as in gazebo_ros.
 bool names_world(const std::string& name);
 
 /// A link of a model in the world.
@@ -64,26 +63,27 @@ struct LinkOf {
 /// and services act between steps.
 class Simulation {
  public:
-  /// Throws Error if something in the world cannot be built and is not to be left out.
+  /// Throws Error if a part of the world cannot be built and must not be left out.
   Simulation(const World& world, const SimulationOptions& options, LogSink log_sink);
   ~Simulation();
 
-  /// Receives all readings from now on; nullptr: nobody.
+  /// Sets the receiver of all readings from now on; nullptr: none.
   void set_sink(devices::ReadingSink* sink) { latest_.hand_on_to(sink); }
 
   /// The topic of a robot that takes commands of type T (Twist, double, devices::JointTrajectory,
-  /// ...), for command(). Throws Error, which lists those there are, if it is none.
+  /// ...), for command(). If there is no such topic, throws an Error that lists the existing ones.
   template <typename T>
   CommandPort<T> command_port(const std::string& topic) const {
     return {input(topic, devices::command_kind<T>()).topic};
   }
-  /// Throws Error if the robot does not take that value, or is gone.
+  /// Throws Error if the robot refuses the value, or is gone.
   template <typename T>
   void command(const CommandPort<T>& port, const T& value) {
     input(port.topic, devices::command_kind<T>()).on_command(value);
   }
   /// The topic of a robot that gives readings of type T (devices::LidarReading, ...), for latest();
-  /// its device measures from now on. Throws Error, which lists those there are, if it is none.
+  /// its device measures from now on. If there is no such topic, throws an Error that lists the
+  /// existing ones.
   template <typename T>
   ReadingPort<T> reading_port(const std::string& topic) {
     ReadingPort<T> port;
@@ -105,29 +105,28 @@ class Simulation {
   /// The link "model::link" (either name may hold colons itself), else the first link of any model
   /// that has the whole name, as Gazebo finds it.
   std::optional<LinkOf> find_link(const std::string& name) const;
-  /// In the order of the world's file, then in that in which they came.
+  /// All entities in the order of the world's file, then in the order of spawning.
   const std::vector<std::unique_ptr<Entity>>& entities() const { return entities_; }
 
   void step();
   TimeNs now_ns() const { return now_ns_; }
   std::uint64_t step_count() const { return step_count_; }
 
-  /// All models back to where they were spawned, at rest, and devices as they were made, with the
-  /// numbers of their description; models stay that were spawned. The clock and the random streams
-  /// go on.
+  /// Puts all models back to their spawn poses, at rest, and devices to their initial state with
+  /// the numbers of their description; spawned models stay. The clock and the random streams go on.
   void reset_world();
-  /// As reset_world, and the clock, random streams and frame counters start again: what follows is
-  /// the same bytes as what followed the construction.
+  /// Resets as reset_world does, and restarts the clock, random streams and frame counters: the
+  /// readings that follow equal, byte for byte, those that followed the construction.
   void reset_simulation();
 
   const World& world() const { return world_; }
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
-  /// Adds a light; pictures follow, and resets leave it. Throws Error if its name is taken or its
-  /// pose is none in the world.
+  /// Adds a light; later pictures show it, and resets keep it. Throws Error if its name is taken or
+  /// its pose is outside the world.
   void add_light(const Light& light);
-  /// Replaces the light of that name in world(); pictures follow, and resets leave it. Throws Error
-  /// if there is none, as does remove_light.
+  /// Replaces the light of that name in world(); later pictures show it, and resets keep it. Throws
+  /// Error if there is none, as does remove_light.
   void set_light(const Light& light);
   void remove_light(const std::string& name);
 
@@ -135,11 +134,12 @@ class Simulation {
   /// name, or to the world (names_world). Throws Error for an unknown name.
   RelativeState state(const std::string& name, const std::string& reference) const;
   /// Moves a model. The pose is relative to `reference`; the velocity is the one that the model
-  /// gets in the world, in the axes of `reference`, whose own is not added (as gazebo_ros does).
-  /// Throws Error if that is not valid, and has then changed nothing.
+  /// gets in the world, in the axes of `reference`, whose own velocity is not added (as in
+  /// gazebo_ros). Throws Error if the state is not valid, and changes nothing then.
   void set_state(const std::string& model, const RelativeState& state,
                  const std::string& reference);
-  /// What pushes links and joints for a while; a reset ends it, as does one of the model alone.
+  /// Wrenches on links and efforts on joints for a limited time; a reset of the world or of the
+  /// model ends them.
   Wrenches& wrenches() { return wrenches_; }
   JointEfforts& joint_efforts() { return joint_efforts_; }
   /// Rays into the present world, for tools (pictures, labels).
@@ -163,7 +163,7 @@ class Simulation {
   void instantiate(Entity& entity);
   void take_from_physics(const Entity& entity);
   void place_static(Entity& entity, const Pose& X_WM);
-  /// Puts a model back to where it was spawned; the rest of the world goes on.
+  /// Puts a model back to its spawn pose; the rest of the world goes on.
   void put_back(Entity& entity, const std::string& why);
   void reset_entities();
   RelativeState state_in_world(const std::string& name) const;
@@ -177,8 +177,9 @@ class Simulation {
   WorldCameraRenderer pictures_;
   Wrenches wrenches_;
   JointEfforts joint_efforts_;
-  std::vector<std::unique_ptr<Entity>> entities_;  // gone before what their devices refer to
-  std::map<std::string, Entity*> by_name_;         // the order in which they act and measure
+  std::vector<std::unique_ptr<Entity>>
+      entities_;  // destroyed before the objects that their devices refer to
+  std::map<std::string, Entity*> by_name_;  // the order in which they act and measure
   LatestReadings latest_;
   TimeNs now_ns_ = 0;
   TimeNs step_ns_ = 0;

@@ -43,7 +43,7 @@ RelativeState Simulation::state(const std::string& name, const std::string& refe
   const Eigen::Vector3d arm_W = body.pose.p - frame.pose.p;
   RelativeState relative;
   relative.pose = frame.pose.inverse() * body.pose;
-  // Velocity as an observer who moves with the reference sees it.
+  // Velocity seen by an observer that moves with the reference.
   relative.twist.linear =
       q_FW * (body.twist.linear - frame.twist.linear - frame.twist.angular.cross(arm_W));
   relative.twist.angular = q_FW * (body.twist.angular - frame.twist.angular);

@@ -22,9 +22,9 @@ class WorldCameraRenderer : public devices::CameraRenderer {
       : world_(world), threads_(threads), entities_(entities), scenes_(scenes), materials_(log) {}
 
   render::Frame take(const render::Camera& camera, const render::FrameParts& parts) override;
-  /// Models came or went: the next picture loads their materials anew.
+  /// Called when models were added or removed: the next picture reloads their materials.
   void forget() { current_ = false; }
-  /// The world's lights changed: the next picture is taken in the new light.
+  /// Called when the world's lights changed: the next picture uses the new lights.
   void relight() { renderer_.reset(); }
 
  private:

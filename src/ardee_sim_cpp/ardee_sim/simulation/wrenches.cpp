@@ -23,7 +23,7 @@ void Wrenches::add(const Wrench& wrench) {
         "found a wrench with a number that is not finite or beyond 1e9 N, 1e9 N m or 1e6 m from "
         "the body, expected less");
   }
-  // As in Gazebo, force and torque are made once: the point does not turn with the body.
+  // As in Gazebo, force and torque are computed once: the point does not turn with the body.
   const Pose X_WL = wrench.robot->link_pose(wrench.link);
   const auto& inertial = wrench.robot->dynamics().link_properties(wrench.link).inertial;
   const Eigen::Vector3d center_L = inertial ? inertial->X_LI.p : Eigen::Vector3d(0, 0, 0);

@@ -9,8 +9,8 @@
 
 namespace ardee {
 
-/// A push on a link for a while; forces in world axes (N, N m), the point, in the link's frame (m),
-/// as the link stands when the push is added.
+/// A wrench on a link for a limited time: force and torque in world axes (N, N m), at a point in
+/// the link's frame (m), with the link's pose of the time when the wrench is added.
 struct Wrench {
   devices::Robot* robot = nullptr;
   std::size_t link = 0;
@@ -21,15 +21,15 @@ struct Wrench {
   TimeNs duration_ns = 0;  // negative: until cleared
 };
 
-/// The pushes in force; several on one body add up.
+/// The wrenches in force; several on one body add up.
 class Wrenches {
  public:
-  /// Throws Error for a wrench beyond what the physics takes, and then keeps what there was.
+  /// Throws Error for a wrench beyond the limits of the physics, and changes nothing then.
   void add(const Wrench& wrench);
   void clear(const devices::Robot& robot, std::size_t link);
   void clear(const devices::Robot& robot);
   void clear_all() { wrenches_.clear(); }
-  /// Applies those in force at `now_ns` and forgets those that are over.
+  /// Applies the wrenches in force at `now_ns` and removes expired ones.
   void apply(TimeNs now_ns);
 
  private:

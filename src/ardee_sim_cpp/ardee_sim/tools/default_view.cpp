@@ -7,12 +7,12 @@
 namespace ardee {
 namespace {
 
-/// What is this much wider than high is ground.
+/// A box that is this much wider than high is ground.
 constexpr double kGroundRatio = 20.0;
 constexpr double kAwayAtLeast_m = 1.0;
-/// From the scenery's middle towards the camera.
+/// Direction from the scenery's middle towards the camera.
 const Eigen::Vector3d kAside(-0.75, -1.0, 0.6);
-/// A little room about the outermost corners.
+/// Margin around the outermost corners.
 constexpr double kRoom = 1.05;
 
 bool is_ground(const raycast::Bounds& box) {

@@ -8,8 +8,8 @@
 
 namespace ardee {
 
-/// A place from above and aside from which all boxes fit into the camera's picture. Grounds, much
-/// wider than high, count only if there is nothing else.
+/// Camera pose above and beside the scene, from which all boxes fit into the picture. Grounds, much
+/// wider than high, count only if there are no other boxes.
 Pose view_over(const std::vector<raycast::Bounds>& boxes_W, const render::Camera& camera);
 
 }  // namespace ardee

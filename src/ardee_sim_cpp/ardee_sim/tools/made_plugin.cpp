@@ -8,7 +8,7 @@
 namespace ardee {
 namespace {
 
-/// What plugins that cannot do without a key are given.
+/// Values of the keys that plugins require.
 const std::map<std::string, std::string>& needed() {
   static const std::map<std::string, std::string> values{
       {"joint", "left_joint"},     {"mimicJoint", "right_joint"}, {"joint_handle", "left_joint"},

@@ -10,15 +10,14 @@
 
 namespace ardee {
 
-/// A plugin of the registry, made on a small robot with no keys but those that it cannot do
-/// without.
+/// A plugin of the registry, made on a small robot with only the keys that it requires.
 class MadePlugin {
  public:
-  /// `more` stands in the plugin's element too. Throws std::logic_error if it cannot be made.
+  /// `more` is added to the plugin's element. Throws std::logic_error if the plugin cannot be made.
   MadePlugin(const std::string& file, bool in_sensor, const std::string& more = "");
 
   devices::Device& device() const { return *device_; }
-  /// What it asked for.
+  /// Record of the keys that it read.
   const KeyLog& keys() const { return *keys_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 

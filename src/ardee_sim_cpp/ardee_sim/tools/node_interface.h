@@ -6,7 +6,7 @@
 
 namespace ardee {
 
-/// A service or topic of the node `simulator`, whatever the world holds.
+/// A service or topic of the node `simulator`, which exists in every world.
 struct NodeService {
   std::string name;
   std::string type;
@@ -19,7 +19,7 @@ struct NodeTopic {
   std::string note;
 };
 
-/// tests/test_support_page.py holds both against a running node.
+/// tests/test_support_page.py compares both lists with a running node.
 const std::vector<NodeService>& node_services();
 const std::vector<NodeTopic>& node_topics();
 

@@ -8,11 +8,11 @@
 
 namespace ardee {
 
-/// What render_world is told on its command line, in SI units.
+/// Command-line arguments of render_world, in SI units.
 struct RenderArguments {
   std::string world;
   std::string output;
-  std::optional<Pose> camera_W;  // none: the world's own, or over all of it
+  std::optional<Pose> camera_W;  // none: the world's own, or a view of the whole world
   int width = 1280;
   int height = 720;
   double horizontal_fov_rad = 0.0;
@@ -24,7 +24,7 @@ struct RenderArguments {
   bool help = false;
 };
 
-/// Throws Error for what is not understood.
+/// Throws Error for an unknown or invalid argument.
 RenderArguments parse_render_arguments(int argc, const char* const* argv);
 
 std::string render_usage();

@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr int kInterrupted = 130;
-/// A picture has more rays than a scan, and sees further: taking more plants apart pays.
+/// A picture has more and longer rays than a scan: splitting more plants pays off.
 constexpr double kFlattenedRadius_m = 12.0;
 
 volatile std::sig_atomic_t interrupted = 0;
 void on_interrupt(int /*signal*/) { interrupted = 1; }
 
-/// A line on the terminal that tells how far the work is, in whole percent.
+/// Progress line on the terminal, in whole percent.
 class ProgressLine {
  public:
   ProgressLine() : shown_(isatty(STDERR_FILENO) == 1) {}
@@ -45,7 +45,7 @@ class ProgressLine {
   int percent_ = -1;
 };
 
-/// The world's scenery and models where their description puts them, and the robot.
+/// The world's scenery and models at their described poses, and the robot.
 void fill(raycast::RayScene& rays, render::MaterialLibrary& materials, const World& world,
           const std::shared_ptr<const Model>& robot, const Pose& robot_W) {
   std::vector<Placement> placements;

@@ -5,7 +5,7 @@
 
 namespace ardee {
 
-/// docs/support.md: what acts, what is warned about and what is refused, made from the tables of
+/// docs/support.md: the inputs that act, give a warning or are refused, made from the tables of
 /// elements, from the plugins of the registry, each made once, and from the node's own lists.
 std::string support_page();
 

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: MIT
-// Writes down what each plugin of the registry asks for when it is made.
+// SPDX-License-Identifier: MIT Lists the keys that each plugin of the registry reads at
+// construction.
 #include <iterator>
 #include <sstream>
 

@@ -10,7 +10,7 @@
 
 namespace ardee::physics {
 
-/// The two bodies of a joint, and how the joint lies in them.
+/// The two bodies of a joint, and the pose of the joint in them.
 struct JointFrames {
   dBodyID child = nullptr;
   dBodyID parent = nullptr;
@@ -23,56 +23,56 @@ struct JointFrames {
 
   Eigen::Vector3d axis_W() const;
   Eigen::Vector3d axis2_W() const;
-  /// The anchor as the child carries it.
+  /// Position of the anchor fixed in the child.
   Eigen::Vector3d anchor_W() const;
-  /// Of the child against the parent, rad/s in the world's axes.
+  /// Angular velocity of the child relative to the parent, rad/s in the world's axes.
   Eigen::Vector3d relative_rate() const;
 };
 
-/// Where a joint lies in the world when it is made.
+/// Initial anchor and axes of a joint in the world.
 struct JointPlacement {
   Eigen::Vector3d anchor;
   Eigen::Vector3d axis;
   Eigen::Vector3d axis2;
 };
 
-/// What one type of joint does in its own way: one class a type, without state.
+/// Behaviour of one type of joint: one class per type, without state.
 class JointKind {
  public:
   virtual ~JointKind() = default;
 
-  /// The engine's joint between the bodies where they stand.
+  /// Makes the engine's joint between the bodies at their present poses.
   virtual JointHandle make(dWorldID world, const JointFrames& frames,
                            const JointPlacement& placement) const = 0;
-  /// Tells the engine's joint its anchor anew, after the bodies' frames have moved within them.
+  /// Sets the anchor of the engine's joint again, after a shift of the bodies' frames within the
+  /// bodies.
   virtual void set_anchor(dJointID joint, const JointFrames& frames) const = 0;
-  /// A row that brakes all motion of the joint, of types without axes.
+  /// Makes a row that brakes all motion of the joint, for types without axes.
   virtual JointHandle damper(dWorldID world, const JointFrames& frames, double damping) const;
 
-  /// Axes that can be driven and measured: 0, 1 or 2.
+  /// Number of axes that can be driven and measured: 0, 1 or 2.
   virtual std::size_t axes() const = 0;
   /// Whether the first axis moves along a line: m and N in place of rad and N m.
   virtual bool is_linear() const { return false; }
   /// Whether the first axis has limits.
   virtual bool is_limited() const { return true; }
-  /// Throws Error if two axes may not lie so, by the cosine between them; `what` begins the
-  /// message.
+  /// Throws Error if the cosine between two axes is not allowed; `what` begins the message.
   virtual void check_axes(double cosine, const Joint& joint, const std::string& what) const;
 
-  /// Of the first axis, rad within (-pi, pi] or m.
+  /// Position of the first axis, rad within (-pi, pi] or m.
   virtual double position(const JointFrames& frames) const = 0;
-  /// Of the second axis, the first standing at `position`.
+  /// Position of the second axis if the first one is at `position`.
   virtual double position2(const JointFrames& frames, double position) const;
-  /// Of the first axis; `direction_W` is that along which it is measured.
+  /// Velocity of the first axis, measured along `direction_W`.
   virtual double velocity(const JointFrames& frames, const Eigen::Vector3d& direction_W) const;
-  /// How the child moves in the world as the first axis goes on by `change`.
+  /// Motion of the child in the world for a change of the first axis' position.
   virtual Pose motion(const JointFrames& frames, double change) const;
-  /// Pushes the child, and the parent back, by N m or N.
+  /// Applies an effort (N m or N) to the child, and the opposite one to the parent.
   virtual void push(const JointFrames& frames, const Eigen::Vector3d& effort_W) const;
 };
 
-/// That of the joint's type. Throws Error, which `what` begins, for a type that the physics engine
-/// has no counterpart for.
+/// The kind of the joint's type. Throws Error, whose message begins with `what`, for a type without
+/// a counterpart in the physics engine.
 const JointKind& joint_kind(const Joint& joint, const std::string& what = "");
 
 }  // namespace ardee::physics

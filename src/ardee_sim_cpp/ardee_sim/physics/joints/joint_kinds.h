@@ -46,7 +46,7 @@ class BallJoint : public JointKind {
   double velocity(const JointFrames& frames, const Eigen::Vector3d& direction_W) const override;
 };
 
-/// Holds the child as it stands in the parent.
+/// Holds the child at its initial pose in the parent.
 class FixedJoint : public JointKind {
  public:
   JointHandle make(dWorldID world, const JointFrames& frames,
@@ -66,7 +66,7 @@ class TwoAxesJoint : public JointKind {
   double position2(const JointFrames& frames, double position) const override;
 };
 
-/// Of two axes at right angles.
+/// Two axes at right angles.
 class UniversalJoint : public TwoAxesJoint {
  public:
   JointHandle make(dWorldID world, const JointFrames& frames,
@@ -75,7 +75,7 @@ class UniversalJoint : public TwoAxesJoint {
   void check_axes(double cosine, const Joint& joint, const std::string& what) const override;
 };
 
-/// Of two axes at any angle: a wheel that is steered.
+/// Two axes at any angle: a steered wheel.
 class Hinge2Joint : public TwoAxesJoint {
  public:
   JointHandle make(dWorldID world, const JointFrames& frames,

@@ -15,7 +15,7 @@ JointHandle SliderJoint::make(dWorldID world, const JointFrames& frames,
 }
 
 void SliderJoint::set_anchor(dJointID joint, const JointFrames& frames) const {
-  // The engine takes the place of the child when the axis is set for the slider's zero.
+  // The engine takes the child's place at the time when the axis is set as the slider's zero.
   const Pose X_WC = body_pose(frames.child);
   const Vector3d axis = frames.axis_W();
   set_body_pose(frames.child, {X_WC.p - position(frames) * axis, X_WC.q});

@@ -24,7 +24,7 @@ double TwoAxesJoint::position(const JointFrames& frames) const {
 }
 
 double TwoAxesJoint::position2(const JointFrames& frames, double position) const {
-  // What the child turns beyond the first axis: q_PC = turn1 * turn2 * q_PC0.
+  // Turn of the child relative to the first axis: q_PC = turn1 * turn2 * q_PC0.
   const Quaterniond q_PC = body_pose(frames.parent).q.conjugate() * body_pose(frames.child).q;
   const Quaterniond turn1(Eigen::AngleAxisd(position, frames.axis_P));
   return twist_angle(turn1.conjugate() * q_PC * frames.q_PC0.conjugate(), frames.axis2_P);
