@@ -152,8 +152,7 @@ void exercise(Simulation& simulation) {
     }
   }
   run(simulation);
-  for (const Light& light : std::vector<Light>(simulation.world().lights))
-    simulation.set_light(light);
+  for (const Light& light : std::vector<Light>(simulation.lights())) simulation.set_light(light);
   simulation.reset_world();
   run(simulation);
   simulation.reset_simulation();

@@ -14,7 +14,7 @@ constexpr double kMostAttenuation = 1e9;
 constexpr double kLongest = 1e9;  // bound of a direction's length, which has no meaning
 
 const Light& require_light(const ServiceContext& context, const std::string& name) {
-  for (const Light& light : context.simulation.world().lights) {
+  for (const Light& light : context.simulation.lights()) {
     if (light.name == name) return light;
   }
   throw Error("Requested light " + name + " not found!");

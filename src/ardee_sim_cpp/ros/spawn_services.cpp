@@ -21,7 +21,7 @@ void spawn_light(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& 
                  Light light) {
   light.name = request.model_name;
   light.pose = requested_pose(context, request) * light.pose;
-  for (const Light& other : context.simulation.world().lights) {
+  for (const Light& other : context.simulation.lights()) {
     if (other.name == light.name) throw already_exists();
   }
   context.simulation.add_light(light);

@@ -17,6 +17,10 @@ class AckermannSteeringController : public DriveController {
 
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(linear_, steering_, last_rolled_m_);
+  }
 
  private:
   void brake() override;

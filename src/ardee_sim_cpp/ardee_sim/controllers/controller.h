@@ -8,6 +8,7 @@
 #include "ardee_sim/controllers/hardware.h"
 #include "ardee_sim/controllers/hardware_sensors.h"
 #include "ardee_sim/core/log.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/devices/device.h"
@@ -50,6 +51,9 @@ class Controller {
   virtual void stop(TimeNs /*now_ns*/) {}
   /// Restores the state after construction, stopped, with tuned numbers as in its settings.
   virtual void reset(TimeNs now_ns) = 0;
+  /// Saves or restores all that updates, commands and tunings change. Goals of actions end when a
+  /// state is restored.
+  virtual void serialize(StateArchive& /*state*/) {}
 
   /// Joints that no other running controller may command.
   const std::map<JointInterface, std::set<std::string>>& claims() const { return claims_; }
@@ -80,6 +84,7 @@ class PublishTimer {
   double rate_hz() const { return rate_hz_; }
   void set_rate(double rate_hz) { rate_hz_ = rate_hz; }
   bool due(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(rate_hz_, last_ns_); }
 
  private:
   double rate_hz_;

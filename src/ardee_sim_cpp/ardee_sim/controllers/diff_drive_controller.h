@@ -18,6 +18,16 @@ class DiffDriveController : public DriveController {
 
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(separation_multiplier_, linear_, angular_);
+    for (Side* side : {&left_, &right_}) {
+      state(side->radius_multiplier, side->last_rolled_m);
+      for (Wheel& wheel : side->wheels) {
+        state(wheel.last_velocity, wheel.last_desired_velocity, wheel.desired_position);
+      }
+    }
+  }
 
  private:
   struct Wheel {

@@ -17,6 +17,9 @@ class DriveController : public Controller {
   void start(TimeNs now_ns) override;
   void stop(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(enable_odometry_tf_, publish_timer_, odometry_, command_, command_is_new_, command_ns_);
+  }
 
  protected:
   using DriveCommand = std::variant<Twist, devices::SteeringCommand>;

@@ -29,6 +29,7 @@ class ForwardController : public Controller {
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { start(now_ns); }
+  void serialize(StateArchive& state) override { state(commands_); }
 
  private:
   JointInterface interface_;

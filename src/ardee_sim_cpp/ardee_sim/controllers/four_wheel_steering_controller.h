@@ -20,6 +20,11 @@ class FourWheelSteeringController : public DriveController {
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(linear_, angular_, speed_m_per_s_, acceleration_, jerk_, last_ns_);
+    for (Axle* axle : {&front_, &rear_}) state(axle->rate_rad_per_s, axle->angle_rad);
+  }
 
  private:
   struct Axle {

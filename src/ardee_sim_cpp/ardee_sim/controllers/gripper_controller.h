@@ -23,6 +23,9 @@ class GripperController : public Controller {
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void stop(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(pid_, feedback_timer_, command_, effort_, now_ns_, last_movement_ns_);
+  }
 
  private:
   void hold();

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/model.h"
 
 namespace ardee::control {
@@ -25,6 +26,7 @@ struct JointHandle {
   double velocity = 0.0;
   double effort = 0.0;
   double command = 0.0;
+  void serialize(StateArchive& state) { state(position, velocity, effort, command); }
 };
 
 /// The joints that transmissions name, in the order of their names.

@@ -42,6 +42,14 @@ void HardwareSensors::reset(TimeNs now_ns) {
   for (Imu& imu : imus_) imu.motion.reset(now_ns);
 }
 
+void HardwareSensors::serialize(StateArchive& state) {
+  for (Imu& imu : imus_) {
+    state(imu.motion, imu.handle->orientation, imu.handle->angular_velocity,
+          imu.handle->linear_acceleration);
+  }
+  for (JointWrench& each : wrenches_) state(each.handle->wrench, each.handle->is_wanted);
+}
+
 void HardwareSensors::on_set_state() {
   for (Imu& imu : imus_) imu.motion.on_set_state();
 }

@@ -42,6 +42,7 @@ class HardwareSensors {
 
   SensorHandles& handles() { return handles_; }
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state);
   void on_set_state();
   void begin_step(TimeNs now_ns);
   void end_step(TimeNs now_ns);

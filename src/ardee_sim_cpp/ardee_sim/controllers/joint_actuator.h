@@ -7,6 +7,7 @@
 #include "ardee_sim/controllers/hardware.h"
 #include "ardee_sim/controllers/joint_limits.h"
 #include "ardee_sim/controllers/pid.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/physics/physics_world.h"
 
 namespace ardee::control {
@@ -29,6 +30,7 @@ class JointActuator {
   void write(physics::PhysicsModel& physics, double dt_s, bool is_stopped);
   /// Sets the command to 0, for a physics that was reset.
   void reset(physics::PhysicsModel& physics);
+  void serialize(StateArchive& state) { state(limiter_, pid_, held_position_); }
 
   Pid* pid() { return pid_ ? &*pid_ : nullptr; }
   const JointHandle& handle() const { return handle_; }

@@ -6,6 +6,7 @@
 
 #include "ardee_sim/controllers/hardware.h"
 #include "ardee_sim/core/log.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/setting.h"
 
 namespace ardee::control {
@@ -41,6 +42,7 @@ class CommandLimiter {
   void enforce(JointHandle& joint, double dt_s);
   /// Forgets the last command.
   void reset() { last_.reset(); }
+  void serialize(StateArchive& state) { state(last_); }
   const CommandLimits& limits() const { return limits_; }
 
  private:

@@ -18,6 +18,7 @@ class JointStateController : public Controller {
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { start(now_ns); }
+  void serialize(StateArchive& state) override { state(timer_); }
 
  private:
   void add_extra_joints(const ControllerContext& context);

@@ -208,4 +208,31 @@ void Manager::reset(TimeNs now_ns) {
   }
 }
 
+void Manager::load_only(const std::vector<std::string>& names) {
+  std::vector<std::unique_ptr<Loaded>> kept;
+  for (const std::string& name : names) {
+    if (!find_loaded(name)) load(name);
+    const auto place = std::find_if(loaded_.begin(), loaded_.end(), [&name](const auto& each) {
+      return each->context.name == name;
+    });
+    kept.push_back(std::move(*place));
+    loaded_.erase(place);
+  }
+  unload_all();
+  loaded_ = std::move(kept);
+}
+
+void Manager::serialize(StateArchive& state) {
+  std::vector<std::string> names;
+  for (const auto& each : loaded_) names.push_back(each->context.name);
+  state(names);
+  if (state.is_restoring()) load_only(names);
+  for (const auto& each : loaded_) {
+    bool is_running = each->controller->is_running();
+    state(each->has_run, is_running, *each->controller);
+    each->controller->set_running(is_running);
+  }
+  state(now_ns_);
+}
+
 }  // namespace ardee::control

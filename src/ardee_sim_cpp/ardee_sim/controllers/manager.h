@@ -75,6 +75,9 @@ class Manager {
   void restart(TimeNs now_ns);
   /// Restores all controllers to their state after construction, and restarts those that ran.
   void reset(TimeNs now_ns);
+  /// Saves or restores the loaded controllers with their states. Throws Error if one that was
+  /// loaded then cannot be loaded now.
+  void serialize(StateArchive& state);
 
  private:
   struct Loaded;
@@ -87,6 +90,8 @@ class Manager {
   void note(Change change, const std::vector<std::string>& names, Strictness strictness,
             std::vector<Change>& changes) const;
   void check_conflicts(const std::vector<Change>& changes) const;
+  /// Loads and unloads controllers so that these are there, in this order.
+  void load_only(const std::vector<std::string>& names);
   void start(Loaded& loaded);
   void stop(Loaded& loaded);
 

@@ -17,6 +17,10 @@ class MecanumDriveController : public DriveController {
 
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    DriveController::serialize(state);
+    state(forward_, left_, turn_);
+  }
 
  private:
   enum Wheel { kFrontLeft, kBackLeft, kBackRight, kFrontRight, kWheelCount };

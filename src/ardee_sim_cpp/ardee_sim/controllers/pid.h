@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ardee_sim/core/log.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/setting.h"
 #include "ardee_sim/devices/ports.h"
 
@@ -33,6 +34,7 @@ class Pid {
   double update(double error, double error_rate, double dt_s);
   /// Forgets the past errors; the gains stay.
   void reset();
+  void serialize(StateArchive& state) { state(gains_, last_error_, integral_); }
 
   const PidGains& gains() const { return gains_; }
   void set_gains(const PidGains& gains) { gains_ = gains; }

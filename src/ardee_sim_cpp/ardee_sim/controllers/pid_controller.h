@@ -29,6 +29,10 @@ class PidController : public Controller {
   void start(TimeNs now_ns) override;
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(set_points_, updates_);
+    for (Joint& each : joints_) state(each.pid);
+  }
 
  private:
   struct Joint {

@@ -3,6 +3,7 @@
 
 #include "ardee_sim/controllers/rolling_mean.h"
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 
 namespace ardee::control {
@@ -24,6 +25,9 @@ class PlanarOdometry {
   /// Restarts at the present pose.
   void start(TimeNs now_ns);
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) {
+    state(x_m_, y_m_, yaw_rad_, velocity_, forward_, left_, turn_, last_ns_);
+  }
   /// Adds a displacement since the last call, along an arc. The velocity becomes the mean of
   /// displacement over time, for intervals of 0.1 ms and more.
   void add_way(const PlanarMotion& way, TimeNs now_ns);

@@ -5,6 +5,8 @@
 #include <deque>
 #include <numeric>
 
+#include "ardee_sim/core/state_archive.h"
+
 namespace ardee::control {
 
 /// The mean of the last values; of all values until the window is full.
@@ -23,6 +25,7 @@ class RollingMean {
            static_cast<double>(values_.size());
   }
   void clear() { values_.clear(); }
+  void serialize(StateArchive& state) { state(values_); }
 
  private:
   std::size_t window_;

@@ -47,6 +47,12 @@ class RosControl : public devices::Device {
   void after_step(TimeNs now_ns, devices::ReadingSink& sink) override;
   /// Sets all joint commands to 0 and restarts the running controllers.
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(is_stopped_, was_stopped_, last_control_ns_, last_write_ns_, sensors_);
+    for (auto& [name, handle] : hardware_) state(handle);
+    for (JointActuator& each : actuators_) state(each);
+    state(*manager_);
+  }
 
  private:
   /// Keeps readings until the step has been taken.

@@ -19,6 +19,7 @@ class ImuSensorController : public Controller {
   void start(TimeNs now_ns) override { timer_.start(now_ns); }
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { timer_.start(now_ns); }
+  void serialize(StateArchive& state) override { state(timer_); }
 
  private:
   PublishTimer timer_;
@@ -35,6 +36,7 @@ class ForceTorqueSensorController : public Controller {
   void start(TimeNs now_ns) override { timer_.start(now_ns); }
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void reset(TimeNs now_ns) override { timer_.start(now_ns); }
+  void serialize(StateArchive& state) override { state(timer_); }
 
  private:
   PublishTimer timer_;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/setting.h"
 
 namespace ardee::control {
@@ -29,6 +30,7 @@ class SpeedLimiter {
   /// Last result of limit().
   double last() const { return last_; }
   void reset() { last_ = before_last_ = 0.0; }
+  void serialize(StateArchive& state) { state(last_, before_last_); }
 
  private:
   Bounds velocity_;

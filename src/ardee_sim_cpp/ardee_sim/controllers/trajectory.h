@@ -49,6 +49,7 @@ struct SegmentTolerance {
 /// if both have velocities, a quintic if both have accelerations.
 class Segment {
  public:
+  Segment() = default;
   /// Requires start_s <= end_s.
   Segment(double start_s, const Waypoint& start, double end_s, const Waypoint& end);
 
@@ -61,8 +62,8 @@ class Segment {
   SegmentTolerance tolerance;
 
  private:
-  double start_s_;
-  double duration_s_;
+  double start_s_ = 0.0;
+  double duration_s_ = 0.0;
   std::array<double, 6> coefficients_{};
 };
 

@@ -34,6 +34,10 @@ class TrajectoryController : public Controller {
   void update(TimeNs now_ns, double period_s, devices::ReadingSink& sink) override;
   void stop(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(state_timer_, feedback_timer_, now_ns_, period_ns_, uptime_ns_, goal_number_);
+    for (Joint& each : joints_) state(each.pid, each.path, each.desired, each.has_arrived);
+  }
 
  private:
   using Result = devices::FollowTrajectoryResult;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 
 namespace ardee {
@@ -39,6 +40,7 @@ class CounterRng {
   double uniform(std::uint64_t counter) const;
   /// Standard normal (Box and Muller 1958), two uniforms per value.
   double normal(std::uint64_t counter) const;
+  void serialize(StateArchive& state) { state(key_); }
 
  private:
   std::uint64_t key_;
@@ -54,6 +56,7 @@ class Rng {
 
   double uniform() { return stream_.uniform(next_++); }
   double normal() { return stream_.normal(next_++); }
+  void serialize(StateArchive& state) { state(stream_, next_); }
 
  private:
   CounterRng stream_;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "ardee_sim/core/state_archive.h"
+
 namespace ardee {
 
 /// Simulated time in integer nanoseconds since the start of the simulation.
@@ -31,6 +33,7 @@ class RateTimer {
   /// count() - 1.
   std::uint64_t count() const { return next_; }
   void reset() { next_ = 0; }
+  void serialize(StateArchive& state) { state(next_); }
   /// Continues at `now_ns` as if it had run from time zero (a robot spawned later keeps the same
   /// grid of times). A timer that is due at each step continues its count from `now_ns` in
   /// nanoseconds, a number that no earlier firing has reached.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/element.h"
 #include "ardee_sim/description/geometry.h"
 #include "ardee_sim/description/material.h"
@@ -68,6 +69,8 @@ struct Inertial {
   double mass_kg = 0.0;
   Pose X_LI;
   Eigen::Matrix3d inertia_kg_m2 = Eigen::Matrix3d::Zero();
+
+  void serialize(StateArchive& state) { state(mass_kg, X_LI, inertia_kg_m2); }
 };
 
 /// A plugin block as written; the registry that knows `filename` reads `element`.

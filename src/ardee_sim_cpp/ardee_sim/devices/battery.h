@@ -48,6 +48,9 @@ class Battery : public Device {
 
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(timer_, command_, last_ns_, quick_voltage_V_, charge_Ah_, current_A_);
+  }
 
  private:
   void discharge(double elapsed_s, const Twist& command);

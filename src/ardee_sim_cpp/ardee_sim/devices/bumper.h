@@ -29,6 +29,10 @@ class Bumper : public Sensor {
 
   void observe(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(touches_);
+  }
 
  protected:
   void follow(TimeNs now_ns) override;

@@ -77,6 +77,17 @@ void CameraSensor::reset(TimeNs now_ns) {
   }
 }
 
+void CameraSensor::serialize(StateArchive& state) {
+  Sensor::serialize(state);
+  state(asked_);
+  for (Eye& eye : eyes_) {
+    render::Lens& lens = eye.params.lens.actual;
+    const double unzoomed_px = lens.fx_px;
+    state(lens);
+    if (lens.fx_px != unzoomed_px) set_lens(eye);
+  }
+}
+
 bool CameraSensor::wanted() const {
   if (triggered_ && !asked_) return false;
   for (const Eye& eye : eyes_) {

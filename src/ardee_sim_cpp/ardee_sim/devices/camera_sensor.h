@@ -20,6 +20,7 @@ class CameraSensor : public Sensor {
   CameraSensor(const std::string& name, const Mount& mount, const CamerasParams& params,
                DeviceContext& context);
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override;
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;

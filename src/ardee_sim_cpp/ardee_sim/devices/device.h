@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ardee_sim/core/log.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/description/setting.h"
@@ -114,6 +115,9 @@ class Device {
   /// Restores the state and the numbers of the time when the device was made, and forgets commands.
   /// A random stream begins anew at time zero; at any other time it does not repeat itself.
   virtual void reset(TimeNs now_ns) = 0;
+  /// Saves or restores all that steps, commands and tunings change in the device, but not in the
+  /// robot's dynamics. A restored device has just been reset.
+  virtual void serialize(StateArchive& /*state*/) {}
 
  protected:
   Output& add_output(const std::string& topic, std::size_t kind) {

@@ -37,6 +37,9 @@ class DiffDrive : public Device {
   void before_step(TimeNs now_ns) override;
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(command_timer_, command_, speeds_m_per_s_, last_command_ns_, odometry_);
+  }
 
  private:
   /// Rim speeds in m/s, left and right, of the command.

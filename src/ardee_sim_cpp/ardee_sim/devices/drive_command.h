@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 
 namespace ardee::devices {
@@ -30,6 +31,7 @@ class DriveCommand {
     is_new_ = false;
     time_ns_ = now_ns;
   }
+  void serialize(StateArchive& state) { state(command_, is_new_, time_ns_); }
 
  private:
   double timeout_s_;

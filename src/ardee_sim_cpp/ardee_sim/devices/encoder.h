@@ -18,6 +18,7 @@ class Encoder : public Device {
 
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(encoder_, timer_); }
 
  private:
   WheelEncoder encoder_;

@@ -18,6 +18,8 @@ struct ContactsReading {
     std::string collision1;
     std::string collision2;
     std::vector<physics::Contact> points;
+
+    void serialize(StateArchive& state) { state(time_ns, collision1, collision2, points); }
   };
   Header header;
   std::vector<Touch> touches;

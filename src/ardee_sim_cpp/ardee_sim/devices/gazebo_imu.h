@@ -38,6 +38,10 @@ class GazeboImu : public InertialSensor {
             std::function<Eigen::Vector3d()> gravity_m_per_s2);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    InertialSensor::serialize(state);
+    state(accel_, rate_, q_RW_);
+  }
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;

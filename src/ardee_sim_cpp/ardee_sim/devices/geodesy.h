@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "ardee_sim/core/state_archive.h"
+
 namespace ardee::devices {
 
 /// WGS-84: degrees, and metres above the ellipsoid.
@@ -32,6 +34,10 @@ class LocalFrame {
   const GeoPoint& origin() const { return origin_; }
   double heading_rad() const { return heading_rad_; }
   Projection projection() const { return projection_; }
+  void serialize(StateArchive& state) {
+    state(origin_, heading_rad_, projection_, radius_north_m_, radius_east_m_, origin_ecef_m_,
+          ecef_from_enu_);
+  }
 
  private:
   Eigen::Vector3d from_enu(const Eigen::Vector3d& enu) const;

@@ -16,6 +16,10 @@ class Gps : public Sensor {
   Gps(const std::string& name, const GpsParams& params);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(frame_on_earth_, position_, velocity_, status_, service_);
+  }
 
  protected:
   /// Reception at one time.

@@ -30,6 +30,10 @@ class GpsWithDropout : public Gps {
   GpsWithDropout(const std::string& name, const Params& params, const DeviceContext& context);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Gps::serialize(state);
+    state(random_, unit_error_, has_fix_, loss_duration_s_, region_, regions_shown_);
+  }
 
  protected:
   Sky sky(const Eigen::Vector3d& position_W, TimeNs now_ns) override;

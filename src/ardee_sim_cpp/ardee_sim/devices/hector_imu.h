@@ -36,6 +36,10 @@ class HectorImu : public InertialSensor {
             std::function<Eigen::Vector3d()> gravity_m_per_s2);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    InertialSensor::serialize(state);
+    state(accel_, rate_, yaw_, vibration_, mean_vibration_, shaken_s_, followed_ns_);
+  }
 
  protected:
   void follow(TimeNs now_ns) override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/devices/robot.h"
 
@@ -23,9 +24,11 @@ class InertialMotion {
 
     /// Reading of an ideal accelerometer: +g upwards at rest, 0 in free fall.
     Eigen::Vector3d specific_force() const { return acceleration - gravity; }
+    void serialize(StateArchive& state) { state(acceleration, gravity, angular_velocity); }
   };
 
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(begun_ns_, X_WS_, velocity_W_, sum_, summed_s_); }
   void on_set_state();
   void begin_step(TimeNs now_ns);
   void end_step(TimeNs now_ns, const Eigen::Vector3d& gravity_W);

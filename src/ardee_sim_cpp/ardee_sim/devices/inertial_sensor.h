@@ -23,6 +23,10 @@ class InertialSensor : public Sensor {
     Sensor::reset(now_ns);
     motion_.reset(now_ns);
   }
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(motion_);
+  }
 
  protected:
   void follow(TimeNs now_ns) override { motion_.end_step(now_ns, gravity()); }

@@ -32,6 +32,7 @@ class JointPosition : public Device {
   void before_step(TimeNs now_ns) override;
   /// Holds the joint at its present position.
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(goal_, setpoint_, velocity_, last_ns_); }
 
  private:
   void move_setpoint(double dt_s);

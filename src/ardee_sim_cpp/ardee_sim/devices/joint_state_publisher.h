@@ -20,6 +20,7 @@ class JointStatePublisher : public Device {
 
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(timer_); }
 
  private:
   std::vector<std::size_t> joints_;

@@ -18,6 +18,7 @@ class LinkPush : public Device {
 
   void before_step(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(wrench_); }
 
  private:
   Robot& robot_;

@@ -31,6 +31,10 @@ class Magnetometer : public Sensor {
                                         double declination_rad, double inclination_rad);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(model_);
+  }
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;

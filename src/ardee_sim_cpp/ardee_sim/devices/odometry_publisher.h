@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
@@ -36,6 +37,7 @@ class OdometryPublisher {
   /// Publishes; to be called when due.
   void publish(TimeNs now_ns, ReadingSink& sink);
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(timer_, wheels_); }
 
  private:
   OdometryReading measure(TimeNs now_ns);

@@ -28,6 +28,7 @@ class PlanarMove : public Device {
   void before_step(TimeNs now_ns) override;
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(command_, odometry_); }
 
  private:
   Params params_;

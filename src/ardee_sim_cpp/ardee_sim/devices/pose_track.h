@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 
 namespace ardee::devices {
@@ -17,6 +18,7 @@ class PoseTrack {
   /// Times must not decrease; a pose at the time of the last one replaces it.
   void add(TimeNs time_ns, const Pose& X_WS);
   void clear() { track_.clear(); }
+  void serialize(StateArchive& state) { state(track_); }
   /// Pose at a time, interpolated along a line and by the shortest turn; constant before the first
   /// pose and after the last one. At least one pose is required.
   Pose at(double time_ns) const;
@@ -25,6 +27,7 @@ class PoseTrack {
   struct Stamped {
     TimeNs time_ns;
     Pose X_WS;
+    void serialize(StateArchive& state) { state(time_ns, X_WS); }
   };
 
   TimeNs duration_ns_;

@@ -31,6 +31,10 @@ class RangeFinder : public RaySensor {
               RaySceneProvider& scenes);
 
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(model_);
+  }
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;

@@ -27,6 +27,7 @@ class Sensor : public Device {
   std::size_t link() const { return mount_.link; }
   void after_step(TimeNs now_ns, ReadingSink& sink) final;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(timer_, last_ns_); }
 
  protected:
   /// Measures, and corrupts with `noise`, a stream for this frame only; called when due and wanted.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
@@ -29,6 +30,10 @@ struct SensorErrors {
   Eigen::Vector3d gaussian_noise{0, 0, 0};      // standard deviation, drawn at each sample
   Eigen::Vector3d scale_error{1, 1, 1};
   NoiseMode mode = NoiseMode::kHector;
+
+  void serialize(StateArchive& state) {
+    state(offset, drift, drift_frequency_hz, gaussian_noise, scale_error, mode);
+  }
 };
 
 /// The keys offset, drift, driftFrequency, gaussianNoise, scaleError; with a prefix ("accel"),
@@ -50,6 +55,7 @@ class SensorModel {
   /// Draws the drift anew, by the errors as they were before any tuning; each time of reset has
   /// different errors.
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(errors_, random_, drift_); }
   /// Sets the drift, which continues from there.
   void set_drift(const Eigen::Vector3d& drift) { drift_ = drift; }
   const Eigen::Vector3d& drift() const { return drift_; }

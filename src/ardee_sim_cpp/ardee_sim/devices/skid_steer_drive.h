@@ -46,6 +46,9 @@ class SkidSteerDrive : public Device {
   void before_step(TimeNs now_ns) override;
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(command_timer_, command_, odometry_, encoders_);
+  }
 
  private:
   Params params_;

@@ -33,6 +33,7 @@ class TorsionalSpring : public Device {
 
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override { state(reference_rad_, verbose_timer_); }
 
  private:
   void set_reference(double reference_rad);

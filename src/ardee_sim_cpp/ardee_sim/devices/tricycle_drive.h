@@ -42,6 +42,9 @@ class TricycleDrive : public Device {
   void before_step(TimeNs now_ns) override;
   void after_step(TimeNs now_ns, ReadingSink& sink) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    state(command_timer_, command_, speed_m_per_s_, last_command_ns_, odometry_);
+  }
 
  private:
   void drive(double wanted_m_per_s, double elapsed_s);

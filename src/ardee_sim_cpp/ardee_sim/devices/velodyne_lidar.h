@@ -40,6 +40,10 @@ class VelodyneLidar : public RaySensor {
 
   void observe(TimeNs now_ns) override;
   void reset(TimeNs now_ns) override;
+  void serialize(StateArchive& state) override {
+    Sensor::serialize(state);
+    state(track_);
+  }
 
  protected:
   void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) override;

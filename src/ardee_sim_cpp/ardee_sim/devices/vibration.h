@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/description/parameters.h"
 
@@ -31,6 +32,7 @@ class BandNoise {
   BandNoise(double low_hz, double high_hz) : low_hz_(low_hz), high_hz_(high_hz) {}
 
   void reset();
+  void serialize(StateArchive& state) { state(dt_s_, gain_, high_pass_, low_pass_); }
   /// Returns the next sample, made from one sample of white noise.
   double next(double white, double dt_s);
 
@@ -42,6 +44,7 @@ class BandNoise {
     std::array<double, 2> state{};
 
     double next(double input);
+    void serialize(StateArchive& archive) { archive(b, a, state); }
   };
   void design(double dt_s);
 
@@ -59,6 +62,7 @@ class Vibration {
   Vibration(const VibrationParams& params, std::uint64_t key);
 
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(random_, unit_, noise_); }
   void step(double dt_s);
   /// Acceleration in m/s^2 at a speed.
   Eigen::Vector3d at_speed(double speed_m_per_s) const;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/device.h"
 
@@ -29,6 +30,7 @@ class WheelEncoder {
   EncoderReading read(TimeNs now_ns);
   /// Restarts the count at the wheel's present angle; reported angles remain those of the joint.
   void reset(TimeNs now_ns);
+  void serialize(StateArchive& state) { state(counts_); }
 
  private:
   struct Count {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/devices/robot.h"
 
 namespace ardee::devices {
@@ -27,6 +28,7 @@ class WheelOdometry {
   Twist twist() const;
   /// Begins anew at the origin, from the wheels' present angles.
   void reset();
+  void serialize(StateArchive& state) { state(left_, right_, pose_); }
 
  private:
   struct Wheel {

@@ -8,41 +8,50 @@
 
 namespace ardee::physics {
 
-/// State of bodies that a step changes, saved to undo the step.
+/// State of a body that a step changes.
+struct BodyState {
+  explicit BodyState(dBodyID body) {
+    std::copy_n(dBodyGetPosition(body), 3, position);
+    std::copy_n(dBodyGetQuaternion(body), 4, rotation);
+    std::copy_n(dBodyGetLinearVel(body), 3, linear);
+    std::copy_n(dBodyGetAngularVel(body), 3, angular);
+    std::copy_n(dBodyGetForce(body), 3, force);
+    std::copy_n(dBodyGetTorque(body), 3, torque);
+  }
+
+  /// Gives the body this state, bit by bit.
+  void restore(dBodyID body) const {
+    dBodySetPosition(body, position[0], position[1], position[2]);
+    dBodySetQuaternion(body, rotation);
+    // ODE has normalised the rotation once more, which may change its last bits.
+    std::copy_n(rotation, 4, const_cast<dReal*>(dBodyGetQuaternion(body)));
+    dRfromQ(const_cast<dReal*>(dBodyGetRotation(body)), rotation);
+    dBodySetLinearVel(body, linear[0], linear[1], linear[2]);
+    dBodySetAngularVel(body, angular[0], angular[1], angular[2]);
+    dBodySetForce(body, force[0], force[1], force[2]);
+    dBodySetTorque(body, torque[0], torque[1], torque[2]);
+  }
+
+  dVector3 position{}, linear{}, angular{}, force{}, torque{};
+  dQuaternion rotation{};
+};
+
+/// States of bodies, saved to undo a step.
 class BodyStates {
  public:
   void save(const std::vector<dBodyID>& bodies) {
-    saved_.resize(bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      State& state = saved_[i];
-      state.body = bodies[i];
-      std::copy_n(dBodyGetPosition(bodies[i]), 3, state.position);
-      std::copy_n(dBodyGetQuaternion(bodies[i]), 4, state.rotation);
-      std::copy_n(dBodyGetLinearVel(bodies[i]), 3, state.linear);
-      std::copy_n(dBodyGetAngularVel(bodies[i]), 3, state.angular);
-      std::copy_n(dBodyGetForce(bodies[i]), 3, state.force);
-      std::copy_n(dBodyGetTorque(bodies[i]), 3, state.torque);
-    }
+    bodies_ = bodies;
+    states_.clear();
+    for (dBodyID body : bodies) states_.emplace_back(body);
   }
 
   void restore() const {
-    for (const State& state : saved_) {
-      dBodySetPosition(state.body, state.position[0], state.position[1], state.position[2]);
-      dBodySetQuaternion(state.body, state.rotation);
-      dBodySetLinearVel(state.body, state.linear[0], state.linear[1], state.linear[2]);
-      dBodySetAngularVel(state.body, state.angular[0], state.angular[1], state.angular[2]);
-      dBodySetForce(state.body, state.force[0], state.force[1], state.force[2]);
-      dBodySetTorque(state.body, state.torque[0], state.torque[1], state.torque[2]);
-    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) states_[i].restore(bodies_[i]);
   }
 
  private:
-  struct State {
-    dBodyID body;
-    dVector3 position, linear, angular, force, torque;
-    dQuaternion rotation;
-  };
-  std::vector<State> saved_;
+  std::vector<dBodyID> bodies_;
+  std::vector<BodyState> states_;
 };
 
 }  // namespace ardee::physics

@@ -4,12 +4,16 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "ardee_sim/core/state_archive.h"
+
 namespace ardee::physics {
 
 /// A force (N) and a torque (N m) about a point that its owner names.
 struct ForceTorque {
   Eigen::Vector3d force{0, 0, 0};
   Eigen::Vector3d torque{0, 0, 0};
+
+  void serialize(StateArchive& state) { state(force, torque); }
 };
 
 /// A point at which two collisions touched in a step. All vectors have the world's axes.
@@ -23,6 +27,10 @@ struct Contact {
   /// which has no body, about the collision's frame.
   ForceTorque on1;
   ForceTorque on2;
+
+  void serialize(StateArchive& state) {
+    state(collision1, collision2, position, normal, depth_m, on1, on2);
+  }
 };
 
 }  // namespace ardee::physics

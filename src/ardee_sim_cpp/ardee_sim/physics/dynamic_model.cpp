@@ -69,6 +69,7 @@ void DynamicModel::make_bodies(dWorldID world, const Pose& X_WM) {
     // half that.
     dBodySetFiniteRotationMode(body, 1);
     dBodySetAutoDisableFlag(body, 0);
+    dBodyDisable(body);  // the solver enables what it steps
     set_body_pose(body, X_WM * Pose{group.com_M, Eigen::Quaterniond::Identity()});
   }
   for (std::size_t i = 0; i < model_->links.size(); ++i) {

@@ -81,6 +81,9 @@ class DynamicModel : public PhysicsModel {
   void fall_asleep(std::uint64_t rest);
   void wake();
   Eigen::AlignedBox3d bounds() const;
+  /// Saves or restores all that steps and calls change. A restored model has just been made of its
+  /// description.
+  void serialize(StateArchive& state);
   /// Model, link and the limit of a valid state that it has left; empty if it has not.
   std::string state_fault() const;
 

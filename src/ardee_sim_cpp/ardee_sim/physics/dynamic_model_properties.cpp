@@ -44,6 +44,10 @@ bool same_inertia(const LinkProperties& a, const LinkProperties& b) {
 
 }  // namespace
 
+bool LinkProperties::operator==(const LinkProperties& other) const {
+  return gravity == other.gravity && same_inertia(*this, other);
+}
+
 void DynamicModel::set_link_properties(std::size_t link, const LinkProperties& properties) {
   std::vector<LinkProperties> links = links_;
   links.at(link) = properties;

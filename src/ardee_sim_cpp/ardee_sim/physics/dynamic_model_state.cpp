@@ -4,6 +4,7 @@
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/core/limits.h"
+#include "ardee_sim/physics/body_states.h"
 #include "ardee_sim/physics/dynamic_model.h"
 
 namespace ardee::physics {
@@ -175,6 +176,24 @@ void DynamicModel::want_joint_wrench(std::size_t joint) {
 
 ForceTorque DynamicModel::joint_wrench(std::size_t joint) const {
   return moving_joint(joint) ? moving_joint(joint)->wrench() : ForceTorque{};
+}
+
+void DynamicModel::serialize(StateArchive& state) {
+  for (std::size_t link = 0; link < links_.size(); ++link) {
+    LinkProperties properties = links_[link];
+    state(properties);
+    if (!(properties == links_[link])) set_link_properties(link, properties);
+  }
+  for (const BodyHandle& each : bodies_) {
+    BodyState body_state(each.get());
+    state(body_state);
+    if (state.is_restoring()) body_state.restore(each.get());
+  }
+  for (const auto& joint : joints_) {
+    if (joint) state(*joint);
+  }
+  for (auto& [follower, coupling] : couplings_) state(coupling.impulse);
+  state(turns_, still_s_, still_poses_, rest_);
 }
 
 }  // namespace ardee::physics

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/model.h"
 #include "ardee_sim/physics/ode_types.h"
 #include "ardee_sim/physics/properties.h"
@@ -33,6 +34,7 @@ class JointDrive {
   const JointMotor& motor() const { return motor_; }
   /// As in Gazebo, the limits of effort and velocity do not bound a drive's motor.
   void set_motor(const JointMotor& motor) { motor_ = motor; }
+  void serialize(StateArchive& state) { state(properties_, motor_); }
 
   double clamp(double position) const;
   /// Effort clamped to the limit of effort and, at this velocity, to the limit of velocity.

@@ -198,6 +198,16 @@ void ModelJoint::prepare(const StepSettings& step) {
   arm_W_ = X_WC.p - X_WC * frames_.anchor_C;
 }
 
+void ModelJoint::serialize(StateArchive& state) {
+  for (auto* drive : {&drive_, &drive2_}) {
+    if (*drive) state(**drive);
+  }
+  bool has_feedback = !feedback_.empty();
+  state(position_, position2_, effort_, arm_W_, applied_, has_feedback);
+  if (has_feedback) keep_wrench();
+  for (auto& [joint, feedback] : feedback_) state(feedback);
+}
+
 void ModelJoint::take_position() {
   position_ = kind_.position(frames_);
   if (kind_.is_linear()) return;

@@ -54,6 +54,7 @@ class ModelJoint {
   void prepare(const StepSettings& step);
   /// Tracks the position over many turns, after a step.
   void measure();
+  void serialize(StateArchive& state);
 
  private:
   void make_drives(dWorldID world, const Joint& joint, const JointPlacement& placement);

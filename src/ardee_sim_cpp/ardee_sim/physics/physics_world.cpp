@@ -195,6 +195,13 @@ const std::vector<Contact>& PhysicsWorld::contacts() const { return impl_->told;
 
 void PhysicsWorld::reset_random(std::uint64_t seed) { impl_->solver.reset_random(seed); }
 
+void PhysicsWorld::serialize(StateArchive& state) {
+  for (const auto& model : impl_->models) state(*model);
+  impl_->sleepers.serialize(state, impl_->models);
+  state(impl_->solver, impl_->wants_contacts);
+  if (state.is_restoring()) impl_->told.clear();
+}
+
 PhysicsWorld::Stats PhysicsWorld::stats() const {
   return {impl_->awake.size(), impl_->contact_count, impl_->scenery.tested(),
           impl_->scenery.built(), impl_->solver.was_direct()};

@@ -8,6 +8,7 @@
 
 #include "ardee_sim/core/log.h"
 #include "ardee_sim/core/pose.h"
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/physics/contact.h"
@@ -134,6 +135,11 @@ class PhysicsWorld {
   Stats stats() const;
   /// Resets the random number with which ODE's solver shuffles rows; called on each reset.
   void reset_random(std::uint64_t seed);
+  /// Saves or restores what steps and calls change in the models, and the solver. When it restores,
+  /// the models of the save have just been made of their descriptions. Steps from a restored state
+  /// give the same bytes, unless the inertia of a link was changed after its first step: then the
+  /// last bits may differ. Contacts of the last step are not part of it.
+  void serialize(StateArchive& state);
 
  private:
   struct Impl;

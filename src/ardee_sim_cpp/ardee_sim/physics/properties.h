@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/model.h"
 
 namespace ardee::physics {
@@ -13,6 +14,9 @@ namespace ardee::physics {
 struct LinkProperties {
   std::optional<Inertial> inertial;  // none: massless
   bool gravity = true;
+
+  bool operator==(const LinkProperties& other) const;
+  void serialize(StateArchive& state) { state(inertial, gravity); }
 };
 
 /// A spring and damper about a joint's axis, with limits: tau = -damping * rate - stiffness *

@@ -106,4 +106,18 @@ void Sleepers::wake_all() {
   sleepers_.clear();
 }
 
+void Sleepers::serialize(StateArchive& state,
+                         const std::vector<std::unique_ptr<DynamicModel>>& models) {
+  std::size_t count = sleepers_.size();
+  state(rests_, widest_m_, count);
+  if (state.is_restoring()) sleepers_.assign(count, {});
+  for (Sleeper& each : sleepers_) {
+    const auto is_it = [&each](const auto& model) { return model.get() == each.model; };
+    auto index = static_cast<std::size_t>(std::find_if(models.begin(), models.end(), is_it) -
+                                          models.begin());
+    state(each.bounds.min(), each.bounds.max(), index);
+    each.model = models.at(index).get();
+  }
+}
+
 }  // namespace ardee::physics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "ardee_sim/physics/dynamic_model.h"
@@ -23,6 +24,8 @@ class Sleepers {
   /// Wakes the models whose bounds come close to a box.
   void wake_near(const Eigen::AlignedBox3d& box);
   void wake_all();
+  /// Saves or restores the sleepers among `models`.
+  void serialize(StateArchive& state, const std::vector<std::unique_ptr<DynamicModel>>& models);
 
  private:
   struct Sleeper {

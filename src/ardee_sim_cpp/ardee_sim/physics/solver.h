@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/physics/body_states.h"
 #include "ardee_sim/physics/joint_coupling.h"
@@ -38,6 +39,7 @@ class Solver {
   /// The iterations shuffle rows with a random number that ODE keeps for the whole process: this
   /// world has its own, lent to ODE for each step.
   void reset_random(std::uint64_t seed) { seed_ = static_cast<unsigned long>(seed); }
+  void serialize(StateArchive& state) { state(seed_); }
 
   /// Throws Error if the engine runs out of memory, or the system cannot be solved at all.
   void step(const PhysicsParams& params, std::vector<Island> islands);

@@ -48,6 +48,24 @@ void LatestReadings::clear() {
   }
 }
 
+LatestReadings::Saved LatestReadings::save() const {
+  Saved saved;
+  for (const auto& [topic, kept] : kept_) {
+    const auto latest = kept.latest.lock();
+    if (latest && *latest) saved.emplace(topic, **latest);
+  }
+  return saved;
+}
+
+void LatestReadings::restore(const Saved& saved) {
+  clear();
+  for (const auto& [topic, reading] : saved) {
+    const auto found = kept_.find(topic);
+    if (found == kept_.end() || found->second.kind != reading.index()) continue;
+    if (const auto latest = found->second.latest.lock()) *latest = reading;
+  }
+}
+
 void LatestReadings::on_reading(const devices::Output& output, const devices::Reading& reading) {
   const auto found = kept_.find(output.topic);
   if (found != kept_.end() && found->second.kind == reading.index()) {

@@ -35,6 +35,10 @@ class LatestReadings : public devices::ReadingSink {
   std::shared_ptr<const Latest> keep(const std::string& topic, std::size_t kind);
   /// Empties all that is kept: what comes next is another run.
   void clear();
+  using Saved = std::map<std::string, devices::Reading>;  // by topic
+  Saved save() const;
+  /// Replaces all that is kept by the saved readings.
+  void restore(const Saved& saved);
   void hand_on_to(devices::ReadingSink* sink) { next_ = sink; }
   void on_reading(const devices::Output& output, const devices::Reading& reading) override;
 

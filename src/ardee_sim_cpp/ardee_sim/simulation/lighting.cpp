@@ -21,23 +21,23 @@ std::vector<Light>::iterator require_light(std::vector<Light>& lights, const std
 }  // namespace
 
 void Simulation::add_light(const Light& light) {
-  if (find_light(world_.lights, light.name) != world_.lights.end()) {
+  if (find_light(lights_, light.name) != lights_.end()) {
     throw Error("light '" + light.name + "' already exists");
   }
   if (!limits::is_valid(light.pose)) {
     throw Error("light '" + light.name + "': found a pose that is not finite or too far away");
   }
-  world_.lights.push_back(light);
+  lights_.push_back(light);
   pictures_.relight();
 }
 
 void Simulation::set_light(const Light& light) {
-  *require_light(world_.lights, light.name) = light;
+  *require_light(lights_, light.name) = light;
   pictures_.relight();
 }
 
 void Simulation::remove_light(const std::string& name) {
-  world_.lights.erase(require_light(world_.lights, name));
+  lights_.erase(require_light(lights_, name));
   pictures_.relight();
 }
 

@@ -35,25 +35,26 @@ void apply_initial_state(Entity& entity) {
 
 }  // namespace
 
-Simulation::Simulation(const World& world, const SimulationOptions& options, LogSink log_sink)
-    : world_(world),
+Simulation::Simulation(std::shared_ptr<const World> world, const SimulationOptions& options,
+                       LogSink log_sink)
+    : world_(std::move(world)),
+      lights_(world_->lights),
       options_(options),
       log_(std::move(log_sink)),
       registry_(options.registry != nullptr ? *options.registry : known_plugins()),
-      physics_(world.physics, log_),
+      physics_(world_->physics, log_),
       scenes_(options.rays, entities_, log_),
-      pictures_(world_, options.rays.threads, entities_, scenes_, log_),
-      now_ns_(world.start_ns),
-      step_ns_(nanoseconds(world.physics.step_s)) {
+      pictures_(world_->scene, lights_, options.rays.threads, entities_, scenes_, log_),
+      now_ns_(world_->start_ns),
+      step_ns_(nanoseconds(world_->physics.step_s)) {
   const LogGroup group(log_);
   for (const devices::PluginAlias& alias : options.plugin_aliases) registry_.add_alias(alias);
   physics_.reset_random(options_.seed);
-  world_.models.clear();  // entities_ holds them from now on
-  for (const PluginDescription& plugin : world.plugins) {
+  for (const PluginDescription& plugin : world_->plugins) {
     log_.warn(plugin.element.source.to_string() + ": found world plugin '" + plugin.filename +
               "', expected none: it is left out");
   }
-  add_world_models(world.models);
+  add_world_models(world_->models);
 }
 
 Simulation::~Simulation() = default;
@@ -165,7 +166,7 @@ void Simulation::build_devices(Entity& entity) {
 devices::WorldInfo Simulation::world_info() {
   devices::WorldInfo made;
   made.gravity_m_per_s2 = [this] { return physics_.params().gravity_m_per_s2; };
-  made.spherical_coordinates = world_.spherical_coordinates;
+  made.spherical_coordinates = world_->spherical_coordinates;
   made.scenery_files = [this] {
     std::set<std::string> files;
     for (const auto& entity : entities_) {
@@ -313,7 +314,7 @@ void Simulation::place_static(Entity& entity, const Pose& X_WM) {
 void Simulation::reset_world() { reset_entities(); }
 
 void Simulation::reset_simulation() {
-  now_ns_ = world_.start_ns;
+  now_ns_ = world_->start_ns;
   step_count_ = 0;
   reset_entities();
 }

@@ -15,6 +15,7 @@
 #include "ardee_sim/simulation/handles.h"
 #include "ardee_sim/simulation/joint_efforts.h"
 #include "ardee_sim/simulation/ray_scene_set.h"
+#include "ardee_sim/simulation/simulation_state.h"
 #include "ardee_sim/simulation/world_camera_renderer.h"
 #include "ardee_sim/simulation/wrenches.h"
 
@@ -63,8 +64,13 @@ struct LinkOf {
 /// and services act between steps.
 class Simulation {
  public:
-  /// Throws Error if a part of the world cannot be built and must not be left out.
-  Simulation(const World& world, const SimulationOptions& options, LogSink log_sink);
+  /// Shares the world with its other simulations. Throws Error if a part of the world cannot be
+  /// built and must not be left out.
+  Simulation(std::shared_ptr<const World> world, const SimulationOptions& options,
+             LogSink log_sink);
+  /// Takes a world of its own.
+  Simulation(World world, const SimulationOptions& options, LogSink log_sink)
+      : Simulation(std::make_shared<const World>(std::move(world)), options, std::move(log_sink)) {}
   ~Simulation();
 
   /// Sets the receiver of all readings from now on; nullptr: none.
@@ -119,13 +125,24 @@ class Simulation {
   /// readings that follow equal, byte for byte, those that followed the construction.
   void reset_simulation();
 
-  const World& world() const { return world_; }
+  /// The present state, to go on from with restore().
+  SimulationState save();
+  /// Returns to a saved state, of this simulation or of another one of its world with the same
+  /// options: what follows equals, byte for byte, what followed the save (but see
+  /// PhysicsWorld::serialize). Models spawned since are removed, removed ones return, goals of
+  /// actions end. Throws Error if the state is that of another world, or a controller cannot be
+  /// loaded again; then only another restore() or a reset gives a valid state.
+  void restore(const SimulationState& state);
+
+  const World& world() const { return *world_; }
+  /// The present lights: those of the world, and all changes by the calls below.
+  const std::vector<Light>& lights() const { return lights_; }
   const PhysicsParams& physics() const { return physics_.params(); }
   void set_physics(const PhysicsParams& params);
   /// Adds a light; later pictures show it, and resets keep it. Throws Error if its name is taken or
   /// its pose is outside the world.
   void add_light(const Light& light);
-  /// Replaces the light of that name in world(); later pictures show it, and resets keep it. Throws
+  /// Replaces the light of that name; later pictures show it, and resets keep it. Throws
   /// Error if there is none, as does remove_light.
   void set_light(const Light& light);
   void remove_light(const std::string& name);
@@ -166,9 +183,13 @@ class Simulation {
   /// Puts a model back to its spawn pose; the rest of the world goes on.
   void put_back(Entity& entity, const std::string& why);
   void reset_entities();
+  void serialize_commands(StateArchive& archive);
+  /// Removes and adds models so that these are there, in this order.
+  void keep_only(const std::vector<SimulationState::EntityState>& wanted);
   RelativeState state_in_world(const std::string& name) const;
 
-  World world_;
+  std::shared_ptr<const World> world_;
+  std::vector<Light> lights_;
   SimulationOptions options_;
   Log log_;
   devices::Registry registry_;

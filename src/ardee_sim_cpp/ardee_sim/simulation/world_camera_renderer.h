@@ -16,10 +16,15 @@ namespace ardee {
 /// The pictures of a simulation, in the light of its world.
 class WorldCameraRenderer : public devices::CameraRenderer {
  public:
-  WorldCameraRenderer(const World& world, int threads,
+  WorldCameraRenderer(const Scene& scene, const std::vector<Light>& lights, int threads,
                       const std::vector<std::unique_ptr<Entity>>& entities,
                       devices::RaySceneProvider& scenes, Log log)
-      : world_(world), threads_(threads), entities_(entities), scenes_(scenes), materials_(log) {}
+      : scene_(scene),
+        lights_(lights),
+        threads_(threads),
+        entities_(entities),
+        scenes_(scenes),
+        materials_(log) {}
 
   render::Frame take(const render::Camera& camera, const render::FrameParts& parts) override;
   /// Called when models were added or removed: the next picture reloads their materials.
@@ -30,7 +35,8 @@ class WorldCameraRenderer : public devices::CameraRenderer {
  private:
   void load_materials();
 
-  const World& world_;
+  const Scene& scene_;
+  const std::vector<Light>& lights_;
   const int threads_;
   const std::vector<std::unique_ptr<Entity>>& entities_;
   devices::RaySceneProvider& scenes_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
+#include <functional>
 #include <vector>
 
+#include "ardee_sim/core/state_archive.h"
 #include "ardee_sim/core/time.h"
 #include "ardee_sim/devices/robot.h"
 
@@ -31,6 +32,9 @@ class Wrenches {
   void clear_all() { wrenches_.clear(); }
   /// Applies the wrenches in force at `now_ns` and removes expired ones.
   void apply(TimeNs now_ns);
+  /// Saves or restores them; `robot_of` finds a robot by its number.
+  void serialize(StateArchive& state,
+                 const std::function<devices::Robot*(std::uint32_t)>& robot_of);
 
  private:
   std::vector<Wrench> wrenches_;

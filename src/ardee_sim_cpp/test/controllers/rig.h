@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -120,6 +121,35 @@ class Rig : public ReadingSink {
       }
       update();
     }
+  }
+  /// Expects the joints to turn as before after a reset and a return to the present state.
+  void expect_repeats(int times) {
+    const auto serialize = [&](StateArchive& state) {
+      state(now_ns, *controller);
+      for (auto& [name, joint] : hardware) state(joint);
+    };
+    const auto commands = [&] {
+      readings.clear();
+      std::vector<double> all;
+      for (int i = 0; i < times; ++i) {
+        roll(1);
+        for (const auto& [name, joint] : hardware) all.push_back(joint.command);
+        for (const auto& [topic, some] : readings) {
+          const auto* odometry = std::get_if<OdometryReading>(&some.back());
+          if (odometry) all.push_back(odometry->pose.p.x());
+        }
+      }
+      return all;
+    };
+    StateArchive saved;
+    serialize(saved);
+    const std::vector<double> first = commands();
+    controller->reset(now_ns);
+    controller->start(now_ns);
+    StateArchive restored(saved.bytes());
+    serialize(restored);
+    EXPECT_EQ(commands(), first);
+    EXPECT_GT(*std::max_element(first.begin(), first.end()), 0.0);
   }
   void send(const std::string& topic, const Command& command) {
     for (const Input& input : controller->ports().inputs) {

@@ -98,5 +98,15 @@ TEST_F(AckermannSteeringController, LimitsSpeedAndSteering) {
   EXPECT_NEAR(rig.command_of("front_steer_joint"), -0.2, 1e-12);
 }
 
+TEST_F(AckermannSteeringController, GoesOnFromASavedState) {
+  parameters["cmd_vel_timeout"] = 1e3;
+  parameters["linear/x/has_acceleration_limits"] = true;
+  parameters["linear/x/max_acceleration"] = 0.5;
+  start();
+  rig.drive(1.0, 0.3);
+  rig.roll(50);
+  rig.expect_repeats(100);
+}
+
 }  // namespace
 }  // namespace ardee::control

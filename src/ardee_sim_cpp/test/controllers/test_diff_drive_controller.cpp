@@ -273,5 +273,16 @@ TEST_F(DiffDriveController, SaysWhichParameterIsWrong) {
             "expected the hardware_interface::VelocityJointInterface");
 }
 
+TEST_F(DiffDriveController, GoesOnFromASavedState) {
+  parameters["cmd_vel_timeout"] = 1e3;
+  parameters["linear/x/has_acceleration_limits"] = true;
+  parameters["linear/x/max_acceleration"] = 0.5;
+  start();
+  rig.tunable("left_wheel_radius_multiplier").set(1.1);
+  rig.drive(1.0, 0.3);
+  rig.roll(50);
+  rig.expect_repeats(100);
+}
+
 }  // namespace
 }  // namespace ardee::control

@@ -79,5 +79,13 @@ TEST(ForwardController, SaysWhichParameterIsWrong) {
             "/base/joints: found 'j', expected a list of names");
 }
 
+TEST(ForwardController, GoesOnFromASavedState) {
+  Rig rig;
+  rig.add_joint("j", JointInterface::kVelocity);
+  rig.start(ForwardController::make_velocity, {{"joint", std::string("j")}});
+  rig.send("/base/command", 3.0);
+  rig.expect_repeats(5);
+}
+
 }  // namespace
 }  // namespace ardee::control

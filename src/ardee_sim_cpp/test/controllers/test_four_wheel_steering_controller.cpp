@@ -183,5 +183,14 @@ TEST_F(FourWheelSteeringController, SaysWhichParameterIsWrong) {
             "/base/rear_wheel: found 1 joints, expected 2, left and right");
 }
 
+TEST_F(FourWheelSteeringController, GoesOnFromASavedState) {
+  parameters["linear/x/has_acceleration_limits"] = true;
+  parameters["linear/x/max_acceleration"] = 0.5;
+  start();
+  steer(0.2, -0.1, 1.0);
+  rig.roll(50);
+  rig.expect_repeats(100);
+}
+
 }  // namespace
 }  // namespace ardee::control

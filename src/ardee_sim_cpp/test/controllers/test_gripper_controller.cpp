@@ -104,5 +104,13 @@ TEST(GripperController, RejectsGoalsThatAreNone) {
   EXPECT_EQ(gripper.grip(0.0, 1.0)->state(), "rejected");
 }
 
+TEST(GripperController, GoesOnFromASavedState) {
+  Gripper gripper(JointInterface::kEffort);
+  const auto goal = gripper.grip(0.05, 3.0);
+  gripper.update(3);
+  gripper.expect_repeats(20);
+  EXPECT_EQ(goal->state(), "cancelled");
+}
+
 }  // namespace
 }  // namespace ardee::control

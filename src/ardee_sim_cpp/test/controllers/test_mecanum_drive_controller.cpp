@@ -90,5 +90,15 @@ TEST_F(MecanumDriveController, SaysWhichWheelIsMissing) {
             "/base/back_right_wheel_joint: found nothing, expected a text");
 }
 
+TEST_F(MecanumDriveController, GoesOnFromASavedState) {
+  parameters["linear/x/has_acceleration_limits"] = true;
+  parameters["linear/x/max_acceleration"] = 0.5;
+  parameters["cmd_vel_timeout"] = 1e3;
+  start();
+  drive(1.0, 0.2, 0.3);
+  rig.roll(50);
+  rig.expect_repeats(100);
+}
+
 }  // namespace
 }  // namespace ardee::control

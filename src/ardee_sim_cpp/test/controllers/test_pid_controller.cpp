@@ -138,5 +138,16 @@ TEST_F(PidController, SaysWhichParameterIsMissing) {
             "/base/pid/p: found nothing, expected a number");
 }
 
+TEST_F(PidController, GoesOnFromASavedState) {
+  add_joint(JointInterface::kVelocity, JointType::kRevolute);
+  parameters["pid/i"] = 5.0;
+  parameters["pid/i_clamp"] = 1.0;
+  rig.start(&control::PidController::make_velocity_position, parameters);
+  rig.send("/base/command", 0.8);
+  rig.tunable("p").set(7.0);
+  rig.roll(5);
+  rig.expect_repeats(20);
+}
+
 }  // namespace
 }  // namespace ardee::control

@@ -304,5 +304,12 @@ TEST(TrajectoryController, RefusesWhatItCannotBeMadeWith) {
             "velocity_controllers/ or effort_controllers/JointTrajectoryController instead");
 }
 
+TEST(TrajectoryController, GoesOnFromASavedState) {
+  Arm arm;
+  arm.send("/base/command", to(1, -1, 2));
+  arm.track(50);
+  arm.expect_repeats(100);
+}
+
 }  // namespace
 }  // namespace ardee::control

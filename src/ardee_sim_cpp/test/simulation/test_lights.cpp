@@ -48,7 +48,7 @@ class Studio {
 
 TEST(Lights, ThatChangeAreThoseOfAWorldThatWasWrittenSo) {
   Studio changed(lamp("1 1 1"));
-  Light light = changed.world()->world().lights.at(0);
+  Light light = changed.world()->lights().at(0);
   light.diffuse = Color(1.0f, 0.0f, 0.0f, 1.0f);
   light.direction = Eigen::Vector3d(1, 0.3, -0.2).normalized();
   changed.world()->set_light(light);
@@ -65,13 +65,13 @@ TEST(Lights, ThatChangeAreThoseOfAWorldThatWasWrittenSo) {
 TEST(Lights, ThatAreTakenAwayLeaveTheRest) {
   Studio changed(lamp("1 1 1"));
   changed.world()->remove_light("sun");
-  EXPECT_TRUE(changed.world()->world().lights.empty());
+  EXPECT_TRUE(changed.world()->lights().empty());
   EXPECT_EQ(next_picture(changed.world()), Studio("").before());
 }
 
 TEST(Lights, StayAsTheyWereSetWhenTheWorldIsReset) {
   Studio studio(lamp("1 1 1"));
-  Light light = studio.world()->world().lights.at(0);
+  Light light = studio.world()->lights().at(0);
   light.diffuse = Color(0.0f, 0.0f, 1.0f, 1.0f);
   studio.world()->set_light(light);
   const auto blue = next_picture(studio.world());
@@ -90,7 +90,7 @@ TEST(Lights, OfUnknownNamesAreRefused) {
 
 TEST(Lights, ThatAreAddedAreThoseOfAWorldThatWasWrittenSo) {
   Studio lit(lamp("1 0 0"));
-  Light light = lit.world()->world().lights.at(0);
+  Light light = lit.world()->lights().at(0);
   EXPECT_THROW(lit.world()->add_light(light), Error);
   Studio dark("");
   dark.world()->add_light(light);
@@ -100,7 +100,7 @@ TEST(Lights, ThatAreAddedAreThoseOfAWorldThatWasWrittenSo) {
   light.name = "lost";
   light.pose.p.x() = NAN;
   EXPECT_THROW(dark.world()->add_light(light), Error);
-  EXPECT_EQ(dark.world()->world().lights.size(), 1u);
+  EXPECT_EQ(dark.world()->lights().size(), 1u);
 }
 
 }  // namespace
