@@ -23,6 +23,7 @@ class Inclinometer : public ardee::devices::Device {
 
   void after_step(ardee::TimeNs now_ns, ardee::devices::ReadingSink& sink) override;
   void reset(ardee::TimeNs now_ns) override;
+  void serialize(ardee::StateArchive& state) override { state(timer_); }
 
  private:
   const Params params_;
