@@ -15,7 +15,7 @@ import rosgraph
 from bench import capture, latency, latency_floor
 from bench.capture import Times
 
-from ardee_bridge.nodes.settings import KINDS, Source
+from ardee_bridge.nodes.settings import FRAME_KINDS, KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
 from ardee_common.process import start_child, stop_child
@@ -116,7 +116,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
     sources = [
         dataclasses.replace(source, format=image_format) if source.format == "jpeg" else source
         for source in sources
-        if image_format or not source.is_frame
+        if image_format or source.kind not in FRAME_KINDS
     ]
     with contextlib.ExitStack() as stack:
         env = stack.enter_context(latency.own_master())

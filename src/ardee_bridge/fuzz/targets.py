@@ -14,16 +14,7 @@ from ardee_bridge.wire.udp import open_socket
 from ardee_common.config import build, from_values, read_yaml_lines
 from ardee_common.errors import GeneratorError
 
-_SETTINGS = dict(
-    bind_address="127.0.0.1",
-    port=0,
-    cmd_vel_topic="cmd_vel",
-    max_speed_m_s=1.2,
-    min_turn_radius_m=0.381,
-    watchdog_s=0.5,
-    pause_service="/pause",
-    unpause_service="/unpause",
-)
+_SHIPPED = Path(__file__).resolve().parents[1] / "config/controls_client.yaml"
 _KINDS = tuple(codec.DATA_STRUCTS)
 _STEP_S = 0.01
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
@@ -91,7 +82,8 @@ class _Bench:
         self.socket = open_socket("127.0.0.1", 0)
         self.senders = [open_socket("127.0.0.1", 0) for _ in range(4)]
         peers = [f"127.0.0.1:{sender.getsockname()[1]}" for sender in self.senders[:3]]
-        self.settings = from_values(ControlSettings, dict(_SETTINGS, peers=peers))
+        shipped = read_yaml_lines(_SHIPPED)
+        self.settings = from_values(ControlSettings, {**shipped, "peers": peers})
 
     def run(self, data: bytes) -> None:
         """Makes the client receive the events in the bytes, each datagram a moment after the one before."""

@@ -3,6 +3,7 @@
 import re
 import socket
 import time
+from pathlib import Path
 
 import pytest
 
@@ -11,20 +12,10 @@ from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.settings import ControlSettings
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.udp import open_socket
-from ardee_common.config import from_values
+from ardee_common.config import from_values, read_yaml_lines
 
 STAMPS_BEGIN_S = 0.2  # so long after a first socket asked, Linux begins to take times of arrival
-VALUES = dict(
-    bind_address="127.0.0.1",
-    port=0,
-    peers=["127.0.0.1"],
-    cmd_vel_topic="cmd_vel",
-    max_speed_m_s=1.2,
-    min_turn_radius_m=0.381,
-    watchdog_s=0.5,
-    pause_service="/p",
-    unpause_service="/u",
-)
+SHIPPED = Path(__file__).resolve().parents[1] / "config/controls_client.yaml"
 
 
 class Bench:
@@ -32,7 +23,7 @@ class Bench:
 
     def __init__(self, **values):
         self.now_s, self.motions, self.pauses, self.warnings = 0.0, [], [], []
-        settings = from_values(ControlSettings, dict(VALUES, **values))
+        settings = from_values(ControlSettings, {**read_yaml_lines(SHIPPED), "port": 0, **values})
         self.server = open_socket(settings.bind_address, settings.port)
         self.peer = open_socket("127.0.0.1", 0)
         self.peer.settimeout(5.0)
@@ -69,7 +60,9 @@ def test_limits(speed, yaw_rate, multiplier, expected):
     commands = codec.MotionCommands(
         normalized_speed=speed, normalized_yaw_rate=yaw_rate, multiplier=multiplier
     )
-    assert to_motion(commands, from_values(ControlSettings, VALUES)) == pytest.approx(expected)
+    assert to_motion(
+        commands, from_values(ControlSettings, read_yaml_lines(SHIPPED))
+    ) == pytest.approx(expected)
 
 
 def test_a_command_moves_and_its_end_stops(bench):
