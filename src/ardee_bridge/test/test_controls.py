@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The controls client on real sockets: limits, control codes, peers, watchdog, what it drops and why."""
+"""Tests the controls client on real sockets: limits, control codes, peers, watchdog, drops and their reasons."""
 import re
 import socket
 import time
@@ -19,7 +19,7 @@ SHIPPED = Path(__file__).resolve().parents[1] / "config/controls_client.yaml"
 
 
 class Bench:
-    """A controls client whose clock the test sets, and a peer."""
+    """Controls client whose clock the test sets, and a peer."""
 
     def __init__(self, **values):
         self.now_s, self.motions, self.pauses, self.warnings = 0.0, [], [], []
@@ -82,7 +82,7 @@ def test_a_command_moves_and_its_end_stops(bench):
 
 def test_after_the_end_no_command_moves(bench):
     bench.client.stop()
-    assert bench.motions == []  # it was not told to move
+    assert bench.motions == []  # it had no command
     bench.send(*codec.encode_motion(0.5, 0.0))
     assert bench.motions == []
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Settings: the shipped files are sound, and each mistake is one message with key, what was found and expected."""
+"""Tests settings: the shipped files are sound, and each mistake is one message with key, found and expected value."""
 import pytest
 import yaml
 
