@@ -19,7 +19,7 @@ def wheel_centers(robot: Robot, legs: Dict[str, float]) -> np.ndarray:
 
 
 def leg_positions(robot: Robot, front: float, rear: float) -> Dict[str, float]:
-    """Returns joint positions of legs deflected by `front` and `rear` (rad >= 0) from fully extended to their limits."""
+    """Returns joint positions of legs deflected by `front` and `rear` (rad >= 0) from extended to their limits."""
     positions = {}
     for place in PLACES:
         joint = f"{place}_leg_joint"
