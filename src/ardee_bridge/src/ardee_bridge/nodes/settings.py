@@ -115,7 +115,7 @@ class ImageSource(Source):
     chunk_bytes: int = option(MAX_PAYLOAD, limits=(256, MAX_PAYLOAD))
 
     def of_camera(self) -> "ImageSource":
-        """The same images, compressed by whoever publishes them, on the topic that image_transport gives them."""
+        """Returns the same images as compressed by their publisher, on the topic that image_transport gives them."""
         return dataclasses.replace(self, topic=f"{self.topic}/compressed", format=COMPRESSED)
 
 
