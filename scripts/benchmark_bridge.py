@@ -8,13 +8,13 @@ import subprocess
 from typing import Any, Callable, Dict, List, Sequence
 
 PROGRAM = pathlib.Path(__file__).resolve().parents[1] / "tests" / "bench" / "latency_benchmark"
-# Of small sensors and commands, and of images and clouds.
+# Budgets of small sensors and commands, and of images and clouds.
 P99_BUDGET_MS, FRAMES_P99_BUDGET_MS = 5.0, 20.0
-# The floor, measured beside the bridge: it has no budget.
+# Rows of the floor, measured beside the bridge, have no budget.
 FLOOR = "bare forwarder"
-# A simulated robot's frames are few where its cameras are to be drawn first: 3 depth images a second on 2 cores.
+# Fewest frames of a simulated robot, whose cameras are rendered as well: 3 depth images a second on 2 cores.
 LEAST_FRAMES_S = 8.0
-# A row of which no message arrived, or that a repetition has not: a camera that was not there.
+# Figures of a row without any message, or missing in a repetition: such a camera was not there.
 NOTHING = dict(p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan, sent=0, lost=0)
 
 
@@ -23,10 +23,10 @@ def measure(
 ) -> Dict[str, Any]:
     """Returns the figures of tests/bench/latency_benchmark, run for so many seconds.
 
-    They are of small messages at full rates, and of a simulated robot's. For `loss_s` all sensors send at once, cameras
-    and a 3D lidar among them, with the images as JPEG and as they are, of both: is a message lost? Beside each of them
-    the floor. All of it is repeated as often as `repeat` says. The simulated robot is left out where packets cannot be
-    captured, which takes CAP_NET_RAW and CAP_NET_ADMIN.
+    They are those of small messages at full rates, and of a simulated robot's. For `loss_s` all sensors send at once,
+    with cameras and a 3D lidar, once with JPEG and once with raw images, to count lost messages. The floor is measured
+    beside each of them. All is repeated `repeat` times. The simulated robot is left out if packets cannot be captured,
+    which takes CAP_NET_RAW and CAP_NET_ADMIN.
     """
     frames_s = max(loss_s, LEAST_FRAMES_S)
     sensors = ("--only", "sensors")
@@ -56,7 +56,7 @@ def measure(
 
 
 def medians(repetitions: Sequence[Dict[str, Any]]) -> Dict[str, Any]:
-    """Of each row: medians of both percentiles, and the 99th's range; the longest; sums of what was sent and lost."""
+    """Returns medians of both percentiles, the 99th's range, the longest, and sums of sent and lost, by row."""
     figures = {}
     for name in dict.fromkeys(name for found in repetitions for name in found):
         runs = [found.get(name, NOTHING) for found in repetitions]
@@ -85,7 +85,7 @@ def _run(seconds: float, *options: str) -> Dict[str, Any]:
         try:
             output, complaints = process.communicate()
         finally:
-            process.terminate()  # when this program is ended: it then ends its nodes, and we wait for that
+            process.terminate()  # a signal ends this program: it ends its nodes first
     if not output.startswith("{"):
         raise RuntimeError(
             f"latency_benchmark: exit code {process.returncode}: {complaints.strip()}"
@@ -94,7 +94,7 @@ def _run(seconds: float, *options: str) -> Dict[str, Any]:
 
 
 def lines(figures: Dict[str, Any]) -> List[str]:
-    """One line a kind of message, with a mark where its budget is missed or a message lost."""
+    """Returns one line a kind of message, with a mark if its budget is missed or a message lost."""
     found = []
     for name, f in figures.items():
         least, most = (f"{value:.2f}" for value in f["p99_range_ms"])
@@ -102,7 +102,7 @@ def lines(figures: Dict[str, Any]) -> List[str]:
         is_frame = "image message" in name or "point_cloud message" in name
         budget_ms = FRAMES_P99_BUDGET_MS if is_frame else P99_BUDGET_MS
         budget = "" if FLOOR in name else f" (<= {budget_ms:.2f})"
-        missed = budget and not f["p99_ms"] <= budget_ms  # a row without any message is marked, too
+        missed = budget and not f["p99_ms"] <= budget_ms  # marks a row without any message, too
         mark = " !" if f["lost"] or missed else ""
         found.append(
             f"bridge, {name}: median {f['p50_ms']:.2f} ms, 99th percentile {f['p99_ms']:.2f}{tails} ms{budget}, "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Fields to measure on: the shipped farm world with more or fewer plants, on ground of the same grain."""
+"""Makes fields for measurements: the shipped farm world with more or fewer plants, on ground of the same grain."""
 import math
 import os
 import pathlib
@@ -15,29 +15,29 @@ from ardee_models.lookup import search_path, terrain_model
 ROW_SPACING_M, STALK_SPACING_M = 0.762, 0.166  # the field generator's defaults, passed on
 LEAST_STALKS_PER_ROW = 50
 HEADLAND_M = 1.0
-GROUND_STEP_M = 30.0 / 256  # between heights, as in the heightmap_ground that is shipped
+GROUND_STEP_M = 30.0 / 256  # distance of heights, as in the shipped heightmap_ground
 GROUND_MARGIN_M = 6.0  # around the field
-GROUND_SAMPLES = [2**n + 1 for n in range(8, 13)]  # what the terrain generator takes
-RIDE_HEIGHT_M = 0.175  # of the robot's base_footprint above the ground
-HALF_LENGTH_M = 0.25  # of the robot: the ground under it counts
+GROUND_SAMPLES = [2**n + 1 for n in range(8, 13)]  # sizes that the terrain generator accepts
+RIDE_HEIGHT_M = 0.175  # base_footprint of the robot above the ground
+HALF_LENGTH_M = 0.25  # half the robot's length: the ground under it counts
 INSIDE_M = 1.0  # from the row's end to where the robot turns back
-LONGEST_LANE_M = 30.0  # a robot that starts off by a thousandth of a rad is still in the lane there
+LONGEST_LANE_M = 30.0  # a robot that errs by 0.001 rad stays in the lane so far
 
 
 @dataclass(frozen=True)
 class Field:
-    """A generated world, and the lane in its middle."""
+    """Generated world, and the lane in its middle."""
 
     plants: int
     rows: int
     world: pathlib.Path
-    env: Dict[str, str]  # environment for what loads it
+    env: Dict[str, str]  # environment of the programs that load it
     start: List[float]  # x y z yaw of the robot at the lane's start [m m m rad]
     lane_m: float
 
 
 def rows_of(plants: int) -> int:
-    """Number of rows of a field that is about square; even, so that a lane is in the middle, and long rows first."""
+    """Returns the number of rows of an about square field: even, so that a lane is in the middle; rather long rows."""
     ideal = math.sqrt(plants * STALK_SPACING_M / ROW_SPACING_M)
     fitting = [n for n in range(4, plants + 1, 2) if plants // n >= LEAST_STALKS_PER_ROW]
     whole = [n for n in fitting if plants % n == 0] or fitting or [2]

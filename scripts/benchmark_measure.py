@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The measurements: programs of the engine alone, and the node with ROS around it."""
+"""Measures programs of the engine alone, and the node with ROS around it."""
 import json
 import os
 import pathlib
@@ -57,7 +57,7 @@ def run_engine(name: str, field: Field, urdf: pathlib.Path, brief: bool) -> Dict
 
 
 def peak_memory_mb(pid: int) -> float:
-    """The most that a process has held in memory so far [MB of 10^6 bytes]."""
+    """Returns the greatest memory that a process has held so far [MB of 10^6 bytes]."""
     status = pathlib.Path(f"/proc/{pid}/status").read_text()
     found = re.search(r"VmHWM:\s+(\d+) kB", status)
     if not found:
@@ -81,17 +81,17 @@ def _answer(probe: Process, simulator: Process, key: str, limit_s: float) -> Any
 
 
 class _NotYet:
-    """Stands in for the simulator while only the probe runs."""
+    """Stand-in for the simulator while only the probe runs."""
 
     command = ["simulator"]
 
     @staticmethod
     def exit_code() -> None:
-        """Returns None: it has not ended."""
+        """Returns None: the stand-in never ends."""
 
 
 def run_node(field: Field, urdf: pathlib.Path, window_s: float) -> Dict[str, Any]:
-    """Start the simulator in a ROS graph of its own; time to the first scan, then a drive of `window_s` (0: none)."""
+    """Starts the simulator in a ROS graph; measures the first scan's time, then a drive of `window_s` (0: none)."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="ros_", dir=field.world.parent))
     graph = RosGraph(folder)
     try:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A user's node for scripts/benchmark: spawns the robot as soon as it can, drives it up and down its lane, and counts.
+"""ROS node of scripts/benchmark: spawns the robot early, drives it up and down its lane, and counts messages.
 
 Speaks JSON, an object a line: {"ready"}, {"first_scan_s"}, {"drive"}. Messages are counted as they come off the network
-and decoded only where they are needed, so that the figures are the simulator's and not this node's.
+and decoded only if needed, so that the figures are the simulator's and not this node's.
 """
 import json
 import math
@@ -38,7 +38,7 @@ def yaw_of(q: Any) -> float:
 
 
 class Driver:
-    """Counts messages, and keeps the robot on its lane: the straight line from the start, wherever it came to rest."""
+    """Counts messages, and keeps the robot on its lane: the straight line from its place of rest after the start."""
 
     def __init__(self, start: Sequence[float], lane_m: float, speed_m_s: float) -> None:
         self.start, self.lane_m, self.speed_m_s = start, lane_m, speed_m_s
@@ -74,7 +74,7 @@ class Driver:
             self._steer(Odometry().deserialize(message._buff).pose.pose)
 
     def _steer(self, here: Pose) -> None:
-        """Along the lane at the wanted speed, by the odometry, whose frame is the world's; back at its ends."""
+        """Steers along the lane at the wanted speed by odometry in the world's frame; reverses at its ends."""
         x0, y0, _, yaw0 = self.start
         dx, dy = here.position.x - x0, here.position.y - y0
         ahead = math.cos(yaw0) * dx + math.sin(yaw0) * dy
@@ -114,7 +114,7 @@ def cpu_s(pid: int) -> float:
 
 
 def measure(driver: Driver, pid: int, window_s: float) -> Dict[str, Any]:
-    """What happens in a window of wall time, and at least 20 s of simulated time."""
+    """Measures a window of wall time, and at least 20 s of simulated time."""
     settled = rospy.get_time() + SETTLE_S
     while rospy.get_time() < settled:
         time.sleep(0.01)
@@ -138,7 +138,7 @@ def measure(driver: Driver, pid: int, window_s: float) -> Dict[str, Any]:
 
 
 def main() -> None:
-    """Ready, spawn, first scan, and with --pid-file's process as the simulator a drive."""
+    """Reports ready, spawns, awaits the first scan, and drives if --pid-file names the simulator's process."""
     parser = Parser()
     parser.add_argument("--urdf", type=pathlib.Path, required=True)
     parser.add_argument(

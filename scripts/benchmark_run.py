@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""scripts/benchmark in a workspace that is built and sourced."""
+"""Runs scripts/benchmark in a workspace that is built and sourced."""
 import argparse
 import json
 import pathlib
@@ -28,7 +28,7 @@ def say(text: str) -> None:
 
 
 def kinds(text: str) -> List[str]:
-    """argparse type: a list with commas."""
+    """Parses a list with commas, as an argparse type."""
     found = text.split(",")
     unknown = [kind for kind in found if kind not in KINDS]
     if unknown:
@@ -69,7 +69,7 @@ def options() -> argparse.Namespace:
 
 
 def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict[str, Any]]:
-    """Every size, every repetition: medians by number of plants."""
+    """Measures every size in every repetition; returns medians by number of plants."""
     urdf = benchmark_measure.make_urdf(work)
     results = {}  # type: Dict[int, Dict[str, Any]]
     for size in sorted(set(found.plants)):
@@ -94,12 +94,12 @@ def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict
 
 
 def stop_here(number: int, _frame: Any) -> None:
-    """Any signal that ends the benchmark leaves through the clean-up."""
+    """Raises an exception at a signal, so that the benchmark ends through its clean-up."""
     raise SystemExit(128 + number)
 
 
 def main() -> int:
-    """Runs the benchmark; returns its exit code: a missed budget is no failure."""
+    """Runs the benchmark; returns its exit code; a missed budget is not a failure."""
     found = options()
     ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     for number in ending:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The figures as a table, beside the budgets."""
+"""Prints the figures as a table, beside the budgets."""
 import math
 import os
 import pathlib
@@ -7,21 +7,21 @@ import re
 import statistics
 from typing import Any, Callable, Dict, List, Optional
 
-# Budgets for a machine of 2 cores. In start and memory a size takes the budget of the next larger size that has one.
+# Budgets for a machine of 2 cores. For start and memory, a size has the budget of the next larger size that has one.
 START_BUDGETS_S = {200: 1.0, 20_000: 3.0, 200_000: 10.0}
 MEMORY_BUDGETS_MB = {200: 300.0, 20_000: 800.0, 200_000: 1500.0}
 REAL_TIME_BUDGET = 30.0
-LARGE_FIELD_SHARE = 0.8  # of the real-time factor with 200 plants; asked for at 100,000
+LARGE_FIELD_SHARE = 0.8  # of the real-time factor with 200 plants, required with 100,000
 CAMERA_REAL_TIME_BUDGET = 1.0
 OF_SCENE_BUDGET, OF_FLAT_BUDGET = 0.8, 0.6
-LEAST_SPEED_M_S = 0.45  # of 0.5 commanded; a robot that is held would be timed at rest
+LEAST_SPEED_M_S = 0.45  # 0.5 is commanded; a robot that is held up would be timed at rest
 
 Figures = Dict[str, Any]
 Budget = Callable[[int, Figures], Optional[float]]
 
 
 def of_size(budgets: Dict[int, float]) -> Budget:
-    """The budget of the size, or of the next larger one."""
+    """Returns the budget of the size, or of the next larger one."""
     return lambda plants, _: next((b for n, b in sorted(budgets.items()) if n >= plants), None)
 
 
@@ -31,7 +31,7 @@ def fixed(budget: float) -> Budget:
 
 
 def real_time_budget(plants: int, figures_of_smallest: Figures) -> Optional[float]:
-    """30 up to 200 plants; beyond, within 20 % of what the smallest field measured reaches."""
+    """Returns 30 up to 200 plants; beyond, 80 % of the smallest field's measured factor."""
     if plants <= 200:
         return REAL_TIME_BUDGET
     reached = value_at(figures_of_smallest, "node.real_time_factor")
@@ -39,7 +39,7 @@ def real_time_budget(plants: int, figures_of_smallest: Figures) -> Optional[floa
 
 
 class Row:
-    """One line of the table: what, its path in the figures, format, and a budget above or below."""
+    """One line of the table: label, path in the figures, format, and a budget above or below."""
 
     def __init__(
         self,
@@ -52,7 +52,7 @@ class Row:
         self.text, self.path, self.form, self.most, self.least = text, path, form, most, least
 
     def cell(self, plants: int, figures: Figures, smallest: Figures) -> str:
-        """The figure, its budget, and a mark if it misses it."""
+        """Returns the figure, its budget, and a mark if it misses the budget."""
         value = value_at(figures, self.path)
         if value is None:
             return "-"
@@ -121,7 +121,7 @@ ROWS = [
 
 
 def value_at(figures: Figures, path: str) -> Optional[float]:
-    """The figure at a dotted path, or None."""
+    """Returns the figure at a dotted path, or None."""
     found = figures  # type: Any
     for key in path.split("."):
         found = found.get(key) if isinstance(found, dict) else None
@@ -171,7 +171,7 @@ def machine() -> Dict[str, Any]:
 
 
 def header(about: Dict[str, Any], repeat: int) -> str:
-    """The lines above the table."""
+    """Returns the lines above the table."""
     return (
         f"{about['cores']} cores of {about['cpu']}, {about['memory_gb']} GB, {about['system']}; "
         f"load before: {about['load_at_start']:.2f}\n"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Print where Python files use private names (_name) of other packages than their own: check_imports.py FILE..."""
+"""Prints uses of private names (_name) of other packages in Python files: check_imports.py FILE..."""
 import ast
 import pathlib
 import sys
@@ -10,7 +10,7 @@ PACKAGES = {init.parent.name for init in ROOT.glob("*/*/src/*/__init__.py")}
 
 
 def is_private(name: str) -> bool:
-    """Tells _name and a._b.c from __name__."""
+    """Returns whether a name is private: true for _name, false for __name__ and a._b.c."""
     return any(part.startswith("_") and not part.endswith("__") for part in name.split("."))
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Print how many tests of a JUnit file passed and how many failed, as two numbers; a skipped test is neither."""
+"""Prints how many tests of a JUnit file passed and how many failed, as two numbers; skipped tests are neither."""
 import sys
 import xml.etree.ElementTree as tree
 from typing import Tuple
 
 
 def count(path: str) -> Tuple[int, int]:
-    """Passed and failed test cases of the JUnit file at `path`."""
+    """Returns the numbers of passed and failed test cases in the JUnit file at `path`."""
     passed = failed = 0
     for case in tree.parse(path).getroot().iter("testcase"):
         if case.find("failure") is not None or case.find("error") is not None:

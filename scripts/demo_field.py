@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The demo's field: generated anew, in the place of the one that farm.world names, and where to start in it."""
+"""Generates the demo's field, which replaces the one in farm.world, and finds the robot's start in it."""
 import json
 import math
 import os
@@ -12,18 +12,18 @@ from ros_graph import RosGraph
 
 from ardee_models.lookup import search_path, terrain_model
 
-MODEL = "small-corn-stalk-plot"  # as farm.world includes it
+MODEL = "small-corn-stalk-plot"  # name of the field's model in farm.world
 TERRAIN = "heightmap_ground"
 ROWS, STALKS_PER_ROW = 4, 50
-SHORTEST_M, TALLEST_M = 0.35, 1.1  # seedlings would have to be scaled up to the field's mean height
+SHORTEST_M, TALLEST_M = 0.35, 1.1  # seedlings would be scaled up to the field's mean
 BEFORE_THE_ROW_M = 0.8
-RIDE_HEIGHT_M = 0.175  # of base_footprint above the ground
-HALF_TRACK_M = 0.22  # the robot's wheels stand within this of its middle, along x and y
+RIDE_HEIGHT_M = 0.175  # base_footprint above the ground
+HALF_TRACK_M = 0.22  # greatest distance of the wheels from the robot's middle, along x and y
 
 
 @dataclass(frozen=True)
 class Start:
-    """Pose between two rows, before their first plants, looking along them; and how far to drive."""
+    """Pose between two rows, before their first plants, looking along them; and the distance to drive."""
 
     x_m: float
     y_m: float
@@ -33,7 +33,7 @@ class Start:
 
 
 def young_corn() -> List[str]:
-    """Names of the corn models on the model path that a picture from behind the robot looks over."""
+    """Returns names of the corn models on the model path that a picture from behind the robot shows from above."""
     folders = os.environ.get("GAZEBO_MODEL_PATH", "").split(os.pathsep)
     metrics = [p for f in folders if f for p in pathlib.Path(f).glob("corn_variant_*/metrics.json")]
     heights = {p.parent.name: json.loads(p.read_text())["height_m"] for p in metrics}
@@ -46,7 +46,7 @@ def young_corn() -> List[str]:
 def generate(
     graph: RosGraph, folder: pathlib.Path, seed: int, say: Callable[[str], None]
 ) -> Dict[str, Any]:
-    """Generate the field into a folder of models; its ground truth."""
+    """Generates the field into a folder of models; returns its ground truth."""
     folder.mkdir()
     models = young_corn()
     command = ["rosrun", "ardee_world", "generate_field", "--name", MODEL, "--seed", str(seed)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Report at the end of the demo, read from its recording."""
+"""Reports on the demo's drive, from its recording."""
 import math
 import pathlib
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ class Drive:
 
 
 def read_drive(path: pathlib.Path, scan_topic: str) -> Drive:
-    """Read a recorded drive."""
+    """Reads a recorded drive."""
     import rosbag
 
     last, distance_m, scans, stamps = None, 0.0, 0, []

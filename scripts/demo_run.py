@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The demo itself, in a workspace that is built and sourced: field, world, robot, drive, summary."""
+"""Runs the demo in a workspace that is built and sourced: field, world, robot, drive, summary."""
 import argparse
 import os
 import pathlib
@@ -22,7 +22,7 @@ ENDED = []  # type: List[int]  # exit codes that signals asked for
 RVIZ_CONFIG = "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
 SCAN = "/ardee/hokuyo"
 RECORDED = ["/clock", "/tf", "/tf_static", "/odom", "/joint_states", "/cmd_vel", SCAN]
-SETTLE_S = 2.0  # simulated, for the robot to come to rest on its springs
+SETTLE_S = 2.0  # simulated time in which the robot comes to rest on its springs
 
 
 def say(text: str) -> None:
@@ -42,12 +42,10 @@ class Demo:
         self.needed = []  # type: List[Process]
 
     def wait(self, condition: Callable[[], Any], what: str, timeout_s: float = 60.0) -> Any:
-        """The first true value of the condition; an error if a process that it needs ends before."""
+        """Returns the first true value of the condition; raises an error if a process that it needs ends before."""
 
         def checked() -> Any:
-            if (
-                ENDED
-            ):  # Python drops an exception that a signal raises at a bad moment, such as a fork
+            if ENDED:  # Python drops an exception that a signal raises during a fork
                 raise SystemExit(ENDED[0])
             for process in self.needed:
                 if process.exit_code() is not None:
@@ -97,7 +95,7 @@ class Demo:
         return bag
 
     def drive(self, distance_m: float) -> float:
-        """Drive down the row, recorded, with a picture on the way; the real-time factor meanwhile."""
+        """Drives down the row, recorded, with a picture on the way; returns the real-time factor."""
         import rospy
 
         bag = self.record()
@@ -125,7 +123,7 @@ class Demo:
         factor = (rospy.get_time() - sim_s) / (time.monotonic() - wall_s)
         self.needed.remove(bag)
         bag.stop()
-        # rosbag may end before the recorder behind it has given the file its name
+        # rosbag may end before its recorder has renamed the file.
         self.wait((self.work / "drive.bag").exists, "the bag")
         if driver.exit_code() != 0 or photographer is None:
             raise RuntimeError("the driver did not drive")
@@ -174,7 +172,7 @@ def options() -> argparse.Namespace:
 
 
 def stop_here(number: int, _frame: Any) -> None:
-    """Any signal that ends the demo leaves through the clean-up."""
+    """Raises an exception at a signal, so that the demo ends through its clean-up."""
     ENDED.append(128 + number)
     raise SystemExit(128 + number)
 

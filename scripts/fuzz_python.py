@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Feed a Python target by atheris: fuzz_python.py --target=NAME [libFuzzer's options, corpora, or an input to repeat].
+"""Fuzzes a Python target by atheris: fuzz_python.py --target=NAME [libFuzzer's options, corpora, an input to repeat].
 
 A target is a function of src/PACKAGE/fuzz/targets.py; bytes of text are changed line by line and word by word.
 """
@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("src/*/fuzz/targets.py"))
 PACKAGES = ["ardee_common", *(file.parents[1].name for file in FILES)]
 
-# Where numbers, and what is made of them, have their limits; and what means something in YAML.
+# Values at the limits of numbers and of derived sizes, and words with a meaning in YAML.
 VALUES = (
     b"",
     b"0",
@@ -50,7 +50,7 @@ VALUES = (
 
 
 def load(file: pathlib.Path) -> Dict[str, Callable[[bytes], None]]:
-    """The targets of a package, by name."""
+    """Returns the targets of a package, by name."""
     spec = importlib.util.spec_from_file_location(f"{file.parents[1].name}_targets", file)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -58,7 +58,7 @@ def load(file: pathlib.Path) -> Dict[str, Callable[[bytes], None]]:
 
 
 def corpus(package: str) -> List[Tuple[Callable[[bytes], None], pathlib.Path]]:
-    """Each target of a package with each input of its corpus, for the test that replays them."""
+    """Returns each target of a package with each input of its corpus, for the test that replays them."""
     folder = ROOT / "src" / package / "fuzz"
     targets = load(folder / "targets.py")
     inputs = [
@@ -71,7 +71,7 @@ def corpus(package: str) -> List[Tuple[Callable[[bytes], None], pathlib.Path]]:
 
 
 def change_line(data: bytes, draw: random.Random) -> bytes:
-    """The text with a line less or more, or another word in one."""
+    """Returns the text with a line less or more, or another word in one."""
     lines = data.splitlines(keepends=True)
     at = draw.randrange(len(lines))
     choice = draw.randrange(6)
@@ -87,7 +87,7 @@ def change_line(data: bytes, draw: random.Random) -> bytes:
 
 
 def main() -> int:
-    """`--target=NAME` comes first."""
+    """Runs the fuzzer; `--target=NAME` comes first."""
     sys.path[:0] = [str(ROOT / "src" / package / "src") for package in PACKAGES]
     sys.path.append(str(ROOT / "pydeps_fuzz"))
     import atheris

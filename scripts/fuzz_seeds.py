@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the seeds of the fuzzers of scripts/fuzz: inputs out of the repository's files, and dictionaries of names.
+"""Writes the seeds of the fuzzers of scripts/fuzz: inputs from the repository's files, and dictionaries of names.
 
 fuzz_seeds.py FOLDER makes FOLDER/seeds/TARGET/* and FOLDER/cpp.dict, FOLDER/python.dict.
 """
@@ -15,7 +15,7 @@ from typing import Dict, Iterable, Iterator, List, Tuple
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LONGEST_BYTES = 16_000  # a larger input takes the fuzzer longer, without finding more
 
-# The files that seeds refer to become small ones among the test data, which every target finds.
+# Small stand-ins among the test data, which every target finds, for the files that seeds refer to.
 STAND_INS = (
     (re.compile(r"(?:package|model|file)://[^\s\"'<>]*\.stl"), "model://meshes/cube.stl"),
     (re.compile(r"(?:package|model|file)://[^\s\"'<>]*\.dae"), "model://meshes/parts_z_up.dae"),
@@ -25,7 +25,7 @@ STAND_INS = (
 MESH_LETTERS = {".stl": b"s", ".obj": b"o", ".dae": b"d", ".ply": b"p", ".gltf": b"g", ".glb": b"b"}
 IMAGES = (".png", ".jpg", ".tif", ".tga", ".bmp")
 
-# Which files are seeds of which targets, by ending.
+# Endings of files, and the targets whose seeds they are.
 BY_ENDING: Tuple[Tuple[str, Tuple[str, ...]], ...] = (
     (".world", ("world", "simulate")),
     (".sdf", ("model", "simulate")),
@@ -47,7 +47,7 @@ YAML_FOLDERS = {
 
 
 def repository_files() -> Iterator[pathlib.Path]:
-    """Files of the packages and of the system tests; what the fuzzers found before is not among them."""
+    """Returns files of the packages and of the system tests, without earlier findings of the fuzzers."""
     for top in ("src", "tests"):
         for path in sorted((ROOT / top).rglob("*")):
             is_corpus = "fuzz" in path.relative_to(ROOT).parts
@@ -56,7 +56,7 @@ def repository_files() -> Iterator[pathlib.Path]:
 
 
 def small_xml(data: bytes) -> bytes:
-    """XML without comments and white space, with stand-ins for what it refers to; as it is if it is broken."""
+    """Returns XML without comments and white space, with stand-ins for referenced files; unchanged if broken."""
     try:
         root = tree.fromstring(data)
     except tree.ParseError:
@@ -71,7 +71,7 @@ def small_xml(data: bytes) -> bytes:
 
 
 def from_files() -> Iterator[Tuple[str, str, bytes]]:
-    """Target, name and bytes of each seed that is a file of the repository."""
+    """Yields target, name and bytes of each seed that is a file of the repository."""
     for path in repository_files():
         for ending, targets in BY_ENDING:
             if path.name.endswith(ending):
@@ -84,7 +84,7 @@ def from_files() -> Iterator[Tuple[str, str, bytes]]:
 
 
 def expanded(path: pathlib.Path, *arguments: str) -> bytes:
-    """The URDF that a xacro file gives."""
+    """Returns the URDF that a xacro file gives."""
     xacro = shutil.which("xacro") or str(ROOT / "compat/xacro/scripts/xacro")
     environment = {**os.environ, "ROS_PACKAGE_PATH": str(ROOT / "src")}
     command = [xacro, str(path), *arguments]
@@ -92,7 +92,7 @@ def expanded(path: pathlib.Path, *arguments: str) -> bytes:
 
 
 def robots() -> Iterator[Tuple[str, bytes]]:
-    """The shipped robots, and each sensor on a post."""
+    """Yields the shipped robots, and each sensor on a post."""
     for path in sorted(ROOT.glob("src/terrasentia_description/robots/*.xacro")):
         yield path.name, expanded(path)
     sensors = ROOT / "src/ardee_sensors"
@@ -104,7 +104,7 @@ def robots() -> Iterator[Tuple[str, bytes]]:
 
 
 def from_robots() -> Iterator[Tuple[str, str, bytes]]:
-    """The same of robots; what their macros made is cut to the plugins, once for each."""
+    """Yields the same for robots; the output of their macros is cut to the plugins, once for each."""
     for name, data in robots():
         small = small_xml(data)
         yield "urdf", name, small
@@ -115,7 +115,7 @@ def from_robots() -> Iterator[Tuple[str, str, bytes]]:
 
 
 def words_of_cpp() -> Iterable[str]:
-    """Names in the string literals of the readers and devices: elements, attributes, plugins, words."""
+    """Returns names in the string literals of the readers and devices: elements, attributes, plugins, words."""
     for folder in ("readers", "devices", "controllers"):
         for path in sorted((ROOT / "src/ardee_sim_cpp/ardee_sim" / folder).glob("*.cpp")):
             text = path.read_text()
@@ -125,7 +125,7 @@ def words_of_cpp() -> Iterable[str]:
 
 
 def words_of_python() -> Iterable[str]:
-    """Keys of YAML files: fields that are options, and keys that a reader is asked for."""
+    """Returns keys of YAML files: fields that are options, and keys that a reader looks up."""
     for path in sorted(ROOT.glob("src/*/src/**/*.py")):
         text = path.read_text()
         yield from re.findall(r"^    (\w+): .* = (?:option|group)\(", text, re.MULTILINE)
@@ -133,7 +133,7 @@ def words_of_python() -> Iterable[str]:
 
 
 def dictionary(words: Iterable[str]) -> str:
-    """The words as libFuzzer reads them, each once."""
+    """Returns the words in libFuzzer's form, each once."""
     return "".join(f'"{word}"\n' for word in sorted(set(words)))
 
 
@@ -152,7 +152,7 @@ def write(folder: pathlib.Path) -> Dict[str, int]:
 
 
 def main(arguments: List[str]) -> int:
-    """`fuzz_seeds.py FOLDER`."""
+    """Writes the seeds into the folder of the command line."""
     if len(arguments) != 1:
         print(__doc__)
         return 2

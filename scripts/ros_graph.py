@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A private ROS graph: a master on a port that the kernel picks, processes around it, nothing left behind."""
+"""Runs a private ROS graph: a master on a free port, and processes around it, of which none is left behind."""
 import os
 import pathlib
 import queue
@@ -13,23 +13,23 @@ from typing import Any, Callable, Dict, List, Optional, Tuple
 from ardee_common.process import RosMaster, heed_ctrl_c, start_child, stop_child
 
 Probe = Callable[..., Any]
-PROBES = get_context("forkserver")  # its server has imported once what each probe would import anew
+PROBES = get_context("forkserver")  # its server imports once the modules that all probes need
 PROBES.set_forkserver_preload(["numpy", "pytest", "rospy", "tf2_ros"])
 
 
 def _run_probe(env: Dict[str, str], probe: Probe, args: Tuple[Any, ...], answers: Any) -> None:
-    """Body of a probe's process: put (worked, value or message) into `answers`."""
+    """Runs a probe in its own process; puts (worked, value or message) into `answers`."""
     os.environ.update(env)
     try:
         answers.put((True, probe(*args)))
     except BaseException as error:
         answers.put((False, f"{type(error).__name__}: {error}"))
-    if "rospy" in sys.modules:  # a fork ends without what rospy does at exit: telling the master
+    if "rospy" in sys.modules:  # a fork skips rospy's exit handlers, which tell the master
         sys.modules["rospy"].signal_shutdown("the probe ends")
 
 
 def wait_until(condition: Callable[[], Any], what: str, timeout_s: float = 30.0) -> Any:
-    """The first true value of `condition`, asked again and again; fails after `timeout_s` of wall time."""
+    """Returns the first true value of `condition`, tested repeatedly; fails after `timeout_s` of wall time."""
     deadline = time.monotonic() + timeout_s
     while True:
         value = condition()
@@ -69,12 +69,12 @@ class Process:
             os.killpg(self.pid, signal.SIGINT)
 
     def stop(self) -> None:
-        """End it: by Ctrl-C, and ever harder if that does not help."""
+        """Ends the process: by Ctrl-C, then by stronger signals."""
         stop_child(self._popen)
 
 
 class RosGraph:
-    """A ROS master and all that is started around it, in tests and in the demo."""
+    """ROS master and all processes started around it, in tests and in the demo."""
 
     def __init__(self, folder: pathlib.Path) -> None:
         self.folder, self.processes = folder, []  # type: pathlib.Path, List[Process]
@@ -93,16 +93,16 @@ class RosGraph:
         self.env["ROS_MASTER_URI"] = self.uri
 
     def start_master(self) -> None:
-        """Start the master: on a port that the kernel picks, a later one on the port of the first."""
+        """Starts the master on a free port; a later one on the port of the first."""
         port = self.uri.rstrip("/").rpartition(":")[2] or 0
-        # alive() finds what speaks to a master by this variable; the first master has none of this graph either
+        # alive() finds processes of this graph by this variable; the first master must not have that of another graph.
         env = {name: value for name, value in self.env.items() if name != "ROS_MASTER_URI"}
-        # The master complains of each node that goes without a word, as probes and killed nodes do: into a file.
+        # The master reports each node that goes without a word, such as probes and killed nodes: into a file.
         self._master = RosMaster(env, port, self.folder / "master.log")
         self.uri = self._master.uri
 
     def spawn(self, *command: str, **env: str) -> Process:
-        """Start a command, with more environment if wanted."""
+        """Starts a command, with additions to its environment if given."""
         words = [str(word) for word in command]
         log = self.folder / f"{len(self.processes):02d}_{os.path.basename(words[0])}.log"
         process = Process(words, dict(self.env, **env), log)
@@ -122,7 +122,7 @@ class RosGraph:
         return process.output()
 
     def call(self, probe: Probe, *args: Any, timeout_s: float = 90.0) -> Any:
-        """probe(*args) in a process of its own: rospy can be initialised only once in each."""
+        """Calls probe(*args) in a process of its own: rospy can be initialised only once in each."""
         answers = PROBES.Queue()
         process = PROBES.Process(target=_run_probe, args=(self.env, probe, args, answers))
         process.start()
@@ -138,11 +138,11 @@ class RosGraph:
         return value
 
     def logs(self) -> str:
-        """The ends of all outputs, for the message of a failed test."""
+        """Returns the ends of all outputs, for the message of a failed test."""
         return "\n".join(f"--- {p.log.name}\n{p.output()[-3000:]}" for p in self.processes)
 
     def alive(self) -> Dict[int, str]:
-        """Every process but the master that speaks to this graph, by the environment it was started with."""
+        """Returns every process of this graph but the master, by the environment of its start."""
         marker, found = f"ROS_MASTER_URI={self.uri}".encode(), {}
         for folder in pathlib.Path("/proc").glob("[0-9]*"):
             try:
@@ -150,14 +150,14 @@ class RosGraph:
                     continue
                 words = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode().strip()
             except OSError:
-                continue  # gone meanwhile, or not ours to read
-            if words:  # empty: ended, waiting to be reaped
+                continue  # it has ended, or is not ours to read
+            if words:  # empty: ended, but not reaped
                 found[int(folder.name)] = words
         found.pop(os.getpid(), None)
         return found
 
     def close(self) -> Dict[int, str]:
-        """End everything; returns what was still there after all was asked to stop."""
+        """Ends all processes; returns those that were still there after all were told to stop."""
         for child in reversed(self.processes):
             child.stop()
         deadline = time.monotonic() + 5.0

@@ -16,9 +16,9 @@ from ros_graph import Process, RosGraph, wait_until
 TESTS = pathlib.Path(__file__).resolve().parent
 PACKAGE = TESTS.parent / "src" / "ardee_bridge"
 PLANE = str(TESTS / "data" / "plane.world")
-# What a target computer has: neither ROS's paths nor its variables.
+# A target computer has neither ROS's paths nor its variables.
 BARE_ENV = {"PATH": "/usr/bin:/bin"}
-# Sensors on topics of the tests' own: what the robot of the day carries does not matter.
+# The sensors are on topics of the tests' own, independent of the robot's equipment.
 SOURCES = (
     "[{name: lidar, kind: lidar, topic: /ardee/hokuyo}, {name: imu, kind: imu, topic: /fed/imu}, "
     "{name: gps, kind: gps, topic: /fed/gps, velocity_topic: /fed/gps_velocity}, "
@@ -34,14 +34,14 @@ SENSORS |= {"lidar 0", "point_cloud 0", "time 0"}
 
 
 def free_port() -> int:
-    """A UDP port of loopback that nobody has just now."""
+    """Returns a UDP port of loopback that is free at the moment."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.bind(("127.0.0.1", 0))
         return opened.getsockname()[1]
 
 
 def resident_mb(pid: int) -> float:
-    """Memory that a process holds now [MB]."""
+    """Returns the memory that a process holds now [MB]."""
     status = pathlib.Path(f"/proc/{pid}/status").read_text()
     return int(re.search(r"VmRSS:\s+(\d+) kB", status).group(1)) / 1e3
 
@@ -57,7 +57,7 @@ class State(NamedTuple):
 
 
 def start_in(graph: RosGraph, body: Callable[[Any], None]) -> Tuple[Any, Any]:
-    """body(pipe) in a process of its own that speaks to this graph: the process, and our end of the pipe."""
+    """Starts body(pipe) in a process of its own in this graph; returns the process, and our end of the pipe."""
     context = get_context("spawn")
     ours, theirs = context.Pipe()
     process = context.Process(target=_enter, args=(graph.env, body, theirs), daemon=True)
@@ -71,7 +71,7 @@ def _enter(env: Dict[str, str], body: Callable[[Any], None], pipe: Any) -> None:
 
 
 def watch_until_killed(pipe: Any) -> None:
-    """Body of a process that answers a question with what came after it: "odom", or the name of a node."""
+    """Answers, as the body of a process, questions with newer messages: "odom", or the name of a node."""
     import rospy
     from diagnostic_msgs.msg import DiagnosticArray
     from nav_msgs.msg import Odometry
@@ -96,14 +96,14 @@ def watch_until_killed(pipe: Any) -> None:
     rospy.Subscriber("/diagnostics", DiagnosticArray, keep_diagnostics)
     while True:
         name = pipe.recv()
-        # what is on its way now may be older than the question: the one after that is not
+        # The next message may be older than the question, but not the one after it.
         enough = latest.get(name, (0, None))[0] + 2
         wait_until(lambda: latest.get(name, (0, None))[0] >= enough, name)
         pipe.send(latest[name][1])
 
 
 class Bench:
-    """The bridge's nodes in a graph; simulator and clients come and go."""
+    """Bridge's nodes in a graph; simulator and clients come and go."""
 
     def __init__(self, graph: RosGraph) -> None:
         self.graph = graph
@@ -141,12 +141,12 @@ class Bench:
         self.simulator.wait()
 
     def c_client(self, *arguments: str) -> subprocess.Popen:
-        """The client in C, driving if told so."""
+        """Starts the client in C, driving if told so."""
         command = [str(self._c_client), "-p", "0", "-a", self.server_port, "-c", self.controls_port]
         return start_client([*command, *arguments])
 
     def python_client(self, *arguments: str) -> subprocess.Popen:
-        """The client in Python."""
+        """Starts the client in Python."""
         command = [
             "/usr/bin/python3",
             "-I",
@@ -158,7 +158,7 @@ class Bench:
         return start_client([*command, *ports, *arguments])
 
     def control(self, code: str) -> None:
-        """Send a control code; it has to be answered."""
+        """Sends a control code; fails unless it is answered."""
         assert "ack" in finish(self.python_client("--control", code, "--seconds", "0.5"))
 
     def _ask(self, name: str) -> Any:
@@ -171,20 +171,20 @@ class Bench:
         return self._ask("odom")
 
     def standing_within(self, wall_time_s: float) -> None:
-        """Fails unless the robot comes to a stand in so long."""
+        """Fails unless the robot stops within this time."""
         wait_until(lambda: abs(self.state().speed_m_s) < 0.02, "the robot stands", wall_time_s)
 
     def counters(self, node: str) -> Dict[str, int]:
-        """The latest counters of a node, from its diagnostics."""
+        """Returns the latest counters of a node, from its diagnostics."""
         return self._ask(f"/{node}")
 
     def close(self) -> None:
-        """End the process that watches."""
+        """Ends the process that watches."""
         self._watcher.terminate()
         self._watcher.join()
 
     def interrupt_once_it_gets_scans(self, client: subprocess.Popen) -> None:
-        """A client that has asked already, as one that drives has; fails unless it got some."""
+        """Ends a client that has asked already; fails unless it got some scans."""
         before = self.counters("sensor_server_node").get("sent lidar", 0)
         wait_until(
             lambda: self.counters("sensor_server_node").get("sent lidar", 0) > before + 5,
@@ -199,7 +199,7 @@ class Bench:
 
 
 def compile_client(folder: pathlib.Path) -> pathlib.Path:
-    """The client in C, compiled into a folder."""
+    """Compiles the client in C into a folder."""
     program = folder / "ardee_client"
     source, include = PACKAGE / "examples" / "ardee_client.c", PACKAGE / "include"
     command = ["gcc", "-std=c11", "-O2", "-Wall", "-Wextra", "-Werror", f"-I{include}"]
@@ -208,7 +208,7 @@ def compile_client(folder: pathlib.Path) -> pathlib.Path:
 
 
 def start_client(command: List[Any]) -> subprocess.Popen:
-    """Start a client as on a computer without ROS."""
+    """Starts a client as on a computer without ROS."""
     words = [str(word) for word in command]
     return subprocess.Popen(
         words, env=BARE_ENV, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -216,13 +216,13 @@ def start_client(command: List[Any]) -> subprocess.Popen:
 
 
 def interrupt(client: subprocess.Popen) -> Dict[str, Tuple[int, str]]:
-    """End a client by Ctrl-C: what it reports then."""
+    """Ends a client by Ctrl-C; returns its report."""
     client.send_signal(signal.SIGINT)
     return finish(client)
 
 
 def finish(client: subprocess.Popen, timeout_s: float = 60.0) -> Dict[str, Tuple[int, str]]:
-    """Sensor and component -> how many messages, what the last one said; once the client has ended."""
+    """Waits for the client's end; returns sensor and component -> number of messages, text of the last one."""
     output, _ = client.communicate(timeout=timeout_s)
     assert client.returncode == 0, output
     rows = re.findall(r"^(\w+) (-?\d+) count (\d+) (.*)$", output, re.MULTILINE)
@@ -235,9 +235,9 @@ def finish(client: subprocess.Popen, timeout_s: float = 60.0) -> Dict[str, Tuple
 def finish_once_heard(
     start: Callable[[str], subprocess.Popen], wanted: Set[str]
 ) -> Dict[str, Tuple[int, str]]:
-    """What a client reports, started with a time to run [s], and with a longer one until it got all that is wanted.
+    """Returns the report of a client, started with a time to run [s], and with longer ones until it got all it wants.
 
-    How long a server takes to find a camera's topics depends on what else the machine does.
+    How long a server takes to find a camera's topics depends on the machine's load.
     """
     for seconds in (5, 20, 80):
         found = finish(start(str(seconds)), seconds + 60.0)
@@ -247,7 +247,7 @@ def finish_once_heard(
 
 
 def feed_until_killed(pipe: Any) -> None:
-    """Body of a process that publishes what the robot of the tests does not carry, at the devices' rates."""
+    """Publishes, as a process's body, sensors that the robot of the tests does not carry, at the devices' rates."""
     import rospy
     from bench import latency_messages
 

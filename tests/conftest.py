@@ -20,11 +20,11 @@ def _graph(folder: pathlib.Path) -> Iterator[RosGraph]:
 
 @pytest.fixture
 def graph(tmp_path: pathlib.Path) -> Iterator[RosGraph]:
-    """A ROS graph of a test's own."""
+    """Yields a ROS graph of a test's own."""
     yield from _graph(tmp_path)
 
 
 @pytest.fixture(scope="module")
 def shared_graph(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RosGraph]:
-    """One ROS graph for all tests of a file."""
+    """Yields one ROS graph for all tests of a file."""
     yield from _graph(tmp_path_factory.mktemp("graph"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Summaries of a sensor's messages in few numbers: images and clouds are too large to hand from process to process."""
+"""Summarizes a sensor's messages in few numbers: images and clouds are too large to pass between processes."""
 import math
 from typing import Any, Callable, Dict, List
 
@@ -13,7 +13,7 @@ FIELD_TYPES = {2: "u1", 4: "<u2", 6: "<u4", 7: "<f4", 8: "<f8"}  # sensor_msgs/P
 
 
 def image(message: Any) -> Dict[str, Any]:
-    """Size, encoding, and the mean (depth: the median in m) of the middle ninth."""
+    """Returns size, encoding, and the mean (depth: the median in m) of the middle ninth."""
     kind, scale = DEPTH_TYPES.get(message.encoding, (np.uint8, 1.0))
     pixels = np.frombuffer(message.data, kind).reshape(
         message.height, message.step // np.dtype(kind).itemsize
@@ -37,7 +37,7 @@ def camera_info(message: Any) -> Dict[str, Any]:
 
 
 def scan(message: Any) -> Dict[str, Any]:
-    """The scan's numbers and the range straight ahead."""
+    """Returns the scan's numbers and the range straight ahead."""
     fields = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
     ahead = round((0.0 - message.angle_min) / message.angle_increment)
     return {
@@ -49,7 +49,7 @@ def scan(message: Any) -> Dict[str, Any]:
 
 
 def cloud(message: Any) -> Dict[str, Any]:
-    """Fields, size, and the elevations, azimuths and ranges of its finite points about x (depth: about z)."""
+    """Returns fields, size, and the elevations, azimuths and ranges of its finite points about x (depth: about z)."""
     fields = {f.name: (FIELD_TYPES[f.datatype], f.offset) for f in message.fields}
     names = list(fields)
     record = np.dtype(
@@ -87,7 +87,7 @@ def _ends(values: np.ndarray) -> List[float]:
 
 
 def plain(message: Any) -> Dict[str, Any]:
-    """All fields of a small message."""
+    """Returns all fields of a small message."""
     return {slot: getattr(message, slot) for slot in message.__slots__}
 
 
@@ -100,8 +100,9 @@ SUMMARIES: Dict[str, Callable[[Any], Dict[str, Any]]] = {
 
 
 def step_and_collect(topics: Dict[str, str], steps: int, timeout_s: float = 60.0) -> Dict[str, Any]:
-    """Listen to topics {name: type} of a paused simulator, step it, and sum up what came:
-    {topic: {"stamps": [...], "frame": ..., "last": summary of the last message}}."""
+    """Subscribes to topics {name: type} of a paused simulator, steps it, and returns a summary:
+    {topic: {"stamps": [...], "frame": ..., "last": summary of the last message}}.
+    """
     _start()
     received: Dict[str, List[Any]] = {topic: [] for topic in topics}
     subscribers = [

@@ -12,14 +12,14 @@ Call = Tuple[str, str, Dict[str, Any]]
 
 
 def simulate(graph: RosGraph, world: str = EMPTY) -> Process:
-    """Start the simulator with a world of this text."""
+    """Starts the simulator with a world of this text."""
     file = graph.folder / "test.world"
     file.write_text(world)
     return graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file))
 
 
 def pose(x: float = 0, y: float = 0, z: float = 0, yaw: float = 0) -> Pose:
-    """A level pose [m, rad]."""
+    """Returns a level pose [m, rad]."""
     turn = Quaternion(0, 0, math.sin(yaw / 2), math.cos(yaw / 2))
     return Pose(Point(x, y, z), turn)
 

@@ -10,7 +10,7 @@ from ros_graph import wait_until
 
 
 def _type(name: str) -> Any:
-    """Class of a message `package/Type`, or of a service `package/Type` where there is no such message."""
+    """Returns the class of a message `package/Type`, or of a service `package/Type` if there is no such message."""
     package, kind = name.split("/")
     for part in ("msg", "srv"):
         try:
@@ -25,7 +25,7 @@ def _start() -> None:
 
 
 def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[Any]:
-    """The next `count` messages of a topic."""
+    """Returns the next `count` messages of a topic."""
     _start()
     messages = []  # type: List[Any]
     rospy.Subscriber(topic, _type(kind), messages.append, queue_size=1000)
@@ -34,7 +34,7 @@ def collect(topic: str, kind: str, count: int, timeout_s: float = 60.0) -> List[
 
 
 def performance_of(topic: str, kind: str, count: int = 2) -> Any:
-    """The simulator's performance metrics, the `count`-th that tells of a sensor, while somebody listens to `topic`."""
+    """Returns the `count`-th performance metrics with data of a sensor, while `topic` has a subscriber."""
     from gazebo_msgs.msg import PerformanceMetrics
 
     _start()
@@ -47,7 +47,7 @@ def performance_of(topic: str, kind: str, count: int = 2) -> Any:
 
 
 def joint_positions(topic: str, count: int = 20) -> Dict[str, float]:
-    """Latest angles [rad] by joint, of several publishers' messages on one topic."""
+    """Returns the latest angles [rad] by joint, from several publishers' messages on one topic."""
     found = {}  # type: Dict[str, float]
     for message in collect(topic, "sensor_msgs/JointState", count):
         found.update(zip(message.name, message.position))
@@ -55,14 +55,14 @@ def joint_positions(topic: str, count: int = 20) -> Dict[str, float]:
 
 
 def call_service(name: str, kind: str, fields: Dict[str, Any], timeout_s: float = 30.0) -> Any:
-    """The answer of a service."""
+    """Returns the answer of a service."""
     return call_services([(name, kind, fields)], timeout_s)[0]
 
 
 def call_services(
     calls: List[Tuple[str, str, Dict[str, Any]]], timeout_s: float = 30.0
 ) -> List[Any]:
-    """The answers of several services, called one after the other."""
+    """Returns the answers of several services, called one after the other."""
     _start()
     answers = []
     for name, kind, fields in calls:
@@ -72,13 +72,13 @@ def call_services(
 
 
 def topics(namespace: str = "/") -> Dict[str, str]:
-    """Names and types of the published topics below a namespace."""
+    """Returns names and types of the published topics below a namespace."""
     _start()
     return dict(rospy.get_published_topics(namespace))
 
 
 def services_of(node: str) -> Dict[str, str]:
-    """Names and types of the services of a node."""
+    """Returns names and types of the services of a node."""
     import rosservice
 
     _start()
@@ -87,7 +87,7 @@ def services_of(node: str) -> Dict[str, str]:
 
 
 def topics_of(node: str) -> Tuple[List[str], List[str]]:
-    """Topics that a node publishes, and those that it is subscribed to."""
+    """Returns the topics that a node publishes, and those that it is subscribed to."""
     publishers, subscribers, _ = rosgraph.Master("probe").getSystemState()
     return (
         [name for name, nodes in publishers if node in nodes],
@@ -96,7 +96,7 @@ def topics_of(node: str) -> Tuple[List[str], List[str]]:
 
 
 def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60.0) -> List[str]:
-    """All published topics, once those of the first list are there and those of the second are not."""
+    """Returns all published topics, once those of the first list are there and those of the second are not."""
     _start()
 
     def names() -> Optional[List[str]]:
@@ -109,7 +109,7 @@ def wait_for_topics(present: List[str], absent: List[str], timeout_s: float = 60
 def drive(
     cmd_topic: str, odom_topic: str, forward_m_s: float, turn_rad_s: float, sim_time_s: float
 ) -> Tuple[Any, Any]:
-    """First and last odometry of a drive at constant command for a while of simulated time."""
+    """Returns first and last odometry of a drive at constant command for a while of simulated time."""
     from geometry_msgs.msg import Twist
     from nav_msgs.msg import Odometry
 
@@ -134,7 +134,7 @@ def drive(
 
 
 def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
-    """The latest transform from `child` to `parent`, once tf knows one."""
+    """Returns the latest transform from `child` to `parent`, once tf has one."""
     import tf2_ros
 
     _start()
@@ -148,7 +148,7 @@ def transform(parent: str, child: str, timeout_s: float = 30.0) -> Any:
 
 
 def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
-    """The simulated time [s], once it has reached a value; a node started before it is announced keeps wall time."""
+    """Returns the simulated time [s] once it has reached a value, which a node started too early never sees."""
     master = rosgraph.Master("probe")
     wait_until(lambda: master.hasParam("/use_sim_time"), "use_sim_time", timeout_s)
     _start()
@@ -160,7 +160,7 @@ def clock_at_least(sim_time_s: float, timeout_s: float = 60.0) -> float:
 
 
 def clock_stands_still(wall_time_s: float = 0.5) -> bool:
-    """Returns whether no new /clock time appear for a while of wall time, once messages on their way have arrived."""
+    """Returns whether no new /clock time appears for a while of wall time, once messages on their way have arrived."""
     _start()
     from rosgraph_msgs.msg import Clock
 
@@ -171,14 +171,14 @@ def clock_stands_still(wall_time_s: float = 0.5) -> bool:
 
 
 def parameter(name: str, timeout_s: float = 30.0) -> Any:
-    """The value of a parameter, once it is set."""
+    """Returns the value of a parameter, once it is set."""
     master = rosgraph.Master("probe")
     wait_until(lambda: master.hasParam(name), f"parameter {name}", timeout_s)
     return master.getParam(name)
 
 
 def parents_in_tf(child: str, wall_time_s: float) -> Set[str]:
-    """The parents that a frame has in what is published in a while on /tf and /tf_static."""
+    """Returns the parents of a frame in the transforms of a while on /tf and /tf_static."""
     from tf2_msgs.msg import TFMessage
 
     _start()
@@ -191,7 +191,7 @@ def parents_in_tf(child: str, wall_time_s: float) -> Set[str]:
 
 
 def command_joints(commands: Dict[str, float], sim_time_s: float) -> None:
-    """Tells joint controllers numbers by their topics, once they listen, and waits for a while of simulated time."""
+    """Sends numbers to joint controllers by their topics, once they listen, and waits for a while of simulated time."""
     from std_msgs.msg import Float64
 
     _start()

@@ -47,7 +47,7 @@ class Camera:
         return abs(state.pan - pan_deg) < CLOSE_DEG and abs(state.tilt - tilt_deg) < CLOSE_DEG
 
     def joints_are_at(self, pan_deg: float, tilt_deg: float) -> bool:
-        """Do the joints, which come by another topic than the state, say so?"""
+        """Returns whether the joints, on another topic than the state, agree with it."""
         pan, tilt = self.joints_deg[PAN], self.joints_deg[TILT]
         return abs(pan - pan_deg) < CLOSE_DEG and abs(tilt - tilt_deg) < CLOSE_DEG
 
@@ -58,7 +58,7 @@ class Camera:
 
 
 def follows_commands() -> None:
-    """Probe: commands turn and zoom it, those that are not finite do nothing, others end at the limits."""
+    """Checks, as a probe, that commands turn and zoom it up to its limits, and that non-finite ones do nothing."""
     camera = Camera()
     first = camera.states[-1]
     assert camera.is_at(0, 0) and first.autofocus, f"at rest: {first}"
@@ -89,7 +89,7 @@ def follows_commands() -> None:
 
 def test_the_camera_follows_axis_commands(graph: RosGraph) -> None:
     graph.launch("ardee_sensors", "show_sensor.launch", "sensor:=axis", "rviz:=false")
-    graph.call(probes.wait_for_topics, ["/joint_states"], [])  # two launch files at once quarrel
+    graph.call(probes.wait_for_topics, ["/joint_states"], [])  # two launch files at once collide
     driver = graph.launch("axis_camera", "axis.launch", "camera_name:=sensor")
     graph.call(follows_commands, timeout_s=200.0)
     warnings = [line for line in driver.output().splitlines() if "cmd: found" in line]

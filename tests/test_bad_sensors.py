@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robots whose sensors cannot be: each is spawned without that sensor, and the simulator says why once."""
+"""Tests robots with impossible sensors: each is spawned without that sensor, and the simulator says why once."""
 import pathlib
 import re
 from typing import Iterator, List, NamedTuple, Tuple
@@ -27,7 +27,7 @@ ROBOT = """<robot name="{name}" xmlns:xacro="http://ros.org/wiki/xacro">
 
 
 class Bad(NamedTuple):
-    """A macro's name, its bad arguments, the topic that must not be there, and what the one message says."""
+    """A macro's name, its bad arguments, the topic that must not appear, and the text of the one message."""
 
     macro: str
     arguments: str
@@ -104,11 +104,11 @@ BAD = {
 }
 
 
-MASSLESS = "massless"  # a robot with nothing wrong: a sensor may weigh nothing
+MASSLESS = "massless"  # a valid robot: a sensor may have no mass
 
 
 def robot(name: str, folder: pathlib.Path) -> str:
-    """Its xacro file: a good sonar, and the bad sensor."""
+    """Returns a robot's xacro file: a good sonar, and the bad sensor."""
     bad = BAD.get(name) or Bad("kinect", 'mass_kg="0"', "", ())
     arguments = bad.arguments.format(folder=folder)
     if bad.macro == "encoder":
@@ -125,7 +125,7 @@ def robot(name: str, folder: pathlib.Path) -> str:
 def complaints(
     shared_graph: RosGraph, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[List[str]]:
-    """Warnings and errors of a paused simulator that was given all of the robots."""
+    """Returns warnings and errors of a paused simulator in which all of the robots are spawned."""
     folder = tmp_path_factory.mktemp("bad_sensors")
     (folder / "empty.world").write_text(WORLD)
     for name, text in TEXTS.items():

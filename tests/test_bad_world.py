@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A simulator that is given no good world, or no good parameter, says so once and ends."""
+"""Tests that a simulator without a good world, or without good parameters, says so once and ends."""
 import pathlib
 
 import probes
@@ -49,7 +49,7 @@ def test_one_message_and_an_exit_code(graph: RosGraph, tmp_path: pathlib.Path, w
 def test_a_world_that_cannot_be_read_does_not_end_the_simulator_that_runs(
     graph: RosGraph, tmp_path: pathlib.Path
 ) -> None:
-    """Both are nodes of one name, of which a master ends the first."""
+    """Both are nodes of one name, and a master would end the first."""
     file = tmp_path / "bad.world"
     file.write_text("a field of corn")
     running = graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(DATA / "plane.world"))

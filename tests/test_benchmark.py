@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""scripts/benchmark on the smallest field: every figure is there. How large they are is not for a test to say."""
+"""Runs scripts/benchmark on the smallest field: every figure is there. Their values are not tested."""
 import json
 import math
 import pathlib
@@ -15,7 +15,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 
 
 def run(*arguments: str) -> subprocess.CompletedProcess:
-    """The benchmark, in the workspace that the tests run in."""
+    """Runs the benchmark, in the workspace that the tests run in."""
     command = ["/usr/bin/python3", str(SCRIPTS / "benchmark_run.py"), *arguments]
     return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -42,7 +42,7 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     # The robot drove, and its scans arrived.
     assert 0.4 < figures["node"]["speed_m_s"] < 0.6
     assert 35.0 < figures["node"]["scans_per_simulated_s"] < 45.0
-    # Rays that race each other have to meet the same things.
+    # Rays of engine and Embree have equal hits.
     assert figures["lidar"]["flat_agreement"] > 0.99
     assert figures["engine"]["placements"] == 201
     bridge = json.loads(path.read_text())["bridge"]
@@ -51,8 +51,8 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
         assert name in done.stdout
         assert spread["sent"] > 0 and f"{spread['lost']} of {spread['sent']} lost" in done.stdout
     assert "beside cameras, point_cloud message to datagram" in bridge
-    # Six measurements, each with its floor, or three without the right to capture packets; the controls, which are
-    # the same in all, once.
+    # Six measurements, each with its floor, or three without the right to capture packets; the controls, which are the
+    # same in all, once.
     assert sum("bare forwarder" in name for name in bridge) == (6 if may_capture() else 3)
     assert sum("cmd_vel" in name for name in bridge) == 1
 
@@ -83,7 +83,7 @@ def test_medians_and_missed_budgets() -> None:
 
 
 def spread_of(p99_ms: float, lost: int = 0) -> Dict[str, float]:
-    """A bridge's row of one run."""
+    """Returns the spread of a bridge's row of one run."""
     return dict(p50_ms=0.5, p99_ms=p99_ms, max_ms=p99_ms + 0.5, sent=100, lost=lost)
 
 

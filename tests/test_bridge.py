@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The UDP bridge between the simulator and clients without ROS: sensors, driving, control codes, and coming back."""
+"""Tests the UDP bridge between the simulator and clients without ROS: sensors, driving, control codes, and restarts."""
 import subprocess
 from typing import Iterator
 
@@ -15,7 +15,7 @@ FRAMES = {"image 2", "image 3", "point_cloud 0"}
 
 @pytest.fixture(scope="module")
 def bench(shared_graph: RosGraph) -> Iterator[Bench]:
-    """Simulator, robot, both nodes."""
+    """Yields simulator, robot, both nodes."""
     made = Bench(shared_graph)
     yield made
     made.close()
@@ -23,7 +23,7 @@ def bench(shared_graph: RosGraph) -> Iterator[Bench]:
 
 @pytest.fixture(scope="module")
 def fed(bench: Bench) -> Iterator[Bench]:
-    """The bench, with the sensors that the robot does not carry."""
+    """Yields the bench, with publishers of the sensors that the robot does not carry."""
     feeder, ours = start_in(bench.graph, feed_until_killed)
     assert ours.recv() == "feeding"
     yield bench
@@ -71,7 +71,7 @@ def test_the_c_client_drives_the_robot(bench: Bench) -> None:
 def test_the_python_client_turns_the_robot(bench: Bench) -> None:
     before = bench.state().turn
     turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "120")
-    # skidding wheels turn it less than asked for
+    # Skidding wheels turn it less than commanded.
     least = 0.3 * 0.3 * codec.MAX_YAW_RATE_RAD_S
     wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns", 60.0)
     wait_until(lambda: abs(bench.state().turn - before) > 0.1, "it has turned", 60.0)
@@ -114,7 +114,7 @@ def test_stop_holds_the_robot_until_start(bench: Bench) -> None:
 
 
 def drives(bench: Bench, client: subprocess.Popen) -> None:
-    """The robot obeys this client, and the client gets scans."""
+    """Checks that the robot obeys this client, and that the client gets scans."""
     wait_until(lambda: abs(bench.state().speed_m_s) > 0.2, "it drives", 60.0)
     bench.interrupt_once_it_gets_scans(client)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The bridge's benchmark, on messages of its own and on a simulated robot."""
+"""Tests the bridge's benchmark, on messages of its own and on a simulated robot."""
 import json
 import pathlib
 from typing import Any, Dict

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ends of the bridge's nodes: with the robot at a stand, and when another ROS master has taken the place of theirs."""
+"""Tests the ends of the bridge's nodes: the robot stops, and nodes end when another ROS master replaces theirs."""
 import socket
 import time
 from typing import Any, List
@@ -13,7 +13,7 @@ NODES = ("sensor_server_node", "controls_client_node")
 
 
 def keep_speeds(pipe: Any) -> None:
-    """Body of a process: says when a first command has come; asked for it, the last commanded speed [m/s]."""
+    """Reports, as the body of a process, a first command; when asked, the last commanded speed [m/s]."""
     import rospy
     from geometry_msgs.msg import Twist
 
@@ -27,7 +27,7 @@ def keep_speeds(pipe: Any) -> None:
 
 
 def drive_until(answered: Any, port: int) -> None:
-    """Send commands to a controls client until the robot has got one."""
+    """Sends commands to a controls client until the robot has got one."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         while not answered.poll(0.05):
             for datagram in codec.encode_motion(0.5, 0.0):
@@ -81,5 +81,5 @@ def test_without_their_master_they_go_on_and_with_another_one_they_end(graph: Ro
 
 
 def complaints(node: Process) -> List[str]:
-    """Its lines but those of the log that it writes for people."""
+    """Returns the node's lines without those of its log."""
     return [line for line in node.output().splitlines() if line and "[INFO]" not in line]

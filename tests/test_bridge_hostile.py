@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The UDP bridge under hostile traffic: it stays up, its memory flat, its counts right; the robot obeys no garbage."""
+"""Tests the UDP bridge under hostile traffic: it stays up, memory and counts are right; the robot obeys no garbage."""
 import random
 import socket
 import time
@@ -18,7 +18,7 @@ FLOOD_S = 4.0
 
 @pytest.fixture(scope="module")
 def bench(shared_graph: RosGraph) -> Iterator[Bench]:
-    """Simulator, robot, both nodes."""
+    """Yields simulator, robot, both nodes."""
     made = Bench(shared_graph)
     yield made
     made.close()
@@ -30,7 +30,7 @@ def random_bytes(rng: random.Random, count: int) -> bytes:
 
 
 def garbage(rng: random.Random) -> bytes:
-    """A datagram that is no part of a well-formed command."""
+    """Returns a datagram that is not part of a well-formed command."""
     motion_header, motion = codec.encode_motion(1.0, 1.0)
     choices = (
         lambda: random_bytes(rng, rng.randrange(0, 200)),
@@ -48,7 +48,7 @@ def garbage(rng: random.Random) -> bytes:
 def flood(
     make: Callable[[random.Random], bytes], ports: List[int], sender: str = "127.0.0.1"
 ) -> Tuple[int, float]:
-    """Send FLOOD_HZ datagrams a second to each port for FLOOD_S: how many to each, and how many a second it were."""
+    """Sends FLOOD_HZ datagrams a second to each port for FLOOD_S; returns the number to each, and the real rate."""
     rng, count, start = random.Random(4), 0, time.monotonic()
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.bind((sender, 0))
@@ -63,14 +63,14 @@ def flood(
 
 
 def dropped(bench: Bench, node: str) -> int:
-    """Sum of all that a node has dropped so far."""
+    """Returns the number of all drops of a node so far."""
     return sum(n for name, n in bench.counters(node).items() if name.startswith("dropped: "))
 
 
 def settled(bench: Bench, node: str) -> int:
-    """The same, once the node has worked off what it was sent, and one datagram more.
+    """Returns the same, once the node has processed its datagrams, and one datagram more.
 
-    The system says what it dropped for a full buffer with the datagram that it delivers next.
+    The system reports its drops for a full buffer with the next datagram that it delivers.
     """
     port = bench.server_port if node == "sensor_server_node" else bench.controls_port
     quiet(bench, node)
@@ -99,7 +99,7 @@ def test_fuzzed_truncated_oversized_unknown(bench: Bench) -> None:
     drives_by_command(bench)
     nodes = {"sensor_server_node": bench.server, "controls_client_node": bench.controls}
     ports = [bench.server_port, bench.controls_port]
-    flood(garbage, ports)  # caches and buffers get the size that they will keep
+    flood(garbage, ports)  # caches and buffers reach their final size
     before = {name: settled(bench, name) for name in nodes}
     memory_mb = {name: resident_mb(node.pid) for name, node in nodes.items()}
     place = bench.state()
@@ -109,7 +109,7 @@ def test_fuzzed_truncated_oversized_unknown(bench: Bench) -> None:
     print(f"flood of {rate_hz:.0f} datagrams a second to each node")
     for name, node in nodes.items():
         fresh = settled(bench, name) - before[name] - 1
-        # a header that waits for its data, before or after, is not yet one that was dropped
+        # A header that waits for its data, before or after, does not count as dropped yet.
         assert abs(sent - fresh) <= 1, f"{name}: {fresh} of {sent} counted"
         assert resident_mb(node.pid) < memory_mb[name] + 5.0
     assert bench.counters("controls_client_node").get("motion commands obeyed", 0) == obeyed
@@ -135,7 +135,7 @@ def test_wrong_peers_do_not_move_it_nor_hinder_the_right_one(bench: Bench) -> No
 
 
 def wait_for_answer(port: int) -> None:
-    """Until a controls client has read all that was sent to it before; from a port, and with pairs, of its own."""
+    """Waits until a controls client has read all earlier datagrams; uses a port of its own and, with pairs, pairs."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         opened.settimeout(30.0)
         for datagram in codec.encode_control(codec.ControlCode.START):
@@ -154,7 +154,7 @@ def test_shuffled_and_doubled_commands_are_obeyed_only_as_pairs(bench: Bench) ->
             if number % 100 == 99:
                 wait_for_answer(bench.controls_port)
     settled(bench, "controls_client_node")
-    # a pair is a header right before data: count them as the rule has it
+    # A pair is a header right before data: count them by this rule.
     is_header = [len(datagram) == codec.Header.size for datagram in datagrams]
     pairs = sum(first and not second for first, second in zip(is_header, is_header[1:]))
     counters = bench.counters("controls_client_node")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The bridge's nodes by all their names, alone and from the launch file, and what they say to bad settings."""
+"""Tests the bridge's nodes by all names, alone and from the launch file, and their messages about bad settings."""
 import pathlib
 import re
 import signal

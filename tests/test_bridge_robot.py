@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Two robots with their real sensors behind the bridge, as launch_default_tsv1.launch starts it (Listing A.21).
+"""Tests two robots with their real sensors behind the bridge, as launch_default_tsv1.launch starts it (Listing A.21).
 
-The first is a TerraSentia v3, the second a v1 in a namespace and with UDP ports of its own. What clients without ROS
-are told is compared with the truth of the simulator.
+The first is a TerraSentia v3, the second a v1 in a namespace and with UDP ports of its own. The data of clients without
+ROS are compared with the truth of the simulator.
 """
 import io
 import math
@@ -34,12 +34,12 @@ from ardee_bridge.wire.pairing import Pairer
 from ardee_bridge.wire.udp import open_socket
 
 G_M_S2, WALL_X_M, LIDAR_AHEAD_M = 9.81, 4.0, 0.16
-REFERENCE_DEG = (40.1021496545, -88.2267974168)  # of both robots' sensor configurations
+REFERENCE_DEG = (40.1021496545, -88.2267974168)  # as in both robots' sensor configurations
 GPS_BEHIND_M = 0.15
 EARTH_M, FLATTENING = 6378137.0, 1 / 298.257223563  # WGS-84
 WHEELS = ("front_right", "front_left", "rear_right", "rear_left")  # by component id
 SMALL = {"imu 0", "gps 0", "lidar 0", "battery 0", *(f"encoder {wheel}" for wheel in range(4))}
-SPEED = 0.25  # of the largest, 1.2 m/s
+SPEED = 0.25  # share of the largest, 1.2 m/s
 
 
 class Ports(NamedTuple):
@@ -51,7 +51,7 @@ class Ports(NamedTuple):
 
 
 class Robots(NamedTuple):
-    """The graph, the client in C, each robot's ports."""
+    """Graph, client in C, and each robot's ports."""
 
     graph: RosGraph
     program: str
@@ -61,7 +61,7 @@ class Robots(NamedTuple):
 
 @pytest.fixture(scope="module")
 def robots(shared_graph: RosGraph) -> Iterator[Robots]:
-    """Both robots stand before the wall and look at it."""
+    """Yields both robots, which stand before the wall and look at it."""
     shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", PLANE)
     shared_graph.call(probes.clock_at_least, 0.1)
     ports = [Ports(free_port(), free_port(), free_port()) for _ in range(2)]
@@ -76,31 +76,31 @@ def robots(shared_graph: RosGraph) -> Iterator[Robots]:
         for port in (of_robot.sensors, of_robot.controls):
             wait_until(lambda: f"127.0.0.1:{port}" in launched.output(), f"a socket at {port}", 90)
     shared_graph.call(probes.wait_for_topics, ["/odom", "/robot2/odom"], [], 90.0)
-    shared_graph.call(probes.clock_at_least, 5.0)  # they have come to rest on their springs
+    shared_graph.call(probes.clock_at_least, 5.0)  # the robots have come to rest on their springs
     yield Robots(shared_graph, str(compile_client(shared_graph.folder)), *ports)
 
 
 def listen_in_c(robots: Robots, ports: Ports, *more: str) -> subprocess.Popen:
-    """A target that does not ask for anything."""
+    """Starts a target that does not ask for anything."""
     command = [robots.program, "-p", ports.target, "-c", ports.controls, *more]
     return start_client(command)
 
 
 def ask_in_python(ports: Ports, *more: str) -> subprocess.Popen:
-    """A client that asks for all there is."""
+    """Starts a client that asks for all sensors."""
     program = PACKAGE / "examples" / "ardee_client.py"
     command = ["/usr/bin/python3", "-I", program, "--port", "0", "--ask", ports.sensors]
     return start_client([*command, "--controls", ports.controls, *more])
 
 
 def numbers(text: str) -> Dict[str, float]:
-    """`name value` of the client in C, `path=value` of the one in Python."""
+    """Returns the numbers in `name value` of the client in C, `path=value` of the one in Python."""
     pairs = re.findall(r"([a-z_.A-Z]+)[= ](-?[\d.]+(?:e-?\d+)?|nan)", text)
     return {name: float(value) for name, value in pairs}
 
 
 def pose_of(graph: RosGraph, model: str) -> Any:
-    """The robot's true pose."""
+    """Returns the robot's true pose."""
     fields = {"model_name": model, "relative_entity_name": "world"}
     answer = graph.call(
         probes.call_service, "/gazebo/get_model_state", "gazebo_msgs/GetModelState", fields
@@ -110,7 +110,7 @@ def pose_of(graph: RosGraph, model: str) -> Any:
 
 
 def antenna_on_earth(pose: Any) -> Tuple[float, float]:
-    """Latitude and longitude [deg] of the antenna: x points east, on the ellipsoid's two radii at the reference."""
+    """Returns the antenna's latitude and longitude [deg]: x points east, by the ellipsoid's radii there."""
     yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
     east_m = pose.position.x - GPS_BEHIND_M * math.cos(yaw)
     north_m = pose.position.y - GPS_BEHIND_M * math.sin(yaw)
@@ -127,13 +127,13 @@ def antenna_on_earth(pose: Any) -> Tuple[float, float]:
 
 def assert_at_the_antenna(found: Dict[str, float], pose: Any) -> None:
     latitude_deg, longitude_deg = antenna_on_earth(pose)
-    # noise 1 cm: six standard deviations; a degree is 111 km, of longitude 85 km
+    # The noise is 1 cm: six standard deviations; a degree is 111 km, of longitude 85 km.
     assert found["latitude"] == pytest.approx(latitude_deg, abs=0.06 / 111e3)
     assert found["longitude"] == pytest.approx(longitude_deg, abs=0.06 / 85e3)
 
 
 def assert_stands(robots: Robots, space: str, found: Dict[str, Tuple[int, str]]) -> None:
-    """What both clients say of all small sensors of a robot that stands at x = 0 and looks at the wall."""
+    """Checks both clients' data of all small sensors of a robot that stands at x = 0 and looks at the wall."""
     said = {name: numbers(text) for name, (_, text) in found.items()}
     imu = said["imu 0"]
     up = imu.get("accel_z", imu.get("accel.z"))
@@ -223,7 +223,7 @@ def test_a_gps_without_fix_says_so(robots: Robots) -> None:
 
 
 def next_picture(server_port: int, component_id: int) -> Picture.Image:
-    """The next whole image of a camera, decoded."""
+    """Returns the next whole image of a camera, decoded."""
     pairer, assembler = Pairer(), Assembler()
     with open_socket("127.0.0.1", 0) as opened:
         opened.settimeout(60.0)
@@ -251,10 +251,10 @@ def test_cameras_show_by_udp_what_they_show_in_ros(
         truth = truth[:, :, ::-1]
     picture = np.asarray(next_picture(robots.v3.sensors, component_id).convert("RGB"))
     assert picture.shape == truth.shape == (480, 640, 3)
-    # the scene stands still; noise and JPEG average out over blocks of 40 x 40 pixels
+    # The scene is at rest; noise and JPEG average out over blocks of 40 x 40 pixels.
     blocks = [a.reshape(12, 40, 16, 40, 3).mean(axis=(1, 3)) for a in (picture, truth)]
     assert np.abs(blocks[0] - blocks[1]).max() < 8.0
-    if place != "front":  # which may see nothing but the wall
+    if place != "front":  # the front camera may see only the wall
         assert np.ptp(blocks[1]) > 20.0
 
 

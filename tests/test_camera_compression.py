@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Compressed images from the simulator's cameras to UDP: what image_transport offers, and what the bridge takes."""
+"""Tests compressed images from the simulator's cameras to UDP: image_transport's, and those that the bridge takes."""
 import io
 import socket
 import time
@@ -27,7 +27,7 @@ BOX = (
 
 
 def start_rig(graph: RosGraph) -> Process:
-    """A simulator with cameras that look at two boxes."""
+    """Starts a simulator with cameras that look at two boxes."""
     sensors = (
         sensor("color", "camera", "camera")
         + sensor("grey", "camera", "camera", pixel="L8")
@@ -50,7 +50,7 @@ def start_rig(graph: RosGraph) -> Process:
 
 
 def both_forms(topic: str) -> Tuple[Any, Any]:
-    """Probe: a raw and a compressed image of the same stamp."""
+    """Returns, as a probe, a raw and a compressed image of the same stamp."""
     import rospy
     from sensor_msgs.msg import CompressedImage, Image
 
@@ -69,7 +69,7 @@ def both_forms(topic: str) -> Tuple[Any, Any]:
 
 @pytest.fixture(scope="module")
 def rig(shared_graph: RosGraph) -> Process:
-    """The simulator of this file's tests of cameras."""
+    """Yields the simulator of this file's tests of cameras."""
     shared_graph.run("rosparam", "set", "/rig/grey/image_raw/compressed/format", "gif")
     return start_rig(shared_graph)
 
@@ -105,7 +105,7 @@ def test_compressed_images_alone_have_the_camera_drawn(
 
 
 def test_raw_images_alone_are_not_compressed(rig: Process, shared_graph: RosGraph) -> None:
-    """With a format that cannot be, which the first image to be compressed complains of."""
+    """Uses an invalid format, which the first image to be compressed would report."""
     complaint = "/rig/grey/image_raw/compressed: found format 'gif', expected jpeg or png"
     shared_graph.call(probes.collect, "/rig/grey/image_raw", "sensor_msgs/Image", 10)
     assert complaint not in rig.output()
@@ -136,14 +136,14 @@ def test_depth_in_metres_is_refused_once(rig: Process, shared_graph: RosGraph) -
 
 
 def test_subscribers_of_image_transport_read_it(rig: Process, shared_graph: RosGraph) -> None:
-    """Through `republish`, which makes raw images of the compressed ones of the same stamps."""
+    """Uses `republish`, which makes raw images of the compressed ones of the same stamps."""
     arguments = ("compressed", "in:=/rig/color/image_raw", "raw", "out:=/again")
     republish = shared_graph.spawn("rosrun", "image_transport", "republish", *arguments)
     image = shared_graph.call(probes.collect, "/again", "sensor_msgs/Image", 1)[0]
     raw = shared_graph.call(probes.collect, "/rig/color/image_raw", "sensor_msgs/Image", 1)[0]
     assert (image.encoding, image.width, image.height) == ("rgb8", WIDTH, HEIGHT)
     found, truth = (np.frombuffer(each.data, np.uint8).astype(float) for each in (image, raw))
-    assert np.abs(found - truth).mean() < 8.0  # noise of two pictures of a scene that stands still
+    assert np.abs(found - truth).mean() < 8.0  # noise of two pictures of a scene at rest
     republish.stop()
 
 
@@ -151,7 +151,7 @@ def test_subscribers_of_image_transport_read_it(rig: Process, shared_graph: RosG
 
 
 def jpeg_of(stamp_ns: int) -> bytes:
-    """A JPEG file that no other stamp has: what follows its end is not looked at."""
+    """Returns a JPEG file that no other stamp has: readers ignore bytes after its end."""
     opened = io.BytesIO()
     Picture.new("RGB", (64, 48), (200, 40, 90)).save(opened, "JPEG")
     return opened.getvalue() + stamp_ns.to_bytes(8, "little")
@@ -178,17 +178,17 @@ def _publish(pipe: Any, has_compressed: bool, name: str) -> None:
 
 
 def publish_raw(pipe: Any) -> None:
-    """Body of a process: a camera without compression."""
+    """Runs as a camera without compression."""
     _publish(pipe, False, "camera")
 
 
 def publish_both(pipe: Any) -> None:
-    """Body of a process: a camera that compresses."""
+    """Runs as a camera that compresses."""
     _publish(pipe, True, "camera")
 
 
 class Client:
-    """Asks a sensor server for images, and keeps all that come."""
+    """Asks a sensor server for images, and keeps all that arrive."""
 
     def __init__(self, port: int) -> None:
         self.frames: List[Whole] = []
@@ -196,7 +196,7 @@ class Client:
         self._socket, self._asked_s = open_socket("127.0.0.1", 0), 0.0
 
     def take(self) -> None:
-        """Ask, now and then, and take what has come."""
+        """Repeats its request now and then, and takes arrived messages."""
         if time.monotonic() - self._asked_s > 1.0:
             self._asked_s = time.monotonic()
             for datagram in codec.encode_set_port([codec.DataType.IMAGE]):
@@ -232,7 +232,7 @@ def stamp_ns(frame: Whole) -> int:
 
 
 def is_of_camera(frame: Whole) -> bool:
-    """Returns whether these are the bytes that the camera compressed."""
+    """Returns whether the camera compressed this image."""
     return frame.head.encoding == codec.ImageEncoding.JPEG and frame.head.width == 64
 
 
@@ -243,7 +243,7 @@ def is_of_server(frame: Whole) -> bool:
 
 @pytest.fixture
 def client(graph: RosGraph) -> Iterator[Client]:
-    """Of a server whose only source is the camera."""
+    """Returns a client of a server whose only source is the camera."""
     port = free_port()
     source = "{name: camera, kind: image, topic: /fed/camera, component_id: 2}"
     settings = (f"_port:={port}", "_peers:=[]", f"_sources:=[{source}]")
@@ -268,9 +268,7 @@ def test_publishers_that_come_and_go(graph: RosGraph, client: Client) -> None:
     client.wait_for(is_of_server)
     for end in (kill, finish):
         end(publisher, pipe)
-        publisher, pipe = start_in(
-            graph, publish_both
-        )  # the same node, as a simulator started again
+        publisher, pipe = start_in(graph, publish_both)  # the same node, like a restarted simulator
         client.wait_for(is_of_camera)
         assert all(map(is_of_camera, client.wait_for(bool)))
     kill(publisher, pipe)
@@ -288,7 +286,7 @@ def kill(publisher: Any, _: Any) -> None:
 
 
 def finish(publisher: Any, pipe: Any) -> None:
-    """Have it end; it tells the master."""
+    """Ends the process normally; it tells the master."""
     pipe.send("end")
     publisher.join(20.0)
     assert publisher.exitcode == 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cameras over ROS: topics, types, encodings, frames and calibration as users of Gazebo's plugins expect them."""
+"""Tests cameras over ROS: topics, types, encodings, frames and calibration as users of Gazebo's plugins expect them."""
 from typing import Any, Dict
 
 import numpy as np
@@ -20,7 +20,7 @@ SENSOR = """
 
 
 def sensor(name: str, plugin: str, kind: str, keys: str = "", pixel: str = "R8G8B8") -> str:
-    """A sensor with one camera, or two of a multicamera."""
+    """Returns a sensor with one camera, or two of a multicamera."""
     block = CAMERA.format(format=pixel)
     names = ("left", "right") if kind == "multicamera" else (name,)
     cameras = "".join(f'<camera name="{each}">{block}</camera>' for each in names)
@@ -28,7 +28,7 @@ def sensor(name: str, plugin: str, kind: str, keys: str = "", pixel: str = "R8G8
 
 
 def world() -> str:
-    """A rig of cameras that look at a wall."""
+    """Yields a rig of cameras that look at a wall."""
     sensors = (
         sensor("color", "camera", "camera", "<segmentation>true</segmentation>")
         + sensor("grey", "camera", "camera", pixel="L8")
@@ -55,7 +55,7 @@ def world() -> str:
 
 
 def one_of_each(kinds: Dict[str, str], ask: str) -> Dict[str, Any]:
-    """Probe: a message of each topic; one on `ask` is sent when somebody listens."""
+    """Returns, as a probe, a message of each topic; sends one on `ask` once it has a subscriber."""
     import rospy
     from std_msgs.msg import Empty
 

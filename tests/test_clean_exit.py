@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ctrl-C ends everything that a launch file started."""
+"""Tests that Ctrl-C ends everything that a launch file started."""
 import pathlib
 import signal
 
@@ -33,7 +33,7 @@ def test_ctrl_c_ends_the_simulator_at_once_and_with_exit_0(graph: RosGraph) -> N
 def test_ctrl_c_amid_the_imports_of_spawn_model_ends_it_without_a_word(
     graph: RosGraph, tmp_path: pathlib.Path
 ) -> None:
-    """As when the simulator refuses its world at once, and the launch file ends with it."""
+    """Repeats the case in which the simulator refuses its world at once, and the launch file ends with it."""
     (tmp_path / "rospy.py").write_text(
         "import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(60)\n"
     )

@@ -69,7 +69,7 @@ def topics(graph: RosGraph) -> Tuple[List[str], List[str]]:
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """The simulator with the robot, paused, and parameters of controllers."""
+    """Yields the simulator with the robot, paused, and parameters of controllers."""
     file = shared_graph.folder / "control.yaml"
     file.write_text(PARAMETERS)
     shared_graph.run("rosparam", "load", str(file))
@@ -82,7 +82,7 @@ def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
 
 @pytest.fixture(autouse=True)
 def as_before(world: RosGraph) -> Iterator[None]:
-    """Each test leaves a manager without controllers."""
+    """Leaves a manager without controllers after each test."""
     yield
     assert oks(
         world, manage("reload_controller_libraries", "ReloadControllerLibraries", force_kill=True)
@@ -125,7 +125,7 @@ def test_strict_and_best_effort(world: RosGraph) -> None:
         oks(
             world,
             switch(["left_alone"], []),
-            switch(["left_alone"], [], BEST_EFFORT),  # both want the left wheel
+            switch(["left_alone"], [], BEST_EFFORT),  # both claim the left wheel
             switch(["ghost"], []),
             switch(["base"], ["base"], BEST_EFFORT),
         )
@@ -168,7 +168,7 @@ def test_controllers_go_on_after_a_reset(world: RosGraph) -> None:
 
 
 def step_and_hear() -> Any:
-    """The first joint states of 0.1 s."""
+    """Returns the first joint states of 0.1 s."""
     import rospy
     from ros_graph import wait_until
     from sensor_msgs.msg import JointState

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The demo as a person runs it; and ended by Ctrl-C on the way."""
+"""Tests the demo as a user runs it, also ended by Ctrl-C on the way."""
 import os
 import pathlib
 import re
@@ -27,7 +27,7 @@ def start(log: pathlib.Path) -> subprocess.Popen:
 
 
 def ours(log: pathlib.Path) -> Set[int]:
-    """Processes that came out of a demo started above, by the environment they inherited."""
+    """Returns processes of a demo started above, by the environment that they inherited."""
     found, marker = set(), f"ARDEE_DEMO_TEST={log}".encode()
     for folder in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -48,7 +48,7 @@ def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
     assert demo.wait(300) == 0, log.read_text()
     text = log.read_text()
     distance = float(re.search(r"distance driven +([\d.]+) m", text).group(1))
-    assert 7.0 < distance < 11.0  # 50 plants in a row, and the way there
+    assert 7.0 < distance < 11.0  # 50 plants in a row, and the way to it
     assert int(re.search(r"scans published +(\d+)", text).group(1)) > 200
     assert int(re.search(r"plants in the field +(\d+)", text).group(1)) > 150
     assert Image.open(OUTPUT / "rviz.png").size == (1280, 960)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The row that scripts/drive_row sees in a scan of two lines whose place is known."""
+"""Tests the row that scripts/drive_row finds in a scan of two lines in known places."""
 import pathlib
 import subprocess
 from importlib.machinery import SourceFileLoader
@@ -24,7 +24,7 @@ drive_row = load()
 
 
 def two_lines(offset_m: float, slope: float, half_width_m: float) -> np.ndarray:
-    """Ranges to the nearer of y = offset + slope x +- half width."""
+    """Returns ranges to the nearer of y = offset + slope x +- half width."""
     ranges = np.full(ANGLES_RAD.shape, np.inf)
     for side in (1, -1):
         with np.errstate(divide="ignore"):

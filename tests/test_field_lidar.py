@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Lidar ranges between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
+"""Tests lidar ranges between rows: sorghum is more cluttered than corn, late corn than early (thesis 5.2).
 
-Each claim is a statistic over fields that differ in nothing but their seed: a field is one sample, and two kinds of
+Each claim is a statistic over fields that differ only in their seed: a field is one sample, and two kinds of
 field are compared in pairs of the same seed by Student's t-test, one-sided, at CONFIDENCE.
 """
 import json
@@ -24,7 +24,7 @@ SEEDS = range(1, 13)
 CONFIDENCE = 0.99
 RANGE_M, NEAR_M, HEIGHT_M, BEAMS = 10.0, 1.5, 0.3, 1081
 LANE_HALF_WIDTH_M, END_RAD = 0.25, 2.35619
-FIELD_STEP_M = 60.0  # between the fields of a world: farther than the lidars see
+FIELD_STEP_M = 60.0  # distance of the fields of a world: farther than the lidars see
 POSTS_M = (1.0, 1.75, 2.5, 3.25, 4.0)  # along rows of 5 m, from the entrance
 SEASON_ROW_M, SEASON_POSTS_M = 13.0, (4.5, 5.5, 6.5, 7.5, 8.5)
 POST = """
@@ -48,7 +48,7 @@ GROUND = """
 
 
 def scans(topics: List[str], timeout_s: float = 60.0) -> List[List[float]]:
-    """Probe: the ranges [m] of one scan of each topic."""
+    """Returns, as a probe, the ranges [m] of one scan of each topic."""
     import rospy
     from sensor_msgs.msg import LaserScan
 
@@ -61,19 +61,19 @@ def scans(topics: List[str], timeout_s: float = 60.0) -> List[List[float]]:
 
 
 def season_models(season: str) -> List[str]:
-    """The corn models of a season, of those that the build makes."""
+    """Returns the corn models of a season among those that the build makes."""
     paths = (p for folder in MODEL_PATH for p in folder.glob("corn_variant_*/metrics.json"))
     seasons = {path.parent.name: json.loads(path.read_text())["season"] for path in paths}
     return sorted(name for name, found in seasons.items() if found == season)
 
 
 def thesis_plot(name: str) -> dict:
-    """Options of a plot of thesis 5.2."""
+    """Returns options of a plot of thesis 5.2."""
     return {**yaml_values(PLANS / f"{name}.yaml"), "terrain": None}
 
 
 def season_plot(season: str) -> dict:
-    """Options of a field of all corn models of a season, wide enough that few beams leave it."""
+    """Returns options of a field of all corn models of a season, wide enough that few beams leave it."""
     models = season_models(season)
     assert len(models) >= 5
     return {"models": tuple(models), "rows": 10, "row_length_m": SEASON_ROW_M}
@@ -91,7 +91,7 @@ KINDS: Dict[str, Tuple[Callable[[], dict], Tuple[float, ...]]] = {
 def scanned(
     shared_graph: RosGraph, tmp_path_factory: pytest.TempPathFactory
 ) -> Dict[str, np.ndarray]:
-    """Kind of field to ranges [m] (seeds, posts, beams) HEIGHT_M above the lane; nothing in reach counts as RANGE_M.
+    """Returns kind of field to ranges [m] (seeds, posts, beams) HEIGHT_M above the lane; no hit counts as RANGE_M.
 
     All fields stand in one world, FIELD_STEP_M apart along y; rows run from the entrance at x = -1 m to smaller x.
     """
@@ -126,23 +126,23 @@ def scanned(
 
 
 def medians_m(ranges: np.ndarray) -> np.ndarray:
-    """Median range of each field [m]."""
+    """Returns the median range of each field [m]."""
     return np.median(ranges.reshape(len(ranges), -1), axis=1)
 
 
 def near_shares(ranges: np.ndarray) -> np.ndarray:
-    """Share of each field's beams that end within NEAR_M."""
+    """Returns the share of each field's beams that end within NEAR_M."""
     return np.mean(ranges < NEAR_M, axis=(1, 2))
 
 
 def lane_shares(ranges: np.ndarray) -> np.ndarray:
-    """Share of each field's beams that end in the lane, LANE_HALF_WIDTH_M or less from its middle."""
+    """Returns the share of each field's beams that end in the lane, LANE_HALF_WIDTH_M or less from its middle."""
     across_m = np.abs(ranges * np.sin(np.linspace(-END_RAD, END_RAD, BEAMS)))
     return np.mean((ranges < RANGE_M) & (across_m < LANE_HALF_WIDTH_M), axis=(1, 2))
 
 
 def assert_greater(what: str, more: np.ndarray, less: np.ndarray) -> None:
-    """Paired t-test over the seeds: the mean of `more` is above that of `less`, at CONFIDENCE."""
+    """Checks by a paired t-test over the seeds that the mean of `more` is above that of `less`, at CONFIDENCE."""
     p_value = float(stats.ttest_rel(more, less, alternative="greater").pvalue)
     print(
         f"{what}: {more.mean():.3f} +- {more.std(ddof=1):.3f} against {less.mean():.3f} +- "
@@ -160,7 +160,7 @@ def test_sorghum_is_more_cluttered_than_corn(scanned: Dict[str, np.ndarray]) -> 
     corn, sorghum = scanned["corn"], scanned["sorghum"]
     shares = near_shares(sorghum), near_shares(corn)
     assert_greater(f"beams that end within {NEAR_M} m, sorghum and corn", *shares)
-    assert 0.2 < min(map(np.mean, shares)) and max(map(np.mean, shares)) < 0.9  # fields, no walls
+    assert 0.2 < min(map(np.mean, shares)) and max(map(np.mean, shares)) < 0.9  # not walls
 
 
 def test_early_corn_lets_the_beam_farther_than_late(scanned: Dict[str, np.ndarray]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Packages of robots in the style of published ones, unchanged for this simulator: the robot drives."""
+"""Tests packages of robots in the style of published ones, unchanged for this simulator: the robot drives."""
 from pathlib import Path
 
 import probes
@@ -10,13 +10,13 @@ FOREIGN = Path(__file__).parent / "data" / "foreign"
 
 
 def launch(graph: RosGraph, package: str, file: str, **env: str) -> Process:
-    """Start a launch file of a package beside these tests."""
+    """Starts a launch file of a package beside these tests."""
     path = f"{FOREIGN}:{graph.env['ROS_PACKAGE_PATH']}"
     return graph.spawn("roslaunch", package, file, ROS_PACKAGE_PATH=path, **env)
 
 
 def distance_m(graph: RosGraph, speed_m_s: float) -> float:
-    """How far the robot goes along x in 2 s of simulated time."""
+    """Returns how far the robot goes along x in 2 s of simulated time."""
     first, last = graph.call(probes.drive, "/cmd_vel", "/odom", speed_m_s, 0.0, 2.0)
     return last.pose.pose.position.x - first.pose.pose.position.x
 

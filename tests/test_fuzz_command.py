@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs and output of scripts/fuzz, in a checkout whose fuzzer is a shell script: it finds something in `bad`."""
+"""Tests runs and output of scripts/fuzz, in a checkout whose fuzzer is a shell script with findings in `bad`."""
 import pathlib
 import shutil
 import signal
@@ -22,7 +22,7 @@ esac
 
 @pytest.fixture
 def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
-    """A checkout in which nothing needs to be set up or built."""
+    """Returns a checkout in which no setup or build is needed."""
     shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
     for name in ("setup", "build"):
         (tmp_path / "scripts" / name).write_text("#!/bin/sh\n")
@@ -37,7 +37,7 @@ def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
 
 
 def run(checkout: pathlib.Path, *arguments: str) -> Tuple[int, str]:
-    """Exit code and output of scripts/fuzz."""
+    """Returns exit code and output of scripts/fuzz."""
     command = [str(checkout / "scripts/fuzz"), *arguments]
     done = subprocess.run(
         command, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True

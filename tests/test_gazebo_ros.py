@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Launch files written for gazebo_ros: its empty_world.launch, spawn_model and gzserver, on this simulator."""
+"""Tests launch files written for gazebo_ros on this simulator: its empty_world.launch, spawn_model and gzserver."""
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ ROBOT = """<robot name="block"><link name="base_link">
   <visual><geometry><box size="0.2 0.2 0.2"/></geometry></visual>
   <collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision>
 </link></robot>"""
-# as robots' packages have it
+# These are the arguments of robots' packages.
 LAUNCH = """<launch>
   <include file="$(find gazebo_ros)/launch/empty_world.launch">
     <arg name="world_name" value="worlds/empty.world"/>

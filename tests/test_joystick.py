@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The simulated robot driven by hand: joystick events through joy and teleop, and keys through a terminal."""
+"""Tests driving the simulated robot by hand: joystick events through joy and teleop, and keys through a terminal."""
 import contextlib
 import os
 import pathlib
@@ -28,7 +28,7 @@ DRIVE_AXIS, TURN_AXIS = 1, 2
 
 
 class Joystick:
-    """A named pipe in the place of /dev/input/jsN."""
+    """Named pipe in the place of /dev/input/jsN."""
 
     def __init__(self, path: pathlib.Path, buttons: int = 11) -> None:
         self.path, self.buttons, self._file = path, buttons, -1
@@ -46,10 +46,10 @@ class Joystick:
         try:
             return os.open(self.path, os.O_WRONLY | os.O_NONBLOCK)
         except OSError:
-            return 0  # nobody reads yet
+            return 0  # no reader yet
 
     def event(self, kind: int, number: int, value: int) -> None:
-        """One js_event."""
+        """Returns one js_event."""
         os.write(self._file, struct.pack("=IhBB", 0, value, kind, number))
 
     def unplug(self) -> None:
@@ -93,7 +93,7 @@ class Robot:
 
 
 def wait_for_contact(joystick: Joystick, robot: Robot) -> None:
-    """An axis is moved to and fro until the probe hears of it."""
+    """Moves an axis to and fro until the probe hears of it."""
     value = 0
 
     def answered() -> Any:
@@ -107,7 +107,7 @@ def wait_for_contact(joystick: Joystick, robot: Robot) -> None:
 
 
 def push(joystick: Joystick) -> None:
-    """Hold the enable button and push the stick fully forward."""
+    """Holds the enable button and pushes the stick fully forward."""
     joystick.event(BUTTON, ENABLE, 1)
     joystick.event(AXIS, DRIVE_AXIS, -32767)
 
@@ -121,7 +121,7 @@ def pid_of(node: str) -> int:
 
 
 def ride(path: str) -> None:
-    """Drive by a joystick, let go, unplug it, plug it in again, lose joy_node."""
+    """Drives by a joystick, lets go, unplugs it, plugs it in again, and loses joy_node."""
     robot, joystick = Robot(), Joystick(pathlib.Path(path))
     joystick.plug_in()
     wait_for_contact(joystick, robot)
@@ -141,7 +141,7 @@ def ride(path: str) -> None:
     robot.drives(0.0)
 
     joystick.plug_in()
-    robot.hears_nothing()  # plugged in again it drives only when told
+    robot.hears_nothing()  # plugged in again it drives only on command
     push(joystick)
     robot.drives(SCALE_LINEAR)
     os.kill(pid_of("/joy_node"), signal.SIGKILL)
@@ -150,12 +150,12 @@ def ride(path: str) -> None:
 
 @pytest.fixture(scope="module")
 def device(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
-    """Path at which a joystick will appear."""
+    """Returns the path at which a joystick will appear."""
     return tmp_path_factory.mktemp("joystick") / "js0"
 
 
 def start(graph: RosGraph, device: pathlib.Path, *more: str) -> RosGraph:
-    """A robot in an empty world that waits for a joystick."""
+    """Starts a robot in an empty world that waits for a joystick."""
     graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
     graph.call(probes.clock_at_least, 0.2)
     arguments = ("use_rviz:=false", "use_joy:=true", f"dev_joy:={device}", *more)
@@ -166,7 +166,7 @@ def start(graph: RosGraph, device: pathlib.Path, *more: str) -> RosGraph:
 
 @pytest.fixture(scope="module")
 def robot(shared_graph: RosGraph, device: pathlib.Path) -> RosGraph:
-    """The robot that an Xbox controller drives."""
+    """Yields the robot that an Xbox controller drives."""
     return start(shared_graph, device)
 
 
@@ -175,7 +175,7 @@ def test_a_joystick_drives_until_let_go_or_unplugged(robot: RosGraph, device: pa
 
 
 def ride_by_ps3(path: str) -> None:
-    """The Xbox controller's button does nothing, the other one's enables."""
+    """Checks that the Xbox controller's button does nothing, and that the other one's enables."""
     robot, joystick = Robot(), Joystick(pathlib.Path(path), PS3_BUTTONS)
     joystick.plug_in()
     wait_for_contact(joystick, robot)
@@ -201,7 +201,7 @@ def robot_moves(speeds_m_s: List[float]) -> None:
 
 @contextlib.contextmanager
 def held_key(terminal: int, key: bytes) -> Iterator[None]:
-    """The key comes 20 times a second, as from a keyboard that repeats."""
+    """Sends a key 20 times a second, as from a keyboard that repeats."""
     released = threading.Event()
 
     def repeat() -> None:
@@ -233,7 +233,7 @@ def test_the_keyboard_drives_while_keys_come_and_restores_the_terminal(robot: Ro
         wait_until(lambda: termios.tcgetattr(slave) != before, "the terminal is raw")
         with held_key(master, b"i"):
             robot.call(robot_moves, [0.6])
-        robot.call(robot_moves, [0.0])  # keys have ceased
+        robot.call(robot_moves, [0.0])  # the keys have stopped
         os.write(master, b"\x03")
         assert teleop.wait(10) == 0
         assert termios.tcgetattr(slave) == before

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every node that drives leaves the robot at a stand when it ends, even while its input goes on."""
+"""Tests that every node that drives leaves the robot at rest when it ends, even while its input goes on."""
 import os
 import pty
 import socket
@@ -19,7 +19,7 @@ PORT = free_port()
 
 
 def joystick() -> Callable[[], None]:
-    """Publishes a stick held forward, its button too."""
+    """Publishes a joystick with its stick held forward and its button pressed."""
     import rospy
     from sensor_msgs.msg import Joy
 
@@ -69,7 +69,7 @@ def keys() -> Callable[[], None]:
     def press() -> None:
         try:
             os.write(terminal, b"i")
-            os.read(terminal, 4096)  # what it prints must go somewhere
+            os.read(terminal, 4096)  # the teleop's output must be read
         except OSError:
             pass
 
@@ -85,7 +85,7 @@ FEEDS: Dict[str, Callable[..., Callable[[], None]]] = {
 
 
 def feed(pipe: Any) -> None:
-    """Body of a process: feeds what it is told (name, arguments); says that commands come; asked, the last [m/s]."""
+    """Feeds, as a process's body, an input (name, arguments); reports the first command; when asked, the last [m/s]."""
     import rospy
     from geometry_msgs.msg import Twist
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The two launch commands of the README: first a world, then a robot in it."""
+"""Tests the two launch commands of the README: first a world, then a robot in it."""
 import math
 from typing import Iterator
 
@@ -12,7 +12,7 @@ SCAN = "/ardee/hokuyo"
 
 @pytest.fixture(scope="module")
 def robot(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """farm.world, and a TerraSentia in it."""
+    """Yields farm.world, and a TerraSentia in it."""
     shared_graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
     shared_graph.call(probes.clock_at_least, 0.5)
     shared_graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
@@ -59,7 +59,7 @@ def test_tf_leads_from_odom_to_every_wheel_and_the_lidar(robot: RosGraph) -> Non
 
 
 def test_at_rest_it_stays_where_it_is(robot: RosGraph) -> None:
-    """Well after it has settled, less than a millimetre in two seconds."""
+    """Checks that, after settling, it moves less than a millimetre in two seconds."""
     robot.call(probes.clock_at_least, 4.0)
     odometry = robot.call(probes.collect, "/odom", "nav_msgs/Odometry", 100)
     first, last = (message.pose.pose.position for message in (odometry[0], odometry[-1]))
@@ -68,7 +68,7 @@ def test_at_rest_it_stays_where_it_is(robot: RosGraph) -> None:
 
 
 def test_cmd_vel_drives_it_forward(robot: RosGraph) -> None:
-    """0.5 m/s for 2 s of simulated time: about 1 m along its own heading, less what starting takes."""
+    """Drives at 0.5 m/s for 2 s of simulated time: about 1 m along its own heading, less the way lost at the start."""
     first, last = robot.call(probes.drive, "/cmd_vel", "/odom", 0.5, 0.0, 2.0)
     start, end = first.pose.pose, last.pose.pose
     heading = 2 * math.atan2(start.orientation.z, start.orientation.w)

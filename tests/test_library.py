@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The installed C++ library as a program of a user links it: the examples, built out of tree."""
+"""Tests the installed C++ library as a user's program links it: the examples, built out of tree."""
 import pathlib
 import re
 import subprocess
@@ -9,11 +9,11 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 EXAMPLES = ROOT / "src" / "ardee_sim_cpp" / "examples"
-SLOPE_RAD = 0.2  # of the slope in custom_sensor/main.cpp
+SLOPE_RAD = 0.2  # the slope in custom_sensor/main.cpp
 
 
 def run(*command: object) -> str:
-    """Runs a command and returns its output; fails with that output where the command fails."""
+    """Runs a command and returns its output; fails with that output if the command fails."""
     done = subprocess.run(
         [str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )
@@ -23,7 +23,7 @@ def run(*command: object) -> str:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> pathlib.Path:
-    """The folder with the examples' programs."""
+    """Returns the folder with the examples' programs."""
     folder = tmp_path_factory.mktemp("library")
     run("cmake", "--install", ROOT / "build" / "ardee_sim_cpp", "--prefix", folder / "installed")
     prefix = f"-DCMAKE_PREFIX_PATH={folder / 'installed'}"

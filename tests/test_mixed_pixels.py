@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""With several rays a beam a lidar's macro sees between slats and the wall behind what no thin ray sees."""
+"""Tests that a lidar's macro with several rays a beam has returns between slats and the wall, unlike thin rays."""
 from typing import List
 
 import probes
@@ -7,10 +7,10 @@ import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_graph import RosGraph
 
-# slats and wall are less than a pulse is long apart: one return
+# Slats and wall are less than a pulse length apart: one return.
 SLATS_M, WALL_M, HEIGHT_M = 2.0, 2.2, 0.5
-HALF_WIDTH_M = 1.0  # of the fence
-MARGIN_M = 0.02  # off the slats and the wall, on each side; lidars here have no noise
+HALF_WIDTH_M = 1.0  # half width of the fence
+MARGIN_M = 0.02  # distance from the slats and the wall, on each side; lidars here have no noise
 RAYS = {"thin": 1, "wide": 25}
 BOX = "<geometry><box><size>0.01 {width} 2</size></box></geometry>"
 WORLD = """<sdf version="1.5"><world name="default">
@@ -26,19 +26,19 @@ ROBOT = """<robot name="post" xmlns:xacro="http://ros.org/wiki/xacro">
 
 
 def board(name: str, face_m: float, y_m: float, width_m: float) -> str:
-    """A visual 1 cm thick whose near face is at x = face_m."""
+    """Returns a visual 1 cm thick whose near face is at x = face_m."""
     pose = f"<pose>{face_m + 0.005} {y_m} 0 0 0 0</pose>"
     return f'<visual name="{name}">{pose}{BOX.format(width=width_m)}</visual>'
 
 
 def world() -> str:
-    """Slats of 5 cm every 11 cm, before a wall."""
+    """Yields slats of 5 cm every 11 cm, before a wall."""
     slats = [board(f"slat_{k}", SLATS_M, 0.11 * k, 0.05) for k in range(-10, 11)]
     return WORLD.format(visuals=board("wall", WALL_M, 0, 8) + "".join(slats))
 
 
 def between(scan: object) -> List[float]:
-    """The x in m of returns of the fence that are neither on a slat nor on the wall."""
+    """Returns the x in m of returns of the fence that are neither on a slat nor on the wall."""
     import math
 
     found = []
@@ -52,7 +52,7 @@ def between(scan: object) -> List[float]:
 
 @pytest.fixture
 def scans(graph: RosGraph) -> dict:
-    """One scan of each lidar."""
+    """Returns one scan of each lidar."""
     (graph.folder / "fence.world").write_text(world())
     graph.spawn(
         "rosrun", "ardee_sim_cpp", "simulator", str(graph.folder / "fence.world"), "--paused"
@@ -84,6 +84,6 @@ def scans(graph: RosGraph) -> dict:
 
 def test_mixed_pixels_come_with_the_width_of_the_beam(scans: dict) -> None:
     assert between(scans["thin"]) == []
-    # of 38 edges in sight 11 in 12 lie in a beam (4 mrad of every 4.36), and of those the margins leave out
-    # a tenth of the power on each side: about two in three, and by chance not less than one
+    # Of 38 edges in sight, 11 in 12 lie in a beam (4 mrad of every 4.36); the margins drop those with less than a tenth
+    # of the power on one side: about two in three remain, and by chance not less than one.
     assert len(between(scans["wide"])) > 12

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""GPS, IMU, magnetometer and ground truth over ROS: topics, rates, services, dynamic_reconfigure, geofences."""
+"""Tests GPS, IMU, magnetometer and ground truth over ROS: topics, rates, services, dynamic_reconfigure, geofences."""
 import math
 import pathlib
 import xml.etree.ElementTree as ElementTree
@@ -66,7 +66,7 @@ TOPICS = {  # type and rate, Hz of simulated time
 
 @pytest.fixture(scope="module")
 def post(tmp_path_factory: pytest.TempPathFactory, shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """A simulator with one post that carries every motion sensor."""
+    """Yields a simulator with one post that carries every motion sensor."""
     plugins = GPS + IMU + DROPOUT.format(topic="crop", keys=PLOT)
     world = shared_graph.folder / "post.world"
     robot = POST.format(name="post", x=1, y=0.5, z=1, sensor=SENSOR, plugins=plugins)
@@ -77,7 +77,7 @@ def post(tmp_path_factory: pytest.TempPathFactory, shared_graph: RosGraph) -> It
 
 
 def listen(topics: Dict[str, str], count: int) -> Dict[str, List[Any]]:
-    """Probe: the next messages of several topics, `count` of each."""
+    """Returns, as a probe, the next messages of several topics, `count` of each."""
     import rospy
 
     probes._start()
@@ -89,7 +89,7 @@ def listen(topics: Dict[str, str], count: int) -> Dict[str, List[Any]]:
 
 
 def reconfigure(server: str, change: Dict[str, Any]) -> Dict[str, Any]:
-    """Probe: what a dynamic_reconfigure client is told after a change, with what it may set."""
+    """Returns, as a probe, the answer to a dynamic_reconfigure client after a change, with its settable values."""
     from dynamic_reconfigure.client import Client
 
     probes._start()
@@ -102,7 +102,7 @@ def reconfigure(server: str, change: Dict[str, Any]) -> Dict[str, Any]:
 
 
 def one(graph: RosGraph, topic: str) -> Any:
-    """The next message but a few of a topic, which are older."""
+    """Returns a message of a topic after the next few, which are older."""
     return graph.call(probes.collect, topic, TOPICS[topic][0], 5)[-1]
 
 
@@ -213,7 +213,7 @@ def test_a_geofence_reaches_the_robot_from_run_custom_world(graph: RosGraph) -> 
 
 
 def spawn(name: str, x: float, y: float, z: float) -> Any:
-    """The call that spawns a post with a variable-accuracy GPS."""
+    """Returns the call that spawns a post with a variable-accuracy GPS."""
     model = POST.format(
         name=name, x=0, y=0, z=0, sensor="", plugins=DROPOUT.format(topic=name, keys="")
     )

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A file of plugin aliases, read by rosparam: another receiver's name and keys are ours, and one that is wrong stops
-the simulator with a message."""
+"""Tests a file of plugin aliases, read by rosparam: another receiver's name and keys are ours, and a wrong one stops
+the simulator with a message.
+"""
 import pathlib
 
 import probes

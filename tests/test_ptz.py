@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A PTZ camera over ROS: position commands turn it, set_hfov zooms it, and bad ones are refused with one message."""
+"""Tests a PTZ camera over ROS: position commands turn it, set_hfov zooms it, bad ones are refused with one message."""
 import math
 from typing import Any, Dict, List, Tuple
 
@@ -18,7 +18,7 @@ COMMANDS = {
 
 
 def lead(refused_fov_rad: float) -> Tuple[Dict[str, float], Any]:
-    """Probe: joint angles and calibration once they have followed the commands, after one that is refused."""
+    """Returns, as a probe, joint angles and calibration that have followed the commands, after a refused one."""
     import probes
     import rospy
     from std_msgs.msg import Float64

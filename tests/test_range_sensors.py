@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Range sensors over ROS: what topics, types and layouts they have, before a wall 4 m away."""
+"""Tests range sensors over ROS before a wall 4 m away: topics, types and layouts."""
 import math
 import pathlib
 import struct
@@ -22,7 +22,7 @@ TYPES = {
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """A mast with one of each range sensor, 1 m above level ground."""
+    """Yields a mast with one of each range sensor, 1 m above level ground."""
     shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(DATA / "plane.world"))
     shared_graph.call(probes.clock_at_least, 0.1)
     answer = call(

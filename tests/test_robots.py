@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The three TerraSentias side by side, each in a namespace: what they publish, their frames, how they move."""
+"""Tests the three TerraSentias side by side, each in a namespace: streams, frames, motion."""
 import math
 import time
 import xml.etree.ElementTree as ElementTree
@@ -9,7 +9,7 @@ import probes
 import pytest
 from ros_graph import Process, RosGraph, wait_until
 
-# half the wheelbase at rest and half the track (m), for the rate of turning in place by Coulomb's friction
+# Half the wheelbase at rest and half the track (m), for the rate of turning in place by Coulomb's friction.
 ROBOTS = {
     "tsv1": {"base": 0.170, "imu_hz": 50, "gps_hz": 10, "gimbals": 0, "cameras": ["front", "left"]},
     "tsv2": {
@@ -29,15 +29,15 @@ ROBOTS = {
 }  # type: Dict[str, Dict[str, Any]]
 TRACK_M = 0.2159
 WHEELS = [f"{end}_{side}_wheel_link" for end in ("front", "rear") for side in ("left", "right")]
-RATES_S = 1.0  # simulated; rates are counted over it
-STEADY_S = 0.6  # simulated, until a motion is steady
+RATES_S = 1.0  # simulated time over which rates are counted
+STEADY_S = 0.6  # simulated time until a motion is steady
 SPEED_M_S, TURN_RAD_S = 0.5, 1.0
-MIDDLE_M = 0.06  # the point about which a robot turns lies nearer to its middle
-START_S = 120.0  # wall, until three launch files have brought up what they start on a busy machine
+MIDDLE_M = 0.06  # greatest distance of a robot's turning point from its middle
+START_S = 120.0  # wall time until three launch files have started everything on a busy machine
 
 
 def streams(name: str) -> Dict[str, Any]:
-    """Type and rate of every stream of a robot but its pictures."""
+    """Returns type and rate of every stream of a robot but its pictures."""
     robot = ROBOTS[name]
     found = {
         "odom": ("nav_msgs/Odometry", 50),
@@ -56,7 +56,7 @@ def streams(name: str) -> Dict[str, Any]:
 
 
 class Survey:
-    """Messages of all robots that a probe's process receives at once."""
+    """Messages of all robots, received at once in a probe's process."""
 
     def __init__(self) -> None:
         import rospy
@@ -77,7 +77,7 @@ class Survey:
             raise TimeoutError(f"{error}; missing {self._silent()}") from None
 
     def _silent(self) -> List[str]:
-        """Streams that nothing came of, and topics of commands that nobody takes."""
+        """Returns streams without messages, and topics of commands without subscribers."""
         silent = [f"{n}/{t}" for n, robot in self.heard.items() for t, m in robot.items() if not m]
         return silent + [c.name for c in self._commands if not c.get_num_connections()]
 
@@ -92,7 +92,7 @@ class Survey:
         return not self._silent()
 
     def now_s(self) -> float:
-        """Simulated time of the last odometry of all robots."""
+        """Returns the simulated time of the last odometry of all robots."""
         return min(robot["odom"][-1].header.stamp.to_sec() for robot in self.heard.values())
 
     def wait(self, seconds: float) -> None:
@@ -110,7 +110,7 @@ class Survey:
             publisher.publish(command)
 
     def rates(self) -> Dict[str, Dict[str, float]]:
-        """Messages a simulated second of each stream, by their stamps; the frames that they name."""
+        """Returns messages a simulated second of each stream, by their stamps, and their frames."""
         begin_s = self.now_s()
         self.wait(RATES_S + 0.2)
         return {
@@ -130,7 +130,7 @@ class Survey:
         }
 
     def missing_links(self, name: str) -> List[str]:
-        """Links of a robot that tf does not lead to."""
+        """Returns links of a robot that tf does not lead to."""
         import rospy
 
         root = ElementTree.fromstring(rospy.get_param(f"/{name}/robot_description"))
@@ -143,7 +143,7 @@ class Survey:
         ]
 
     def missing_once_known(self) -> Dict[str, List[str]]:
-        """Missing links by robot, when none is or none will be any more: tf comes by nodes that start last."""
+        """Returns missing links by robot, once there are none or the wait is over: the nodes of tf start last."""
         deadline = time.monotonic() + START_S
         while True:
             missing = {name: self.missing_links(name) for name in ROBOTS}
@@ -152,7 +152,7 @@ class Survey:
             time.sleep(0.1)
 
     def height_m(self, name: str) -> float:
-        """Of base_footprint above the wheels' lowest points, by tf."""
+        """Returns the height of base_footprint above the wheels' lowest points, by tf."""
         import rospy
 
         base, zero = f"{name}/base_footprint", rospy.Time(0)
@@ -160,7 +160,7 @@ class Survey:
         return 0.097 - sum(w.transform.translation.z for w in wheels) / len(wheels)
 
     def motion(self, forward_m_s: float, turn_rad_s: float) -> Dict[str, List[List[float]]]:
-        """x, y, yaw, stamp of each robot at the begin and the end of a steady motion."""
+        """Returns x, y, yaw, stamp of each robot at the begin and the end of a steady motion."""
         self.command(forward_m_s, turn_rad_s)
         self.wait(STEADY_S)
         begin = {name: planar(robot["odom"][-1]) for name, robot in self.heard.items()}
@@ -172,14 +172,14 @@ class Survey:
 
 
 def planar(odometry: Any) -> List[float]:
-    """x, y (m), yaw (rad), time (s)."""
+    """Returns x, y (m), yaw (rad), time (s)."""
     pose = odometry.pose.pose
     yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
     return [pose.position.x, pose.position.y, yaw, odometry.header.stamp.to_sec()]
 
 
 def survey() -> Dict[str, Any]:
-    """All robots at once: at rest, straight on, turning."""
+    """Surveys all robots at once: at rest, straight on, turning."""
     found = Survey()
     missing = found.missing_once_known()
     found.wait(max(0.0, 1.0 - found.now_s()))
@@ -194,7 +194,7 @@ def survey() -> Dict[str, Any]:
 
 
 def pictures(topics: List[str]) -> Dict[str, Any]:
-    """Width, height, frame and the camera_info's of one picture of each camera."""
+    """Returns width, height, frame and camera_info of one picture of each camera."""
     import rospy
     from sensor_msgs.msg import CameraInfo, Image
 
@@ -222,7 +222,7 @@ def pictures(topics: List[str]) -> Dict[str, Any]:
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> Process:
-    """An empty world with all robots in it."""
+    """Yields an empty world with all robots in it."""
     process = shared_graph.launch(
         "ardee_world", "custom_world.launch", "world:=empty.world", "rtf:=2"
     )
@@ -241,13 +241,13 @@ def world(shared_graph: RosGraph) -> Process:
 
 @pytest.fixture(scope="module")
 def surveyed(shared_graph: RosGraph, world: Process) -> Dict[str, Any]:
-    """The survey's results."""
+    """Returns the survey's results."""
     return shared_graph.call(survey, timeout_s=3 * START_S)
 
 
 @pytest.fixture(scope="module")
 def seen(shared_graph: RosGraph, surveyed: Dict[str, Any]) -> Dict[str, Any]:
-    """A picture of each camera."""
+    """Returns a picture of each camera."""
     topics = [f"/{n}/ardee/camera/{c}" for n, robot in ROBOTS.items() for c in robot["cameras"]]
     return shared_graph.call(pictures, topics)
 
@@ -257,7 +257,7 @@ def test_every_stream_comes_at_its_rate_from_its_own_frame(
     surveyed: Dict[str, Any], name: str
 ) -> None:
     expected = {topic: rate for topic, (_, rate) in streams(name).items()}
-    # a stream of n publishers may have n stamps more: both ends of the second count
+    # A stream of n publishers may have n stamps more, because both ends of the second count.
     assert surveyed["rates"][name] == pytest.approx(expected, rel=0.025, abs=1)
     frames = surveyed["frames"][name]
     frames.pop("joint_states")  # has none
@@ -284,7 +284,7 @@ def test_it_turns_about_its_middle_as_coulombs_friction_lets_it(
     (x0, y0, yaw0, t0), (x1, y1, yaw1, t1) = surveyed["turn"][name]
     share = TRACK_M**2 / (TRACK_M**2 + ROBOTS[name]["base"] ** 2)
     assert (yaw1 - yaw0) / (t1 - t0) == pytest.approx(TURN_RAD_S * share, abs=0.05)
-    # the centre of mass lies up to 11 mm behind the wheels' middle, and the legs yield
+    # The centre of mass lies up to 11 mm behind the wheels' middle, and the legs yield.
     assert math.hypot(x1 - x0, y1 - y0) < MIDDLE_M * (yaw1 - yaw0)
 
 

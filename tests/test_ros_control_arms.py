@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arms of three joints with a gripper: goals of their actions, and the commands of controller_manager."""
+"""Tests arms of three joints with a gripper: goals of their actions, and the commands of controller_manager."""
 from typing import Any, Callable, Dict, Iterator, List
 
 import pytest
@@ -40,7 +40,7 @@ gripper:
 
 
 def robot(kind: str) -> str:
-    """An arm that turns about vertical axes, so that nothing pulls it down; the wrist turns to 1 rad only."""
+    """Returns an arm that turns about vertical axes, unaffected by gravity; the wrist turns to 1 rad only."""
     links = ['<link name="world"/>', LINK_OF_BASE]
     parent = "base_link"
     for joint, type_, axis, lower, upper in (
@@ -84,7 +84,7 @@ def states(graph: RosGraph, kind: str) -> Dict[str, str]:
 
 @pytest.fixture(scope="module")
 def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """The simulator, paused, with both arms and their controllers, which spawners have started."""
+    """Yields the simulator, paused, with both arms and their controllers, which spawners have started."""
     simulate(shared_graph)
     call(shared_graph, empty("pause_physics"))
     for i, kind in enumerate(KINDS):
@@ -103,7 +103,7 @@ def arms(shared_graph: RosGraph) -> Iterator[RosGraph]:
 
 
 def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
-    """The state and the result of a goal; it is cancelled after the steps, if it shall be."""
+    """Returns the state and the result of a goal, cancelled after the steps if requested."""
     import actionlib
     import rospy
 
@@ -119,7 +119,7 @@ def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
     advance(steps=steps)
     if cancel:
         client.cancel_goal()
-    # the state may come before the result
+    # The state may come before the result.
     wait_until(lambda: client.get_state() > 1 and client.get_result(), "the end of the goal")
     return client.get_state(), client.get_result()
 
@@ -127,7 +127,7 @@ def send(name: str, action: str, goal: Any, steps: int, cancel: bool) -> Any:
 def follow(
     graph: RosGraph, kind: str, positions: List[float], steps: int, cancel: bool = False
 ) -> Any:
-    """The end of a goal of the arm that is reached after 1 s."""
+    """Returns the end of a goal of the arm that is reached after 1 s."""
     import rospy
     from trajectory_msgs.msg import JointTrajectoryPoint
 
@@ -155,7 +155,7 @@ def positions(graph: RosGraph, kind: str) -> List[float]:
 
 
 def next_message(topic: str, kind: str) -> Any:
-    """Returns what is published within the next 50 steps."""
+    """Returns the first message within the next 50 steps."""
     import roslib.message
     import rospy
 
@@ -195,7 +195,7 @@ def test_a_cancelled_arm_stays_where_it_is(arms: RosGraph, kind: str) -> None:
 
 
 def grip(graph: RosGraph, kind: str, position: float) -> Any:
-    """The end of a goal of the gripper."""
+    """Returns the end of a goal of the gripper."""
     from control_msgs.msg import GripperCommand, GripperCommandGoal
 
     goal = GripperCommandGoal(GripperCommand(position=position, max_effort=20.0))
@@ -327,7 +327,7 @@ def test_a_spawner_waits_for_what_it_is_told(arms: RosGraph) -> None:
 
 
 def allow(topic: str, controller: str) -> List[str]:
-    """Says false on a topic, then true, until the controller is loaded; the controllers that were there after false."""
+    """Publishes false, then true, until the controller is loaded; returns the controllers present after false."""
     import time
 
     import rospy

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The md5 sums of ros_control's messages are those that nodes built against the originals send.
+"""Tests that the md5 sums of ros_control's messages are those of nodes built against the originals.
 
 Source of the sums: controller_manager_msgs (ros_control, noetic), control_msgs (kinetic), control_toolbox (melodic) and
 four_wheel_steering_msgs.

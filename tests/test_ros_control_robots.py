@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Robots on wheels whose drive is ros_control, described and configured as their makers do, drive on a plane as far
-as they are told: by their odometry and in truth. A turn to the left turns left."""
+"""Tests robots on wheels with drives of ros_control, described and configured as by their makers: they drive as far as
+commanded on a plane, by their odometry and in truth. A turn to the left turns left.
+"""
 import math
 import pathlib
 from typing import Any, List, NamedTuple, Tuple
@@ -11,15 +12,15 @@ from ros_graph import RosGraph, wait_until
 
 ROBOTS = pathlib.Path(__file__).parent / "robots_with_ros_control"
 STATE = ("/gazebo/get_model_state", "gazebo_msgs/GetModelState")
-TIME_S = 4.0  # of each command
+TIME_S = 4.0  # duration of each command
 IN_PLACE = (0.0, 0.5)
 
 
 class Drive(NamedTuple):
-    """How a robot drives straight on and turns, for TIME_S each."""
+    """Speeds of a robot that drives straight on and turns, for TIME_S each."""
 
     controller: str
-    yaw: Tuple[float, float] = (1.8, 2.2)  # by which it turns [rad], from and to; 2.0 is commanded
+    yaw: Tuple[float, float] = (1.8, 2.2)  # bounds of the turn [rad]; 2.0 is commanded
     turn: Tuple[float, float] = IN_PLACE  # [m/s], [rad/s; hunter: steering angle in rad]
     speed_m_s: float = 0.5
 
@@ -34,10 +35,10 @@ DRIVES = {
     "mir100": Drive("/mobile_base_controller"),
     "rosbot": Drive("/rosbot_base_controller", SLIPS),
     "thorvald": Drive("/four_wheel_steering_controller", (1.44, 1.76), (0.3, 0.4)),
-    # 0.57 without slip; all four wheels have one speed, so that they scrub
+    # The value without slip is 0.57; all four wheels have one speed, so they scrub.
     "hunter": Drive("/ackermann_steering_controller", (0.2, 0.6), (0.3, 0.3)),
 }
-# the topic of each wheel's speed, its radius [m]
+# Topics of the wheels' speeds, and their radii [m].
 MOTORS = {
     "scout": (["/scout/scout_motor_{}_controller/command".format(s) for s in ("fl", "rl")],
               ["/scout/scout_motor_{}_controller/command".format(s) for s in ("fr", "rr")], 0.165),
@@ -51,7 +52,7 @@ def _yaw(pose: Any) -> float:
 
 
 def _truth(graph: RosGraph, robot: str) -> Tuple[float, float]:
-    """How far from the start the robot stands [m], and its yaw [rad]."""
+    """Returns how far from the start the robot stands [m], and its yaw [rad]."""
     state = graph.call(probes.call_service, *STATE, {"model_name": robot})
     assert state.success, state.status_message
     return math.hypot(state.pose.position.x, state.pose.position.y), _yaw(state.pose)
@@ -59,7 +60,8 @@ def _truth(graph: RosGraph, robot: str) -> Tuple[float, float]:
 
 def _drives(controller: str, robot: str, commands: List[Tuple[float, float]]) -> List[Any]:
     """Returns for each command (speed, turn) the odometry and the true pose at its end, and those after a stop. The
-    simulation is paused and takes the steps that it is told, so that the times are as commanded."""
+    simulation is paused and stepped, so that the times are exact.
+    """
     import rospy
     from geometry_msgs.msg import Twist, Vector3
     from nav_msgs.msg import Odometry

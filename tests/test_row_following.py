@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
+"""Tests the row follower in the simulator: an experiment in lockstep, the launch file, and the same over UDP alone."""
 import csv
 import pathlib
 import time
@@ -34,7 +34,7 @@ def test_artificial_row_in_lockstep(graph: RosGraph, tmp_path: pathlib.Path) -> 
     track = (first / "run_00.csv").read_bytes()
     assert track == (again / "run_00.csv").read_bytes()
     assert track != (first / "run_01.csv").read_bytes()
-    # the summary is that of the track, within what its rounding to micrometres loses
+    # The summary is that of the track, up to its rounding to micrometres.
     inside = [r for r in rows(first / "run_00.csv") if 0 <= float(r["along_m"]) <= 3.3528]
     assert max(abs(float(r["lateral_m"])) for r in inside) == pytest.approx(
         float(run["lateral_max_m"]), abs=1e-5
@@ -86,7 +86,7 @@ def running() -> Set[int]:
 
 
 def children(pid: int) -> Dict[int, str]:
-    """Processes whose parent a process is: the last part of what they run, a program or a script."""
+    """Returns the last words of the command lines of a process's children: programs or scripts."""
     found = {}
     for number in running():
         folder = pathlib.Path("/proc", str(number))
@@ -102,7 +102,7 @@ def children(pid: int) -> Dict[int, str]:
 
 
 def commands_around_a_silence() -> Tuple[List[float], List[float], List[float]]:
-    """Speeds that are commanded to two scans and in a pause after them, once time goes on, and to a scan after that."""
+    """Returns the speeds commanded at two scans, in a pause after them, once time goes on, and at a scan after that."""
     import numpy as np
     import rospy
     from geometry_msgs.msg import Twist
@@ -160,7 +160,7 @@ def model_position(name: str) -> Tuple[float, float]:
 
 
 def assert_behind_the_row(position: Tuple[float, float]) -> None:
-    """The artificial rows run from x = -1 m to -4.35 m about y = 0; the robot stops behind the last stalks."""
+    """Checks that the robot stops behind the last stalks; the artificial rows run from x = -1 m to -4.35 m at y = 0."""
     x, y = position
     assert -6.0 < x < -4.3 and abs(y) < 0.15
 
@@ -195,5 +195,5 @@ def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
         lambda: "hil_row_follower: finished" in launched.output(), "the end of the row", 90.0
     )
     for state in ("following", "finished"):
-        assert launched.output().count(f": {state}") == 1  # by who drives, not by who only shows
+        assert launched.output().count(f": {state}") == 1  # by the driving node only
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))

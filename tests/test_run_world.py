@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The shell scripts of thesis 4.6.3: a field and a terrain put together, the dialogue, the clean shutdown."""
+"""Tests the shell scripts of thesis 4.6.3: a field and a terrain put together, the dialogue, the clean shutdown."""
 import os
 import pathlib
 import subprocess
@@ -80,7 +80,7 @@ def test_without_names_the_world_is_empty_and_its_files_can_be_kept(
 def test_a_field_of_ones_own_stands_where_plots_truth_and_start_say(
     graph: RosGraph, tmp_path: pathlib.Path
 ) -> None:
-    """The README's sequence: the robot looks into a lane, and the GPS's plot is around the plants."""
+    """Follows the README's sequence: the robot looks into a lane, and the GPS's plot is around the plants."""
     words = ["--models", "corn_variant_8", "--rows", "4", "--row-length", "5", "--seed", "1"]
     words += ["--terrain", "heightmap_ground", "--name", "my_field", "--output", str(tmp_path)]
     graph.run("rosrun", "ardee_world", "generate_field", *words)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The saved rviz views of the README, drawn off-screen: every display is content, and the picture shows something."""
+"""Tests the saved rviz views of the README, drawn off-screen: every display is content, and the picture has colours."""
 import json
 import pathlib
 import time
@@ -19,7 +19,7 @@ MIN_COLOURS = 1000  # an empty 3-D view has one
 
 
 def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
-    """Statuses of a view's displays by name; checks the picture's colours."""
+    """Returns statuses of a view's displays by name; checks the picture's colours."""
     picture, status = graph.folder / "rviz.png", graph.folder / "rviz.json"
     graph.run(
         str(PICTURE),

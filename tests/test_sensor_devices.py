@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Every sensor of ardee_sensors in the running simulator: topics, types, frames, rates, fields of view, ranges, sizes.
+"""Tests every sensor of ardee_sensors in the running simulator: topics, types, frames, rates, fields of view, ranges.
 
-They all sit on one beam across a white wall that stands WALL_M ahead of each, and are asked one after the other; the
-simulator is stepped, so that nothing depends on the machine's speed.
+They all sit on one beam across a white wall that stands WALL_M ahead of each, and are read one after the other; the
+simulator is stepped, so that the results are independent of the machine's speed.
 """
 import math
 import pathlib
@@ -25,10 +25,10 @@ WALL_M = 2.0
 SPACING_M = 0.6
 HEIGHT_M = 0.8
 NAMESPACE = "/all"
-SPEED_WINDOW_S = 0.1  # over which an encoder counts pulses
-SETTLE_S = 2.0  # until the beam lies still on the ground
+SPEED_WINDOW_S = 0.1  # time over which an encoder counts pulses
+SETTLE_S = 2.0  # time until the beam lies still on the ground
 LAMP, LAMP_WAY = 0.9, (0.6, 0.2, -0.8)
-# As in gazebo_ros, where there is no tf_prefix.
+# The frames are those of gazebo_ros, which has no tf_prefix here.
 FRAMES_BELOW_NAMESPACE = (
     "sensor_msgs/LaserScan",
     "sensor_msgs/PointCloud2",
@@ -69,7 +69,7 @@ ROBOT = """<robot name="all" xmlns:xacro="http://ros.org/wiki/xacro">
 
 
 def place(index: int) -> str:
-    """The origin of the device of that number in the row, at x = 0."""
+    """Returns the origin of the device of that number in the row, at x = 0."""
     y = (index - (len(devices()) - 1) / 2) * SPACING_M
     return f'<origin xyz="0 {y:.2f} {HEIGHT_M}" rpy="0 0 0" />'
 
@@ -88,7 +88,7 @@ def call(device: str, index: int) -> str:
 def everything(
     shared_graph: RosGraph, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[RosGraph]:
-    """A paused simulator with a robot that has every sensor."""
+    """Yields a paused simulator with a robot that has every sensor."""
     folder = tmp_path_factory.mktemp("sensors")
     (folder / "wall.world").write_text(WORLD)
     calls = "\n".join(call(device, index) for index, device in enumerate(devices()))
@@ -135,7 +135,7 @@ def test_all_of_them_on_one_robot_publish_what_they_say(everything: RosGraph) ->
 
 
 def test_the_simulator_has_nothing_to_say_about_them(everything: RosGraph) -> None:
-    """No unknown plugin, no unknown key, no sensor left out."""
+    """Expects no unknown plugin, no unknown key, and no sensor left out."""
     complaints = [
         line
         for line in everything.simulator_output().splitlines()
@@ -146,12 +146,12 @@ def test_the_simulator_has_nothing_to_say_about_them(everything: RosGraph) -> No
 
 @pytest.fixture(scope="module")
 def heard(everything: RosGraph) -> Dict[str, Any]:
-    """Summaries of what each device said, filled as tests ask."""
+    """Keeps summaries of each device's messages, filled as tests ask."""
     return {}
 
 
 def listen(everything: RosGraph, heard: Dict[str, Any], device: str) -> Dict[str, Any]:
-    """{topic without namespace: summary} of the device; markers have no rate and are left out."""
+    """Returns {topic without namespace: summary} of the device; markers have no rate and are left out."""
     if device not in heard:
         wanted = {
             t: k for t, (k, _) in expected_topics(device, device).items() if "Marker" not in k
@@ -169,7 +169,7 @@ def rate_hz(device: str) -> float:
 
 @pytest.mark.parametrize("device", devices())
 def test_device(everything: RosGraph, heard: Dict[str, Any], device: str) -> None:
-    """Frames and rates of every topic, then what a device of its kind has besides."""
+    """Checks frames and rates of every topic, then the properties of the device's kind."""
     numbers = load(device)
     found = listen(everything, heard, device)
     for topic, (kind, frame) in expected_topics(device, device).items():
@@ -188,7 +188,7 @@ def test_device(everything: RosGraph, heard: Dict[str, Any], device: str) -> Non
 
 
 def tolerance_m(numbers: Dict[str, Any], distance_m: float) -> float:
-    """Six standard deviations of a lidar's noise: a false alarm in 5e8."""
+    """Returns six standard deviations of a lidar's noise: a false alarm in 5e8."""
     return 6 * (numbers["noise_std_m"] + numbers["noise_growth_m_per_m"] * distance_m) + 0.01
 
 
@@ -211,7 +211,7 @@ def check_lidar_3d(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -
     assert set(cloud["rings"]) <= set(range(numbers["vertical_samples"]))
     low, high = numbers["vertical_min_angle_rad"], numbers["vertical_max_angle_rad"]
     beam = (high - low) / (numbers["vertical_samples"] - 1)
-    # the ground and the wall (4 m high) fill the whole field of view
+    # The ground and the wall (4 m high) fill the whole field of view.
     assert cloud["elevations"] == pytest.approx([low, high], abs=beam + 0.01)
     assert len(cloud["rings"]) == numbers["vertical_samples"]
     assert cloud["points"] > 0.2 * numbers["samples"] * numbers["vertical_samples"]
@@ -223,7 +223,7 @@ def check_lidar_3d(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -
 
 
 def check_info(info: Dict[str, Any], width: int, height: int, fov_deg: float) -> None:
-    """Size and focal length; the principal point is within a pixel of the middle."""
+    """Checks size and focal length; the principal point is within a pixel of the middle."""
     assert (info["width"], info["height"]) == (width, height)
     focal_px = width / 2 / math.tan(math.radians(fov_deg) / 2)
     assert (info["K"][0], info["K"][4]) == pytest.approx((focal_px, focal_px), rel=1e-6)
@@ -283,7 +283,7 @@ def check_rgbd(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> No
 
 
 def check_infrared(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
-    """Brightness of a white wall that fills the picture: (ambient light + lamp x cosine) x the least exposure."""
+    """Checks the brightness of a white wall that fills the picture: (ambient + lamp x cosine) x the least exposure."""
     topic, encoding, pixel_bytes = INFRARED[device]
     image = last[f"ardee/{device}/{topic}"]
     size = numbers["width_px"], numbers["height_px"]
@@ -327,7 +327,7 @@ def check_gps(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> Non
 
 
 def check_imu(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
-    """At rest on level ground: 9.8 m/s2 up, up to noise and drift."""
+    """Checks the IMU at rest on level ground: 9.8 m/s2 up, up to noise and drift."""
     imu = next(iter(last.values()))
     accel, rate = imu["linear_acceleration"], imu["angular_velocity"]
     assert (accel.x, accel.y, accel.z) == pytest.approx((0, 0, 9.8), abs=0.1)
@@ -346,7 +346,7 @@ def check_range(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> N
 
 def check_other(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
     if device == "encoder":
-        # the wheel stands still, up to a pulse to each side
+        # The wheel stands still, up to a pulse to each side.
         pulse_rad = 2 * math.pi / numbers["pulses_count"]
         assert last["ardee/encoder"]["position"] == pytest.approx(0, abs=1.01 * pulse_rad)
         assert abs(last["ardee/encoder"]["qpps"]) < 1.5 / SPEED_WINDOW_S
@@ -357,7 +357,7 @@ def check_other(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> N
     state = last[f"ardee/{device}_state"]
     assert state["voltage"] == pytest.approx(battery["voltage"], abs=0.1)
     assert 0 <= state["percentage"] <= 1 and state["design_capacity"] > 0 and state["present"]
-    # the message's word for what is not measured: the quick mode knows no current
+    # The message's value for a quantity that is not measured: the quick mode has no current.
     assert all(math.isnan(state[key]) for key in ("temperature", "current", "charge", "capacity"))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The services of the running simulator, on level ground, with answers known by hand."""
+"""Tests the services of the running simulator, on level ground, with answers known by hand."""
 import copy
 import math
 import pathlib
@@ -21,7 +21,7 @@ BALL_RADIUS_M, BALL_MASS_KG, STEP_S = 0.1, 2.0, 0.005
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """The simulator alone, on level ground with a wall."""
+    """Yields the simulator alone, on level ground with a wall."""
     shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(DATA / "plane.world"))
     shared_graph.call(probes.clock_at_least, 0.1)
     yield shared_graph
@@ -29,7 +29,7 @@ def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
 
 @pytest.fixture(autouse=True)
 def as_before(world: RosGraph) -> Iterator[None]:
-    """Each test leaves a running world with nothing but what it came with."""
+    """Leaves a running world with its original content after each test."""
     yield
     names = properties(world).model_names
     ours = [delete(name) for name in names if name not in ("ground", "wall")]
@@ -70,7 +70,7 @@ def test_a_running_world_cannot_be_stepped(world: RosGraph) -> None:
 
 
 def test_free_fall(world: RosGraph) -> None:
-    """After n semi-implicit steps of h a body has fallen g h^2 n (n + 1) / 2."""
+    """Checks that after n semi-implicit steps of h a body has fallen g h^2 n (n + 1) / 2."""
     steps, height_m = 40, 5.0
     answers = call(
         world,
@@ -300,7 +300,7 @@ def test_physics_takes_what_it_has_told(world: RosGraph) -> None:
 
 
 def test_a_force_accelerates_for_its_duration(world: RosGraph) -> None:
-    """4 N on 2 kg for 0.1 s: 0.2 m/s, whatever comes after."""
+    """Pushes 2 kg with 4 N for 0.1 s: 0.2 m/s from then on."""
     answers = call(
         world,
         empty("pause_physics"),

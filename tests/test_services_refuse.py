@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A service that answers success = false has changed nothing: tried with invalid numbers and unknown names."""
+"""Tests that a service that answers success = false changes nothing: with invalid numbers and unknown names."""
 import math
 import pathlib
 from typing import Any, Dict, Iterator, List, Tuple
@@ -32,7 +32,7 @@ Request = Dict[str, Any]
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """A paused world with an arm on the ground, a light, and four bars that hinges close to a ring."""
+    """Yields a paused world with an arm on the ground, a light, and four bars that hinges nearly close to a ring."""
     simulate(shared_graph, WORLD)
     answers = call(
         shared_graph,

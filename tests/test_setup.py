@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""scripts/setup from a shell in which other workspaces were sourced: another checkout's, and a user's own."""
+"""Tests scripts/setup from a shell with other workspaces sourced: another checkout's, and a user's own."""
 import os
 import pathlib
 import shutil
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(
 
 @pytest.fixture
 def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
-    """As much of a checkout as setting up looks at; nothing to be had from PyPI."""
+    """Returns the part of a checkout that setting up needs, without access to PyPI."""
     folder = tmp_path / "checkout"
     for name in ("scripts", "compat"):
         shutil.copytree(ROOT / name, folder / name)
@@ -27,7 +27,7 @@ def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
 
 
 def run(script: str, **env: str) -> str:
-    """What a line of bash prints in an environment that has sourced nothing but `env`."""
+    """Returns the output of a line of bash in an environment that has sourced only `env`."""
     bare = {name: os.environ[name] for name in ("HOME", "PATH")}
     command = ["/bin/bash", "-euc", script]
     return subprocess.check_output(command, env={**bare, **env}, text=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every world, model, robot, launch file and YAML that is shipped can be loaded."""
+"""Tests that every shipped world, model, robot, launch file and YAML can be loaded."""
 import os
 import pathlib
 import subprocess
@@ -17,19 +17,19 @@ SRC = ROOT / "src"
 
 
 def shipped(pattern: str) -> Dict[str, pathlib.Path]:
-    """Files of the packages in this tree, by their name in it; a linked package counts where it is."""
+    """Returns files of the packages in this tree, by their name in it; a linked package counts where it is."""
     found = [*SRC.glob(f"*/{pattern}"), *(ROOT / "compat").glob(f"*/{pattern}")]
     return {str(f.relative_to(ROOT)): f for f in sorted(found) if not f.parents[-1].is_symlink()}
 
 
 def models() -> Dict[str, pathlib.Path]:
-    """Model directories on the model path of the workspace, by name; a light (sun) is none to spawn."""
+    """Returns model directories on the workspace's model path, by name; without lights (sun)."""
     folders = [pathlib.Path(f) for f in os.environ.get("GAZEBO_MODEL_PATH", "").split(":") if f]
     found = {p.parent.name: p.parent for f in folders for p in sorted(f.glob("*/model.sdf"))}
     return {name: p for name, p in found.items() if "<model" in (p / "model.sdf").read_text()}
 
 
-# the model of Willow Garage is of Gazebo's database
+# The model of Willow Garage belongs to Gazebo's database.
 WORLDS = {n: f for n, f in shipped("worlds/*.world").items() if f.stem != "willowgarage"}
 ROBOTS = shipped("robots/*.urdf.xacro")
 LAUNCH_FILES = {**shipped("launch/*.launch"), **{f.name: f for f in ROOT.glob("launch/*.launch")}}
@@ -51,7 +51,7 @@ def test_world_runs(graph: RosGraph, name: str) -> None:
 
 @pytest.fixture(scope="module")
 def empty_world(shared_graph: RosGraph) -> Iterator[RosGraph]:
-    """The simulator, paused, on an empty world."""
+    """Yields the simulator, paused, on an empty world."""
     world = SRC / "ardee_world" / "worlds" / "empty.world"
     shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(world), "_paused:=true")
     shared_graph.call(
@@ -61,7 +61,7 @@ def empty_world(shared_graph: RosGraph) -> Iterator[RosGraph]:
 
 
 def spawn_and_delete(graph: RosGraph, kind: str, name: str, xml: str) -> List[str]:
-    """What the two services say when they fail."""
+    """Returns the messages of the two services if they fail."""
     place = Pose(Point(0, 0, 1), Quaternion(0, 0, 0, 1))
     fields = {"model_name": name, "model_xml": xml, "initial_pose": place}
     answers = graph.call(
@@ -97,7 +97,7 @@ def test_launch_file_loads(name: str) -> None:
 @pytest.mark.parametrize("name", YAML_FILES)
 def test_yaml_loads(name: str) -> None:
     class Loader(yaml.SafeLoader):
-        """Knows xacro's !degrees and !radians."""
+        """YAML loader that knows xacro's !degrees and !radians."""
 
     for tag in ("!degrees", "!radians"):
         Loader.add_constructor(tag, lambda loader, node: float(loader.construct_scalar(node)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The simulator node: links, joints and wrenches by service, and the command spawn_model."""
+"""Tests the simulator node: links, joints and wrenches by service, and the command spawn_model."""
 import math
 import pathlib
 
@@ -58,7 +58,7 @@ def test_a_link_is_moved_with_its_model(world: RosGraph) -> None:  # noqa: F811
 
 
 def test_forces_add_up_and_their_frame_counts(world: RosGraph) -> None:  # noqa: F811
-    """Two pushes of 4 N along the x axis of a ball turned by 90 degrees: 8 N along the world's y."""
+    """Pushes a ball turned by 90 degrees twice with 4 N along its x axis: 8 N along the world's y."""
     along_x = push("ball::body", Vector3(4, 0, 0), 0.1, "ball::body")
     answers = call(
         world,
@@ -74,7 +74,7 @@ def test_forces_add_up_and_their_frame_counts(world: RosGraph) -> None:  # noqa:
 
 
 def test_an_effort_turns_a_joint_for_its_duration(world: RosGraph) -> None:  # noqa: F811
-    """2 N m on 0.5 kg m^2 for 0.1 s: 0.4 rad/s, whatever comes after."""
+    """Applies 2 N m to 0.5 kg m^2 for 0.1 s: 0.4 rad/s from then on."""
     import rospy
 
     effort = {"joint_name": "axle", "effort": 2.0, "duration": rospy.Duration.from_sec(0.1)}
@@ -195,7 +195,7 @@ def test_ctrl_c_ends_a_long_step(graph: RosGraph) -> None:
 
 
 def try_long_step(graph: RosGraph) -> None:
-    """Ask for more steps than the test has time for; the call ends with the simulator."""
+    """Requests more steps than the test has time for; the call ends with the simulator."""
     try:
         call(graph, step(4_000_000_000))
     except AssertionError:

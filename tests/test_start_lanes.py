@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""In every shipped world a robot can drive off down the lane before which the world's start file sets it down."""
+"""Tests that in every shipped world a robot can drive down the lane at the pose of the world's start file."""
 import pathlib
 
 import pytest
@@ -16,7 +16,7 @@ HEADING_GAIN_PER_S, OFFSET_GAIN_RAD_PER_M_S = 1.0, 0.8
 
 
 def way_driven_m(world: str, folder: str) -> float:
-    """Along its lane, by a robot that its true pose keeps in the middle."""
+    """Returns the way along its lane of a robot that is kept in the middle by its true pose."""
     import rospy
 
     from ardee_common.config import build, read_yaml_lines

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The services and topics in docs/support.md agree with a running simulator."""
+"""Tests that the services and topics in docs/support.md agree with a running simulator."""
 import pathlib
 from typing import Dict, Iterator, Tuple
 
@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "support.md").read_text()
 WORLD = ROOT / "tests" / "data" / "plane.world"
 OF_ROSCPP = ("get_loggers", "set_logger_level")
-NOT_OURS = ("/rosout", "/tf_static")  # of roscpp; of robots, of which there is none
+NOT_OURS = ("/rosout", "/tf_static")  # roscpp's, and those of robots, of which there is none
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +22,7 @@ def world(shared_graph: RosGraph) -> Iterator[RosGraph]:
 
 
 def table(title: str) -> Dict[str, Tuple[str, ...]]:
-    """Rows of a section of the page by what stands in their first column."""
+    """Returns rows of a section of the page by their first column."""
     section = PAGE.split(f"\n## {title}\n")[1].split("\n## ")[0]
     rows = (line.strip("|").split("|") for line in section.splitlines() if line.startswith("| `"))
     return {row[0].strip(" `"): tuple(cell.strip() for cell in row[1:]) for row in rows}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Counts of scripts/test, in a checkout of two packages with a test each and one C++ test."""
+"""Tests the counts of scripts/test, in a checkout of two packages with a test each and one C++ test."""
 import pathlib
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 
 @pytest.fixture
 def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
-    """A checkout in which nothing needs to be set up or built."""
+    """Returns a checkout in which no setup or build is needed."""
     shutil.copytree(ROOT / "scripts", tmp_path / "scripts")
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     for name in ("setup", "build"):
@@ -47,7 +47,7 @@ def test_a_package_without_a_test_has_failed(checkout: pathlib.Path) -> None:
 
 
 def run(checkout: pathlib.Path, *arguments: str) -> Tuple[int, str]:
-    """Exit code and last line of scripts/test --unit."""
+    """Returns exit code and last line of scripts/test --unit."""
     command = [str(checkout / "scripts/test"), "--unit", "-j", "1", *arguments]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout.splitlines()[-1]

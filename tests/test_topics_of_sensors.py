@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Names of the topics of a robot's sensors; with an invalid topic the robot is spawned without that sensor."""
+"""Tests names of the topics of a robot's sensors; with an invalid topic the robot is spawned without that sensor."""
 import pathlib
 from typing import List
 
@@ -25,7 +25,7 @@ SONAR = """<xacro:sensor_sonar name="{}" parent="base_footprint" topic="{}">
 
 @pytest.fixture(scope="module")
 def world(shared_graph: RosGraph) -> RosGraph:
-    """An empty world."""
+    """Yields an empty world."""
     file = shared_graph.folder / "empty.world"
     file.write_text(WORLD)
     shared_graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(file))
@@ -34,7 +34,7 @@ def world(shared_graph: RosGraph) -> RosGraph:
 
 
 def spawn(graph: RosGraph, name: str, calls: str, before: str = "") -> None:
-    """A robot in the namespace of its name; it has to come."""
+    """Spawns a robot in the namespace of its name; fails if it is refused."""
     file = graph.folder / f"{name}.urdf.xacro"  # type: pathlib.Path
     file.write_text(ROBOT.format(before=before, calls=calls))
     fields = {
@@ -51,7 +51,7 @@ def spawn(graph: RosGraph, name: str, calls: str, before: str = "") -> None:
 
 
 def errors(graph: RosGraph, part: str) -> List[str]:
-    """The simulator's complaints that hold `part`."""
+    """Returns the simulator's errors that contain `part`."""
     return [line for line in graph.logs().splitlines() if "ERROR" in line and part in line]
 
 

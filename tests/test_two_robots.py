@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Two robots in one world, the second in a namespace: neither hears the other's commands."""
+"""Tests two robots in one world, the second in a namespace: neither gets the other's commands."""
 import probes
 from ros_graph import RosGraph
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""For the benchmark: when each message of a topic began to arrive at its subscriber, from the packets on loopback.
+"""Captures packets on loopback, and finds when each message of a topic began to arrive at its subscriber.
 
-As tcpdump sees them: nothing is sent beside what is measured. It takes the rights to capture packets and to keep many
-(CAP_NET_RAW and CAP_NET_ADMIN).
+It captures as tcpdump does, without any traffic of its own. It needs the rights to capture packets and to enlarge
+its buffer (CAP_NET_RAW and CAP_NET_ADMIN).
 """
 import ctypes
 import socket
@@ -18,16 +18,16 @@ from ardee_bridge.wire.codec import Buffer
 
 INTERFACE = "lo"
 BUFFER_BYTES = 64 << 20
-READ_AT_ONCE = 1000  # packets; then who waits for an answer has a turn
-# Packets that overtake each other, on the way through two processors, are few and soon in order again.
+READ_AT_ONCE = 1000  # packets; then other work has a turn
+# Greatest number of packets that wait for one that they overtook on another processor.
 MOST_EARLY, LATE_S = 100, 1.0
-# Linux's numbers, which Python's socket module does not name.
+# Numbers of Linux that Python's socket module does not name.
 SO_ATTACH_FILTER = 26
 SOL_PACKET, PACKET_STATISTICS, PACKET_IGNORE_OUTGOING = 263, 6, 23
-# Of a packet of a single protocol the time is taken after the subscriber has been woken.
+# For a socket of one protocol, the packet's time would be taken after the subscriber has been woken.
 ETH_P_ALL = 3
 _ETHERNET_BYTES, _MAX_PACKET = 14, 66_000
-# Classic BPF: whole packets of IPv4 (Ethernet's 0x800) whose protocol is TCP (6), no fragments.
+# Classic BPF: whole packets of IPv4 (Ethernet's 0x800) with protocol TCP (6), no fragments.
 _ONLY_TCP = b"".join(
     struct.pack("=HBBI", *each)
     for each in (
@@ -41,7 +41,7 @@ _ONLY_TCP = b"".join(
         (0x06, 0, 0, 0),
     )
 )
-# Length of a message that begins with a std_msgs/Header: its seq, seconds and nanoseconds.
+# Lengths at the start of a message with a std_msgs/Header: its seq, seconds and nanoseconds.
 BEGIN = struct.Struct("<IIII")
 _SEQUENCES = 1 << 32
 
@@ -49,11 +49,11 @@ Times = Dict[int, int]  # stamp of a message [ns]: arrival of its first bytes [n
 
 
 class Missing(OSError):
-    """Error of packets that were not captured."""
+    """Error: packets were not captured."""
 
 
 class Segment(NamedTuple):
-    """Of TCP: both ends (address and port), numbers of its first byte and of the next one expected back, bytes."""
+    """TCP segment: both ends (address and port), number of its first byte, next number expected back, bytes."""
 
     source: bytes
     destination: bytes
@@ -63,7 +63,7 @@ class Segment(NamedTuple):
 
 
 def segment(packet: memoryview) -> Optional[Segment]:
-    """Of an Ethernet packet with IPv4 and TCP; None where it is too short for them."""
+    """Parses an Ethernet packet with IPv4 and TCP; returns None if it is too short for them."""
     ip = packet[_ETHERNET_BYTES:]
     try:
         (size,) = struct.unpack_from(">H", ip, 2)
@@ -77,14 +77,14 @@ def segment(packet: memoryview) -> Optional[Segment]:
 
 
 class Flow:
-    """What a publisher sends to one subscriber: a connection header, then messages, all after their lengths."""
+    """Bytes from a publisher to one subscriber: a connection header, then messages, each after its length."""
 
     def __init__(self, topic: str, asked: Segment) -> None:
-        """The topic and the segment of the subscriber's handshake."""
+        """Takes the topic and the segment of the subscriber's handshake."""
         self.topic, self.handshake = topic, asked.sequence
         self.times: Times = {}
         self._next = asked.expected  # number of the next byte
-        # by number of the first byte, those that came before others
+        # segments ahead of their turn, by number of the first byte
         self._early: Dict[int, Tuple[Segment, int]] = {}
         self._begin = b""
         self._begin_ns = 0
@@ -96,9 +96,9 @@ class Flow:
         return bool(self._early)
 
     def take(self, arrived: Segment, at_ns: int) -> None:
-        """The next segment, or one that overtook others; bytes that were sent again are passed over.
+        """Takes the next segment, or one ahead of its turn; skips bytes that were sent again.
 
-        Missing where too many overtook one; ValueError where a message cannot have a stamp.
+        Raises Missing if too many segments overtook one, and ValueError for a message without a stamp.
         """
         known = (self._next - arrived.sequence) % _SEQUENCES
         if known >= _SEQUENCES // 2:
@@ -112,11 +112,11 @@ class Flow:
         while len(data):
             data = data[self._pass(data, at_ns) :]
         for begin in [at for at in self._early if (self._next - at) % _SEQUENCES < _SEQUENCES // 2]:
-            if begin in self._early:  # another one's turn may have been before
+            if begin in self._early:  # another segment may have covered this one
                 self.take(*self._early.pop(begin))
 
     def _pass(self, data: Buffer, at_ns: int) -> int:
-        """Returns the number of bytes that belong to the message that goes on or begins."""
+        """Skips bytes of the present message; returns their number."""
         if self._rest:
             count = min(self._rest, len(data))
             self._rest -= count
@@ -139,13 +139,13 @@ class Flow:
 
 
 class Capture:
-    """Of the messages to one node and those whose names begin with its name."""
+    """Captures the messages to a node and to nodes whose names begin with its name."""
 
     def __init__(self, caller: str) -> None:
-        """OSError without the rights to capture packets, or before Linux 4.20."""
+        """Opens the socket; raises OSError without the rights to capture packets, or before Linux 4.20."""
         self._caller = caller
         self._flows: List[Flow] = []
-        # by their ends, from publisher to subscriber
+        # flows by their ends, from publisher to subscriber
         self._open: Dict[Tuple[bytes, bytes], Flow] = {}
         self._room = memoryview(bytearray(_MAX_PACKET))
         self._socket = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, 0)
@@ -166,7 +166,7 @@ class Capture:
         self._socket.bind((INTERFACE, ETH_P_ALL))
 
     def read(self) -> bool:
-        """Take what has arrived; is anything left? Missing where packets are."""
+        """Takes arrived packets; returns whether any is left. Raises Missing if packets are."""
         for _ in range(READ_AT_ONCE):
             try:
                 size, extras, _, _ = self._socket.recvmsg_into(
@@ -193,7 +193,7 @@ class Capture:
             self._flows.append(self._open[back])
 
     def _asked_for(self, data: Buffer) -> str:
-        """The topic, where these bytes are the handshake of a subscriber that is meant."""
+        """Returns the topic if these bytes are the handshake of a wanted subscriber."""
         if len(data) > 4096 or b"callerid=" not in bytes(data):
             return ""
         try:
@@ -204,7 +204,7 @@ class Capture:
         return header.get("topic", "") if is_meant else ""
 
     def times(self) -> Dict[str, Times]:
-        """Of what has arrived, by topic; of several connections the first one's. Missing where packets are."""
+        """Returns arrival times by topic; with several connections, the first one's. Raises Missing if packets are."""
         deadline = time.monotonic() + LATE_S
         while self.read() or any(flow.is_waiting() for flow in self._flows):
             if time.monotonic() > deadline:
@@ -227,7 +227,7 @@ class Capture:
 
 
 def watch(pipe: Any, caller: str) -> None:
-    """Body of a process: says when it listens, or why it cannot; told to end, says what arrived when, by topic."""
+    """Captures, as a process's body: reports that it listens, or its error; when told to end, arrivals by topic."""
     try:
         capture = Capture(caller)
     except OSError as error:

@@ -6,7 +6,7 @@ import time
 from typing import Any, Optional, Sequence
 
 SO_TIMESTAMPNS = 35  # Linux; Python's socket module does not name it
-LOOK_S = 0.001  # how often those who keep its times look at what has come
+LOOK_S = 0.001  # period of looks at arrived data, for processes that keep arrival times
 
 
 def use(opened: socket.socket) -> None:
@@ -24,8 +24,9 @@ def arrival_ns(extras: Sequence[Any]) -> Optional[int]:
 
 
 def wait() -> None:
-    """Linux begins to take times of arrival some moments after a first socket asked; until then it says those of
-    looking."""
+    """Waits until Linux records arrival times, some moments after a first socket asked; until then it gives those of
+    reading.
+    """
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as opened:
         use(opened)
         opened.bind(("127.0.0.1", 0))

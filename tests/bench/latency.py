@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Code that the bridge's measurements on loopback share: latencies and losses of messages.
 
-A datagram's time is the kernel's, of its arrival at the receiver's socket. Nodes, publishers and receivers are
+A datagram's time is its arrival at the receiver's socket by the kernel. Nodes, publishers and receivers are
 processes of their own, around a ROS master of their own.
 """
 import contextlib
@@ -27,9 +27,9 @@ from ardee_common.process import RosMaster, start_child
 START_LIMIT_S = 30.0
 # Time for the last messages to arrive.
 SETTLE_S = 0.5
-# Nothing for so long: no message is on its way any more, however busy the machine.
+# After so long without a message, none is on its way, however busy the machine.
 SILENCE_S = 3.0
-# Larger datagrams are parts of frames, of which only the head is looked at.
+# Larger datagrams are parts of frames; only their head is read.
 SO_RCVBUFFORCE = 33  # Linux's number, which Python's socket module does not name
 CHUNKED = (codec.ImageChunk, codec.PointCloudChunk)
 KEPT_WHOLE_BYTES, KEPT_BYTES = 16384, 64
@@ -38,7 +38,7 @@ Key = Tuple[int, int]  # data type, component id
 
 
 class Stream(NamedTuple):
-    """A sensor: kind, topic, component id, rate, format of images."""
+    """Sensor stream: kind, topic, component id, rate, format of images."""
 
     kind: str
     topic: str
@@ -52,19 +52,19 @@ class Stream(NamedTuple):
 
 
 def row_of(kind: str, format: str) -> str:
-    """In the table: kind of sensor, of images the format too."""
+    """Returns the row in the table: kind of sensor, and the format of images."""
     return f"{format} {kind}" if format else kind
 
 
 class Datagram(NamedTuple):
-    """What came, of a large one only the beginning; its size, and when [ns]."""
+    """Received datagram, of a large one only its beginning; its size, and its arrival [ns]."""
 
     beginning: bytes
     size: int
     at_ns: int
 
     def data(self) -> bytes:
-        """All bytes; those that were not kept are zero."""
+        """Returns all bytes; bytes that were not kept are zero."""
         return self.beginning.ljust(self.size, b"\0")
 
 
@@ -79,7 +79,7 @@ class Spread(NamedTuple):
 
 
 def spread(latencies_ns: Sequence[int], sent: int) -> Spread:
-    """Percentiles by the nearest rank."""
+    """Returns percentiles by the nearest rank."""
     ordered = sorted(latencies_ns)
     if not ordered:
         return Spread(math.nan, math.nan, math.nan, sent, sent)
@@ -92,7 +92,7 @@ def spread(latencies_ns: Sequence[int], sent: int) -> Spread:
 
 @contextlib.contextmanager
 def own_master() -> Iterator[Dict[str, str]]:
-    """Environment of a ROS master of one's own."""
+    """Returns the environment of a ROS master of its own."""
     env = dict(os.environ, ROS_IP="127.0.0.1")
     env.pop("ROS_HOSTNAME", None)
     master = RosMaster(env)
@@ -104,7 +104,7 @@ def own_master() -> Iterator[Dict[str, str]]:
 
 @contextlib.contextmanager
 def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subprocess.Popen]:
-    """A node of this package while the block runs."""
+    """Runs a node of this package during the block."""
     command = ["rosrun", "ardee_bridge", name, *parameters]
     child = start_child(command, env, stderr=subprocess.PIPE, text=True)
     try:
@@ -118,7 +118,7 @@ def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subproces
 
 
 def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tuple[Any, Any]:
-    """Start body(pipe, *args) in a process of its own: the process and our end of the pipe."""
+    """Starts body(pipe, *args) in a process of its own; returns the process and our end of the pipe."""
     context = get_context("spawn")
     ours, theirs = context.Pipe()
     process = context.Process(target=_enter, args=(env, body, theirs, args), daemon=True)
@@ -137,7 +137,7 @@ def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple
 
 
 def hear(pipe: Any, limit_s: float) -> Any:
-    """What a process says; the error that it ended with is raised."""
+    """Returns a process's next report; raises the error that ended it."""
     if not pipe.poll(limit_s):
         raise TimeoutError(f"a process of the benchmark said nothing for {limit_s} s")
     said = pipe.recv()
@@ -147,8 +147,8 @@ def hear(pipe: Any, limit_s: float) -> Any:
 
 
 def answer(process: Any, pipe: Any, word: str, limit_s: float) -> Any:
-    """What a process says at its end, which this word tells it."""
-    with contextlib.suppress(BrokenPipeError):  # it has ended, and said why
+    """Returns a process's last report, which this word requests."""
+    with contextlib.suppress(BrokenPipeError):  # it has ended, and has reported why
         pipe.send(word)
     said = hear(pipe, limit_s)
     process.join(START_LIMIT_S)
@@ -165,11 +165,11 @@ def is_followed(message: Message) -> bool:
 
 
 def receive_datagrams(pipe: Any) -> List[Datagram]:
-    """Say one's port, receive until told to end, "at once" or when nothing comes any more: what came, and when [ns].
+    """Reports its port, and receives until told to end, at once or after the last message; reports arrivals [ns].
 
-    The receiver is to be another computer, which takes no time of this one's: where it can, it only looks from time to
-    time, and keeps nobody from a processor who goes first. To wake it is work for the sender, up to 50 us a datagram on
-    a virtual machine. Each datagram has the kernel's time of its arrival, however late it is looked at.
+    The receiver stands for another computer, which takes no time of this one: if possible, it only looks from time to
+    time, and never keeps a process of higher priority waiting. Waking it is work for the sender, up to 50 us a datagram
+    on a virtual machine. Each datagram has the kernel's time of its arrival, however late it is read.
     """
     with open_socket("127.0.0.1", 0) as opened:
         only_looks = _make_room(opened) and priority.go_next()
@@ -193,14 +193,14 @@ def receive_datagrams(pipe: Any) -> List[Datagram]:
 
 
 def _make_room(opened: socket.socket) -> bool:
-    """Does the socket hold several frames now, which come between two looks?"""
+    """Enlarges the socket's buffer for several frames between two looks; returns whether it could."""
     with contextlib.suppress(PermissionError):
         opened.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, BUFFER_BYTES)
     return opened.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) >= BUFFER_BYTES
 
 
 def _arrived(opened: socket.socket, room: memoryview) -> Iterator[Datagram]:
-    """What is there; the room is for one datagram."""
+    """Yields the datagrams that have arrived; the buffer holds one."""
     with contextlib.suppress(BlockingIOError):
         while True:
             size, extras, _, _ = opened.recvmsg_into([room], 256, socket.MSG_DONTWAIT)
@@ -209,7 +209,7 @@ def _arrived(opened: socket.socket, room: memoryview) -> Iterator[Datagram]:
 
 
 def server_arguments(peer: str, sources: Sequence[Union[Stream, Source]]) -> List[str]:
-    """Parameters of a sensor server of these sources."""
+    """Returns parameters of a sensor server of these sources."""
     items = []
     for source in sources:
         values = dict(name=source.topic, kind=source.kind, topic=source.topic)

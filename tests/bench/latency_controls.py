@@ -22,7 +22,7 @@ COMMAND_RATE_HZ = 100.0
 
 
 def receive_commands(pipe: Any, topic: str) -> None:
-    """Body of the robot: says when it listens and, told to end, when each command came."""
+    """Runs as the robot: reports that it listens and, when told to end, when each command came."""
     import rospy
     from geometry_msgs.msg import Twist
 
@@ -44,7 +44,7 @@ def receive_commands(pipe: Any, topic: str) -> None:
 
 
 def measure_controls(seconds: float) -> Spread:
-    """Data datagram of a motion command sent -> its Twist in a subscriber's callback."""
+    """Measures from the data datagram of a motion command to its Twist."""
     with own_master() as env, open_socket("127.0.0.1", 0) as probe:
         port = probe.getsockname()[1]
         probe.close()
@@ -60,7 +60,7 @@ def measure_controls(seconds: float) -> Spread:
 
 
 def _wake(port: int, from_robot: Any) -> None:
-    """Send commands until the first arrives: only then both ends of the topic know of each other."""
+    """Sends commands until the first arrives: only then do both ends of the topic know each other."""
     with open_socket("127.0.0.1", 0) as opened:
         deadline = time.monotonic() + START_LIMIT_S
         while not from_robot.poll(0.1):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The floor of the bridge's latencies: what the barest chain of its shape takes on this machine at the same time.
+"""Measures the floor of the bridge's latencies: the barest chain of its shape on this machine at the same time.
 
 A process that sleeps between messages writes each to a TCP connection, as a simulator does; another one
-reads it and sends it on as a datagram. There is no ROS and no work in between, so
-that what the floor takes is the machine's: system calls, waking a process, and waiting for a processor.
+reads it and sends it on as a datagram. There is no ROS and no work in between, so the floor is the
+machine's: system calls, waking a process, and waiting for a processor.
 """
 import contextlib
 import socket
@@ -18,15 +18,15 @@ from ardee_bridge.wire.udp import open_socket
 NAME = "bare forwarder"
 RATE_HZ = 100.0
 HOST = "127.0.0.1"
-MESSAGE = struct.Struct("<q")  # when it is written, by the clock of the kernel's time stamps [ns]
+MESSAGE = struct.Struct("<q")  # time of writing, by the clock of the kernel's time stamps [ns]
 
-Arrivals = Dict[int, int]  # when a message was written: when its datagram arrived [ns]; 0: not yet
+Arrivals = Dict[int, int]  # time of writing: time of the datagram's arrival [ns]; 0: none yet
 
 
 def write(pipe: Any) -> None:
-    """Body of the first process: says its ports, to read from and to send to, and once told to end what arrived when.
+    """Writes, as the first process's body: reports its ports to read from and send to and, when told to end, arrivals.
 
-    It receives too: a datagram's time is the kernel's, however late this process looks at it.
+    It receives too: a datagram's time is the kernel's, however late this process reads it.
     """
     priority.hurry()
     priority.keep_what_there_is()
@@ -59,7 +59,7 @@ def _receive(receiver: socket.socket, arrivals: Arrivals) -> None:
 
 
 def forward(pipe: Any, source: int, target: int) -> None:
-    """Body of the second process: says when it is connected; from one port to another, until the connection ends."""
+    """Forwards, as the body of the second process: reports its connection; then copies until the connection ends."""
     priority.keep_what_there_is()
     with socket.create_connection((HOST, source)) as opened, open_socket(HOST, 0) as sender:
         pipe.send("connected")
@@ -71,7 +71,7 @@ def forward(pipe: Any, source: int, target: int) -> None:
 
 @contextlib.contextmanager
 def running() -> Iterator[Callable[[int, int], latency.Spread]]:
-    """The chain while the block runs. What it yields ends it, and says what it took from one time to another [ns]."""
+    """Runs the chain during the block. Yields a function that ends it and returns latencies between two times [ns]."""
     writer, from_writer = latency.in_process({}, write)
     processes = [writer]
 
@@ -92,7 +92,7 @@ def running() -> Iterator[Callable[[int, int], latency.Spread]]:
 
 
 def spread_within(arrivals: Arrivals, begin_ns: int, end_ns: int) -> latency.Spread:
-    """Of the messages that were written from one time to another."""
+    """Returns the spread of the messages that were written from one time to another."""
     within = {at_ns: arrived for at_ns, arrived in arrivals.items() if begin_ns <= at_ns <= end_ns}
     found = [arrived - at_ns for at_ns, arrived in within.items() if arrived]
     return latency.spread(found, len(within))

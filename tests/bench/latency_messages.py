@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Messages of full size for the benchmark, numbered in a field that survives the wire."""
+"""Makes messages of full size for the benchmark, numbered in a field that survives the wire."""
 import io
 from typing import Any, BinaryIO, Callable, Dict
 
@@ -25,12 +25,12 @@ POINT_FLOAT32 = 7
 
 
 class _Direct:
-    """A message whose `data` go into the publisher's buffer as they are: genpy would copy a frame once more before."""
+    """Message whose `data` go into the publisher's buffer without a copy; genpy would copy a frame once more."""
 
     AFTER_DATA = 0  # bytes of its fields after `data`
 
     def serialize(self, buff: BinaryIO) -> None:
-        """As genpy's, which is used for all but `data`."""
+        """Serializes as genpy does, which is used for all fields but `data`."""
         data, self.data = self.data, b""
         try:
             super().serialize(buff)
@@ -90,20 +90,20 @@ _MAKERS: Dict[str, Callable[[], Any]] = {
 
 
 def make(kind: str, topic: str) -> Any:
-    """A message of this kind of sensor; an image on a topic named depth is one of depth."""
+    """Makes a message of this kind of sensor; an image on a topic named depth is a depth image."""
     if kind == "image":
         return _image("32FC1", 4) if topic.endswith("depth") else _image("rgb8", 3)
     return _MAKERS[kind]()
 
 
 def compressed(image: Image) -> CompressedImage:
-    """The same image as JPEG, as a camera's driver publishes it beside the raw one."""
+    """Makes the same image as JPEG, as a camera's driver publishes it beside the raw one."""
     frame = convert.image(image, "jpeg", JPEG_QUALITY)
     return _CompressedImage(format="jpeg", data=frame.payload)
 
 
 def number(kind: str, message: Any, serial: int) -> None:
-    """Put the running number where latency.serial_of() finds it; frames are numbered by the sensor server."""
+    """Writes the running number where latency.serial_of() finds it; the sensor server numbers frames itself."""
     if kind == "imu":
         message.linear_acceleration.x = serial * 1e-6
     elif kind == "gps":

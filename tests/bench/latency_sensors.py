@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Measures the sensor server on loopback with messages of the benchmark's own, at the sensors' full rates."""
+"""Measures the sensor server on loopback with the benchmark's own messages, at the sensors' full rates."""
 import time
 import warnings
 from typing import Any, Dict, List, Sequence, Tuple
@@ -27,7 +27,7 @@ from bench.latency import (
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
 
-Times = Dict[Key, List[int]]  # ns of the messages in their order
+Times = Dict[Key, List[int]]  # arrival [ns] of the messages in their order
 
 # The full rates of the TerraSentia v3's sensors.
 SENSORS = (
@@ -43,7 +43,7 @@ SENSORS = (
 
 
 def cameras(image_format: str) -> Tuple[Stream, ...]:
-    """Its three cameras, and what it may carry besides."""
+    """Returns the robot's three cameras, and other sensors that it may carry."""
     return (
         Stream("image", "/bench/camera/front", 0, 30.0, image_format),
         Stream("image", "/bench/camera/left", 1, 30.0, image_format),
@@ -54,7 +54,7 @@ def cameras(image_format: str) -> Tuple[Stream, ...]:
 
 
 def serial_of(header: codec.Header, data: bytes) -> int:
-    """The running number that a message carries; -1 for a chunk that is not its frame's last."""
+    """Returns the running number of a message; -1 for a chunk that is not its frame's last."""
     kind = codec.data_struct(header)
     raw = kind.unpack(data[: kind.size])
     if kind in CHUNKED:
@@ -70,12 +70,12 @@ def serial_of(header: codec.Header, data: bytes) -> int:
 
 
 def receive_sensors(pipe: Any) -> None:
-    """Body of the receiver, which then says when each message came."""
+    """Runs as the receiver; reports when each message came."""
     pipe.send(_arrivals(receive_datagrams(pipe)))
 
 
 def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
-    """(data type, component) -> running number -> ns."""
+    """Returns (data type, component) -> running number -> ns."""
     pairer, arrivals = Pairer(), {}  # type: Pairer, Dict[Key, Dict[int, int]]
     for datagram in kept:
         message = pairer.feed("server", datagram.data(), datagram.at_ns * 1e-9)
@@ -89,17 +89,17 @@ def _arrivals(kept: List[Datagram]) -> Dict[Key, Dict[int, int]]:
 
 
 def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> None:
-    """Body of a publisher: publishes at the streams' rates, says when each message was published, ends when told.
+    """Runs as a publisher: publishes at the streams' rates until told to end; reports when each message was published.
 
-    It stands for a simulator whose `realtime_priority` is set. Its publishers have no queue: rospy would write to the
-    socket in a thread of its own without that priority.
+    It stands for a simulator with `realtime_priority`. Its publishers have no queue: with one, rospy would write to
+    the socket in a thread of its own without that priority.
     """
     import rospy
     from bench import latency_messages
 
     from ardee_bridge.nodes.subscriptions import TYPES
 
-    warnings.simplefilter("ignore", SyntaxWarning)  # rospy's, for publishers without a queue
+    warnings.simplefilter("ignore", SyntaxWarning)  # rospy warns of publishers without a queue
     rospy.init_node("latency_source", anonymous=True, disable_signals=True, disable_rostime=True)
     messages = [latency_messages.make(stream.kind, stream.topic) for stream in streams]
     publishers = [
@@ -108,7 +108,7 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
     ]
     raw = {}  # type: Dict[int, Tuple[Any, Any]]
     for index, stream in enumerate(streams):
-        if stream.format == "jpeg":  # as a camera's driver, which offers both
+        if stream.format == "jpeg":  # a camera's driver offers both forms
             raw[index] = publishers[index], messages[index]
             messages[index] = latency_messages.compressed(messages[index])
             publishers[index] = rospy.Publisher(
@@ -141,16 +141,16 @@ def publish_sensors(pipe: Any, streams: Sequence[Stream], seconds: float) -> Non
 
 
 def publish_at(publisher: Any, message: Any) -> int:
-    """Publish, and tell when rospy was asked to [ns]: what it takes to make the bytes and write them counts."""
+    """Publishes; reports the time of the call [ns], so that making and writing the bytes count."""
     at_ns = time.time_ns()
     publisher.publish(message)
     return at_ns
 
 
 def measure_sensors(seconds: float, image_format: str = "") -> Dict[str, Spread]:
-    """Sensor message published -> data datagram arrived, of frames the last, by kind of sensor.
+    """Measures from publishing to the arrival of the data datagram, for frames the last one, by kind of sensor.
 
-    And the bare forwarder's in the same time. With cameras where a format of their images is given.
+    Measures the bare forwarder at the same time. Includes cameras if a format of their images is given.
     """
     groups = [SENSORS] + ([cameras(image_format)] if image_format else [])
     streams = [stream for group in groups for stream in group]

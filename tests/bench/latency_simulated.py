@@ -15,13 +15,13 @@ import rosgraph
 from bench import capture, latency, latency_floor
 from bench.capture import Times
 
-from ardee_bridge.nodes.settings import KINDS, Source
+from ardee_bridge.nodes.settings import FRAME_KINDS, KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
 from ardee_common.process import start_child, stop_child
 
 START_LIMIT_S = 120.0
-WARM_UP_S = 6.0  # beside programs that keep all processors busy, too
+WARM_UP_S = 6.0  # long enough even beside programs that keep all processors busy
 WORLD = ("roslaunch", "ardee_world", "custom_world.launch")
 SENSORS = Path(__file__).resolve().with_name("benchmark_sensors.urdf.xacro")
 ROBOT = ("roslaunch", "terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
@@ -37,7 +37,7 @@ def _launched(env: Dict[str, str], *command: str) -> Iterator[None]:
 
 
 def _wait_for(env: Dict[str, str], name: str) -> None:
-    """Waits until this node is there."""
+    """Waits until this node is registered."""
     master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
     deadline = time.monotonic() + START_LIMIT_S
     while True:
@@ -50,7 +50,7 @@ def _wait_for(env: Dict[str, str], name: str) -> None:
 
 
 def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Times]:
-    """When each sensor's message arrived, by its time stamp; of frames the last chunk."""
+    """Returns arrivals of each sensor's messages by time stamp; for frames, that of the last chunk."""
     pairer, stamps = Pairer(), {}  # type: Pairer, Dict[latency.Key, int]
     arrivals = {}  # type: Dict[latency.Key, Times]
     for datagram in kept:
@@ -68,7 +68,7 @@ def _arrivals(kept: List[latency.Datagram]) -> Dict[latency.Key, Times]:
 
 
 def receive(pipe: Any) -> None:
-    """Body of the receiver: says its port, receives until told to end, then says what came when."""
+    """Runs as the receiver: reports its port, receives until told to end, then reports the arrivals."""
     kept = latency.receive_datagrams(pipe)
     pipe.send(_arrivals(kept))
 
@@ -78,7 +78,7 @@ def _within(stamps: Times, begin_ns: int, end_ns: int) -> Times:
 
 
 def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
-    """Of a kind of sensor, over its components; from the first to the last message that both ends have."""
+    """Returns the spread of a kind of sensor over its components, from the first to the last message of both ends."""
     found, sent = [], 0
     for before, after in zip(published, arrived):
         both = sorted(before.keys() & after.keys())
@@ -89,12 +89,12 @@ def _spread(published: List[Times], arrived: List[Times]) -> latency.Spread:
 
 
 def _topic(source: Source) -> str:
-    """Where the sensor server reads it: the robot's cameras compress their images themselves."""
+    """Returns the topic that the sensor server reads: the robot's cameras compress their images themselves."""
     return "/" + (source.of_camera() if source.format == "jpeg" else source).topic
 
 
 def _await_topics(env: Dict[str, str], topics: List[str], reader: str = "") -> None:
-    """Returns once somebody publishes all of these or, if a reader is named, once it has subscribed to them."""
+    """Waits until all of these are published or, if a reader is named, until it has subscribed to them."""
     master = rosgraph.Master("/latency", env["ROS_MASTER_URI"])
     deadline = time.monotonic() + START_LIMIT_S
     missing = set(topics)
@@ -109,14 +109,14 @@ def _await_topics(env: Dict[str, str], topics: List[str], reader: str = "") -> N
 
 
 def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[str, latency.Spread]:
-    """Of a TerraSentia v3 in corn: all small sensors, and its cameras where a format of their images is given.
+    """Measures a TerraSentia v3 in corn: all small sensors, and its cameras if a format of their images is given.
 
-    And the bare forwarder's in the same time.
+    Measures the bare forwarder at the same time.
     """
     sources = [
         dataclasses.replace(source, format=image_format) if source.format == "jpeg" else source
         for source in sources
-        if image_format or not source.is_frame
+        if image_format or source.kind not in FRAME_KINDS
     ]
     with contextlib.ExitStack() as stack:
         env = stack.enter_context(latency.own_master())
@@ -139,7 +139,7 @@ def measure(seconds: float, image_format: str, sources: List[Source]) -> Dict[st
         stack.enter_context(_launched(env, *robot))
         topics = {source.name: _topic(source) for source in sources}
         _await_topics(env, list(topics.values()))
-        # all masters' nodes share the loopback that packets are captured on
+        # The nodes of all masters share the loopback that packets are captured on.
         name = f"/latency_server_{os.getpid()}"
         watcher, from_watcher = latency.in_process(env, capture.watch, name)
         said = latency.hear(from_watcher, START_LIMIT_S)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Measures that keep sending threads from waiting: for other programs, for Python's lock and collector, for memory."""
+"""Keeps sending threads from waiting: for other programs, for Python's lock and collector, for memory."""
 import contextlib
 import ctypes
 import gc
@@ -7,9 +7,9 @@ import os
 import sys
 import threading
 
-# A thread that computes lets another one run after this time, not after Python's 5 ms.
+# A computing thread lets another one run after this time, not after Python's 5 ms.
 SWITCH_INTERVAL_S = 0.0005
-# mallopt(3): its numbers, and the most that it takes as the first; several frames at once fit the second.
+# Parameters of mallopt(3), and the greatest value of the first; several frames at once fit the second.
 M_TRIM_THRESHOLD, M_MMAP_THRESHOLD = -1, -3
 MOST_MMAP_THRESHOLD_BYTES, TRIM_THRESHOLD_BYTES = 32 << 20, 256 << 20
 
@@ -20,26 +20,26 @@ def share_fairly() -> None:
 
 
 def keep_what_there_is() -> None:
-    """Python's collector looks no more at what has been made so far, which stays: at the end of a start."""
+    """Excludes all present objects from Python's garbage collection: at the end of a start."""
     gc.collect()
     gc.freeze()
 
 
 def keep_memory() -> None:
-    """What is freed stays with the process: new pages of the system for each image take up to a millisecond."""
+    """Keeps freed memory in the process: new pages of the system for each image take up to a millisecond."""
     mallopt = ctypes.CDLL(None).mallopt
     mallopt(M_MMAP_THRESHOLD, MOST_MMAP_THRESHOLD_BYTES)
     mallopt(M_TRIM_THRESHOLD, TRIM_THRESHOLD_BYTES)
 
 
 def hurry(priority: int = 1) -> None:
-    """Have this thread run before programs without real-time priority, where that is granted."""
+    """Runs this thread before programs without real-time priority, if permitted."""
     with contextlib.suppress(PermissionError):
         os.sched_setscheduler(0, os.SCHED_RR, os.sched_param(priority))
 
 
 def go_next() -> bool:
-    """Run after those with real-time priority and before all others; False where that is not granted."""
+    """Runs after those with real-time priority and before all others; returns False if not permitted."""
     try:
         os.setpriority(os.PRIO_PROCESS, 0, -20)
     except PermissionError:
@@ -48,10 +48,10 @@ def go_next() -> bool:
 
 
 def go_first(priority: int) -> bool:
-    """Have all threads but this one run before programs without real-time priority; False where that is not granted.
+    """Runs all threads but this one before programs without real-time priority; returns False if not permitted.
 
-    All, for any of them may hold Python's lock; but this one, which strangers' datagrams can keep busy. What the
-    threads start is like any other again.
+    All of them, because any may hold Python's lock; but not this one, which strangers' datagrams can keep busy.
+    Processes that the threads start have normal priority again.
     """
     policy, parameter = os.SCHED_RR | os.SCHED_RESET_ON_FORK, os.sched_param(priority)
     for thread in map(int, os.listdir("/proc/self/task")):
@@ -59,7 +59,7 @@ def go_first(priority: int) -> bool:
             if thread != threading.get_native_id():
                 os.sched_setscheduler(thread, policy, parameter)
         except ProcessLookupError:
-            pass  # it has ended
+            pass  # the thread has ended
         except PermissionError:
             return False
     return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Packets on loopback: which messages they begin, and when; on streams cut by hand, and on real connections."""
+"""Tests packets on loopback: which messages they begin, and when; with streams cut by hand, and real connections."""
 import contextlib
 import os
 import random
@@ -14,7 +14,7 @@ from bench import kernel_clock
 from bench.capture import MOST_EARLY, Capture, Flow, Missing, Segment, segment
 from rosgraph.network import encode_ros_handshake_header
 
-# All that runs on this machine shares its loopback.
+# All processes of this machine share its loopback.
 SERVER, OTHER = (f"/{name}_{os.getpid()}" for name in ("server", "other"))
 HEADER = encode_ros_handshake_header(dict(type="a/B", md5sum="1234"))
 
@@ -28,7 +28,7 @@ def flow_from(first: int) -> Flow:
 
 
 def segments(stream: bytes, sizes: Iterator[int], first: int) -> List[Segment]:
-    """The stream cut into these sizes, from this sequence number on."""
+    """Returns the stream cut into these sizes, from this sequence number on."""
     cut, at = [], 0
     while at < len(stream):
         part = stream[at : at + next(sizes)]
@@ -54,12 +54,12 @@ def test_each_message_has_the_time_of_its_first_byte(seed: int, is_shuffled: boo
         ends = at + len(each.data)
         expected.update({stamp: number for stamp, begin in begins.items() if at <= begin < ends})
         at = ends
-    if is_shuffled:  # by up to 10 places
+    if is_shuffled:  # shuffled by up to 10 places
         order.sort(key=lambda number: number + rng.uniform(0, 10))
     for number in order:
         flow.take(cut[number], number)
     for number in order:
-        flow.take(cut[number], number + 10**6)  # sent again
+        flow.take(cut[number], number + 10**6)  # a repeated segment
     assert flow.times == expected and len(expected) == 30
     assert not flow.is_waiting()
 
@@ -97,7 +97,7 @@ def test_a_message_without_a_stamp_is_said() -> None:
 
 
 def packet() -> bytes:
-    """With options of IP and of TCP, and filled up after its end, as short ones are on Ethernet."""
+    """Returns a packet with options of IP and of TCP, padded at its end as short ones are on Ethernet."""
     ip = bytes([0x46, 0]) + struct.pack(">H", 24 + 24 + 3) + bytes(5) + b"\x06" + bytes(2)
     ip += b"\x7f\x00\x00\x01\x7f\x00\x00\x02" + bytes(4)
     tcp = struct.pack(">HHIIBBHHH", 40001, 40002, 99, 77, 0x60, 0, 0, 0, 0) + bytes(4)
@@ -130,7 +130,7 @@ def _capture() -> Iterator[Capture]:
 
 
 def sent_over_tcp(caller: str, count: int) -> List[Tuple[int, int]]:
-    """Messages of growing size, one at a time: when each was sent, and arrived as the subscriber's own socket says."""
+    """Sends messages of growing size one by one; returns when each was sent, and arrived by the subscriber's socket."""
     times = []
     with socket.create_server(("127.0.0.1", 0)) as listening:
         with socket.create_connection(listening.getsockname()) as subscriber:
@@ -154,7 +154,7 @@ def sent_over_tcp(caller: str, count: int) -> List[Tuple[int, int]]:
 
 
 def are_between(found: Dict[int, int], times: List[Tuple[int, int]]) -> bool:
-    """The socket's own time is taken some 0.2 us after the packet's."""
+    """Checks times; the socket's own time is taken some 0.2 us after the packet's."""
     return list(found) == [n * 10**9 for n in range(len(times))] and all(
         sent_ns <= at_ns <= arrived_ns
         for at_ns, (sent_ns, arrived_ns) in zip(found.values(), times)

@@ -16,7 +16,7 @@ def test_only_the_messages_of_the_window_count() -> None:
 
 
 def test_a_forwarders_delay_and_losses_are_found() -> None:
-    """The test is the forwarder: it holds each message for 5 ms, and drops every fourth."""
+    """Uses the test itself as the forwarder: it holds each message for 5 ms, and drops every fourth."""
     writer, pipe = latency.in_process({}, latency_floor.write)
     source, target = latency.hear(pipe, 30.0)
     begin_ns, count = time.time_ns(), 40

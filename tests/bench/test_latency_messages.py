@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The benchmark's messages: on a connection they are what genpy would write, and their time begins before that."""
+"""Tests that the benchmark's messages are serialized as by genpy, and that their time begins before that."""
 import io
 import time
 from typing import Any
@@ -26,7 +26,7 @@ def test_frames_are_written_as_genpy_does(message: Any, kind: Any) -> None:
     plain = kind(**{name: getattr(message, name) for name in kind.__slots__})
     found, expected = io.BytesIO(b"abcd"), io.BytesIO(b"abcd")
     for buffer, each in ((found, message), (expected, plain)):
-        buffer.seek(4)  # rospy keeps room for the length
+        buffer.seek(4)  # rospy reserves space for the length
         each.serialize(buffer)
     assert found.getvalue() == expected.getvalue() and found.tell() == expected.tell()
     assert isinstance(message, kind) and len(message.data) > 10_000

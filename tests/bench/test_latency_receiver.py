@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The benchmark's receiver: it misses nothing and knows when everything came, however it waits."""
+"""Tests that the benchmark's receiver misses nothing and has the right arrival times in each way of waiting."""
 import multiprocessing
 import socket
 import threading
@@ -18,9 +18,9 @@ def test_everything_is_received_with_its_time(
     only_looks: bool, word: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(latency, "SILENCE_S", 0.2)
-    # several datagrams wait for each look
+    # Several datagrams wait for each look.
     monkeypatch.setattr(latency.kernel_clock, "LOOK_S", 0.05)
-    # it is a thread of the test, whose priority stays as it is
+    # The receiver is a thread of the test, whose priority stays unchanged.
     monkeypatch.setattr(latency.priority, "go_next", lambda: only_looks)
     monkeypatch.setattr(latency.priority, "hurry", lambda: None)
     monkeypatch.setattr(latency, "_make_room", lambda opened: True)
@@ -43,7 +43,7 @@ def test_everything_is_received_with_its_time(
     assert [datagram.size for datagram in kept] == [20, FRAME_BYTES] * 5
     assert [datagram.beginning[0] for datagram in kept] == list(range(10))
     assert len(kept[1].beginning) == latency.KEPT_BYTES and len(kept[1].data()) == FRAME_BYTES
-    # the kernel's times, not those of looking: in order, each before the next was sent
+    # The kernel's times are in order, each before the next was sent.
     for datagram, before_ns, next_ns in zip(kept, sent_ns, sent_ns[1:] + [time.time_ns()]):
         assert before_ns <= datagram.at_ns <= next_ns
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Heights that rays straight down measure on a model of this folder."""
+"""Measures heights of a model of this folder by vertical rays."""
 import pathlib
 from typing import List, Sequence, Tuple
 
@@ -16,13 +16,13 @@ SENSOR = """<sensor name="ray_{k}" type="ray"><pose>{x} {y} 0 0 1.57079632679489
 
 
 def spawned(name: str, xml: str) -> Tuple[str, str, dict]:
-    """A call that spawns a model at the origin."""
+    """Returns a call that spawns a model at the origin."""
     fields = {"model_name": name, "model_xml": xml}
     return "/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel", fields
 
 
 def heights_of(graph: RosGraph, model: str, places: Sequence[Tuple[float, float]]) -> List[float]:
-    """Heights [m] of a model's collision shapes at places x, y [m], above or on level ground at 0."""
+    """Returns heights [m] of a model's collision shapes at places x, y [m], above or on level ground at 0."""
     graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD))
     file = CASES / model
     sensors = "".join(SENSOR.format(k=k, x=x, y=y) for k, (x, y) in enumerate(places))

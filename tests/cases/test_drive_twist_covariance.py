@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Localisation takes the velocity of a skid-steer drive, whose pose and twist have the same variances as in Gazebo."""
+"""Checks that localisation can use the velocity of a skid-steer drive: pose and twist have Gazebo's variances."""
 import pathlib
 
 import probes

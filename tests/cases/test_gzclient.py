@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Launch files that start Gazebo's window, on a machine without a display: the world runs, gzclient says in one line
-that there is none, and nothing is an error."""
+"""Starts launch files with Gazebo's window on a machine without a display: the world runs, gzclient reports in one line
+that there is none, and there is no error.
+"""
 from pathlib import Path
 
 import probes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A model driven by set_model_state in its own frame has the velocity that was asked for, however often it is asked."""
+"""A model driven by set_model_state in its own frame has the requested velocity after any number of requests."""
 import pathlib
 
 import pytest

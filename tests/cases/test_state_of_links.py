@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A world that was saved while a gate stood open: <state> gives the poses of its links in the world's frame. The leaf
-stands at (0.05, 4.55, 1), turned by 1.571 rad, and so does the hinge."""
+"""Loads a world that was saved while a gate stood open: <state> gives the poses of its links in the world's frame. The
+leaf stands at (0.05, 4.55, 1), turned by 1.571 rad, and so does the hinge.
+"""
 import math
 import pathlib
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A launch file that says by static_transform_publisher where the map is: it alone is the parent of odom, and the robot
-is at (3, 1) in the map."""
+"""A launch file publishes the map's place by static_transform_publisher: the map alone is the parent of odom, and the
+robot is at (3, 1) in the map.
+"""
 from pathlib import Path
 
 import probes

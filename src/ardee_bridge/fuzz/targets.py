@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets of scripts/fuzz in this package: each takes any bytes and raises only what is a finding."""
+"""Targets of scripts/fuzz in this package: each takes any bytes and raises only findings."""
 import socket
 import tempfile
 from pathlib import Path
@@ -14,16 +14,7 @@ from ardee_bridge.wire.udp import open_socket
 from ardee_common.config import build, from_values, read_yaml_lines
 from ardee_common.errors import GeneratorError
 
-_SETTINGS = dict(
-    bind_address="127.0.0.1",
-    port=0,
-    cmd_vel_topic="cmd_vel",
-    max_speed_m_s=1.2,
-    min_turn_radius_m=0.381,
-    watchdog_s=0.5,
-    pause_service="/pause",
-    unpause_service="/unpause",
-)
+_SHIPPED = Path(__file__).resolve().parents[1] / "config/controls_client.yaml"
 _KINDS = tuple(codec.DATA_STRUCTS)
 _STEP_S = 0.01
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
@@ -31,7 +22,7 @@ _FILE = Path(_FOLDER.name) / "input.yaml"
 
 
 def codec_of_all_structs(data: bytes) -> None:
-    """Unpack the bytes as the struct that the first names, and pack it again in each way."""
+    """Unpacks the bytes as the struct that the first byte selects, and packs it again in each way."""
     if not data:
         return
     kind = codec.STRUCTS[data[0] % len(codec.STRUCTS)]
@@ -54,7 +45,7 @@ def _check(good: bool, text: str) -> None:
 
 
 def _events(data: bytes) -> Iterator[Tuple[int, bytes]]:
-    """Senders and their datagrams. Two bytes are an event: the sender, and what it sends.
+    """Yields senders and their datagrams. Two bytes are an event: the sender, and the kind of datagram.
 
     0...99: a datagram of so many bytes, which follow. 100...199: header and data of one of the kinds, the data's
     bytes as far as they follow. 200...255: a motion command.
@@ -85,13 +76,14 @@ def _events(data: bytes) -> Iterator[Tuple[int, bytes]]:
 
 
 class _Bench:
-    """A controls client with three peers and one that is none, kept for all inputs for the sake of speed."""
+    """Controls client with three peers and one stranger, kept for all inputs for the sake of speed."""
 
     def __init__(self) -> None:
         self.socket = open_socket("127.0.0.1", 0)
         self.senders = [open_socket("127.0.0.1", 0) for _ in range(4)]
         peers = [f"127.0.0.1:{sender.getsockname()[1]}" for sender in self.senders[:3]]
-        self.settings = from_values(ControlSettings, dict(_SETTINGS, peers=peers))
+        shipped = read_yaml_lines(_SHIPPED)
+        self.settings = from_values(ControlSettings, {**shipped, "peers": peers})
 
     def run(self, data: bytes) -> None:
         """Makes the client receive the events in the bytes, each datagram a moment after the one before."""
@@ -120,7 +112,7 @@ class _Bench:
         return speed <= self.settings.max_speed_m_s and yaw_rate <= self.settings.max_yaw_rate_rad_s
 
     def _empty(self) -> None:
-        """Read the answers, so that no buffer is full when the next input comes."""
+        """Reads the answers, so that no buffer is full when the next input comes."""
         for sender in self.senders:
             try:
                 while True:
@@ -133,14 +125,14 @@ _bench: List[_Bench] = []
 
 
 def controls(data: bytes) -> None:
-    """Datagrams of several senders to the controls client."""
+    """Sends datagrams of several senders to the controls client."""
     if not _bench:
         _bench.append(_Bench())
     _bench[0].run(data)
 
 
 def frames(data: bytes) -> None:
-    """Datagrams of many senders, paired, and put together to images and clouds."""
+    """Pairs datagrams of many senders, and assembles images and clouds."""
     pairer, assembler, now_s = Pairer(), chunks.Assembler(), 0.0
     for sender, datagram in _events(data):
         now_s += _STEP_S
@@ -158,7 +150,7 @@ def frames(data: bytes) -> None:
 
 
 def settings(data: bytes) -> None:
-    """Settings of both nodes, from a YAML file and from the parameter server."""
+    """Reads settings of both nodes from a YAML file and from the parameter server."""
     _FILE.write_bytes(data)
     for kind in (ServerSettings, ControlSettings):
         for read in (build, from_values):

@@ -13,13 +13,13 @@ sys.path.insert(0, str(PACKAGE / "src"))
 
 @pytest.fixture(scope="session")
 def package() -> Path:
-    """Source folder of ardee_bridge."""
+    """Returns the source folder of ardee_bridge."""
     return PACKAGE
 
 
 @pytest.fixture
 def bench(request: pytest.FixtureRequest) -> Iterator[Any]:
-    """A test file's own `Bench`, closed after the test."""
+    """Yields a test file's own `Bench`, closed after the test."""
     made = request.module.Bench()
     yield made
     made.close()

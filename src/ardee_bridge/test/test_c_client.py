@@ -7,7 +7,7 @@ import pytest
 
 @pytest.fixture(scope="module")
 def client(package, tmp_path_factory):
-    """The client as its own comment has it compiled."""
+    """Returns the client, compiled as its own comment says."""
     program = tmp_path_factory.mktemp("client") / "ardee_client"
     source, include = package / "examples" / "ardee_client.c", package / "include"
     command = ["gcc", "-std=c11", "-O2", f"-I{include}", "-o", str(program), str(source)]
@@ -24,7 +24,7 @@ def test_an_option_that_it_does_not_have_gets_those_it_has(client):
 @pytest.mark.parametrize("option", ["-v", "-w"])
 @pytest.mark.parametrize("share", ["1.01", "-1e9", "nan", "fast", ""])
 def test_a_speed_that_is_no_share_of_the_limit_is_refused(client, option, share):
-    """Times a million it would not fit the datagram's integer."""
+    """Multiplied by a million it would not fit the datagram's integer."""
     command = [str(client), "-p", "0", "-c", "9", "-t", "0.1", option, share]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The codec: sizes and offsets by hand, bytes there and back, scales, out-of-range readings."""
+"""Tests the codec: sizes and offsets by hand, bytes there and back, scales, out-of-range readings."""
 import math
 import random
 import subprocess
@@ -13,7 +13,7 @@ from ardee_bridge.wire.scales import SCALES
 
 
 def random_raw(kind, rng):
-    """A struct with random integers in every leaf."""
+    """Returns a struct with random integers in every leaf."""
     raw = kind.unpack(bytes(kind.size))
     values = []
     for leaf in kind.leaves:
@@ -152,7 +152,7 @@ def test_invalid_headers_have_no_data_size(header):
     ],
 )
 def test_sensor_fields_of_a_header_say_nothing_of_requests(header, msg_type, size):
-    """Thesis 4.5.1: they are used where the message is sensor data; a client may leave anything in them."""
+    """Thesis 4.5.1 uses these fields for sensor data only; a client may leave any value in them."""
     assert codec.data_size(codec.Header(msg_type=msg_type, **header)) == size
 
 

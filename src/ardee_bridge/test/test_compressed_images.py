@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Images that a camera compresses: sent as they came, chosen over raw ones, and none twice when that changes."""
+"""Tests images that a camera compresses: unchanged, preferred to raw ones, and none sent twice at a change."""
 import io
 
 import pytest
@@ -38,7 +38,7 @@ def raw(secs):
 
 
 class Bench:
-    """A server of a camera, and its target."""
+    """Server of a camera, and its target."""
 
     def __init__(self):
         self._target, self._socket = open_socket("127.0.0.1", 0), open_socket("127.0.0.1", 0)
@@ -122,7 +122,7 @@ def test_images_of_one_form_may_have_the_same_stamp(bench):
 
 
 class Publishers:
-    """What is published, as the test says, and the choice that is made of it; with a clock."""
+    """Published topics as the test sets them, and the choice among them; with a clock."""
 
     def __init__(self, camera):
         self.now_s, self.published, self._camera = 0.0, set(), camera

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The controls client on real sockets: limits, control codes, peers, watchdog, what it drops and why."""
+"""Tests the controls client on real sockets: limits, control codes, peers, watchdog, drops and their reasons."""
 import re
 import socket
 import time
+from pathlib import Path
 
 import pytest
 
@@ -11,28 +12,18 @@ from ardee_bridge.nodes.counters import Counters
 from ardee_bridge.nodes.settings import ControlSettings
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.udp import open_socket
-from ardee_common.config import from_values
+from ardee_common.config import from_values, read_yaml_lines
 
 STAMPS_BEGIN_S = 0.2  # so long after a first socket asked, Linux begins to take times of arrival
-VALUES = dict(
-    bind_address="127.0.0.1",
-    port=0,
-    peers=["127.0.0.1"],
-    cmd_vel_topic="cmd_vel",
-    max_speed_m_s=1.2,
-    min_turn_radius_m=0.381,
-    watchdog_s=0.5,
-    pause_service="/p",
-    unpause_service="/u",
-)
+SHIPPED = Path(__file__).resolve().parents[1] / "config/controls_client.yaml"
 
 
 class Bench:
-    """A controls client whose clock the test sets, and a peer."""
+    """Controls client whose clock the test sets, and a peer."""
 
     def __init__(self, **values):
         self.now_s, self.motions, self.pauses, self.warnings = 0.0, [], [], []
-        settings = from_values(ControlSettings, dict(VALUES, **values))
+        settings = from_values(ControlSettings, {**read_yaml_lines(SHIPPED), "port": 0, **values})
         self.server = open_socket(settings.bind_address, settings.port)
         self.peer = open_socket("127.0.0.1", 0)
         self.peer.settimeout(5.0)
@@ -69,7 +60,9 @@ def test_limits(speed, yaw_rate, multiplier, expected):
     commands = codec.MotionCommands(
         normalized_speed=speed, normalized_yaw_rate=yaw_rate, multiplier=multiplier
     )
-    assert to_motion(commands, from_values(ControlSettings, VALUES)) == pytest.approx(expected)
+    assert to_motion(
+        commands, from_values(ControlSettings, read_yaml_lines(SHIPPED))
+    ) == pytest.approx(expected)
 
 
 def test_a_command_moves_and_its_end_stops(bench):
@@ -89,7 +82,7 @@ def test_a_command_moves_and_its_end_stops(bench):
 
 def test_after_the_end_no_command_moves(bench):
     bench.client.stop()
-    assert bench.motions == []  # it was not told to move
+    assert bench.motions == []  # it had no command
     bench.send(*codec.encode_motion(0.5, 0.0))
     assert bench.motions == []
 

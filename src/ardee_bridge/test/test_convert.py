@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Small sensors' ROS messages as data of the wire."""
+"""Tests the conversion of small sensors' ROS messages to data of the wire."""
 import math
 
 import numpy as np

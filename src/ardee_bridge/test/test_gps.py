@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A GPS receiver's messages on the wire, with a fix and without."""
+"""Tests a GPS receiver's messages on the wire, with a fix and without."""
 import math
 
 from geometry_msgs.msg import Vector3, Vector3Stamped
@@ -46,7 +46,7 @@ def test_gps_time_wraps():
 
 
 class Receiver:
-    """Publishes fixes and velocities [m/s] at times [s]; `sent` has what goes out: time and velocity."""
+    """Publishes fixes and velocities [m/s] at times [s]; `sent` has the results: time and velocity."""
 
     def __init__(self):
         self.sent = []
@@ -70,7 +70,7 @@ def test_a_fix_goes_with_the_velocity_of_its_time_that_comes_after_it_or_before(
     receiver = Receiver()
     receiver.fix(1)
     receiver.velocity(1, 0.1)
-    assert receiver.sent == [(1, None)]  # it was not known that one would come
+    assert receiver.sent == [(1, None)]  # no velocity was expected
     receiver.fix(2)
     receiver.velocity(2, 0.2)
     receiver.velocity(3, 0.3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The C header against the codec, as gcc compiles it; what is generated in it and in the docs is up to date."""
+"""Tests the C header against the codec, as gcc compiles it; its generated parts and the docs' are up to date."""
 import enum
 import re
 import subprocess
@@ -17,7 +17,7 @@ WARNINGS = ["-Wall", "-Wextra", "-Werror"]
 
 
 def run_c(body, package, folder, standard):
-    """What a main() of this body prints, line by line."""
+    """Returns the output of a main() of this body, line by line."""
     source = folder / "main.txt"
     source.write_text(
         "#include <ardee_message.h>\n#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\nint main(void) {\n"

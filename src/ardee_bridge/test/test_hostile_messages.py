@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Malformed messages of publishers: each is sent or counted as dropped, and no error leaves the server."""
+"""Tests malformed messages of publishers: each is sent or counted as dropped, and no error leaves the server."""
 import random
 
 import pytest
@@ -18,7 +18,7 @@ ENCODINGS = ("rgb8", "mono8", "32FC1", "bayer_rggb8", "", "\u2603")
 
 
 class Bench:
-    """A server whose only target wants everything, time stamps too."""
+    """Server whose only target wants everything, time stamps too."""
 
     def __init__(self):
         self.said = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sizes of JPEG files that a camera compressed; and bytes that are no JPEG file."""
+"""Tests sizes of JPEG files that a camera compressed; and bytes that are not a JPEG file."""
 import io
 import random
 import time

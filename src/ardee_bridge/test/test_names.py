@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Settings that are names: of topics and services, which ROS must take, and of sources, which must differ."""
+"""Tests settings that are names: of topics and services, valid in ROS, and of sources, which must differ."""
 import pytest
 import yaml
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The pairing rule under loss, doubling, change of places and garbage; chunks likewise."""
+"""Tests the pairing rule under loss, doubling, reordering and garbage; chunks likewise."""
 import random
 
 from ardee_bridge.wire import chunks, codec

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Point clouds of any layout, as the wire has them."""
+"""Tests point clouds of any layout in their form on the wire."""
 import math
 
 import numpy as np
@@ -36,7 +36,7 @@ def test_point_cloud(height, pad):
 @pytest.mark.parametrize(
     "offsets, step, order",
     [
-        ((0, 4, 8, 12), 16, "<"),  # as most lidars have them: all numbers in a row
+        ((0, 4, 8, 12), 16, "<"),  # most lidars: all numbers in a row
         ((0, 4, 8, 12), 22, "<"),
         ((6, 10, 14, 18), 25, "<"),
         ((0, 4, 8, 12), 16, ">"),
@@ -76,7 +76,7 @@ def test_numbers_are_rounded_to_the_nearest_count_that_a_float_can_tell():
     message.data = points.tobytes()
     found = np.frombuffer(convert.point_cloud(message).payload, "<i4").reshape(-1, 4)
     exact = 1000.0 * points.astype(float)
-    # of a product of floats the rounding is half a unit in the last of 24 bits
+    # The rounding of a product of floats is half a unit in the last of 24 bits.
     assert (abs(found - exact) <= 0.5 + abs(exact) * 2.0**-24).all()
 
 

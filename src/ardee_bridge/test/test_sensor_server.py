@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The sensor server on real sockets: what each ROS message becomes, and who gets it."""
+"""Tests the sensor server on real sockets: the form of each ROS message on the wire, and its receivers."""
 import io
 import socket
 
@@ -36,7 +36,7 @@ SOURCES = [
 
 
 class Bench:
-    """A server with a clock that the test sets, and sockets that listen."""
+    """Server with a clock that the test sets, and sockets that listen."""
 
     def __init__(self, peers=(), **values):
         self.now_s, self.sockets, self.changes = 0.0, [], 0
@@ -150,7 +150,7 @@ def test_whoever_is_acked_has_what_he_asked_for_from_then_on(bench, monkeypatch)
     def send_and_publish(address, datagrams):
         send(address, datagrams)
         monkeypatch.setattr(bench.server, "_send", send)
-        bench.publish("imu", Imu())  # of another thread, at once after the Ack
+        bench.publish("imu", Imu())  # another thread's message, right after the Ack
 
     for wanted, expected in (([D.ALL], [D.NONE, D.IMU]), ([], [D.NONE])):
         monkeypatch.setattr(bench.server, "_send", send_and_publish)

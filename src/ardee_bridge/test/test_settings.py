@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Settings: the shipped files are sound, and each mistake is one message with key, what was found and expected."""
+"""Tests settings: the shipped files are sound, and each mistake is one message with key, found and expected value."""
 import pytest
 import yaml
 
@@ -73,7 +73,7 @@ def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
         ),
         (
             dict(bind_address="0.0.0.0", peers=[dict(address="0.0.0.0", port=1, data_types=[])]),
-            r"peers\[0\]: address: found 0.0.0.0, expected where to send to",
+            r"peers\[0\]: address: found 0.0.0.0, expected the address of a receiver",
         ),
         (
             dict(port=5, peers=[dict(address="127.0.0.1", port=5, data_types=[])]),

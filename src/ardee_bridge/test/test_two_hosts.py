@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""From one host to another: two network namespaces with a cable, and no default route."""
+"""Tests traffic from one host to another: two network namespaces with a cable, and no default route."""
 import contextlib
 import ctypes
 import os
@@ -24,7 +24,7 @@ EVERYBODY = "255.255.255.255"
 
 
 def ip(*arguments):
-    """Run ip(8); what it says against it is why the tests are skipped."""
+    """Runs ip(8); skips the tests with its message if it fails."""
     try:
         done = subprocess.run(["ip", *arguments], capture_output=True, text=True, check=False)
     except FileNotFoundError:
@@ -35,7 +35,7 @@ def ip(*arguments):
 
 @pytest.fixture(scope="module")
 def hosts():
-    """Names of two namespaces, the simulator's and the target's."""
+    """Yields names of two namespaces, the simulator's and the target's."""
     names = [f"ardee_{os.getpid()}_{role}" for role in ("simulator", "target")]
     made = []
     try:
@@ -65,7 +65,7 @@ def hosts():
 
 @contextlib.contextmanager
 def inside(host):
-    """Sockets that this thread opens meanwhile are the host's."""
+    """Opens sockets of this thread in the host during the block."""
     libc = ctypes.CDLL(None, use_errno=True)
     with open("/proc/thread-self/ns/net") as home, open(f"/run/netns/{host}") as there:
         assert libc.setns(there.fileno(), CLONE_NEWNET) == 0, os.strerror(ctypes.get_errno())
@@ -77,7 +77,7 @@ def inside(host):
 
 @pytest.fixture(scope="module")
 def clients(package, tmp_path_factory):
-    """Commands of the two example clients for a second, with and without a group to join."""
+    """Returns commands of the two example clients for a second, with and without a group to join."""
     compiled = tmp_path_factory.mktemp("client") / "ardee_client"
     source, include = package / "examples" / "ardee_client.c", package / "include"
     subprocess.run(["cc", "-std=c11", "-I", include, "-o", compiled, source], check=True)
@@ -89,7 +89,7 @@ def clients(package, tmp_path_factory):
 
 
 def settings_for(peer, source):
-    """Of a server that sends to this peer from this source."""
+    """Returns settings of a server that sends to this peer from this source."""
     values = dict(bind_address=SIMULATOR, port=0, allowed_clients=[TARGET], max_clients=0)
     values.update(client_lease_s=30.0, multicast_ttl=1)
     peers = [dict(address=peer, port=PORT, data_types=[source["kind"]])]
@@ -97,7 +97,7 @@ def settings_for(peer, source):
 
 
 def sent_to(peer, hosts, command):
-    """What a client on the target says, while the server sends IMU messages to a peer; what was not sent."""
+    """Returns the output of a client on the target while the server sends IMU messages to a peer, and its drops."""
     settings = settings_for(peer, dict(name="imu", kind="imu", topic="imu"))
     counters = Counters(lambda text: None)
     with inside(hosts[0]):
@@ -156,5 +156,5 @@ def test_what_a_full_send_buffer_does_not_take_is_counted(hosts):
             server.publish(settings.sources[0], image)
             counts.append(sum(counters.dropped().values()))
     assert list(counters.dropped()) == ["messages to a full send buffer"]
-    # the system keeps the first ones until it is sure that nobody answers
+    # The system keeps the first ones until it is sure of no answer.
     assert 900 < counts[0] < 1000 and counts[1] == counts[0] + 1000

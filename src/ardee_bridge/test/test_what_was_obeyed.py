@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The controls client's terminal lines about its commands (thesis 4.6.1)."""
+"""Tests the controls client's terminal lines about its commands (thesis 4.6.1)."""
 from ardee_bridge.nodes.controls import STANDSTILL, Motion, what_was_obeyed
 
 

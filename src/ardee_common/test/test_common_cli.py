@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Commands answer bad input in one line and exit with 2."""
+"""Tests that commands answer bad input in one line and exit with 2."""
 from argparse import Namespace
 from typing import Optional
 
@@ -10,7 +10,7 @@ from ardee_common.errors import GeneratorError
 
 
 def work(args: Namespace) -> Optional[int]:
-    """Halves an even count, says nothing of 0."""
+    """Halves an even count; prints nothing for 0."""
     if args.count % 2:
         raise GeneratorError(f"count: found {args.count}, expected an even one")
     return args.count // 2 or None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The configuration reader names the line, the unknown key and the nearest known one."""
+"""Tests that the configuration reader names the line, the unknown key and the nearest known one."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Tuple
@@ -20,7 +20,7 @@ class Ditch:
 
 
 def read(folder: Path, text: str) -> Ditch:
-    """Returns what the reader makes of a file of this text."""
+    """Returns the reader's result for a file of this text."""
     file = folder / "ditch.yaml"
     file.write_text(text)
     return build(Ditch, read_yaml_lines(file))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Degrees against the published lengths of a degree on WGS-84."""
+"""Tests degrees against the published lengths of a degree on WGS-84."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A model directory is written whole or left as it was."""
+"""Tests that a model directory is written whole or left unchanged."""
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Children start without input, write to their log, and end when they are told to."""
+"""Tests that children start without input, write to their log, and end when told to."""
 import signal
 import subprocess
 from pathlib import Path

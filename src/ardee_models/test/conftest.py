@@ -13,7 +13,7 @@ sys.path.insert(0, str(PACKAGE.parent / "ardee_common" / "src"))
 
 
 def folder_hash(folder: Path) -> str:
-    """SHA-256 over names and bytes of all files below `folder`."""
+    """Returns SHA-256 over names and bytes of all files below `folder`."""
     digest = hashlib.sha256()
     for path in sorted(p for p in folder.rglob("*") if p.is_file()):
         digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
@@ -22,19 +22,19 @@ def folder_hash(folder: Path) -> str:
 
 @pytest.fixture(scope="session")
 def hash_of():
-    """Hash of a folder's content."""
+    """Returns a function for the hash of a folder's content."""
     return folder_hash
 
 
 @pytest.fixture(scope="session")
 def package() -> Path:
-    """Source folder of ardee_models."""
+    """Returns the source folder of ardee_models."""
     return PACKAGE
 
 
 @pytest.fixture(scope="session")
 def share(tmp_path_factory) -> Path:
-    """Folder of everything that the build generates: models/ and media/."""
+    """Returns the folder of everything that the build generates: models/ and media/."""
     from ardee_models import build
 
     root = tmp_path_factory.mktemp("share")

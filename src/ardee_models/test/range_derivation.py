@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Size of grasses and tobacco by stage from published formulas, to derive the bounds of config/ranges.yaml.
+"""Derives sizes of grasses and tobacco by stage from published formulas, for the bounds of config/ranges.yaml.
 
 It shares no code with the generator and reads none of its parameters. Each trait has a low and a high value: the bounds
 of its source. A quantity is evaluated with all traits at their middle; the largest change of its logarithm over
@@ -22,12 +22,12 @@ class Trait(NamedTuple):
 
 
 def between(low: float, high: float) -> Trait:
-    """A trait that varies by a factor; its middle is the geometric mean."""
+    """Returns a trait that varies by a factor; its middle is the geometric mean."""
     return Trait(low, math.sqrt(low * high), high)
 
 
 def spread(quantity: Callable[..., float], **traits: Trait) -> Bounds:
-    """Low and high of a quantity whose traits vary independently."""
+    """Returns low and high of a quantity whose traits vary independently."""
     middle = {name: trait.middle for name, trait in traits.items()}
     value = quantity(**middle)
     squares = 0.0
@@ -99,14 +99,14 @@ LAG = Trait(1, 2, 4)  # phytomers between the last collar and the last full-grow
 
 
 def relative_areas(number: float, largest: float, skew: float) -> Sequence[float]:
-    """Area of each leaf over that of the largest (ArchiCrop's bell)."""
+    """Returns the area of each leaf over that of the largest (ArchiCrop's bell)."""
     k = -math.log(skew) * largest
     ranks = (rank / round(number) - largest for rank in range(1, round(number) + 1))
     return [math.exp(-k / largest * (2 * r**2 + r**3)) for r in ranks]
 
 
 def shown_share(collars: int, young: float, **bell: float) -> float:
-    """Visible share of the plant's final leaf area; of `young` leaves in the whorl, ever shorter tips are visible."""
+    """Returns the visible share of the plant's final leaf area; `young` leaves in the whorl show ever shorter tips."""
     areas = relative_areas(**bell)
     young = round(young)
     tips = areas[collars : collars + young]
@@ -115,7 +115,7 @@ def shown_share(collars: int, young: float, **bell: float) -> float:
 
 
 def blade_lengths(area: float, ratio: float, shape: float, **bell: float) -> Sequence[float]:
-    """Length of each full-grown blade, from area = shape * length * width."""
+    """Returns the length of each full-grown blade, from area = shape * length * width."""
     areas = relative_areas(**bell)
     return [math.sqrt(area * a / sum(areas) / (shape * ratio)) for a in areas]
 
@@ -138,29 +138,29 @@ def _shown(grass: Grass, collars: int, full: Trait) -> Bounds:
 
 
 def leaf_area(grass: Grass, collars: int) -> Bounds:
-    """Leaf area of a plant with so many collars, m2."""
+    """Returns the leaf area of a plant with so many collars, m2."""
     return _shown(grass, collars, grass.area)
 
 
 def leaf_area_index(grass: Grass, collars: int) -> Bounds:
-    """Leaf area index of a stand of plants with so many collars."""
+    """Returns the leaf area index of a stand of plants with so many collars."""
     return _shown(grass, collars, grass.index)
 
 
 def longest_blade(grass: Grass) -> Bounds:
-    """Length of the longest blade of a full-grown plant, m."""
+    """Returns the length of the longest blade of a full-grown plant, m."""
     return spread(lambda **t: max(blade_lengths(shape=grass.shape, **t)), **_blades(grass))
 
 
 def widest_blade(grass: Grass) -> Bounds:
-    """Width of the widest blade of a full-grown plant, m."""
+    """Returns the width of the widest blade of a full-grown plant, m."""
     return spread(
         lambda **t: t["ratio"] * max(blade_lengths(shape=grass.shape, **t)), **_blades(grass)
     )
 
 
 def stalk_diameter(grass: Grass, collars: int) -> Bounds:
-    """Diameter of the foot, m: the widest sheath so far, as wide as its blade's base, wound round it."""
+    """Returns the diameter of the foot, m: the widest sheath so far, as wide as its blade's base, wound round it."""
 
     def quantity(winding: float, **t: float) -> float:
         widest = t["ratio"] * max(blade_lengths(shape=grass.shape, **t)[: collars + 1])
@@ -170,7 +170,7 @@ def stalk_diameter(grass: Grass, collars: int) -> Bounds:
 
 
 def plant_height(grass: Grass, collars: int) -> Bounds:
-    """Top of a plant in leaf, m: full-grown internodes, the sheath of the last collar, rise of the next blade."""
+    """Returns the top of a plant in leaf, m: full-grown internodes, the last collar's sheath, the next blade's rise."""
 
     def quantity(rise: float, sheath: float, height: float, lag: float, **t: float) -> float:
         lengths = blade_lengths(shape=grass.shape, **t)
@@ -202,7 +202,7 @@ def _leaf_interval_days(rank: int) -> float:
 
 
 def tobacco_leaves(visible: float, days: float = 0.0, growth_days: float = 37.0) -> float:
-    """Sum of the leaves' areas over the final area of a mean leaf, `days` after the last of them appeared.
+    """Returns the sum of leaf areas over the final area of a mean leaf, `days` after the last of them appeared.
 
     Length grows in proportion to age and area as its square; first and last leaves end at half the size of the middle
     ones, and those of the seedbed, grown in the crowd and set back by transplanting, at a quarter (nominal).
@@ -220,7 +220,7 @@ def tobacco_leaves(visible: float, days: float = 0.0, growth_days: float = 37.0)
 
 
 def tobacco_index(visible: Trait, days: float = 0.0) -> Bounds:
-    """Leaf area index of untopped tobacco."""
+    """Returns the leaf area index of untopped tobacco."""
     return spread(
         lambda n, g, a, d: a * d * tobacco_leaves(n, days, g),
         n=visible,
@@ -231,7 +231,7 @@ def tobacco_index(visible: Trait, days: float = 0.0) -> Bounds:
 
 
 def transplant_index() -> Bounds:
-    """Leaf area index soon after transplanting: 5-8 leaves 10-25 cm long (nominal)."""
+    """Returns the leaf area index soon after transplanting: 5-8 leaves 10-25 cm long (nominal)."""
     return spread(
         lambda n, long, ratio, d: n * d * TOBACCO_SHAPE * long**2 / ratio,
         n=Trait(5, 6, 8),
@@ -242,7 +242,7 @@ def transplant_index() -> Bounds:
 
 
 def tobacco_blade() -> Tuple[Bounds, Bounds]:
-    """Length and width of the largest full-grown leaf, m; it has 1.2 times the area of the mean leaf (parabola)."""
+    """Returns length and width of the largest full-grown leaf, m; it has 1.2 times the mean leaf's area (parabola)."""
     traits = {"area": LEAF_AREA, "ratio": TOBACCO_RATIO}
     length = spread(lambda area, ratio: math.sqrt(1.2 * area * ratio / TOBACCO_SHAPE), **traits)
     width = spread(lambda area, ratio: math.sqrt(1.2 * area / ratio / TOBACCO_SHAPE), **traits)
@@ -250,12 +250,12 @@ def tobacco_blade() -> Tuple[Bounds, Bounds]:
 
 
 def topped_index(leaves: Trait) -> Bounds:
-    """Leaf area index of topped tobacco, all of whose leaves are full-grown."""
+    """Returns the leaf area index of topped tobacco with all leaves full-grown."""
     return spread(lambda n, a, d: n * a * d, n=leaves, a=LEAF_AREA, d=DENSITY)
 
 
 def tobacco_stalk(visible: Trait) -> Bounds:
-    """Diameter of the foot, m: its section in proportion to the leaf area above it (pipe model)."""
+    """Returns the diameter of the foot, m: its section in proportion to the leaf area above it (pipe model)."""
     full = tobacco_leaves(25, 20.0)
     return spread(
         lambda n, g, stalk: stalk * math.sqrt(tobacco_leaves(n, 0.0, g) / full),

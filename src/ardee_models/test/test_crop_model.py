@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Written model directories are consistent, and the same seed gives the same bytes."""
+"""Tests that written model directories are consistent, and that the same seed gives the same bytes."""
 
 import functools
 import json
@@ -101,14 +101,14 @@ def test_collision_cylinder_lies_on_the_stalk(share, name):
     length = float(collision.findtext("geometry/cylinder/length"))
     radius = float(collision.findtext("geometry/cylinder/radius"))
     x, y, z, roll, pitch, yaw = map(float, collision.findtext("pose").split())
-    # SDF: rotation about x by roll, then about y by pitch
+    # SDF rotates about x by roll, then about y by pitch.
     axis = [np.sin(pitch) * np.cos(roll), -np.sin(roll), np.cos(pitch) * np.cos(roll)]
     offsets = _primitives(model)["Stem"].vertex - [x, y, z]
     along = offsets @ axis
     radii = np.linalg.norm(offsets - along[:, None] * axis, axis=1)
     assert yaw == 0.0
     assert radius == pytest.approx(radii.mean(), abs=5e-5)
-    # taper and sheaths bound the distance of vertices from the cylinder
+    # Taper and sheaths bound the distance of vertices from the cylinder.
     assert np.abs(radii - radius).max() < 0.75 * radius
     assert along.max() == pytest.approx(length / 2, abs=1e-4)
     assert along.min() == pytest.approx(-length / 2, abs=1e-4)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every model lies in the literature's ranges; the report says so, and names values outside."""
+"""Tests that every model lies in the literature's ranges, and that the report says so, and names values outside."""
 
 import csv
 import json

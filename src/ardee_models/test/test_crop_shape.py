@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Closed-form checks of the parts a plant is made of."""
+"""Tests the parts of a plant in closed form."""
 
 import dataclasses
 
@@ -99,7 +99,7 @@ def test_width_profile_starts_at_klig_and_peaks_at_s_wmax():
     [("corn", "V8", 0.75), ("sorghum", "6", 0.741), ("tobacco", "button", 0.6345)],
 )
 def test_outlines_have_the_area_factor_of_their_species(species, stage, factor):
-    """Montgomery; Shih et al. 1981; Suggs et al. 1960: area over length times width."""
+    """See Montgomery; Shih et al. 1981; Suggs et al. 1960: area over length times width."""
     shape = load_params(species, stage).architecture.leaves
     area = profile_area(shape.blade_klig, shape.blade_s_wmax, shape.blade_tip_power)
     assert area == pytest.approx(factor, abs=0.015)
@@ -183,7 +183,7 @@ def test_fitted_cylinder_is_the_one_the_points_were_taken_from(lean):
     roll, pitch = fitted.roll_pitch()
     turned = [np.sin(pitch) * np.cos(roll), -np.sin(roll), np.cos(pitch) * np.cos(roll)]
     np.testing.assert_allclose(turned, fitted.axis, atol=1e-12)
-    # leaves round it do not draw it away
+    # Leaves round it do not shift it.
     leaves = np.random.default_rng(1).uniform([-0.4, -0.3, 0.3], [0.6, 0.7, 1.4], (200, 3))
     found = fit_stalk_among_leaves(np.concatenate((points, leaves)), 0.015)
     assert found.radius_m == pytest.approx(0.02, rel=0.1)

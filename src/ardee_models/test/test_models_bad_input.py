@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input gives one message with the place of the error, and changes nothing on disk."""
+"""Tests that bad input gives one message with the place of the error, and changes nothing on disk."""
 
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Static models, and the environment hook."""
+"""Tests static models, and the environment hook."""
 
 import subprocess
 import xml.etree.ElementTree as ElementTree

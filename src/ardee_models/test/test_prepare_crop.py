@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A user's meshes are split, recentred, and get a fitted cylinder and textures; bad ones are refused whole."""
+"""Tests that a user's meshes are split, recentred, and get a fitted cylinder and textures; bad ones are refused."""
 
 import json
 import re
@@ -26,7 +26,7 @@ def _stalk(foot, height):
 
 
 def _leaf(foot, height, angle):
-    """A strip that touches the stalk at its base and hangs with its tip on the ground."""
+    """Returns a strip that touches the stalk at its base and hangs with its tip on the ground."""
     side, out = np.array([-np.sin(angle), np.cos(angle), 0]), np.array(
         [np.cos(angle), np.sin(angle), 0]
     )
@@ -40,7 +40,7 @@ def _leaf(foot, height, angle):
 
 @pytest.fixture(scope="module")
 def scene():
-    """Three plants, each a stalk and three leaves, in one scene of two textured parts."""
+    """Returns three plants, each a stalk and three leaves, in one scene of two textured parts."""
     stalks = trimesh.util.concatenate([_stalk(f, h) for f, h in zip(FEET, HEIGHTS)])
     leaves = trimesh.util.concatenate(
         [_leaf(f, h, a) for f, h in zip(FEET, HEIGHTS) for a in (1.2, 3.3, 5.4)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The derived bounds of config/ranges.yaml follow from their arithmetic, independently of the models."""
+"""Tests that the derived bounds of config/ranges.yaml follow from their arithmetic, independently of the models."""
 
 import inspect
 import math
@@ -53,12 +53,12 @@ def test_most_stages_have_a_derived_range():
 
 @pytest.mark.parametrize("metric, row", _rows())
 def test_ranges_can_fail(metric, row):
-    """No range allows everything: the widest, of stages that span leaves, spans a factor of 12."""
+    """Expects that no range allows everything: the widest, of stages that span leaves, spans a factor of 12."""
     assert row.max <= 12 * row.min or metric == "tiller_count"
 
 
 def test_the_middle_agrees_with_figures_that_the_formulas_do_not_use():
-    """Leaf area index and leaf sizes as remembered: about 0.5 at V6, 2-3 at V10-12, 0.8-1 m by 9-11 cm."""
+    """Compares with known leaf area indices and leaf sizes: about 0.5 at V6, 2-3 at V10-12, 0.8-1 m by 9-11 cm."""
     middle = {n: math.sqrt(math.prod(derive.leaf_area_index(CORN, n))) for n in (6, 10, 12)}
     assert 0.35 < middle[6] < 0.7 and 1.8 < middle[10] < middle[12] < 3
     low, high = derive.longest_blade(CORN)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Growth stages: every stage offered makes a sound plant; counts lie between their rows."""
+"""Tests growth stages: every stage makes a sound plant; counts lie between their rows."""
 
 import re
 

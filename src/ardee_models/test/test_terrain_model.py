@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Terrains: shape, the written image's convention, determinism."""
+"""Tests terrains: shape, the written image's convention, determinism."""
 
 import xml.etree.ElementTree as ElementTree
 
@@ -24,7 +24,7 @@ def test_ridges_stand_on_the_rows_and_lanes_are_level():
     np.testing.assert_allclose(
         ridge_profile(np.array([-s, 0.0, 0.1, 2 * s]), params), 0.0, atol=1e-12
     )
-    # half way down the raised cosine
+    # The place is half way down the raised cosine.
     assert ridge_profile(np.array([0.5 * s + 0.125]), params)[0] == pytest.approx(0.025)
 
 
@@ -52,14 +52,14 @@ def test_orientation_row_0_is_north_and_column_0_is_west():
     terrain = Terrain(heights, 16.0)
     assert terrain.height_at(np.array([-8.0]), np.array([8.0]))[0] == 1.0
     assert terrain.height_at(np.array([-7.5]), np.array([8.0]))[0] == 0.5
-    # on the cut of the cell, which runs from its corner at -x -y to that at +x +y
+    # The point is on the cut of the cell, which runs from its corner at -x -y to that at +x +y.
     assert terrain.height_at(np.array([-7.5]), np.array([7.5]))[0] == 0.0
     assert terrain.height_at(np.array([-7.75]), np.array([7.75]))[0] == 0.5
     assert terrain.height_at(np.array([-99.0, 8.0]), np.array([99.0, -8.0])).tolist() == [1.0, 0.0]
 
 
 def test_a_cell_is_the_two_triangles_that_the_simulator_has():
-    # corners at -x -y, +x -y, -x +y, +x +y of one cell of 1 m
+    # Corners are at -x -y, +x -y, -x +y, +x +y of one cell of 1 m.
     near, right, left, far = 0.1, 0.7, -0.4, 1.3
     heights = np.zeros((17, 17))
     heights[8, 8], heights[8, 9], heights[7, 8], heights[7, 9] = near, right, left, far

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recipes: every part against its closed form, seeds, files, bad input."""
+"""Tests recipes: every part against its closed form, seeds, files, bad input."""
 
 import sys
 import xml.etree.ElementTree as ElementTree
@@ -23,7 +23,7 @@ from ardee_models.terrain.recipe import (
 
 
 def _at(recipe, x, y):
-    """Heights above the height at the origin."""
+    """Returns heights above the height at the origin."""
     terrain = follow(recipe)
     x, y = np.asarray(x, float), np.asarray(y, float)
     return terrain.height_at(x, y) - terrain.height_at(np.zeros(1), np.zeros(1))[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ground from a user's image, elevation model or mesh, against the surface of its source."""
+"""Tests ground from a user's image, elevation model or mesh, against the surface of its source."""
 
 import sys
 import xml.etree.ElementTree as ElementTree

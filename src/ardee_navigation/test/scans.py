@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scans of rows whose place is known."""
+"""Makes scans of rows in known places."""
 import math
 from typing import Optional, Tuple
 
@@ -11,7 +11,7 @@ Wall = Tuple[float, float, float, float]  # slope, offset m, from x m, to x m
 
 
 def scan_of(*walls: Wall, noise: Optional[Tuple[np.random.Generator, float]] = None) -> np.ndarray:
-    """Ranges to the nearest of walls y = slope x + offset between two x; infinite where there is none."""
+    """Returns ranges to the nearest of walls y = slope x + offset between two x; infinite without a wall."""
     ranges = np.full(BEAMS, np.inf)
     for slope, offset, low, high in walls:
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -31,7 +31,7 @@ def lane_walls(
     low: float = -5.0,
     high: float = 5.0,
 ) -> Tuple[Wall, Wall]:
-    """Two walls of a lane, for a lidar so far left of its middle and turned left by the heading."""
+    """Returns two walls of a lane, for a lidar so far left of its middle and turned left by the heading."""
     slope = -math.tan(heading_rad)
 
     def wall(distance_m: float) -> Wall:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Answers of another process are found by the time of their scan, and lost ones are not waited for."""
+"""Tests that answers of another process are found by the time of their scan, without a wait for lost ones."""
 import threading
 import time
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Comparing experiments: intervals against closed forms and tables, pairs by seed, bad files."""
+"""Tests the comparison of experiments: intervals against closed forms and tables, pairs by seed, bad files."""
 import math
 from pathlib import Path
 from typing import Dict, List
@@ -35,13 +35,13 @@ def rows(text: str) -> Dict[str, List[str]]:
 
 
 def test_mean_interval_of_two_values_is_students() -> None:
-    """One degree of freedom: t is tan of 0.475 pi; mean 2, standard error 1."""
+    """One degree of freedom gives t as tan of 0.475 pi; mean 2, standard error 1."""
     reach = math.tan(0.475 * math.pi)
     assert mean_interval([1.0, 3.0]) == pytest.approx((2.0, 2.0 - reach, 2.0 + reach))
 
 
 def test_mean_interval_covers_as_it_says() -> None:
-    """Of 4000 samples of 6 normal values, 95 % within 3.9 standard errors (99.99 %)."""
+    """In 4000 samples of 6 normal values, 95 % are covered, within 3.9 standard errors (99.99 %)."""
     samples = np.random.default_rng(3).standard_normal((4000, 6)) + 5.0
     found = [mean_interval(sample) for sample in samples]
     share = np.mean([interval.low <= 5.0 <= interval.high for interval in found])
@@ -49,7 +49,7 @@ def test_mean_interval_covers_as_it_says() -> None:
 
 
 def test_poisson_interval() -> None:
-    """No event: -ln 0.025 is the upper end. Ten events: table of Garwood (1936)."""
+    """No event gives -ln 0.025 as the upper end; ten events that of the table of Garwood (1936)."""
     assert poisson_interval(0) == pytest.approx((0.0, 0.0, -math.log(0.025)))
     assert poisson_interval(10) == pytest.approx((10.0, 4.795, 18.390), abs=1e-3)
 

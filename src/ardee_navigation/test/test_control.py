@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""PID against values computed by hand, the error, the turn command."""
+"""Tests the PID against values computed by hand, the error, the turn command."""
 import pytest
 
 from ardee_navigation.lbirnt import Parameters
@@ -8,7 +8,7 @@ from ardee_navigation.lbirnt.lines import Line
 
 
 def test_pid_by_hand() -> None:
-    """kp 25, ki 10, kd 5, dt 0.1: errors 0.1, 0.2, 0.2."""
+    """Uses kp 25, ki 10, kd 5, dt 0.1: errors 0.1, 0.2, 0.2."""
     pid = Pid(25.0, 10.0, 5.0, 50.0)
     assert pid.update(0.1, 0.1) == pytest.approx(2.5 + 0.1)
     assert pid.update(0.2, 0.1) == pytest.approx(5.0 + 0.3 + 5.0)
@@ -16,7 +16,7 @@ def test_pid_by_hand() -> None:
 
 
 def test_derivative_passes_a_low_pass() -> None:
-    """dt 0.1, time constant 0.3: a quarter of each new slope."""
+    """Uses dt 0.1 and time constant 0.3: a quarter of each new slope passes."""
     pid = Pid(0.0, 0.0, 1.0, 50.0, 0.3)
     assert pid.update(0.0, 0.1) == 0.0
     assert pid.update(0.1, 0.1) == pytest.approx(0.25)

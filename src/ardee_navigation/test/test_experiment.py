@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Judging runs, summing them up and reporting them, without a simulator."""
+"""Tests judging runs, summing them up and reporting them, without a simulator."""
 import math
 from pathlib import Path
 from typing import Callable, List, Optional, Tuple
@@ -27,7 +27,7 @@ def trial(stalks: Optional[Stalks] = None) -> Trial:
 
 
 def run(course: Course, scans: int = 920, number: int = 0) -> Tuple[Record, List[Pose]]:
-    """A drive at constant speed on a course, until the judge ends it; where the judge wanted the robot set down."""
+    """Drives at constant speed on a course until the judge ends it; also returns where the judge set the robot down."""
     judge, set_down = Judge(trial(), "test", number, 7, 0.2), []
     for i in range(scans):
         along = -1.0 + SPEED_M_S * DT_S * i
@@ -52,7 +52,7 @@ def test_a_perfect_drive() -> None:
     assert summary.heading_max_rad == pytest.approx(0.02)
     assert summary.width_m == pytest.approx(0.78) and summary.width_sd_m == pytest.approx(0.0)
     assert summary.width_true_m == pytest.approx(0.8)
-    lidar = 0.03 + 0.2 * math.sin(-0.02)  # where the lidar is, 0.2 m ahead
+    lidar = 0.03 + 0.2 * math.sin(-0.02)  # place of the lidar, 0.2 m ahead
     assert summary.left_error_m == pytest.approx(0.35 - (0.4 - lidar))
     assert summary.right_error_m == pytest.approx(0.43 - (0.4 + lidar))
     assert summary.real_time_factor == pytest.approx(summary.time_s / 2.0)
@@ -64,7 +64,7 @@ def test_returns_are_kept_at_their_own_places() -> None:
         0.0, Pose(4.0, lateral, heading), (0.5, 0.0), Seen(0.4, 0.4, (True, True), "following")
     )
     lidar = np.array([4.0 + 0.2 * math.cos(heading), lateral + 0.2 * math.sin(heading)])
-    post = np.array([4.18, 0.40])  # nearly abeam of the lidar; the second beam is not
+    post = np.array([4.18, 0.40])  # nearly abeam of the lidar, unlike the second beam
     x, y = post - lidar
     bearing, distance = math.atan2(y, x) - heading, math.hypot(x, y)
     scan = LaserScan(angle_min=bearing, angle_increment=0.5, ranges=[distance, 0.4, math.inf])
@@ -75,7 +75,7 @@ def test_returns_are_kept_at_their_own_places() -> None:
 
 
 def test_errors_are_weighted_by_the_way() -> None:
-    """A quarter of the way 12 cm off, the rest in the middle: RMS 6 cm, three quarters near."""
+    """With a quarter of the way 12 cm off, the rest in the middle, the RMS is 6 cm, and three quarters are near."""
     record, _ = run(lambda along: (0.12 if 2.5 < along <= 5.0 else 0.0, 0.0))
     summary = summarize([record])
     assert summary.lateral_rms_m == pytest.approx(0.06, abs=5e-4)

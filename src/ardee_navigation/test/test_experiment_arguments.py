@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Invalid arguments of run_experiment: one line, exit code 2."""
+"""Tests invalid arguments of run_experiment: one line, exit code 2."""
 import sys
 
 import pytest

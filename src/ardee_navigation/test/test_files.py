@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenarios, parameters, launch file and rviz configuration are whole and say the same."""
+"""Tests that scenarios, parameters, launch file and rviz configuration are whole and agree."""
 import math
 import os
 import subprocess
@@ -147,7 +147,7 @@ def test_parameters_default_to_the_listed_ones(tmp_path: Path) -> None:
 
 
 def test_start_poses_scatter_as_said_and_repeat() -> None:
-    """Of 2000 seeds: mean and variance within 3.9 standard errors (99.99 %)."""
+    """In 2000 seeds, mean and variance lie within 3.9 standard errors (99.99 %)."""
     start = Start(1.0, 2.0, 0.0, 0.5)
     poses = np.array([start_near(start, seed) for seed in range(2000)])
     aside = -np.sin(0.5) * (poses[:, 0] - 1.0) + np.cos(0.5) * (poses[:, 1] - 2.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The technique on scans of rows whose place is known, and driving a robot of unicycle kinematics."""
+"""Tests the technique on scans of rows in known places, and by driving a robot of unicycle kinematics."""
 import math
 from typing import List, Tuple
 
@@ -14,7 +14,7 @@ DT_S = 0.025
 
 
 def settle(ranges: np.ndarray, scans: int = 250, parameters: Parameters = P) -> Output:
-    """The output after the robot has stood before the same scene for a while (speed 0: nothing is predicted)."""
+    """Returns the output after a robot has stood before the same scene for a while (speed 0: nothing is predicted)."""
     still = RowFollower(Parameters(**{**vars(parameters), "speed_m_s": 0.0, "kp": 0.0, "kd": 0.0}))
     outputs = [still.update(ranges, ANGLE_MIN_RAD, INCREMENT_RAD, DT_S * i) for i in range(scans)]
     return outputs[-1]
@@ -42,7 +42,7 @@ def test_one_row_missing_the_other_gives_the_lane(missing: int) -> None:
 
 
 def test_noise_hardly_moves_the_centre() -> None:
-    """Range noise of 1 cm SD: 200 independent fits of the middle err by less than 5 mm RMS, none by 2 cm."""
+    """With a range noise of 1 cm SD, 200 independent fits of the middle err by less than 5 mm RMS, none by 2 cm."""
     rng, errors = np.random.default_rng(11), []
     for _ in range(200):
         ranges = scan_of(*lane_walls(0.05, 0.0), noise=(rng, 0.01))
@@ -52,7 +52,7 @@ def test_noise_hardly_moves_the_centre() -> None:
 
 
 def test_leaves_before_the_stalks_are_left_out_by_the_histogram() -> None:
-    """A quarter of the returns at half the range: the bins beside the fullest do not hold them."""
+    """A quarter of the returns is at half the range: the bins beside the fullest do not hold them."""
     rng = np.random.default_rng(5)
     ranges = scan_of(*lane_walls(0.0, 0.0))
     ranges[rng.random(ranges.size) < 0.25] *= 0.5
@@ -104,7 +104,7 @@ def look_once(follower: RowFollower, ranges: np.ndarray, time_s: float) -> Outpu
 
 
 def turning_follower() -> Tuple[RowFollower, Output]:
-    """A follower that has turned right for a second, and its last output, of 1 s."""
+    """Returns a follower that has turned right for a second, and its last output, of 1 s."""
     follower, rows = RowFollower(P), scan_of(*lane_walls(0.06, 0.05))
     outputs = [look_once(follower, rows, DT_S * i) for i in range(41)]
     assert outputs[-1].turn_rad_s < -0.05
@@ -144,7 +144,7 @@ def test_after_a_long_gap_it_stands_until_it_sees_a_row_or_the_end() -> None:
 
 
 def drive(lateral_m: float, heading_rad: float, length_m: float = 12.0) -> List[List[float]]:
-    """A robot without slip in a lane from x = 0 to the length: x, lateral, heading after each scan, until it stops."""
+    """Drives a robot without slip from x = 0 to the length; returns x, lateral, heading after each scan."""
     follower, track = RowFollower(P), []
     x, y, yaw = -1.0, lateral_m, heading_rad
     for i in range(4000):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The row follower without ROS, while the simulation ends and comes back, or the network goes away."""
+"""Tests the row follower without ROS while the simulation ends and comes back, or the network goes away."""
 import errno
 import socket
 from typing import Any, Iterator, Tuple
@@ -17,7 +17,7 @@ ROWS_ARE_GONE = np.full(len(IN_THE_ROW), np.inf)
 
 
 class Simulator:
-    """A sensor server's and a controls client's socket, and the target between them."""
+    """Socket of a sensor server and of a controls client, and the target between them."""
 
     def __init__(self) -> None:
         self.sensors, self.controls = self._bound(), self._bound()
@@ -34,7 +34,7 @@ class Simulator:
         return made
 
     def scan(self, ranges_m: np.ndarray, time_ms: int) -> Any:
-        """What the target makes of a scan of this time."""
+        """Returns the target's answer to a scan of this time."""
         sec, nsec = time_ms // 1000, time_ms % 1000 * 1_000_000
         stamp = codec.TimeStamp(sec=sec, nsec=nsec, data_type=codec.DataType.LIDAR)
         scan = codec.LidarData(
@@ -84,7 +84,7 @@ def test_scans_that_changed_places_are_no_new_simulation(simulator: Simulator) -
 
 
 class Unplugged:
-    """A socket that receives and cannot send."""
+    """Socket that receives and cannot send."""
 
     def __init__(self, opened: socket.socket) -> None:
         self._opened = opened

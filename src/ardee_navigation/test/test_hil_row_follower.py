@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The row follower of a target computer, on sockets of the loopback."""
+"""Tests the row follower of a target computer, on sockets of the loopback."""
 import socket
 from dataclasses import replace
 from typing import Any, Iterator, Tuple
@@ -24,7 +24,7 @@ def bound() -> socket.socket:
 
 @pytest.fixture()
 def ends() -> Iterator[Tuple[Any, socket.socket, socket.socket]]:
-    """The target, the sensor server's socket, the robot's."""
+    """Yields the target, the sensor server's socket, the robot's."""
     server, robot = bound(), bound()
     target = Target(Parameters(), server.getsockname(), robot.getsockname(), LOOPBACK)
     yield target, server, robot
@@ -80,7 +80,7 @@ def scan_message(ranges_m: np.ndarray) -> Tuple[bytes, bytes]:
 
 
 def asked_by(target: Any, server: socket.socket) -> Tuple[str, int]:
-    """Where the target listens: it asks for scans and their times."""
+    """Returns the target's address; it asks for scans and their times."""
     target.ask()
     header, sender = server.recvfrom(65535)
     data, _ = server.recvfrom(65535)

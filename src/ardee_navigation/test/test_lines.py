@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Equations 5.1 and 5.2 and what is read off a line."""
+"""Tests equations 5.1 and 5.2 and the numbers derived from a line."""
 import math
 
 import numpy as np
@@ -9,7 +9,7 @@ from ardee_navigation.lbirnt.lines import Line, estimate, least_squares
 
 
 def test_least_squares_by_hand() -> None:
-    """n 3, sx 3, sy 6, sxx 5, sxy 9: m = (27 - 18) / (15 - 9) = 1.5, b = (30 - 27) / 6 = 0.5."""
+    """The sums are n 3, sx 3, sy 6, sxx 5, sxy 9: m = (27 - 18) / (15 - 9) = 1.5, b = (30 - 27) / 6 = 0.5."""
     line = least_squares(np.array([[0.0, 1.0], [1.0, 1.0], [2.0, 4.0]]))
     assert line.slope == pytest.approx(1.5, abs=1e-12)
     assert line.offset_m == pytest.approx(0.5, abs=1e-12)
@@ -27,7 +27,7 @@ def test_no_line_through_too_little(points: list) -> None:
 
 
 def test_noise_moves_the_line_as_regression_theory_says() -> None:
-    """Of 2000 fits the standardised errors are N(0, 1): their variance lies in chi-square's 99.99 % interval."""
+    """In 2000 fits the standardised errors are N(0, 1): their variance lies in chi-square's 99.99 % interval."""
     rng, sigma, fits = np.random.default_rng(3), 0.02, 2000
     x = np.linspace(-1.0, 2.0, 60)
     slopes, offsets = [], []
@@ -52,7 +52,7 @@ def test_distance_is_orthogonal_and_signed() -> None:
 
 
 def test_estimate_reads_all_of_a_line() -> None:
-    """A 3-4-5 line: x over 4 m, y over 3 m, 5 m long; residuals of +-0.1 m."""
+    """Uses a 3-4-5 line: x over 4 m, y over 3 m, 5 m long; residuals of +-0.1 m."""
     x = np.array([0.0, 0.0, 4.0, 4.0])
     y = 0.75 * x + 0.5 + np.array([0.1, -0.1, 0.1, -0.1])
     found = estimate(np.column_stack((x, y)), Line(0.0, 0.3))

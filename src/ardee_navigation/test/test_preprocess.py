@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scan to the points that a line is fitted to."""
+"""Tests the steps from a scan to the points that a line is fitted to."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Detection of a stop of the scans by two clocks, either of which may stand still or run fast."""
+"""Tests that a stop of the scans is detected by two clocks, either of which may stand still or run fast."""
 from ardee_navigation.nodes.silence import Silence
 
 

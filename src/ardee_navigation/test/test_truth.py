@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Truth files, lanes, deviations and contacts against closed forms."""
+"""Tests truth files, lanes, deviations and contacts against closed forms."""
 import json
 import math
 from pathlib import Path
@@ -60,7 +60,7 @@ def arc(radius_m: float) -> np.ndarray:
 
 
 def test_lane_on_an_arc() -> None:
-    """About the point (0, 40): half way is on radius 40, and the heading there is the angle gone."""
+    """About the point (0, 40), half way is on radius 40, and the heading there is the angle travelled."""
     lane = lane_of(Field((arc(39.6), arc(40.4)), NO_STALKS), Pose(-1.0, 0.0, 0.0))
     angle, radius = 0.7, 39.9
     pose = Pose(radius * math.sin(angle), 40.0 - radius * math.cos(angle), angle + 0.1)
@@ -81,7 +81,7 @@ def test_projection_on_a_corner() -> None:
 
 
 def test_stalks_in_the_outline_by_hand() -> None:
-    """Robot at the origin, turned by 90 degrees: its length lies along y."""
+    """The robot is at the origin, turned by 90 degrees: its length lies along y."""
     half_length, half_width = LENGTH_M / 2, WIDTH_M / 2
     xy = [
         [0.0, half_length + 0.05],

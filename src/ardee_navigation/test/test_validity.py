@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Validity checks, line grade (equation 5.3) and update heuristics."""
+"""Tests validity checks, line grade (equation 5.3) and update heuristics."""
 import dataclasses
 
 import pytest
@@ -20,7 +20,7 @@ def changed(one: Estimate, **fields: object) -> Estimate:
 
 
 def test_line_grade_by_hand() -> None:
-    """30/40 + 2/3 + (1 - 0.02/0.08) + (1 - 0/0.03) = 0.75 + 0.6667 + 0.75 + 1."""
+    """The grade is 30/40 + 2/3 + (1 - 0.02/0.08) + (1 - 0/0.03) = 0.75 + 0.6667 + 0.75 + 1."""
     assert line_grade(LEFT, RIGHT) == pytest.approx(0.75 + 2 / 3 + 0.75 + 1.0)
     assert line_grade(LEFT, RIGHT) + line_grade(RIGHT, LEFT) == pytest.approx(4.0)
 
@@ -91,7 +91,7 @@ def test_centre_is_half_way() -> None:
 
 
 def test_a_turn_moves_a_line_as_geometry_says() -> None:
-    """Lidar 0.2 m ahead of the turning centre, turn of 0.01 rad: 2 mm to the left, so the line is 2 mm nearer."""
+    """The lidar is 0.2 m ahead of the turning centre; a turn of 0.01 rad brings the line 2 mm nearer."""
     line = turned(Line(0.0, 0.38), 0.01, 0.5, 0.2)
     assert (line.slope, line.offset_m) == pytest.approx((-0.01, 0.378))
     assert turned(Line(0.1, 0.38), 0.0, 0.5, 0.2).offset_m == pytest.approx(0.43)

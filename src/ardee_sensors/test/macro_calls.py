@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robots of macro calls, and the topics that their plugins would publish."""
+"""Makes robots of macro calls, and lists the topics that their plugins would publish."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 from typing import Dict, List
@@ -31,7 +31,7 @@ CAMERA_KEYS = (
 
 
 def call(device: str, name: str, arguments: str = "") -> str:
-    """The shortest call of a device's macro; an encoder has no origin and is given its topic."""
+    """Returns the shortest call of a device's macro; an encoder has no origin and is given its topic."""
     if device == "encoder":
         return f'<xacro:sensor_encoder parent="base_footprint" name="{name}" topic="ardee/{name}" {arguments} />'
     macro = f"xacro:sensor_{device}"
@@ -39,26 +39,26 @@ def call(device: str, name: str, arguments: str = "") -> str:
 
 
 def write_robot(folder: pathlib.Path, calls: str) -> pathlib.Path:
-    """A robot file of the calls."""
+    """Writes a robot file of the calls."""
     file = folder / "robot.urdf.xacro"
     file.write_text(ROBOT.format(calls=calls))
     return file
 
 
 def robot(folder: pathlib.Path, calls: str) -> ElementTree.Element:
-    """The URDF of a robot of the calls."""
+    """Returns the URDF of a robot of the calls."""
     return ElementTree.fromstring(expand(write_robot(folder, calls)))
 
 
 def complaint(folder: pathlib.Path, calls: str) -> str:
-    """Message of xacro for a wrong call."""
+    """Returns xacro's message for a wrong call."""
     done = run_xacro(write_robot(folder, calls))
     assert done.returncode != 0 and not done.stdout
     return done.stderr
 
 
 def of(root: ElementTree.Element, tag: str, name: str) -> List[ElementTree.Element]:
-    """Elements of the tag whose name is `name` or begins with `name` and an underscore."""
+    """Returns elements of the tag whose name is `name` or begins with `name` and an underscore."""
     return [
         e
         for e in root.iter(tag)
@@ -67,7 +67,7 @@ def of(root: ElementTree.Element, tag: str, name: str) -> List[ElementTree.Eleme
 
 
 def camera_topics(sensor_cameras: List[str], plugin: ElementTree.Element) -> List[str]:
-    """Topics of a camera's plugin; the cameras of a multicamera have their names before them."""
+    """Returns topics of a camera's plugin; the cameras of a multicamera have their names before them."""
     multi = plugin.get("filename") == "libgazebo_ros_multicamera.so"
     stems = [f"/{name}" for name in sensor_cameras] if multi else [""]
     base = plugin.findtext("cameraName")
@@ -80,7 +80,7 @@ def camera_topics(sensor_cameras: List[str], plugin: ElementTree.Element) -> Lis
 
 
 def topics(root: ElementTree.Element) -> Dict[str, str]:
-    """Topics of the robot's plugins, each with the plugin that publishes it; no topic occurs twice."""
+    """Returns topics of the robot's plugins, each with the plugin that publishes it; no topic occurs twice."""
     found: Dict[str, str] = {}
     cameras = {
         plugin.get("name"): [camera.get("name") for camera in sensor.findall("camera")]

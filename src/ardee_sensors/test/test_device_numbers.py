@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""config/: every number has a unit in its name, the mark of a known source, and a possible value."""
+"""Tests that every number in config/ has a unit in its name, the mark of a known source, and a possible value."""
 import math
 import pathlib
 

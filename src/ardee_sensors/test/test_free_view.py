@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""No lidar sees itself, and no camera has its own body before the lens."""
+"""Tests that no lidar sees itself, and that no camera has its own body before the lens."""
 import numpy as np
 import pytest
 from device_numbers import PACKAGE, devices, load
@@ -12,7 +12,7 @@ BOXES = [device for device in devices() if load(device)["kind"] in ("rgbd", "ste
 
 
 def rays(numbers: dict) -> np.ndarray:
-    """Unit directions (n, 3) that fill the field of view, its edges included."""
+    """Returns unit directions (n, 3) that fill the field of view, its edges included."""
     azimuth = np.linspace(numbers["min_angle_rad"], numbers["max_angle_rad"], 181)
     edges = [numbers.get("vertical_min_angle_rad", 0), numbers.get("vertical_max_angle_rad", 0)]
     a, e = (grid.ravel() for grid in np.meshgrid(azimuth, np.linspace(*edges, 9)))
@@ -20,7 +20,7 @@ def rays(numbers: dict) -> np.ndarray:
 
 
 def hits(triangles: np.ndarray, directions: np.ndarray) -> int:
-    """Number of (ray, triangle) pairs that meet, for rays from the origin (Moeller and Trumbore 1997)."""
+    """Returns the number of (ray, triangle) pairs that meet, for rays from the origin (Moeller and Trumbore 1997)."""
     corner, one, two = (
         triangles[:, 0],
         triangles[:, 1] - triangles[:, 0],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The UST-10LX macro: the effect of its arguments, and a scan plane free of obstacles."""
+"""Tests the UST-10LX macro: the effect of its arguments, and a scan plane free of obstacles."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 
@@ -24,14 +24,14 @@ CALL = 'parent="base_footprint" color="black"'
 
 
 def write(folder: pathlib.Path, arguments: str, before: str = "") -> pathlib.Path:
-    """A robot file with the lidar called with `arguments`."""
+    """Writes a robot file with the lidar called with `arguments`."""
     file = folder / "robot.urdf.xacro"
     file.write_text(ROBOT.format(arguments=arguments, before=before))
     return file
 
 
 def robot(folder: pathlib.Path, arguments: str = CALL, before: str = "") -> ElementTree.Element:
-    """The URDF of that robot."""
+    """Returns the URDF of that robot."""
     return ElementTree.fromstring(expand(write(folder, arguments, before)))
 
 
@@ -52,7 +52,7 @@ def test_listing_4_1_alone_gives_the_device(tmp_path: pathlib.Path):
     plugin = sensor.find("plugin")
     assert plugin.get("filename") == "libgazebo_ros_gpu_laser.so"
     names = [plugin.findtext(k) for k in ("robotNamespace", "topicName", "frameName")]
-    assert names == ["", "ardee/hokuyo", "hokuyo_link"]  # empty: where the robot is spawned
+    assert names == ["", "ardee/hokuyo", "hokuyo_link"]  # empty: the place of the spawn
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The macro calls of the thesis's listings, word for word."""
+"""Tests the macro calls of the thesis's listings, word for word."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 

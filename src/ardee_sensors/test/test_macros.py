@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every macro on a bare link: called with name, parent and origin alone, and all at once, each twice."""
+"""Tests every macro on a bare link: called with name, parent and origin alone, and all at once, each twice."""
 import math
 import pathlib
 import re
@@ -18,7 +18,7 @@ TABLE_3_1 = """gps gps_with_dropout gps_with_mast imu_hector imu_terra hokuyo_ur
     sick_s300 sick_s3000 sick_tim571 rplidar hokuyo3d axis_m5013 axis ueye_cp_gige asus_xtion_pro kinect kinectv2
     fotonic orbbec_astra sonar approx_battery encoder""".split()
 BEYOND = "imu imu_ardee vlp16 hdl32e realsense_d435 zed2".split()
-# numbers that shape the body, the mesh and the frames: the device would not be that device with others
+# Numbers that shape the body, the mesh and the frames: with others it would be another device.
 OF_THE_BODY = re.compile(
     r"(\w+_)?size_[xyz]_m|scan_height_m|window_height_m|turret_\w+|lens_\w+|frame_z_m|tilt_axis_z_m|"
     r"(foot|head)_height_m|(head|yoke)_mass_kg"
@@ -27,7 +27,7 @@ OF_THE_BODY = re.compile(
 
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
-    """A robot with every sensor twice, `<device>.1` and `<device>.2`."""
+    """Returns a robot with every sensor twice, `<device>.1` and `<device>.2`."""
     calls = [call(device, f"{device}.{i}") for device in devices() for i in (1, 2)]
     return robot(tmp_path_factory.mktemp("everything"), "\n".join(calls))
 
@@ -47,7 +47,7 @@ def test_names_of_two_of_a_kind_do_not_collide(everything: ElementTree.Element):
     for tag in ("link", "joint", "sensor", "plugin"):
         names = [e.get("name") for e in everything.iter(tag) if e.get("name")]
         assert len(names) == len(set(names)) and names
-    assert topics(everything)  # asserts that none comes twice
+    assert topics(everything)  # fails if one occurs twice
 
 
 def test_the_robot_s_namespace_reaches_every_plugin(tmp_path: pathlib.Path):
@@ -86,7 +86,7 @@ def test_frames_exist(everything: ElementTree.Element, device: str):
 
 @pytest.mark.parametrize("device", devices())
 def test_bodies_are_possible(everything: ElementTree.Element, device: str):
-    """Masses above zero that add up to the device's, and principal moments that obey the triangle inequality."""
+    """Masses above zero add up to the device's, and principal moments obey the triangle inequality."""
     total = 0.0
     for link in of(everything, "link", f"{device}.1"):
         inertial = link.find("inertial")
@@ -122,7 +122,7 @@ def test_its_mesh_is_there_and_its_visuals_have_colours(
 
 @pytest.mark.parametrize("device", CAMERAS)
 def test_optical_frames_look_along_the_link(everything: ElementTree.Element, device: str):
-    """REP 103: z of the optical frame is x of the link, x right, y down."""
+    """REP 103 asks that z of the optical frame be x of the link, x right, y down."""
     joints = [j for j in of(everything, "joint", f"{device}.1") if "optical_frame" in j.get("name")]
     assert joints
     for joint in joints:
@@ -133,7 +133,7 @@ def test_optical_frames_look_along_the_link(everything: ElementTree.Element, dev
 
 @pytest.fixture(scope="module")
 def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
-    """A robot with every lidar: with its defaults, plain, and with more rays per beam."""
+    """Returns a robot with every lidar: with its defaults, plain, and with more rays per beam."""
     calls = [
         call(device, f"{device}.{name}", arguments)
         for device in LIDARS
@@ -292,7 +292,7 @@ OF_ONE = {
 
 
 def test_two_cameras_of_one_device_say_once_what_cannot_be(tmp_path: pathlib.Path):
-    """Both cameras are left out; the body and the rest of the robot stay."""
+    """Both cameras are left out; the body and the rest of the robot remain."""
     wrong = {(device, *key): said for device in TWO_CAMERAS for key, said in IMPOSSIBLE.items()}
     wrong.update(OF_ONE)
     calls = [call(key[0], f"bad{i}", f'{key[1]}="{key[2]}"') for i, key in enumerate(wrong)]

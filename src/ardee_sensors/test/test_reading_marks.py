@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Markers of show_sensor.launch for readings without a display in rviz."""
+"""Tests markers of show_sensor.launch for readings without a display in rviz."""
 import math
 
 import pytest
@@ -11,7 +11,7 @@ from visualization_msgs.msg import Marker
 
 
 def fix_at(east_m: float, north_m: float, up_m: float = 0.0) -> NavSatFix:
-    """A fix at a distance from the reference; degrees by hector's flat projection."""
+    """Returns a fix at a distance from the reference; degrees by hector's flat projection."""
     numbers = load("gps")
     latitude_rad = math.radians(numbers["reference_latitude_deg"])
     e2 = 0.00669437999014  # WGS-84

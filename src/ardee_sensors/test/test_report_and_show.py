@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The report's page, and the post that show_sensor.launch puts into the room."""
+"""Tests the report's page, and the post that show_sensor.launch puts into the room."""
 import pathlib
 import re
 import signal

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package as a whole: every device file is included, every mesh reproduces, the helpers are correct."""
+"""Tests the package as a whole: every device file is included, every mesh reproduces, the helpers are correct."""
 import importlib.util
 import pathlib
 import sys
@@ -18,7 +18,7 @@ HELPERS = """<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">
 
 
 def expand_body(folder: pathlib.Path, body: str) -> ElementTree.Element:
-    """URDF of the macro calls in `body`."""
+    """Returns the URDF of the macro calls in `body`."""
     file = folder / "helpers.urdf.xacro"
     file.write_text(HELPERS.format(body=body))
     return ElementTree.fromstring(expand(file))
@@ -42,7 +42,7 @@ def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: p
     for name in names:
         made, kept = tmp_path / name, PACKAGE / "meshes" / name
         assert made.read_bytes()[:84] == kept.read_bytes()[:84], name
-        # micrometres; where one lies half-way between two, processors round it differently
+        # Numbers are micrometres; processors round a half-way value differently.
         assert np.abs(read_stl(made) - read_stl(kept)).max() < 1.1e-6, name
         assert len(made.read_bytes()) < 200_000
 

@@ -12,7 +12,7 @@ STL_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attri
 
 
 def ros_environment() -> dict:
-    """Environment in which rospkg finds the packages of this tree, whatever is sourced."""
+    """Returns an environment in which rospkg finds the packages of this tree, whatever is sourced."""
     paths = [os.environ.get("ROS_PACKAGE_PATH", ""), str(SOURCES), str(SOURCES.parent / "compat")]
     path = "/usr/bin" + os.pathsep + os.environ.get("PATH", "")
     return dict(os.environ, ROS_PACKAGE_PATH=os.pathsep.join(p for p in paths if p), PATH=path)
@@ -26,21 +26,21 @@ def run_xacro(file: pathlib.Path, **arguments: str) -> subprocess.CompletedProce
 
 
 def expand(file: pathlib.Path, **arguments: str) -> str:
-    """The URDF text that xacro makes of the file; any complaint on stderr is a failure."""
+    """Returns the URDF text that xacro makes of the file; any output on stderr is a failure."""
     done = run_xacro(file, **arguments)
     assert done.returncode == 0 and not done.stderr, done.stderr
     return done.stdout
 
 
 def mesh_path(uri: str) -> pathlib.Path:
-    """File of a package:// URI in this tree."""
+    """Returns the file of a package:// URI in this tree."""
     prefix = "package://"
     assert uri.startswith(prefix), f"{uri}: expected package://<package>/<path>"
     return SOURCES / uri[len(prefix) :]
 
 
 def read_stl(path: pathlib.Path) -> np.ndarray:
-    """Triangles (n, 3, 3) of a binary STL file, m."""
+    """Returns triangles (n, 3, 3) of a binary STL file, m."""
     data = path.read_bytes()
     records = np.frombuffer(data[84:], STL_RECORD)
     assert len(records) == int.from_bytes(data[80:84], "little"), f"{path}: wrong triangle count"

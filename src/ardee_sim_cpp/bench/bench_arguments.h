@@ -15,7 +15,8 @@
 
 namespace ardee::bench {
 
-/// A command line of pairs `--name value`, each with a default; an empty default has to be given.
+/// Command line of pairs `--name value`, each with a default; an argument with an empty default is
+/// required.
 class BenchArguments {
  public:
   BenchArguments(int argc, char** argv, std::map<std::string, std::string> defaults,
@@ -35,7 +36,7 @@ class BenchArguments {
 
   const std::string& text(const std::string& name) const { return values_.at(name); }
   double number(const std::string& name) const { return numbers(name, 1).front(); }
-  /// From 'X Y Z YAW' in m and rad.
+  /// Returns a pose from 'X Y Z YAW' in m and rad.
   Pose pose(const std::string& name) const {
     const std::vector<double> found = numbers(name, 4);
     return Pose::from_xyz_rpy({found[0], found[1], found[2]}, {0, 0, found[3]});
@@ -55,8 +56,8 @@ class BenchArguments {
   std::map<std::string, std::string> values_;
 };
 
-/// The main() of a program that drives down a lane: runs `bench` on the command line. `own` are its
-/// defaults beside, or in place of, those of all of them. The exit code; 2 for an error.
+/// Runs a program that drives down a lane: calls `bench` with the command line. `own` adds to the
+/// defaults of all such programs, or replaces them. Returns the exit code; 2 for an error.
 inline int run_bench(int argc, char** argv, std::map<std::string, std::string> own,
                      const std::string& usage,
                      const std::function<void(const BenchArguments&)>& bench) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Three cameras in a field, as the engine renders them, beside Embree alone on the same rays.
+// Renders the pictures of three cameras in a field, and traces the same rays by Embree alone.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -29,7 +29,7 @@ constexpr double kFov_rad = 1.2;
 constexpr double kStep_s = 0.005;
 const double kYaws_rad[] = {0.0, 0.5 * M_PI, -0.5 * M_PI};
 
-/// A body without weight that carries the cameras.
+/// Returns a body without weight that carries the cameras.
 std::string carrier() {
   std::string xml =
       "<sdf version='1.6'><model name='carrier'><link name='body'><gravity>false</gravity>";
@@ -61,10 +61,10 @@ struct Drive {
   double wall_s = 1e300;
   double cpu_s = 1e300;
   int frames = 0;
-  std::vector<Pose> poses_W;  // of the carrier, where pictures were taken
+  std::vector<Pose> poses_W;  // poses of the carrier when pictures were taken
 };
 
-/// Down the lane for a while, `rounds` times on from where the last round has ended; the best times
+/// Drives down the lane for a while, `rounds` times, each from the end of the last; the best times
 /// count.
 Drive drive(const BenchArguments& arguments, Simulation& simulation, Entity& carrier_entity) {
   Drive best;
@@ -96,7 +96,8 @@ Drive drive(const BenchArguments& arguments, Simulation& simulation, Entity& car
   return best;
 }
 
-/// Rays a second of processor time of bare Embree, one thread, over every picture of the drive.
+/// Returns rays a second of processor time of bare Embree, one thread, over every picture of the
+/// drive.
 double embree_rays_per_s(const BenchArguments& arguments, const Simulation& simulation,
                          const Drive& done) {
   const auto flat = EmbreeReference::flat(scenery(simulation), done.poses_W.front().p.head<2>(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tells apart two builds of the simulator: what all devices of a robot say on a drive, as a hash a
-// topic.
+// Compares builds of the simulator: prints a hash of each topic's readings on a drive, for all
+// devices of a robot.
 #include <iomanip>
 #include <iostream>
 

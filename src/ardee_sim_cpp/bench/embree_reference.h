@@ -10,24 +10,24 @@
 
 namespace ardee::bench {
 
-/// All that stands in a simulation without moving.
+/// Returns all placements of a simulation's scenery.
 std::vector<Placement> scenery(const Simulation& simulation);
 
-/// A scenery given to Embree as its own triangles and instances, to race the engine's rays against.
+/// Scenery as Embree's own triangles and instances, to compare with the engine's rays.
 class EmbreeReference {
  public:
-  /// One BVH over the triangles of all that stands within `radius_m` of `center`.
+  /// Builds one BVH over the triangles of all bodies within `radius_m` of `center`.
   static EmbreeReference flat(const std::vector<Placement>& scenery, const Eigen::Vector2d& center,
                               double radius_m);
-  /// As the engine divides it: triangles within `near_m` of `center`, an instance each for the
-  /// rest. Ground within `radius_m` is triangles.
+  /// Divides the scenery as the engine does: triangles within `near_m` of `center`, and one
+  /// instance for each other body. Ground within `radius_m` is triangles.
   static EmbreeReference divided(const std::vector<Placement>& scenery,
                                  const Eigen::Vector2d& center, double near_m, double radius_m);
   ~EmbreeReference();
   EmbreeReference(EmbreeReference&& other) noexcept;
 
   std::size_t triangle_count() const { return triangle_count_; }
-  /// Distance to the nearest hit, or +inf.
+  /// Returns the distance to the nearest hit, or +inf.
   float cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
              float max_range_m) const;
 

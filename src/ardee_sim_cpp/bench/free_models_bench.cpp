@@ -31,7 +31,7 @@ std::shared_ptr<const Model> plane() {
   return model;
 }
 
-/// A stalk of 0.2 kg on a foot.
+/// Returns a stalk of 0.2 kg on a foot.
 std::shared_ptr<const Model> plant() {
   auto model = std::make_shared<Model>();
   model->name = "plant";
@@ -57,7 +57,8 @@ std::shared_ptr<const Model> plant() {
   return model;
 }
 
-/// Rows 0.75 m apart along x, 0.2 m from plant to plant, with the origin between two of them.
+/// Returns a field with rows 0.75 m apart along x, plants 0.2 m apart, and the origin between two
+/// rows.
 World field(int plants, const std::shared_ptr<const Model>& model) {
   constexpr int kRows = 20;
   World world;

@@ -8,15 +8,15 @@
 
 namespace ardee::bench {
 
-/// Drives to and fro on a straight line of a given length, by truth: forwards down the row,
+/// Drives to and fro on a straight line of a given length, by the true pose: forwards down the row,
 /// backwards up again.
 class LaneKeeper {
  public:
-  /// The line starts at `start` and runs along its x axis.
+  /// Takes a line that starts at `start` and runs along its x axis.
   LaneKeeper(const Pose& start, double length_m, double speed_m_per_s)
       : start_(start), length_m_(length_m), speed_m_per_s_(speed_m_per_s) {}
 
-  /// Forward speed and yaw rate in the robot's frame for a robot at X_WR.
+  /// Returns forward speed and yaw rate in the robot's frame for a robot at X_WR.
   Twist command(const Pose& X_WR) {
     const Eigen::Vector3d p = start_.q.conjugate() * (X_WR.p - start_.p);
     const Eigen::Vector3d ahead = start_.q.conjugate() * (X_WR.q * Eigen::Vector3d::UnitX());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Races a lidar's rays, as the engine casts them, against Embree alone on the same scenery.
+// Compares the speed of a lidar's rays in the engine with that of Embree alone on the same scenery.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -22,7 +22,7 @@ constexpr const char* kUsage =
     "scenery is met. Rays are counted a second of processor time. radius-m: how near plants are\n"
     "triangles, not instances, in the scene that Embree is given.\n";
 
-/// A lidar's rays, and the places on its way from which it sends them.
+/// Rays of a lidar, and the places on its way where it sends them.
 struct Scans {
   raycast::RayPattern pattern;
   float range_max_m = 0.0f;
@@ -37,7 +37,7 @@ struct Scans {
   }
 };
 
-/// Remembers a lidar's first scan.
+/// Keeps a lidar's first scan.
 class FirstScan : public devices::ReadingSink {
  public:
   void on_reading(const devices::Output& /*output*/, const devices::Reading& reading) override {
@@ -47,7 +47,7 @@ class FirstScan : public devices::ReadingSink {
   devices::LidarReading found;
 };
 
-/// Drives the robot and writes down where its lidar is, 40 times a second.
+/// Drives the robot and records the lidar's place, 40 times a second.
 Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulation) {
   constexpr double kScanRate_hz = 40.0;
   constexpr double kFirstScanLimit_s = 10.0;
@@ -94,8 +94,8 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
   return scans;
 }
 
-/// Rays a second of processor time, of the best of some rounds: other work on the machine only ever
-/// slows one down.
+/// Returns rays a second of processor time in the best of some rounds: other work on the machine
+/// only slows a round down.
 template <typename Round>
 double best_rays_per_s(const Scans& scans, int rounds, const Round& round) {
   double best_s = 1e300;
@@ -161,8 +161,8 @@ double run_reference(const BenchArguments& arguments, const EmbreeReference& ref
   return best_rays_per_s(scans, static_cast<int>(arguments.number("--rounds")), round);
 }
 
-/// Bare packets on the region that the engine itself commits about the middle of the way. What lies
-/// beyond it is left out, which the engine goes on to.
+/// Traces bare packets in the local scene that the engine itself commits about the middle of the
+/// way. It leaves out the bodies beyond, which the engine would test next.
 double run_committed(const BenchArguments& arguments, const std::vector<Placement>& placements,
                      const Scans& scans) {
   raycast::RayOptions options;
@@ -178,7 +178,7 @@ double run_committed(const BenchArguments& arguments, const std::vector<Placemen
   return best_rays_per_s(scans, static_cast<int>(arguments.number("--rounds")), round);
 }
 
-/// Share of rays on which both agree to the millimetre.
+/// Returns the share of rays whose ranges agree to the millimetre.
 double agreement(const std::vector<float>& a, const std::vector<float>& b) {
   std::size_t same = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {

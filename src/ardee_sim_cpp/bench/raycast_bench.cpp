@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Times the ray-traced scene in a field of procedural plants: standing, driving, and beside bare
+// Times the ray scene in a field of procedural plants: at rest, driving, and compared with bare
 // Embree.
 #include <chrono>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr float kRange_m = 10.0f;
 constexpr double kEyeHeight_m = 0.25;
 constexpr double kRow_m = 0.76;
-/// 0.5 m/s simulated at 30 times real time, scans of 40 Hz simulated.
+/// Speed of a robot at 0.5 m/s at 30 times real time, with scans of 40 Hz simulated.
 constexpr double kWallSpeed_m_per_s = 15.0;
 constexpr double kScanStep_m = 0.5 / 40.0;
 constexpr int kRepeats = 5;
@@ -59,8 +59,8 @@ raycast::RayPattern camera_pattern() {
   return pattern;
 }
 
-/// Places between two rows about the middle of the field, a little tilted as a robot on rough
-/// ground is.
+/// Returns places between two rows about the middle of the field, slightly tilted as on rough
+/// ground.
 std::vector<Pose> lane_poses(int count, double step_m, double start_m) {
   std::vector<Pose> poses;
   for (int k = 0; k < count; ++k) {
@@ -71,7 +71,7 @@ std::vector<Pose> lane_poses(int count, double step_m, double start_m) {
   return poses;
 }
 
-/// Processor time of this thread, s: other programs on the machine cost it less than wall time.
+/// Returns the processor time of this thread [s]; other programs disturb it less than wall time.
 double thread_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -80,7 +80,7 @@ double thread_s() {
 
 double process_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Rays a second of the best of some runs.
+/// Returns rays a second in the best of some runs.
 template <typename Run>
 double rate_mrays(std::size_t rays, Run run) {
   double best_s = 1e9;
@@ -118,12 +118,12 @@ Rates standing(const raycast::RayScene& scene, const BareRegion& bare, const Fla
 struct Drive {
   double mrays = 0.0;
   double longest_prepare_ms = 0.0;
-  double cores = 0.0;             // that all threads need at that pace
-  double background_cores = 0.0;  // of these, in the background
+  double cores = 0.0;             // cores that all threads need at that pace
+  double background_cores = 0.0;  // part of these in the background thread
 };
 
-/// As a simulation at 30 times real time does it: 1200 scans a second, held to that pace if there
-/// is time.
+/// Scans as in a simulation at 30 times real time: 1200 scans a second, slowed down to that pace if
+/// there is time.
 Drive drive(raycast::RayScene& scene, double side_m, const raycast::RayPattern& pattern) {
   const double length_m = std::min(60.0, 0.8 * side_m);
   const int scans = std::max(200, static_cast<int>(length_m / kScanStep_m));

@@ -19,7 +19,7 @@ constexpr int kStalkSides = 8;
 constexpr int kStalkSegments = 5;
 constexpr double kHeight_m = 1.9;
 
-/// A grid of (rows + 1) x (columns + 1) vertices as triangles.
+/// Adds a grid of (rows + 1) x (columns + 1) vertices as triangles.
 void add_grid(SubMesh& mesh, int rows, int columns, const std::vector<Eigen::Vector3d>& vertices) {
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
   for (const Eigen::Vector3d& vertex : vertices) mesh.vertices.push_back(vertex.cast<float>());

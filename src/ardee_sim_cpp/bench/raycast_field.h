@@ -9,15 +9,15 @@
 
 namespace ardee::bench {
 
-/// A maize-like plant: a stalk and arched leaves, about 1,232 triangles, 1.9 m high, with a
+/// Returns a maize-like plant: a stalk and arched leaves, about 1,232 triangles, 1.9 m high, with a
 /// cylinder for collisions.
 std::shared_ptr<const Model> make_plant(std::uint64_t seed);
 
-/// `count` plants in rows 0.76 m apart, 8 a square metre, turned at random, from a few
+/// Returns `count` plants in rows 0.76 m apart, 8 a square metre, turned at random, from a few
 /// descriptions.
 std::vector<Placement> make_field(std::size_t count);
 
-/// The length of the side of that field's square, m.
+/// Returns the side of that field's square [m].
 double field_side_m(std::size_t count);
 
 }  // namespace ardee::bench

@@ -8,7 +8,7 @@
 namespace ardee::bench {
 namespace {
 
-/// As LocalSceneCache makes it: half as much again as the radius asked for.
+/// Factor on the radius of a local scene, as in LocalSceneCache.
 constexpr double kSpare = 1.5;
 
 void attach(RTCDevice device, RTCScene scene, const Placement& placement) {

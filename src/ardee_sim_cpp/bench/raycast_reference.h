@@ -8,8 +8,8 @@
 
 namespace ardee::bench {
 
-/// Bare rtcIntersect8 calls on the very scene that RayScene commits near a sensor: no list of hits,
-/// no moving models, no threads.
+/// Bare rtcIntersect8 calls on the scene that RayScene commits near a sensor: without lists of
+/// hits, moving models and threads.
 class BareRegion {
  public:
   BareRegion(const std::vector<Placement>& field, const Eigen::Vector3d& eye,

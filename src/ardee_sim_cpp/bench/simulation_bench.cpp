@@ -17,7 +17,7 @@ constexpr const char* kUsage =
     "Prints JSON. Durations are simulated ones, of each of three phases: nothing is read, lidars\n"
     "only, all but pictures and clouds.\n";
 
-/// Counts what the devices measure.
+/// Counts the devices' readings.
 class Counter : public devices::ReadingSink {
  public:
   void on_reading(const devices::Output& /*output*/, const devices::Reading& reading) override {
@@ -32,15 +32,15 @@ class Counter : public devices::ReadingSink {
   std::uint64_t rays = 0;
 };
 
-/// What one phase of the drive took.
+/// Costs of one phase of the drive.
 struct Phase {
   double simulated_s = 0.0;
   double wall_s = 0.0;
-  double cpu_s = 0.0;  // of all threads
+  double cpu_s = 0.0;  // all threads
   std::uint64_t scans = 0;
   std::uint64_t rays = 0;
   std::uint64_t readings = 0;
-  std::vector<double> plain_steps_us;  // without a scan
+  std::vector<double> plain_steps_us;  // steps without a scan
   std::vector<double> scan_steps_us;
 
   void print(std::ostream& out) const {
@@ -60,7 +60,7 @@ struct Phase {
   }
 };
 
-/// Load, spawn, drive.
+/// Loads, spawns and drives.
 class Bench {
  public:
   explicit Bench(const BenchArguments& arguments) : arguments_(arguments) {}

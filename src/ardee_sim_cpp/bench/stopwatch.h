@@ -8,7 +8,7 @@
 
 namespace ardee::bench {
 
-/// Wall time since it was made or restarted.
+/// Wall time since construction or the last restart.
 class Stopwatch {
  public:
   double elapsed_s() const {
@@ -24,8 +24,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Processor time of this process, all its threads, since it was made or restarted: other work on
-/// the machine hardly shows in it.
+/// Processor time of all threads of this process since construction or the last restart; other work
+/// on the machine hardly changes it.
 class CpuStopwatch {
  public:
   double elapsed_s() const {
@@ -41,12 +41,12 @@ class CpuStopwatch {
   std::clock_t start_ = std::clock();
 };
 
-/// The value below which a share of the values lies; 0 of none.
+/// Returns the value below which a share of the values lies; 0 without values.
 double percentile(std::vector<double> values, double share);
 double median(const std::vector<double>& values);
 
-/// A figure of this process in /proc/self/status, such as VmRSS or VmHWM (the most that it ever
-/// held).
+/// Returns a figure of this process in /proc/self/status, such as VmRSS or VmHWM (the greatest so
+/// far).
 double memory_mb(const std::string& key);
 
 }  // namespace ardee::bench

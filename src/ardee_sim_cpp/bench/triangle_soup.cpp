@@ -80,7 +80,7 @@ void TriangleSoup::add_heightmap(const Heightmap& map, const Pose& X, const Eige
 
 void TriangleSoup::add_plane(const Plane& plane, const Pose& X) {
   const auto base = static_cast<std::uint32_t>(vertices.size());
-  // Its x and y axes as far as its normal lets them; a normal along x has none and is not expected.
+  // The axes follow x and y as far as the normal allows; a normal along x is not expected.
   const Eigen::Vector3d across = plane.normal.cross(Eigen::Vector3d::UnitX()).normalized();
   const Eigen::Vector3d along = across.cross(plane.normal).normalized();
   for (const auto& [x, y] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {

@@ -14,9 +14,9 @@ struct TriangleSoup {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
-  /// Visuals of a description's own links under X and scale; of heightmaps only what lies within
-  /// `radius_m` of `center` along x and y. Throws Error for a shape other than mesh, heightmap and
-  /// plane.
+  /// Adds visuals of a description's own links under X and scale; of heightmaps only the part
+  /// within `radius_m` of `center` along x and y. Throws Error for a shape other than mesh,
+  /// heightmap and plane.
   void add(const Model& model, const Pose& X, double scale, const Eigen::Vector2d& center,
            double radius_m);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot drives straight on for ten seconds and says what its lidar sees: minimal WORLD ROBOT
+// Drives a robot straight on for ten seconds and prints its lidar's ranges: minimal WORLD ROBOT
 #include <algorithm>
 #include <iostream>
 

@@ -16,8 +16,8 @@ namespace {
 constexpr int kSteps = 5;
 constexpr int kDeepest = 16;
 
-/// Two wheels (velocities), two steered axles (positions) and two joints of an arm (efforts) about
-/// the same axis.
+/// Returns a robot with two wheels (velocities), two steered axles (positions) and two joints of an
+/// arm (efforts) about the same axis.
 std::string robot() {
   constexpr std::array<std::array<const char*, 3>, 6> kJoints{{{"left", "Velocity", "0 0.2 0"},
                                                                {"right", "Velocity", "0 -0.2 0"},
@@ -44,8 +44,8 @@ std::string robot() {
   return xml + "<gazebo><plugin name='c' filename='libgazebo_ros_control.so'/></gazebo></robot>";
 }
 
-/// <m> with a name for each child is a group, <l> a list; <d>, <i>, <b>, <s> are a number, an
-/// integer, true or false, a text.
+/// Converts XML to settings: <m> with a name for each child is a group, <l> a list; <d>, <i>, <b>,
+/// <s> are a number, an integer, true or false, a text.
 Setting to_setting(const tinyxml2::XMLElement& element, const std::string& path, int depth) {
   const std::string kind = element.Name();
   const char* const given = element.GetText();
@@ -71,7 +71,7 @@ Setting to_setting(const tinyxml2::XMLElement& element, const std::string& path,
   return kind == "l" ? Setting(path, std::move(list)) : Setting(path, std::move(map));
 }
 
-/// A goal that nobody waits for.
+/// Goal without a client that waits for its result.
 template <typename Action>
 class Forgotten : public Action::Handle {
  public:
@@ -101,7 +101,7 @@ void set_goal(const devices::GripperAction& action) {
   action.on_goal({0.5, 3.0}, std::make_shared<Forgotten<devices::GripperAction>>());
 }
 
-/// A command that a controller refuses changes nothing.
+/// Sends a command; one that a controller refuses changes nothing.
 void command(devices::Ports& ports) {
   const std::vector<devices::Command> commands{devices::Trigger{},
                                                Twist{{0.5, 0.1, 0.0}, {0.0, 0.0, 0.3}},

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The fuzzer over the targets: `ardee_fuzzer --target=NAME [libFuzzer's options]`; --list names
-// them.
+// Fuzzes the targets: `ardee_fuzzer --target=NAME [libFuzzer's options]`; --list names them.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -9,16 +8,16 @@
 #include "fuzz/mutator.h"
 #include "fuzz/targets.h"
 
-// libFuzzer's own mutator of bytes.
+// Mutator of bytes from libFuzzer.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 namespace {
 
-constexpr unsigned kBytesOneIn = 8;  // so many changes are of bytes, whatever they mean
+constexpr unsigned kBytesOneIn = 8;  // one in so many changes is of bytes, whatever their meaning
 
 const ardee::fuzz::Target* chosen = nullptr;
 
-/// What follows `option` in an argument that begins with it, or nullptr.
+/// Returns the rest of an argument that begins with `option`, or nullptr.
 const char* value_of(const char* argument, const char* option) {
   const std::size_t length = std::strlen(option);
   return std::strncmp(argument, option, length) == 0 ? argument + length : nullptr;
@@ -35,12 +34,12 @@ std::size_t put(const std::string& text, std::uint8_t* data) {
 
 }  // namespace
 
-// Assimp forgets some memory when it refuses a broken file, ODE its list of work when it meets a
-// number that it cannot take; a leak check is to look at our own code.
+// Assimp leaks some memory when it refuses a broken file, and ODE its work list at an invalid
+// number; the leak check is for our own code.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\nleak:libode\n"; }
 
-// libFuzzer itself passes over arguments that begin with two dashes.
+// libFuzzer itself skips arguments that begin with two dashes.
 extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   for (int i = 1; i < *count; ++i) {
     const char* argument = (*arguments)[i];

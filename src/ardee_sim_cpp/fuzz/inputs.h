@@ -7,15 +7,15 @@
 
 namespace ardee::fuzz {
 
-/// A log that keeps nothing.
+/// Returns a log that drops its messages.
 Log quiet_log();
 
-/// A loader that finds the test data as model://, file:// and package://test_data, the sun and the
-/// ground plane of ardee_models, and the packages beside this one.
+/// Returns a loader that finds the test data as model://, file:// and package://test_data, the sun
+/// and the ground plane of ardee_models, and the packages beside this one.
 Loader make_loader();
 
-/// Writes the input as a file of that name and returns its path. The file stays until the next
-/// input takes its place; the folder goes at the program's end.
+/// Writes the input as a file of that name and returns its path. The next input replaces the file;
+/// the folder is removed at the program's end.
 std::string write_input(const std::string& name, const std::string& input);
 
 }  // namespace ardee::fuzz

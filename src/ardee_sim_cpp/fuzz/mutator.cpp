@@ -17,7 +17,7 @@ using tinyxml2::XMLElement;
 
 constexpr std::size_t kMostChanges = 3;
 
-/// Where numbers, and what is made of them, have their limits; and words that mean something.
+/// Values at the limits of numbers and of derived sizes, and words with a meaning.
 constexpr std::array kValues = {"",
                                 " ",
                                 "0",
@@ -77,7 +77,7 @@ std::vector<std::string>& words() {
   return all;
 }
 
-/// The value with one of its parts, or all of it, replaced.
+/// Returns the value with one of its parts, or all of it, replaced.
 std::string changed_value(const std::string& value, Random& random) {
   const char* made = random.one_of(kValues);
   const std::string spaces = " \t\r\n,;:/";
@@ -98,14 +98,14 @@ std::string changed_value(const std::string& value, Random& random) {
   }
 }
 
-/// Changes to the elements of a document and to what they hold.
+/// Changes the elements of a document and their values.
 class XmlMutator {
  public:
   XmlMutator(XMLDocument& document, Random& random) : document_(document), random_(random) {
     collect(*document_.RootElement());
   }
 
-  /// One change; elements may be gone afterwards, so a mutator makes no second one.
+  /// Makes one change; it may remove elements, so a mutator makes no second one.
   void mutate() {
     XMLElement& element = *random_.one_of(elements_);
     switch (random_.below(12)) {
@@ -143,7 +143,7 @@ class XmlMutator {
     }
   }
 
-  /// The root is its own: a text has one.
+  /// Returns the parent; the root is its own, because a text has one root.
   tinyxml2::XMLNode* parent_of(XMLElement& element) {
     return &element == document_.RootElement() ? &element : element.Parent();
   }
@@ -191,7 +191,7 @@ class XmlMutator {
     element.SetText(changed_value(text ? text : "", random_).c_str());
   }
 
-  /// Takes one away, or changes it; an element without any gets one.
+  /// Removes or changes an attribute; an element without attributes gets one.
   void change_attribute(XMLElement& element) {
     std::vector<std::string> names;
     for (const auto* a = element.FirstAttribute(); a; a = a->Next()) names.push_back(a->Name());
@@ -207,7 +207,7 @@ class XmlMutator {
   std::vector<XMLElement*> elements_;
 };
 
-/// XML may stand behind a letter that names a format.
+/// Returns the start of the XML, which may follow a letter that names a format.
 std::size_t xml_begin(const std::string& input) { return std::min(input.find('<'), input.size()); }
 
 bool parse(const std::string& input, XMLDocument& document) {
@@ -216,7 +216,7 @@ bool parse(const std::string& input, XMLDocument& document) {
          document.RootElement();
 }
 
-/// Empty if it became too long.
+/// Returns the document as text; empty if it is too long.
 std::string print(const XMLDocument& document, const std::string& prefix, std::size_t most) {
   tinyxml2::XMLPrinter printer(nullptr, true);
   document.Print(&printer);

@@ -26,12 +26,12 @@ void read_mesh(const std::string& input) {
 }
 
 void read_image(const std::string& input) {
-  // The first bytes name the format, and only TGA, which has none, needs the file's name.
+  // The first bytes name the format; only TGA, which has none, needs the file's name.
   const std::string path = write_input("image.tga", input);
   try {
     read_color_image(path, kSource);
   } catch (const Error&) {
-    // It may be an elevation file yet.
+    // The file may still be an elevation file.
   }
   Log log = quiet_log();
   read_height_grid(path, {10.0, 10.0, 1.0}, kSource, log);

@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kSteps = 5;
 
-/// A place to stand and light to see by, for a model that comes without a world. Five steps last
-/// as long as most sensors take from sample to sample.
+/// World with ground and light, for a model without a world. Five steps last as long as the period
+/// of most sensors.
 constexpr const char* kPlainWorld =
     "<sdf version='1.6'><world name='plain'><physics type='ode'><max_step_size>0.02"
     "</max_step_size></physics><light name='sun' type='directional'><cast_shadows>1</cast_shadows>"
@@ -24,7 +24,8 @@ constexpr const char* kPlainWorld =
     "<plane/></geometry></collision><visual name='v'><geometry><plane/></geometry></visual></link>"
     "</model></world></sdf>";
 
-/// Sizes of pictures, scans and populations: what is right for few is right for many.
+/// Upper limits of pictures, scans and populations, which change the cost but not the code that
+/// runs.
 struct Cut {
   const char* element;
   double most;
@@ -32,7 +33,7 @@ struct Cut {
 constexpr std::array<Cut, 5> kCuts{
     {{"width", 16}, {"height", 12}, {"samples", 16}, {"resolution", 2}, {"model_count", 5}}};
 
-/// As readers take it: all that stands directly inside.
+/// Returns an element's text as the readers take it: all text directly inside.
 std::string text_of(const tinyxml2::XMLElement& element) {
   std::string text;
   for (const auto* child = element.FirstChild(); child; child = child->NextSibling()) {
@@ -41,7 +42,8 @@ std::string text_of(const tinyxml2::XMLElement& element) {
   return text;
 }
 
-/// A size that is not said: a camera takes large pictures then, a lidar 640 beams a row.
+/// Gives a size to an element without one: the default of a camera is large, that of a lidar 640
+/// beams a row.
 void give_size(tinyxml2::XMLElement& parent, const char* size) {
   if (!parent.FirstChildElement(size)) parent.InsertNewChildElement(size)->SetText(8);
 }
@@ -67,7 +69,7 @@ void cut_sizes(tinyxml2::XMLElement& element) {
   }
 }
 
-/// The text with sizes that take long cut down; as it is where it is no XML.
+/// Returns the text with large sizes reduced; unchanged if it is not XML.
 std::string with_small_sizes(const std::string& text) {
   tinyxml2::XMLDocument document;
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) return text;
@@ -79,14 +81,14 @@ std::string with_small_sizes(const std::string& text) {
   return printer.CStr();
 }
 
-/// Everything listens, and takes nothing.
+/// Sink that listens to everything and keeps nothing.
 class Listener : public devices::ReadingSink {
  public:
   void on_reading(const devices::Output&, const devices::Reading&) override { ++count; }
   std::size_t count = 0;
 };
 
-/// Where everything is after some steps.
+/// Returns the poses of all links after some steps.
 std::vector<Pose> run(Simulation& simulation) {
   for (int i = 0; i < kSteps; ++i) simulation.step();
   std::vector<Pose> poses;
@@ -118,7 +120,7 @@ void command(devices::Device& device) {
   }
 }
 
-/// Sets each property to what it is: no setter may refuse what its getter gives.
+/// Sets each property to its present value: no setter may refuse what its getter returns.
 void set_again(physics::PhysicsModel& model, const Model& description) {
   for (std::size_t link = 0; link < description.links.size(); ++link) {
     model.set_link_properties(link, model.link_properties(link));
@@ -177,7 +179,7 @@ void simulate(const std::string& input) {
     try {
       model = loader.load_model_text(text, "fuzz.xml");
     } catch (const Error&) {
-      // The world runs without a model beside it.
+      // The world runs without the other model.
     }
   }
   if (!world) world = loader.load_world_text(kPlainWorld, "plain.world");

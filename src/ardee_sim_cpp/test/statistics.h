@@ -8,8 +8,8 @@
 
 namespace ardee {
 
-/// Bounds of tests are this many standard errors: a right model fails one test in 15,000 (and, as
-/// all streams are seeded, either always or never).
+/// Number of standard errors that bounds of tests allow: a right model fails one test in 15,000
+/// (and, as all streams are seeded, either always or never).
 constexpr double kFourSigma = 4.0;
 
 inline double mean_of(const std::vector<double>& values) {
@@ -23,7 +23,7 @@ inline double std_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-/// Autocorrelation at a lag, about a mean of zero.
+/// Returns the autocorrelation at a lag, about a mean of zero.
 inline double correlation_at(const std::vector<double>& values, std::size_t lag) {
   double products = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) squares += values[i] * values[i];
@@ -32,8 +32,8 @@ inline double correlation_at(const std::vector<double>& values, std::size_t lag)
          static_cast<double>(values.size() - lag);
 }
 
-/// Allan deviation of samples of a rate at an averaging time of `window` samples, from overlapping
-/// windows (IEEE Std 952-1997, annex C).
+/// Returns the Allan deviation of samples of a rate at an averaging time of `window` samples, from
+/// overlapping windows (IEEE Std 952-1997, annex C).
 inline double allan_deviation(const std::vector<double>& values, std::size_t window) {
   std::vector<double> sums(values.size() + 1, 0.0);
   std::partial_sum(values.begin(), values.end(), sums.begin() + 1);

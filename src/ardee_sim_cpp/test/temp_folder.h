@@ -8,7 +8,7 @@
 
 namespace ardee {
 
-/// A folder of its own for one test, gone afterwards.
+/// Folder of one test, removed afterwards.
 class TempFolder {
  public:
   TempFolder() {
@@ -26,7 +26,7 @@ class TempFolder {
     std::ofstream(file, std::ios::binary) << text;
     return file.string();
   }
-  /// A model folder as Gazebo keeps them: model.config and model.sdf with `body` inside <model
+  /// Writes a model folder in Gazebo's layout: model.config and model.sdf with `body` inside <model
   /// name="NAME">.
   void write_model(const std::string& name, const std::string& body,
                    const std::string& version = "1.5") const {

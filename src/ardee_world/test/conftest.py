@@ -21,13 +21,13 @@ from ardee_models.terrain.terrain_model import write_terrain  # noqa: E402
 
 @pytest.fixture(scope="session")
 def package() -> Path:
-    """Source folder of ardee_world."""
+    """Returns the source folder of ardee_world."""
     return PACKAGE
 
 
 @pytest.fixture(scope="session")
 def models(tmp_path_factory) -> Path:
-    """A folder with two crops and a terrain."""
+    """Returns a folder with two crops and a terrain."""
     folder = tmp_path_factory.mktemp("models")
     make_crop("corn", "V6", 1, "corn_a", folder)
     make_crop("corn", "V8", 2, "corn_b", folder)
@@ -39,7 +39,7 @@ def models(tmp_path_factory) -> Path:
 
 @pytest.fixture()
 def pool() -> tuple:
-    """Two crop models that need no files."""
+    """Returns two crop models that need no files."""
     return (CropModel("corn_a", 0.8, 0.01, 1), CropModel("corn_b", 1.2, 0.012, 1))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A field and a terrain put together into a world."""
+"""Tests a field and a terrain put together into a world."""
 
 import shutil
 import subprocess
@@ -105,7 +105,7 @@ def test_plants_of_a_generated_field_stand_on_the_terrain(put_together, tmp_path
 
 
 def world_places(folder):
-    """x, y, z [m] of the plants of an assembled world."""
+    """Returns x, y, z [m] of the plants of an assembled world."""
     model = ElementTree.parse(folder / "models/custom_field/model.sdf").getroot().find("model")
     x, y, z, roll, pitch, yaw = map(float, model.findtext("pose").split())
     assert (z, roll, pitch) == (0.0, 0.0, 0.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command and the files that it writes."""
+"""Tests the command and the files that it writes."""
 
 import csv
 import json

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The planting plan: counts and coordinates known in closed form."""
+"""Tests the planting plan: counts and coordinates known in closed form."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""YAML files and bad input: one message with the place of the error, exit 2, the previous output untouched."""
+"""Tests YAML files and bad input: one message with the place of the error, exit 2, the previous output untouched."""
 
 import csv
 import json
@@ -123,7 +123,7 @@ def test_bad_files_name_file_and_line(generate_field, tmp_path, plan, line, mess
 
 @pytest.fixture()
 def bad_files(tmp_path):
-    """Files with wrong content."""
+    """Writes files with wrong content."""
     (tmp_path / "not.png").write_text("no image")
     Image.new("L", (4, 4)).save(tmp_path / "black.png")
     (tmp_path / "broken.csv").write_text("x_m,y_m\n1,2\n3,4\n5;6\n7,8\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Row shapes, headlands and directions against geometry in closed form."""
+"""Tests row shapes, headlands and directions against geometry in closed form."""
 
 import numpy as np
 import pytest
@@ -40,11 +40,11 @@ def test_direction_turns_the_whole_plan(angle):
 @pytest.mark.parametrize("radius", [20.0, -20.0])
 def test_curved_rows_are_concentric_and_evenly_planted(radius):
     plan = plan_centres(PLOTS, RowShape(row_shape="curved", curve_radius_m=radius))
-    # rows start along -y; a left turn's centre lies to the left, which is +x
+    # Rows start along -y; a left turn's centre lies to the left, which is +x.
     distance = np.linalg.norm(plan.centres_m - [radius, 0.0], axis=1)
     for row, x in enumerate((-1.143, -0.381, 0.381, 1.143)):
         np.testing.assert_allclose(distance[plan.row == row], abs(radius - x), atol=1e-4)
-    # chords of arcs of 0.166 m
+    # The spacing is that of chords of arcs of 0.166 m.
     np.testing.assert_allclose(_spacing(plan), 0.166, atol=1e-4)
     counts = np.bincount(plan.row)
     assert (np.diff(counts) * radius < 0).all()  # outer rows hold more

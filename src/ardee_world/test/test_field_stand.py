@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gaps, doubles, lodging and clutter against their distributions; bounds hold with probability 1 - 1e-6."""
+"""Tests gaps, doubles, lodging and clutter against their distributions; bounds hold with probability 1 - 1e-6."""
 
 import dataclasses
 
@@ -38,7 +38,7 @@ def test_gaps_are_as_many_and_as_long_as_asked(pool):
     starts, ends = np.argwhere(edges == -1), np.argwhere(edges == 1)
     assert len(starts) == len(ends) == len(layout.gaps) == 200
     assert (ends[:, 1] - starts[:, 1] == round(1.0 / 0.166)).all()
-    # any row as likely as another, and any place in it
+    # Any row is as likely as another, and any place in it.
     assert stats.chisquare(np.bincount(starts[:, 0], minlength=40)).pvalue > RISK
     assert stats.kstest(starts[:, 1] / 493.0, "uniform").pvalue > RISK
 
@@ -72,7 +72,7 @@ def test_lodging_leans_as_many_plants_as_far_and_where_as_asked(pool):
         lodging_direction_sd_deg=10,
     )
     layout = _field(pool, stand=stand, **CERTAIN)
-    # direction of the plant's own axis, from the angles in the file
+    # The plant's own axis has this direction, by the angles in the file.
     top = Rotation.from_euler("xyz", layout.angles_rad).apply([0.0, 0.0, 1.0])
     tilt = np.degrees(np.arccos(top[:, 2].clip(-1, 1)))
     leans = tilt > 1.0
@@ -87,7 +87,7 @@ def test_lodging_leans_as_many_plants_as_far_and_where_as_asked(pool):
 def test_a_leaning_plant_is_turned_about_its_own_axis_by_its_yaw(pool):
     upright = _field(pool, **CERTAIN)
     leaning = _field(pool, stand=Stand(lodging=1.0), **CERTAIN)
-    # tilting back by the lean leaves the turn about the vertical
+    # Tilting back by the lean leaves the turn about the vertical.
     axis = np.column_stack(
         (-np.sin(leaning.lean.direction_rad), np.cos(leaning.lean.direction_rad), np.zeros(20_000))
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Randomness of a field against its distributions. Bounds hold with probability 1 - 1e-6; seeds are fixed."""
+"""Tests the randomness of a field against its distributions. Bounds hold with probability 1 - 1e-6; seeds are fixed."""
 
 import dataclasses
 
@@ -48,7 +48,7 @@ def test_spacing_along_the_row_has_twice_the_variance_of_the_noise(pool):
     layout = _field(pool, emergence_min=1, emergence_max=1)
     y = layout.position_m[:, 1].reshape(-1, 500)
     spacing = y[:, :-1] - y[:, 1:]
-    # differences of neighbours are correlated by -1/2; every second one is independent
+    # Differences of neighbours are correlated by -1/2; every second one is independent.
     independent = spacing[:, ::2].ravel()
     n, variance = len(independent), 0.05**2
     error = stats.norm.ppf(1 - RISK / 2) * np.sqrt(variance / n)
@@ -62,7 +62,7 @@ def test_emergence_is_binomial_with_the_mean_probability(pool, bounds):
     layout = _field(pool, emergence_min=bounds[0], emergence_max=bounds[1])
     low, high = stats.binom.ppf([RISK / 2, 1 - RISK / 2], 20_000, sum(bounds) / 2)
     assert low <= layout.count() <= high
-    # emergence does not depend on the place: runs test over places
+    # Emergence does not depend on the place: runs test over places.
     stands = np.zeros(20_000, bool)
     stands[layout.index] = True
     p = stands.mean()
@@ -113,7 +113,7 @@ def test_plants_stand_on_the_terrain(pool, models):
     np.testing.assert_array_equal(
         layout.position_m[:, 2], terrain.height_at(world[:, 0], world[:, 1])
     )
-    # rows stand on their ridges: higher than the lane between them by most of a ridge
+    # Rows stand on their ridges: higher than the lane between them by most of a ridge.
     lane = terrain.height_at(world[:, 0], np.round(world[:, 1] / 0.762) * 0.762)
     assert 0.02 < np.mean(layout.position_m[:, 2] - lane) < 0.05
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A field whose plants are a table beside model.sdf, against the same field as includes."""
+"""Tests a field whose plants are a table beside model.sdf, against the same field as includes."""
 
 import csv
 import xml.etree.ElementTree as ElementTree
@@ -80,7 +80,7 @@ def test_a_form_that_is_none_is_refused(generate_field, tmp_path):
 
 @pytest.fixture()
 def put_together(models, generate_field, tmp_path, monkeypatch):
-    """A streamed field, and a function that sets it on the terrain `ground`."""
+    """Returns a streamed field, and a function that sets it on the terrain `ground`."""
     world = ("--world-pose", "0", "0", "0", "--format", "stream")
     assert generate_field(*BASE, *world, "--output", tmp_path / "models")[0] == 0
     (tmp_path / "my.geofence").write_text("<robot/>\n")

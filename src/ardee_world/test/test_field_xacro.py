@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The thesis's field file: Listing A.22's commands on it for real, the plots of Listing A.7, and clutter's files."""
+"""Tests the thesis's field file: Listing A.22's commands on it, the plots of Listing A.7, and clutter's files."""
 
 import csv
 import json
@@ -12,7 +12,7 @@ import pytest
 from ardee_world.clutter_models import MODELS, write_clutter_model
 
 BASE = ("--models", "corn_a", "corn_b", "--name", "field")
-# Lines 129-145 of the listing, without its temporary names and echoes
+# The commands are lines 129-145 of the listing, without its temporary names and echoes.
 LISTING = r"""
 set -e
 cp "$field" temp_plots
@@ -67,7 +67,7 @@ def test_plots_have_the_listings_elements_and_the_fields_numbers(generate_field,
         assert (value["row_count"], value["row_width"], value["row_length"]) == (4, 0.762, 5)
         assert value["average_height"] == pytest.approx(plants["height_m"][mine].mean(), abs=1e-3)
         assert value["average_density"] == pytest.approx(mine.sum() / (4 * 0.762 * 5), rel=1e-3)
-        # its plants lie in it, and reach to its ends
+        # Its plants lie in it, and reach to its ends.
         c, s = np.cos(value["rotation"]), np.sin(value["rotation"])
         dx, dy = plants["world_x_m"][mine] - value["x"], plants["world_y_m"][mine] - value["y"]
         along, across = c * dx + s * dy, c * dy - s * dx

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Worlds, launch files, rviz configuration and the environment hook are whole."""
+"""Tests that worlds, launch files, rviz configuration and the environment hook are whole."""
 
 import os
 import subprocess
@@ -65,7 +65,7 @@ def test_every_argument_has_a_doc(package, name):
 
 
 def _parameters(package, *arguments):
-    """Parameters that roslaunch would set, with the package found in the source tree."""
+    """Returns parameters that roslaunch would set, with the package found in the source tree."""
     environment = dict(os.environ, ROS_PACKAGE_PATH=str(package.parent), PATH="/usr/bin:/bin")
     command = [
         "roslaunch",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Inputs of scripts/fuzz: none of them raises an exception that its target does not expect of bad input."""
+"""Tests that no input of scripts/fuzz raises an exception that its target does not expect of bad input."""
 from pathlib import Path
 from typing import Callable
 

@@ -16,11 +16,11 @@ from xacro_runner import expand  # noqa: E402
 
 @pytest.fixture(scope="session", params=GENERATIONS, ids=lambda generation: generation.name)
 def generation(request: pytest.FixtureRequest) -> Generation:
-    """Expected numbers of a TerraSentia; each test runs for every generation."""
+    """Returns expected numbers of a TerraSentia; each test runs for every generation."""
     return request.param
 
 
 @pytest.fixture(scope="session")
 def robot(generation: Generation) -> Robot:
-    """URDF of the TerraSentia of `generation`, without a namespace."""
+    """Returns the URDF of the TerraSentia of `generation`, without a namespace."""
     return Robot(expand(PACKAGE / "robots" / generation.file))

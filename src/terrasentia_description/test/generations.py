@@ -19,16 +19,16 @@ class Generation:
     wheel_about_axle: float
     leg_mass: float
     leg_travel: float
-    wheelbase: float  # with extended legs
+    wheelbase: float  # legs extended
     stiffness: float
-    appears_at_rest: bool  # joint angle 0 is at rest, else fully extended
+    appears_at_rest: bool  # true: joint angle 0 is at rest; false: fully extended
     torque: float
-    sensors: frozenset  # links, without encoders
+    sensors: frozenset  # names of links, without encoders
     heavy_end: int  # 1 front, -1 rear
 
     @property
     def file(self) -> str:
-        """The assembly file."""
+        """Returns the name of the assembly file."""
         return f"ts{self.name}_default.urdf.xacro"
 
 
@@ -53,7 +53,7 @@ V1 = Generation(
 )
 V2 = Generation(
     name="v2",
-    # masses of chassis, lid, legs, wheels and sensors
+    # The masses are those of chassis, lid, legs, wheels and sensors.
     mass=7.227 + 0.3 + 4 * (0.735 + 0.5) + 1.42,
     chassis_box=(0.528, 0.32, 0.19),
     chassis_mesh=(0.528, 0.465, 0.19),

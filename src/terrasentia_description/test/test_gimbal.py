@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The camera gimbal: balanced on its axis, led by a spring of half a hertz."""
+"""Tests the camera gimbal: balanced on its axis, led by a spring of half a hertz."""
 import numpy as np
 import pytest
 from conftest import PACKAGE
@@ -9,7 +9,7 @@ from xacro_runner import expand
 
 @pytest.fixture(scope="module")
 def v3() -> Robot:
-    """The third generation, which has gimbals."""
+    """Returns the third generation, which has gimbals."""
     return Robot(expand(PACKAGE / "robots/tsv3_default.urdf.xacro"))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The keys of keyboard_teleop; that it drives, stops and restores its terminal is a system test."""
+"""Tests the keys of keyboard_teleop; a system test covers driving, stopping and restoring its terminal."""
 import importlib.machinery
 import importlib.util
 import os
@@ -16,7 +16,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parents[1] / "scripts/keyboard_teleop"
 
 @pytest.fixture(scope="module")
 def teleop():
-    """The script as a module."""
+    """Returns the script as a module."""
     loader = importlib.machinery.SourceFileLoader("keyboard_teleop", str(SCRIPT))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     with pytest.MonkeyPatch.context() as patch:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The launch files as roslaunch reads them, without starting anything."""
+"""Tests the launch files as roslaunch reads them, without starting anything."""
 import os
 import pathlib
 import subprocess
@@ -14,7 +14,7 @@ FILES = ["launch_default_tsv1.launch", "launch_default_bot.launch"]
 
 @pytest.fixture(scope="module", autouse=True)
 def workspace(tmp_path_factory: pytest.TempPathFactory):
-    """A catkin workspace of links, built as far as $(find xacro)/xacro needs it."""
+    """Returns a catkin workspace of links, built as far as $(find xacro)/xacro needs it."""
     root = tmp_path_factory.mktemp("workspace")
     sources, scripts = root / "src", root / "devel/lib/xacro"
     sources.mkdir()
@@ -32,7 +32,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory):
 
 
 def roslaunch(file: str, option: str, *arguments: str, display: str = "") -> str:
-    """Output of `roslaunch <option>` for a file; fails on any complaint."""
+    """Returns the output of `roslaunch <option>` for a file; fails on any message."""
     environment = ros_environment()
     environment.pop("DISPLAY", None)
     if display:
@@ -48,7 +48,7 @@ def roslaunch(file: str, option: str, *arguments: str, display: str = "") -> str
 
 
 def nodes(file: str, *arguments: str, display: str = "") -> list:
-    """Names of the nodes that would start."""
+    """Returns names of the nodes that would start."""
     return sorted(roslaunch(file, "--nodes", *arguments, display=display).split())
 
 
@@ -86,7 +86,7 @@ def test_joystick(xbox: str, button: int):
 
 
 def test_the_joystick_is_the_default_of_a_desk():
-    """Listing A.21 drives by joystick by default; here only if there is a DISPLAY, and for one robot."""
+    """Listing A.21 drives by joystick by default; here only with a DISPLAY, and for one robot."""
     joystick = {"/joy_node", "/joy_controller_node"}
     assert joystick <= set(nodes(FILES[0], display=":0"))
     for arguments in (["use_joy:=false"], ["use_udp:=true"], ["ns:=robot2"]):
@@ -107,7 +107,7 @@ def test_spawn_arguments():
 
 
 def spawn_arguments(file: str, *arguments: str) -> str:
-    """Arguments of the node that spawns the robot."""
+    """Returns arguments of the node that spawns the robot."""
     code = (
         "import sys, roslaunch.config, roslaunch.xmlloader as x;"
         "c = roslaunch.config.ROSLaunchConfig();"
@@ -150,7 +150,7 @@ def test_the_command_line_chooses_robot_and_sensors(robot: str, tmp_path: pathli
 
 
 def test_udp_nodes_start_when_asked_for():
-    """Listing A.21: the sensors are relayed; commands come by UDP if there is no joystick."""
+    """In Listing A.21 the sensors are relayed, and commands come by UDP if there is no joystick."""
     udp = {"/sim_sensor_node", "/udp_control_node"}
     assert not udp & set(nodes(FILES[0]))
     assert udp <= set(nodes(FILES[0], "use_udp:=true"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A robot that is assembled as Listing A.13 of the thesis does it, with the listing's macro calls and arguments."""
+"""Tests a robot that is assembled as in Listing A.13 of the thesis, with the listing's macro calls and arguments."""
 import pathlib
 
 from robot_urdf import Robot

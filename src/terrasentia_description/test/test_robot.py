@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The expanded TerraSentia of every generation: names, masses, geometry, plugins."""
+"""Tests the expanded TerraSentia of every generation: names, masses, geometry, plugins."""
 import pathlib
 import shutil
 import subprocess
@@ -124,7 +124,7 @@ def test_inertias_are_physical(robot: Robot):
         moments = np.linalg.eigvalsh(robot.inertia(link))
         assert moments[0] > 0, link
         assert moments[2] <= moments[0] + moments[1], link
-        # a body inside its own reach: no moment above mass * (half the robot's length)^2
+        # A body inside its own reach has no moment above mass * (half the robot's length)^2.
         assert moments[2] < robot.mass(link) * 0.3**2, link
 
 
@@ -178,7 +178,7 @@ def test_meshes_exist_and_fill_their_collision_shapes(robot: Robot, generation: 
 
 
 def leg_springs(robot: Robot) -> list:
-    """The springs of the legs, without those of gimbals."""
+    """Returns the springs of the legs, without those of gimbals."""
     springs = robot.plugins("libTorsionalSpringPlugin.so")
     return [s for s in springs if "gimbal" not in s.findtext("joint_handle")]
 
@@ -229,7 +229,7 @@ def test_the_namespace_reaches_every_plugin_that_publishes(
 ):
     root = ElementTree.fromstring(expand(ROBOTS / generation.file, ns=ns))
     publishers = [p for p in root.iter("plugin") if "Spring" not in p.get("filename")]
-    # drive, joint states, lidar, IMU, GPS, battery, four encoders, and at least a camera
+    # These are drive, joint states, lidar, IMU, GPS, battery, four encoders, and at least a camera.
     assert len(publishers) > 10
     assert {p.findtext("robotNamespace") for p in publishers} == {expected}
 

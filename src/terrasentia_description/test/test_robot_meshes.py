@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The meshes are the output of their script, and closed surfaces that face outwards."""
+"""Tests that the meshes are the output of their script, and closed surfaces that face outwards."""
 import importlib.util
 import pathlib
 import sys
@@ -16,7 +16,7 @@ FILES = sorted(str(path.relative_to(FOLDER)) for path in FOLDER.glob("*/*"))
 
 
 def load_script():
-    """The mesh script as a module."""
+    """Returns the mesh script as a module."""
     spec = importlib.util.spec_from_file_location(
         "robot_meshes", PACKAGE / "scripts/make_meshes.py"
     )
@@ -34,7 +34,7 @@ def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path):
     for name in FILES:
         made, kept = tmp_path / name, FOLDER / name
         assert made.read_bytes()[:84] == kept.read_bytes()[:84], name
-        # micrometres; where one lies half-way between two, processors round it differently
+        # Numbers are micrometres; processors round a half-way value differently.
         assert np.abs(read_stl(made) - read_stl(kept)).max() < 1.1e-6, name
         assert (tmp_path / name).stat().st_size < 200_000, name
 
@@ -58,7 +58,7 @@ def test_every_part_faces_outwards(name: str):
 
 
 def connected_parts(triangles: np.ndarray) -> list:
-    """Groups of triangles that share corners."""
+    """Returns groups of triangles that share corners."""
     keys = np.round(triangles * 1e6).astype(int)
     _, labels = np.unique(keys.reshape(-1, 3), axis=0, return_inverse=True)
     labels = labels.reshape(-1, 3)

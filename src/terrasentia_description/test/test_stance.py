@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Stance of the robot: kinematics, and the statics of its springs by an independent route (virtual work)."""
+"""Tests the stance of the robot: kinematics, and the statics of its springs by an independent route (virtual work)."""
 from typing import Dict
 
 import numpy as np
@@ -14,12 +14,12 @@ WHEEL_RADIUS = 0.097  # m
 
 
 def wheel_centers(robot: Robot, legs: Dict[str, float]) -> np.ndarray:
-    """Centres of the wheels' bodies (4, 3) in base_footprint, m."""
+    """Returns centres of the wheels' bodies (4, 3) in base_footprint, m."""
     return np.array([robot.center_of_mass(f"{place}_wheel_link", legs) for place in PLACES])
 
 
 def leg_positions(robot: Robot, front: float, rear: float) -> Dict[str, float]:
-    """Joint positions for legs deflected by `front` and `rear` (rad >= 0) from fully extended to their far limits."""
+    """Returns joint positions of legs deflected by `front` and `rear` (rad >= 0) from extended to their limits."""
     positions = {}
     for place in PLACES:
         joint = f"{place}_leg_joint"
@@ -31,7 +31,7 @@ def leg_positions(robot: Robot, front: float, rear: float) -> Dict[str, float]:
 
 
 def resting_deflections(robot: Robot, stiffness: float) -> np.ndarray:
-    """Front and rear deflections (rad) that hold the robot up, wheels free to roll.
+    """Returns front and rear deflections (rad) that hold the robot up, wheels free to roll.
 
     The potential energy of the springs and of all weights, heights counted from the ground under the wheels,
     is stationary; the robot may pitch, so heights are taken along the ground's normal. stiffness: of a leg, N m/rad.
@@ -61,13 +61,13 @@ def resting_deflections(robot: Robot, stiffness: float) -> np.ndarray:
 
 
 def height(robot: Robot, front: float, rear: float) -> float:
-    """Height of base_footprint above the ground, m, midway between front and rear wheels."""
+    """Returns the height of base_footprint above the ground, m, midway between front and rear wheels."""
     return WHEEL_RADIUS - wheel_centers(robot, leg_positions(robot, front, rear))[:, 2].mean()
 
 
 @pytest.fixture
 def deflections(robot: Robot, generation: Generation) -> np.ndarray:
-    """Front and rear deflections of the standing robot."""
+    """Returns front and rear deflections of the standing robot."""
     return resting_deflections(robot, generation.stiffness)
 
 
@@ -96,14 +96,14 @@ def test_at_rest_the_chassis_is_as_high_as_the_footprint_offset(
 ):
     front, rear = deflections
     assert height(robot, front, rear) == pytest.approx(0.175, abs=2e-4)
-    # a leg at the heavier end gives way more
+    # A leg at the heavier end yields more.
     assert 0 < (front - rear) * generation.heavy_end < 0.03
 
 
 def test_at_rest_the_springs_carry_tau_over_k(
     robot: Robot, generation: Generation, deflections: np.ndarray
 ):
-    """The mean of front and rear, by the mean load of a wheel and the levers of the front left leg."""
+    """The mean of front and rear follows from a wheel's mean load and the levers of the front left leg."""
     mean = deflections.mean()
     wheel_load = GRAVITY * (generation.mass / 4 - generation.wheel_mass)
     legs = leg_positions(robot, mean, mean)
@@ -135,7 +135,7 @@ def test_weight_turns_each_leg_from_its_reference_into_its_range(
 
 
 def test_a_robot_on_soft_springs_appears_standing(robot: Robot, generation: Generation):
-    """All joints are at 0, as in a spawned robot: v3 has its height at rest, the others stand a little higher."""
+    """All joints are at 0 in a spawned robot: v3 has its height at rest, the others stand a little higher."""
     at_zero = WHEEL_RADIUS - wheel_centers(robot, {})[:, 2].mean()
     if generation.appears_at_rest:
         assert at_zero == pytest.approx(0.175, abs=2e-4)

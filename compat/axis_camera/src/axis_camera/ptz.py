@@ -10,7 +10,7 @@ Range = Tuple[float, float]
 
 
 def clamp(value: float, within: Range) -> float:
-    """The value, or the end of the range that it is beyond."""
+    """Returns the value, or the nearer end of the range."""
     return min(max(value, within[0]), within[1])
 
 
@@ -56,7 +56,7 @@ class Camera:
 
 
 def read_camera(urdf: str, pan_joint: str, tilt_joint: str) -> Camera:
-    """The camera that hangs on the tilt joint; ValueError where the description has no such joints."""
+    """Returns the camera on the tilt joint; raises ValueError if the description has no such joints."""
     try:
         robot = ElementTree.fromstring(urdf)
     except ElementTree.ParseError as error:
@@ -78,7 +78,7 @@ def _limits(joint: ElementTree.Element) -> Range:
 
 
 def _fov_rad(robot: ElementTree.Element, head: str) -> Optional[Range]:
-    """The zoom of the camera on a link; None where there is none, or no way between its ends."""
+    """Returns the zoom range of the camera on a link; None if there is none, or if its ends are equal."""
     for plugin in robot.findall(f"gazebo[@reference='{head}']/sensor/plugin"):
         ends = [plugin.findtext(key) for key in ("horizontalFovMin", "horizontalFovMax")]
         if None not in ends and float(ends[0]) < float(ends[1]):

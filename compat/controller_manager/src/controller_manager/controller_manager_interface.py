@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A function for each request to the controller manager of this namespace: says on standard output what came of it,
-and returns whether it was done."""
+"""Functions for requests to the controller manager of this namespace: each prints its result on standard output, and
+returns whether it was done.
+"""
 from typing import Any, List
 
 import rospy
@@ -34,7 +35,7 @@ def list_controllers() -> None:
 
 
 def reload_libraries(force_kill: bool, restore: bool = False) -> bool:
-    """With `restore` the controllers that were there are loaded again, and started if they ran."""
+    """Reloads the libraries; with `restore`, loads the earlier controllers again, and starts those that ran."""
     before = _call("list_controllers", srv.ListControllers).controller if restore else []
     is_done = _say(
         _call("reload_controller_libraries", srv.ReloadControllerLibraries, force_kill).ok,

@@ -38,7 +38,7 @@ def load(names: List[str]) -> bool:
 
 
 def start_only(names: List[str], others: Set[str]) -> bool:
-    """Stops what runs of `others`, and starts what does not run of `names`, at once."""
+    """Stops the running ones of `others`, and starts those of `names` that do not run, at once."""
     state = states()
     starting = [name for name in names if state.get(name) != "running"]
     stopping = sorted(name for name in others.difference(names) if state.get(name) == "running")

@@ -17,7 +17,7 @@ from controller_manager_msgs.srv import (
     UnloadController,
 )
 
-PAUSE_S = 1.0  # after a controller that could not be loaded
+PAUSE_S = 1.0  # wait after a controller that could not be loaded
 SERVICES = ("load_controller", "switch_controller", "unload_controller")
 KINDS = (LoadController, SwitchController, UnloadController)
 
@@ -68,7 +68,7 @@ class Spawner:
 
 
 def names_of(argument: str, namespace: str) -> List[str]:
-    """A file's top keys, whose parameters are set; or the name itself."""
+    """Returns a file's top keys, whose parameters are set; or the name itself."""
     if not pathlib.Path(argument).is_file():
         return [argument]
     names: List[str] = []

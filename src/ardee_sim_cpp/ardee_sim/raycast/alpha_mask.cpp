@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kOpacityChannel = 3;
 
-/// The texel at a coordinate that repeats with period 1.
+/// Index of the texel at a coordinate that repeats with period 1.
 int texel(double coordinate, int count) {
   const double share = coordinate - std::floor(coordinate);
   return std::min(static_cast<int>(share * count), count - 1);

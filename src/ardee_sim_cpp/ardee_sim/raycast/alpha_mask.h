@@ -14,14 +14,15 @@
 
 namespace ardee::raycast {
 
-/// Which texels of a texture are holes.
+/// Holes of a texture: one flag a texel.
 class AlphaMask {
  public:
-  /// Texels whose opacity is not above `rejection` are holes. Throws Error if the image cannot be
-  /// read.
+  /// Marks texels whose opacity is not above `rejection` as holes. Throws Error if the image cannot
+  /// be read.
   AlphaMask(const std::string& path, float rejection);
 
-  /// The texel under (u, v), v upwards from the lower edge; the texture repeats.
+  /// Returns whether the texel under (u, v) is a hole, v upwards from the lower edge; the texture
+  /// repeats.
   bool is_hole(const Eigen::Vector2d& uv) const;
   bool has_holes() const;
 
@@ -31,12 +32,13 @@ class AlphaMask {
   std::vector<bool> holes_;  // row 0 is the upper edge
 };
 
-/// The masks in use, each texture read once.
+/// Masks in use; each texture is read once.
 class AlphaMasks {
  public:
   explicit AlphaMasks(Log log) : log_(std::move(log)) {}
 
-  /// Nullptr if the texture has no holes; one that cannot be read has none, with a warning.
+  /// Returns nullptr for a texture without holes; also, with a warning, for one that cannot be
+  /// read.
   std::shared_ptr<const AlphaMask> get(const std::string& path, float rejection);
 
  private:

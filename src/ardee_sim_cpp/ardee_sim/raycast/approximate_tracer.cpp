@@ -6,11 +6,11 @@
 namespace ardee::raycast {
 namespace {
 
-/// From higher up, floats would be too coarse.
+/// Greatest height of an eye: from higher up, floats would be too coarse.
 constexpr double kHighest_m = 1000.0;
-/// Texels begin so far inside a local scene, for their rays start off the surface.
+/// Least distance of a texel from a local scene's border, because its rays start off the surface.
 constexpr double kOffBorder_m = 1e-2;
-/// Of a ray that needs nothing more.
+/// Reach of a finished ray.
 constexpr double kDone = -1.0;
 
 }  // namespace
@@ -47,7 +47,7 @@ bool ApproximateTracer::intersect_others(const SceneRay* rays, int count,
     t_tree[i] = t_leave[i];
     if (i >= count || reach_m[i] < 0.0) continue;
     const Ray ray{rays[i].origin_W, rays[i].direction_W};
-    // No way out is shorter than the one straight to the border.
+    // The straight way to the border is the shortest way out.
     const double depth_m = local_->depth_m(ray.origin);
     const double below_top_m = top_W() - ray.origin.z();
     const bool leaves_above = ray.direction.z() > 0.0 && ray.direction.z() * depth_m >= below_top_m;
@@ -127,7 +127,7 @@ bool ApproximateTracer::find_shadows(const SceneRay* rays, int count, bool* in_s
 
 void write_exact_hit(const RayHit& hit, std::size_t number, int i, PrimaryRayPacket& block) {
   const bool met = hit.entity != kNoEntity;
-  // Two surfaces share a number once in a thousand million pairs; their normals may still differ.
+  // Two surfaces share a number once in 10^9 pairs; their normals may still differ.
   const std::uint64_t name =
       std::uint64_t{hit.entity} << 32 ^ std::uint64_t{hit.link} << 16 ^ hit.shape;
   const auto mixed = static_cast<std::uint32_t>(name * 0x9E3779B97F4A7C15u >> 33);
@@ -175,7 +175,7 @@ void ApproximateTracer::trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPa
   for (std::size_t number = 0; number < count; ++number) {
     PrimaryRayPacket& block = blocks[number];
     local_->triangle_scene()->trace_primary(eye, block);
-    // No way out is shorter than the one straight to the border.
+    // The straight way to the border is the shortest way out.
     unsigned leave = 0;
     for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
       const unsigned far = std::min(block.far_m[i], block.range_m[i]) > depth_m;

@@ -9,54 +9,55 @@
 
 namespace ardee::raycast {
 
-/// Writes what ray `i` of the block with that number has met exactly, from its near_m on.
+/// Writes the exact hit of ray `i` of the block with that number, from the ray's near_m on.
 void write_exact_hit(const RayHit& hit, std::size_t number, int i, PrimaryRayPacket& block);
 
-/// Traces rays for pictures by the triangle scene of the local scene that they start in: floats
-/// decide what is nearest among its triangles. All else on a ray's way is met exactly.
+/// Traces rays for pictures in the triangle scene of the local scene that they start in: floats
+/// decide which of its triangles is nearest. All other bodies on a ray's way are tested exactly.
 class ApproximateTracer {
  public:
   ApproximateTracer(const LocalScene* local, const SceneryStore& scenery,
                     const MovingModels& moving)
       : local_(local), scenery_(scenery), moving_(moving) {}
 
-  /// Up to kPacketRays rays. False if they have to be met exactly: they do not start in a triangle
-  /// scene.
+  /// Traces up to kPacketRays rays. Returns false if they do not start in a triangle scene; then
+  /// the caller traces them exactly.
   bool trace(const SceneRay* rays, int count, SurfaceInteraction* points) const;
   bool find_shadows(const SceneRay* rays, int count, bool* in_shadow) const;
 
-  /// Whether rays from there start in a triangle scene.
+  /// Returns whether rays from this point start in a triangle scene.
   bool starts_at(const Eigen::Vector3d& eye_W) const;
-  /// Any number of blocks of rays from such a point.
+  /// Traces any number of blocks of rays from such a point.
   void trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPacket* blocks,
                      std::size_t count) const;
-  /// What a ray of trace_primary() has hit in the triangle scene.
+  /// Computes the surface data where a ray of trace_primary() has hit the triangle scene.
   void interpolate_hit(const SceneRay& ray, std::uint32_t triangle,
                        SurfaceInteraction& point) const;
 
-  /// The texels where rays of blocks from such a point have met the triangle scene; none where they
-  /// met something else, or where rays from the texel might not start in it. Returns the triangle
-  /// scene's number.
+  /// Finds the texels where rays of blocks from such a point have hit the triangle scene; none for
+  /// other hits, or if rays from the texel might not start in the triangle scene. Returns the
+  /// triangle scene's number.
   std::uint64_t find_texels(const Eigen::Vector3d& eye_W, const PrimaryRayPacket* blocks,
                             const TexelRequest* requests, std::size_t count,
                             SurfaceTexel* texels) const;
-  /// A ray from a metre off the texel's middle, along its normal, and what it meets.
+  /// Traces a ray from one metre above the texel's middle, along its normal.
   void trace_texel(const SurfaceTexel& texel, SceneRay& ray, SurfaceInteraction& point) const;
 
  private:
-  /// False if a ray starts outside.
+  /// Returns false if a ray starts outside.
   bool load(const SceneRay* rays, int count, RayPacket& packet) const;
-  /// What is not in the triangle scene, for rays that have gone `reach_m` (infinite: as far as they
-  /// may) in it. False if nothing is near any of them; then the queries are not started.
+  /// Intersects the bodies outside the triangle scene, for rays that have gone `reach_m` (infinite:
+  /// their whole reach) in it. Returns false, without starting the queries, if no such body is near
+  /// any of them.
   bool intersect_others(const SceneRay* rays, int count, const double reach_m[kPacketRays],
                         RayQuery::Purpose purpose, RayQuery queries[kPacketRays]) const;
 
-  /// The models that are neither in the triangle scene nor asked for by the tree.
+  /// Models that are neither in the triangle scene nor found by the tree.
   const ModelList& others() const;
-  /// Of all that a ray may meet beyond the local scene.
+  /// Greatest height of all bodies beyond the local scene.
   double top_W() const;
 
-  /// Replaces what is farther than something that is not in the triangle scene.
+  /// Replaces hits by nearer ones on bodies outside the triangle scene.
   void trace_primary_others(const Eigen::Vector3d& eye_W, std::size_t number,
                             PrimaryRayPacket& block) const;
 

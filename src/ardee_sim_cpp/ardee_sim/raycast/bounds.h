@@ -6,7 +6,7 @@
 
 namespace ardee::raycast {
 
-/// Axis-aligned box; empty until something is put in.
+/// Axis-aligned box, empty at first.
 struct Bounds {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d upper = -lower;
@@ -28,7 +28,7 @@ struct Bounds {
   }
   Eigen::Vector3d center() const { return 0.5 * (lower + upper); }
   double radius() const { return empty() ? 0.0 : 0.5 * (upper - lower).norm(); }
-  /// The box about this box turned by `m` and moved by `p`.
+  /// Returns the box about this box turned by `m` and moved by `p`.
   Bounds transformed(const Eigen::Matrix3d& m, const Eigen::Vector3d& p) const {
     if (empty()) return {};
     const Eigen::Vector3d middle = m * center() + p;

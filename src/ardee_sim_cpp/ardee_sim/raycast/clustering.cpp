@@ -8,7 +8,7 @@
 namespace ardee::raycast {
 namespace {
 
-/// Above this many boxes the longest axis is halved instead of trying each cut.
+/// Number of boxes above which the longest axis is halved instead of trying each cut.
 constexpr std::size_t kExhaustiveLimit = 8192;
 
 double half_area(const Bounds& box) {

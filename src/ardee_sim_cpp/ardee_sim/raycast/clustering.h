@@ -8,8 +8,8 @@
 
 namespace ardee::raycast {
 
-/// Parts boxes into groups of at most `group_size` near each other. `order` lists the boxes group
-/// by group; returned is where each group starts in it, and the end.
+/// Divides boxes into groups of at most `group_size` near each other. `order` lists the boxes group
+/// by group. Returns the start of each group in it, and its end.
 std::vector<std::uint32_t> group_boxes(const std::vector<Bounds>& boxes, std::uint32_t group_size,
                                        std::vector<std::uint32_t>& order);
 

@@ -82,7 +82,7 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, std::size_t count, const Bo
       quality == BuildQuality::kLow ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
   rtcSetSceneBuildQuality(scene_, level);
   rtcCommitScene(scene_);
-  // The boxes are asked for while building only; afterwards the callback wants its owner.
+  // Embree calls back for the boxes only while it builds; afterwards the callback needs its owner.
   rtcSetGeometryUserData(geometry, owner);
   rtcReleaseGeometry(geometry);
   try {

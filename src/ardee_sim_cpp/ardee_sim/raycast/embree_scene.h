@@ -14,7 +14,7 @@ struct RTCIntersectFunctionNArguments;
 
 namespace ardee::raycast {
 
-/// Embree's device: collects its errors and counts its bytes.
+/// Embree device that collects its errors and counts its bytes.
 class EmbreeDevice {
  public:
   EmbreeDevice();
@@ -24,7 +24,7 @@ class EmbreeDevice {
 
   RTCDeviceTy* get() const { return device_; }
   std::size_t bytes() const;
-  /// Throws what Embree has complained about since the last call.
+  /// Throws the errors that Embree has reported since the last call.
   void check() const;
 
  private:
@@ -35,13 +35,13 @@ class EmbreeDevice {
 
 enum class BuildQuality { kLow, kMedium };
 
-/// A committed Embree scene over `count` boxes, whose contents are met by a callback of ours.
+/// Committed Embree scene over `count` boxes; a callback intersects their contents.
 class EmbreeScene {
  public:
   using Meet = void (*)(const RTCIntersectFunctionNArguments*);
   using BoxOf = std::function<void(std::size_t, float lower[3], float upper[3])>;
 
-  /// `owner` is what the callback gets as geometryUserPtr.
+  /// Builds the scene. The callback gets `owner` as geometryUserPtr.
   EmbreeScene(const EmbreeDevice& device, std::size_t count, const BoxOf& box_of, Meet meet,
               void* owner, BuildQuality quality);
   ~EmbreeScene();
@@ -54,8 +54,8 @@ class EmbreeScene {
   RTCSceneTy* scene_;
 };
 
-/// Floats about a box that hold it for certain, also against a ray whose coordinates are floats of
-/// that size.
+/// Rounds a box to floats that certainly contain it, also for rays with float coordinates of that
+/// size.
 void round_outwards(const Bounds& box, double extent, float lower[3], float upper[3]);
 
 }  // namespace ardee::raycast

@@ -55,7 +55,8 @@ bool intersect_triangle(const Ray& ray, const Eigen::Vector3d& v0, const Eigen::
 }
 
 bool intersect_sphere(const Ray& ray, double radius, RayInterval& chord) {
-  // From the point nearest to the centre, so that a far origin costs no digits.
+  // The chord is measured from the point nearest to the centre, so that a far origin costs no
+  // digits.
   const double scale = ray.direction.squaredNorm();
   const double t_middle = -ray.origin.dot(ray.direction) / scale;
   const double rest = radius * radius - ray.at(t_middle).squaredNorm();

@@ -7,11 +7,11 @@
 namespace ardee::raycast {
 namespace {
 
-/// Cells this close beside the ray (as a share of a cell) are tried as well: rounding must not lose
-/// one.
+/// Distance from the ray, as a share of a cell, within which a cell is tried as well, so that
+/// rounding loses none.
 constexpr double kCellMargin = 1e-6;
 
-/// Narrows [t_low, t_high] to where origin + t * direction lies in [low, high].
+/// Narrows [t_low, t_high] to the part with origin + t * direction in [low, high].
 bool clip(double origin, double direction, double low, double high, double& t_low, double& t_high) {
   if (direction == 0.0) return origin >= low && origin <= high;
   const double a = (low - origin) / direction;
@@ -78,7 +78,7 @@ Bounds HeightSurface::bounds(const HeightPatch& patch) const {
 void HeightSurface::intersect(
     const HeightPatch& patch, const Ray& ray, double t_high,
     const std::function<void(const TriangleHit&, std::uint32_t)>& found) const {
-  // In cells: row by row, the columns that the ray crosses within the row's strip.
+  // Cells are visited row by row: the columns that the ray crosses within the row's strip.
   const Eigen::Vector2d origin = (ray.origin - corner_m_).head<2>().cwiseQuotient(cell_m_);
   const Eigen::Vector2d direction = ray.direction.head<2>().cwiseQuotient(cell_m_);
   for (int row = patch.row; row < patch.row + patch.rows; ++row) {

@@ -8,16 +8,16 @@
 namespace ardee::raycast {
 namespace {
 
-/// Bodies wider than this are taken in primitive by primitive.
+/// Width above which a body is added primitive by primitive.
 constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
 constexpr double kSmallest_m = 0.5;
 constexpr double kFloatSlack = 2e-6;
-/// So many models at rest beside the triangle scene, and not before so many calls of prepare(), are
-/// worth another local scene.
+/// Least number of models at rest beside the triangle scene, and of calls of prepare() since its
+/// making, that justify another local scene.
 constexpr std::size_t kManyAtRest = 16;
 constexpr std::uint64_t kShortest = 100;
-/// More models beside the triangle scene than these are not asked one by one.
+/// Number of models beside the triangle scene above which they are not tested one by one.
 constexpr std::size_t kManyBeside = 64;
 
 bool is_wide(const TraceableInstance& placed) {
@@ -29,7 +29,7 @@ Bounds primitive_bounds_W(const TraceableInstance& placed, std::size_t primitive
       placed.q.toRotationMatrix() * placed.scale, placed.p);
 }
 
-/// Half the side of the smallest square about `center` that touches the box, m.
+/// Returns half the side of the smallest square about `center` that touches the box [m].
 double reach_m(const Eigen::Vector2d& center, const Bounds& box) {
   return (box.lower.head<2>() - center).cwiseMax(center - box.upper.head<2>()).maxCoeff();
 }
@@ -94,7 +94,7 @@ bool LocalScene::holds(const Bounds& box_W) const {
          (box_W.upper.head<2>() - center_W_).maxCoeff() <= half_size_m_;
 }
 
-/// Takes what there is from the middle outwards, as long as it fits.
+/// Chooses the largest square that fits into the budget.
 void LocalScene::choose_size(const SceneryStore& store, const StillInstances& still,
                              const LocalSceneBudget& budget) {
   struct Part {
@@ -113,7 +113,7 @@ void LocalScene::choose_size(const SceneryStore& store, const StillInstances& st
       parts.push_back({reach_m(center_W_, placed.bounds_W()), body.primitives.size(), triangles});
       return;
     }
-    // A triangle scene has all triangles of a mesh, whatever the size.
+    // A triangle scene contains all triangles of a mesh, whatever the size.
     parts.push_back({-std::numeric_limits<double>::infinity(), 0, body.triangle_count()});
     for (std::size_t k = 0; k < body.primitives.size(); ++k) {
       const double reach = reach_m(center_W_, primitive_bounds_W(placed, k));
@@ -144,7 +144,7 @@ void LocalScene::choose_size(const SceneryStore& store, const StillInstances& st
   const std::size_t most_entries = budget.entries / kBytesPerEntry;
   double largest = kSmallest_m;
   if (for_pictures_) largest = largest_m(most_entries, budget.triangle_bytes / kBytesPerTriangle);
-  // A triangle scene that does not fit however small the square is left out.
+  // A triangle scene that does not fit even into the smallest square is left out.
   if (largest <= kSmallest_m) largest = largest_m(most_entries, kNoLimit);
   half_size_m_ = std::min(half_size_m_, std::max(largest, kSmallest_m));
 }
@@ -301,7 +301,8 @@ bool LocalScene::find_segments(const RayQuery queries[kPacketRays],
     passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
     passages[i].t_high = t_high[i];
     any = true;
-    // From high above, floats are of the scenery's size from where the ray enters its layer.
+    // From high above, the ray starts where it enters the scenery's layer, so that floats are of
+    // the scenery's size.
     const double above = std::abs(passages[i].ray.origin.z()) - half_height_m_;
     if (above <= 0.0) continue;
     const double towards = -std::copysign(1.0, passages[i].ray.origin.z()) * ray_W.direction.z();

@@ -10,57 +10,59 @@
 
 namespace ardee::raycast {
 
-/// What a local scene may take [bytes].
+/// Memory limits of a local scene [bytes].
 struct LocalSceneBudget {
   std::size_t entries;
-  std::size_t triangle_bytes = 0;  // 0: it is not for pictures
+  std::size_t triangle_bytes = 0;  // 0: without pictures
 };
 
-/// The primitives of all scenery in a square of ground, side by side in one Embree scene: a ray
-/// that starts in the square needs nothing else until it leaves it. For pictures, models that stay
-/// where they are count as scenery until they move.
+/// Primitives of all scenery in a square of ground, side by side in one Embree scene: a ray that
+/// starts in the square needs no other scene until it leaves it. For pictures, models at rest count
+/// as scenery until they move.
 class LocalScene {
  public:
-  /// Of one entry with its share of Embree's tree (measured: README).
+  /// Memory of one entry with its share of Embree's tree (measured: README).
   static constexpr std::size_t kBytesPerEntry = 120;
-  /// Of a triangle of the triangle scene with its share of Embree's tree (nominal).
+  /// Memory of a triangle of the triangle scene with its share of Embree's tree (nominal).
   static constexpr std::size_t kBytesPerTriangle = 140;
 
-  /// The square is smaller than asked for where what is in it goes beyond the budget.
+  /// Makes the square smaller than asked for if its content exceeds the budget.
   LocalScene(const EmbreeDevice& device, const SceneryStore& store, const StillInstances& still,
              const Eigen::Vector2d& center_W, double half_size_m, const LocalSceneBudget& budget);
 
   bool holds_all() const { return holds_all_; }
   const Eigen::Vector2d& center_W() const { return center_W_; }
   double half_size_m() const { return half_size_m_; }
-  /// How far inside the square a point lies (negative: outside), m.
+  /// Returns how far inside the square a point lies (negative: outside) [m].
   double depth_m(const Eigen::Vector3d& point_W) const {
     return half_size_m_ - (point_W.head<2>() - center_W_).cwiseAbs().maxCoeff();
   }
-  /// Where a ray from inside leaves the square; infinity if there is no other scenery.
+  /// Returns t where a ray from inside leaves the square; infinity if there is no other scenery.
   double exit_t(const Ray& ray_W) const;
-  /// All hits, each query up to its t_high (negative: not at all).
+  /// Finds all hits, each query up to its t_high (negative: not at all).
   void intersect(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
 
   bool is_for_pictures() const { return for_pictures_; }
-  /// The triangles, as seen from origin_W(); nullptr where they do not fit into the budget.
+  /// Triangles relative to origin_W(); nullptr if they exceed the budget.
   const TriangleScene* triangle_scene() const { return triangle_scene_.get(); }
   const Eigen::Vector3d& origin_W() const { return origin_W_; }
-  /// What the triangle scene leaves out, as `meet` would.
+  /// Returns whether the triangle scene leaves something out; intersect_rest() finds it.
   bool has_rest() const { return rest_scene_ != nullptr; }
   void intersect_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
-  /// Finds the models that a picture must meet beside the triangle scene and the rest.
+  /// Finds the models that a picture's rays must test beside the triangle scene and the rest.
   void find_others(const MovingModels& moving);
   const ModelList& others() const { return others_; }
-  /// Whether so many of them are in the tree of those that stay that it is the quicker way to them.
+  /// Returns whether so many of these models are in the tree of models at rest that the tree is
+  /// quicker.
   bool asks_tree() const { return asks_tree_; }
-  /// Whether so many of them have come to rest that another local scene is worth its making.
+  /// Returns whether enough of these models have come to rest to justify another local scene.
   bool is_outdated() const { return outdated_; }
-  /// Whether one of them, or one that was taken into the triangle scene and has left, may stand in
-  /// the way from about a place (within `about_m`) to a lamp.
+  /// Returns whether one of these models, or one that has left its place in the triangle scene, may
+  /// stand between a place (within `about_m`) and a lamp.
   bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
                  float about_m) const;
-  /// Where a picture's ray from inside leaves the square; infinity if nothing is beyond.
+  /// Returns t where a picture's ray from inside leaves the square; infinity if nothing lies
+  /// beyond.
   double picture_exit_t(const Ray& ray_W) const;
 
   std::size_t bytes() const;
@@ -73,19 +75,19 @@ class LocalScene {
     const std::uint64_t* moved_at;  // null: it does not move
   };
   struct alignas(32) Entry {
-    float center[3];  // of the primitive, relative to origin_W_
+    float center[3];  // the primitive's centre, relative to origin_W_
     std::uint32_t frame;
     const TriangleBlock* block;  // null: another kind of primitive
     std::uint32_t primitive;
   };
 
-  /// The entries that are not in the triangle scene.
+  /// Entries that are not in the triangle scene.
   struct Rest {
     const LocalScene* local;
     std::vector<std::uint32_t> entries;
   };
 
-  /// False if no query has to be asked.
+  /// Returns false if no query has to be traced.
   bool find_segments(const RayQuery queries[kPacketRays], const double t_high[kPacketRays],
                      RaySegment passages[kPacketRays]) const;
   static void intersect_rest_entry(const RTCIntersectFunctionNArguments* args);
@@ -105,20 +107,20 @@ class LocalScene {
   bool holds_all_ = false;
   Eigen::Vector3d origin_W_;
   double half_height_m_ = 0.0;
-  double extent_m_ = 0.0;  // of coordinates relative to origin_W_
+  double extent_m_ = 0.0;  // largest coordinate relative to origin_W_
   float slack_m_ = 0.0f;
   std::size_t triangles_ = 0;
   std::vector<StillInstance> still_;
   std::vector<Frame> frames_;
-  std::vector<Entry> entries_;  // of scenery, then of what is still
+  std::vector<Entry> entries_;  // scenery, then models at rest
   std::unique_ptr<EmbreeScene> scene_;
   bool for_pictures_;
   std::unique_ptr<TriangleScene> triangle_scene_;
   Rest rest_;
   std::unique_ptr<EmbreeScene> rest_scene_;
-  const std::uint64_t time_;  // of what is still
+  const std::uint64_t time_;  // when the models at rest were taken
   ModelList others_;
-  std::vector<ShadowBall> gone_;  // where what was still is no more
+  std::vector<ShadowBall> gone_;  // places that models at rest have left
   bool models_beyond_ = false;
   bool asks_tree_ = false;
   bool outdated_ = false;

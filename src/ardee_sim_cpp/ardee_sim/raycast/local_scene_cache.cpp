@@ -7,24 +7,23 @@
 namespace ardee::raycast {
 namespace {
 
-/// One local scene may take this share of the budget, so that several robots find room.
+/// One local scene may use 1 / kBudgetShare of the budget, so that several robots find room.
 constexpr std::size_t kBudgetShare = 4;
-/// The square reaches this much further than the radius asked for (as a share of it), so that it
-/// lasts for a while.
+/// Share of the requested radius by which the square is larger, so that it lasts for a while.
 constexpr double kSpareShare = 0.5;
-/// Where pictures are taken, the square reaches so far, if the budget allows.
+/// Least radius of a local scene for pictures, if the budget allows.
 constexpr double kPictureRadius_m = 12.0;
-/// The next local scene's centre lies so far ahead of the sensor, as a share of the way from a
-/// centre that a sensor may go: less than 1, so that one that turns back is still within it.
+/// Distance of the next local scene's centre ahead of the sensor, as a share of the way that a
+/// sensor may go from a centre: less than 1, so that a sensor that turns back is still within it.
 constexpr double kAhead = 0.75;
-/// Regions that no sensor was in for so many calls make room.
+/// Number of calls after which a local scene without a sensor is dropped.
 constexpr std::uint64_t kIdleCalls = 2000;
 
 Eigen::Vector2d way_from(const LocalScene& local, const Eigen::Vector3d& eye_W) {
   return eye_W.head<2>() - local.center_W();
 }
 
-/// How far a sensor may be from the centre without another local scene being made.
+/// Returns how far a sensor may be from the centre before another local scene is made.
 double reserve_m(const LocalScene& local) {
   return local.half_size_m() * (kSpareShare / (1.0 + kSpareShare));
 }
@@ -46,7 +45,7 @@ std::unique_ptr<LocalScene> LocalSceneCache::make(const StillInstances& still,
                                       budget);
 }
 
-/// Pictures alone take them for scenery.
+/// Returns the models at rest, which only pictures treat as scenery.
 StillInstances LocalSceneCache::still_instances() const {
   return for_pictures_ ? moving_.still_instances() : StillInstances{};
 }
@@ -75,8 +74,8 @@ const LocalScene* LocalSceneCache::find(const Eigen::Vector3d& eye_W) const {
 }
 
 void LocalSceneCache::keep(std::unique_ptr<LocalScene> local) {
-  // What a new local scene makes superfluous goes: the ones about it, idle ones, then the longest
-  // unused.
+  // A new local scene makes others superfluous: those about it, idle ones, then those that are
+  // unused longest.
   const double close_m = 2.0 * slack_m() + 1e-6;
   std::size_t total = local->bytes();
   std::sort(kept_.begin(), kept_.end(),
@@ -96,8 +95,8 @@ void LocalSceneCache::keep(std::unique_ptr<LocalScene> local) {
 
 void LocalSceneCache::collect() {
   if (!next_.valid()) return;
-  // Scans are the same in any local scene. Pictures are not quite, where floats decide: there
-  // the time at which a local scene comes must not depend on how fast the machine is.
+  // Scans are the same in any local scene. Pictures may differ where floats decide: so the time at
+  // which a local scene is taken over must not depend on the machine's speed.
   const bool ready = next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (!ready && !for_pictures_) return;
   keep(next_.get());
@@ -126,7 +125,7 @@ void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool p
   ++tick_;
   collect();
   if (pictures && !for_pictures_) {
-    if (next_.valid()) keep(next_.get());  // it is being made without
+    if (next_.valid()) keep(next_.get());  // it was started before the change
     for_pictures_ = true;
   }
   const bool any = !store_.places().empty() || (for_pictures_ && !moving_.tree().empty());

@@ -10,9 +10,9 @@
 
 namespace ardee::raycast {
 
-/// Keeps a local scene about each place where sensors are. A sensor's first local scene is made at
-/// once; while it drives, the next one is made by a thread in the background and taken over when it
-/// is ready. Rays return the same with either, or none.
+/// Keeps a local scene about each place with sensors. A sensor's first local scene is made at once;
+/// while it drives, a background thread makes the next one, which replaces the first once it is
+/// ready. Rays return the same with either, or none.
 class LocalSceneCache {
  public:
   LocalSceneCache(const EmbreeDevice& device, const SceneryStore& store, const MovingModels& moving,
@@ -20,11 +20,11 @@ class LocalSceneCache {
       : device_(device), store_(store), moving_(moving), options_(options) {}
   ~LocalSceneCache() { clear(); }
 
-  /// Waits for the background and forgets all local scenes: the scenery is about to change.
+  /// Waits for the background thread and drops all local scenes: the scenery is about to change.
   void clear();
-  /// With `triangle scenes`, also for pictures.
+  /// Makes local scenes about these points; with `pictures`, also triangle scenes.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures);
-  /// The local scene that holds the point deepest, or nullptr.
+  /// Returns the local scene in which the point lies deepest, or nullptr.
   const LocalScene* find(const Eigen::Vector3d& eye_W) const;
 
   std::size_t bytes() const;

@@ -7,13 +7,13 @@
 namespace ardee::raycast {
 namespace {
 
-/// Against rounding in the ball test only.
+/// Margin against rounding in the ball test.
 constexpr double kBallMargin_m = 1e-6;
-/// Of a ball's radius, for floats.
+/// Factor on a ball's radius against rounding of floats.
 constexpr double kRounding = 1.0 + 1e-4;
 
-/// Whether a ray touches a box at t in [0, reach]. Zero components are infinite in `inverse`: 0 *
-/// infinity gives NaN, which the order of the comparisons lets pass.
+/// Returns whether a ray touches a box at t in [0, reach]. Zero components are infinite in
+/// `inverse`: 0 * infinity gives NaN, which the order of the comparisons lets pass.
 bool touches(const Bounds& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& inverse,
              double reach) {
   double t_in = 0.0;
@@ -84,7 +84,7 @@ bool ModelList::touches_any(const Ray& ray_W, double reach_m) const {
 
 bool ModelList::may_touch_some(const Eigen::Vector3d& eye_W, const PrimaryRayPacket& rays) const {
   if (models_.empty()) return false;
-  float spread2 = 0.0f;  // of distances between directions, at most
+  float spread2 = 0.0f;  // greatest squared distance between directions
   for (int i = 1; i < PrimaryRayPacket::kRays; ++i) {
     const float x = rays.x_W[i] - rays.x_W[0];
     const float y = rays.y_W[i] - rays.y_W[0];
@@ -104,7 +104,7 @@ bool ModelList::may_touch_some(const Eigen::Vector3d& eye_W, const PrimaryRayPac
     const double along_m = std::max(0.0, to_box.dot(way_W));
     const double apart_m = (to_box - along_m * way_W).norm();
     if (apart_m > radius_m + spread * (along_m + radius_m)) return false;
-    // A camera's own robot is always about it.
+    // A camera's own robot is always near.
     near.clear();
     bundle.find(model->box_table_W, entries, exits, near);
     return !near.empty();

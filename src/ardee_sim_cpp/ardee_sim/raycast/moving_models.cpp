@@ -8,13 +8,13 @@
 namespace ardee::raycast {
 namespace {
 
-/// Against rounding in the box test only.
+/// Margin against rounding in the box test.
 constexpr double kBoxMargin_m = 1e-6;
-/// How far the box about a link may move before its model counts as moved.
+/// Distance that the box about a link may move before its model counts as moved.
 constexpr double kRoom_m = 0.02;
-/// What has not moved for so many calls of prepare(), or never, stays where it is.
+/// Number of calls of prepare() without motion after which a model counts as at rest.
 constexpr std::uint64_t kLong = 10;
-/// Fewer models than these are not worth a new tree.
+/// Least number of models that justify a new tree.
 constexpr std::ptrdiff_t kMany = 16;
 
 bool holds(const Bounds& room, const Bounds& box) {
@@ -33,7 +33,7 @@ void make_room(MovingModel& model) {
 
 }  // namespace
 
-/// Those of models that are the same description are the same.
+/// Returns the bodies of a model; models of one description share them.
 std::shared_ptr<const MovingModel::Bodies> MovingModels::bodies_of(
     const std::shared_ptr<const Model>& model) {
   std::weak_ptr<const MovingModel::Bodies>& known = compiled_[model.get()];

@@ -12,9 +12,8 @@
 
 namespace ardee::raycast {
 
-/// Models whose links can move. Few do at a time: a box test a link beats any tree that would have
-/// to be rebuilt with each motion. Those that stay where they are, which may be hundreds of plants,
-/// are in a tree.
+/// Models whose links can move. Few do at a time: a box test a link is quicker than a tree that is
+/// rebuilt with each motion. Models at rest, which may be hundreds of plants, are in a tree.
 class MovingModels {
  public:
   MovingModels(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
@@ -23,27 +22,28 @@ class MovingModels {
   void add(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
-  /// Takes those that have stayed where they are into the tree, once they are many. To be called
-  /// before rays are cast among poses that were set.
+  /// Moves models at rest into the tree, once they are many. Call it before rays are cast among new
+  /// poses.
   void prepare();
   bool empty() const { return models_.empty(); }
 
-  /// Those that are not in the tree.
+  /// Models that are not in the tree.
   const ModelList& loose() const { return loose_; }
   const PlaceTree& tree() const { return tree_; }
-  /// The first `count` of the queries, neighbouring rays, by either way.
+  /// Intersects the first `count` of the queries, neighbouring rays, with loose models and the
+  /// tree.
   void intersect(RayQuery queries[kPacketRays], int count) const;
   void intersect(RayQuery& query, std::uint32_t entity) const;
 
-  /// Calls of prepare().
+  /// Number of calls of prepare().
   std::uint64_t time() const { return time_; }
-  /// The links in the tree, for others to be made of.
+  /// Links in the tree, for the triangle scenes.
   StillInstances still_instances() const;
-  /// Whether still_instances() had this model at that time, where it is now.
+  /// Returns whether still_instances() had this model at that time, at its present place.
   static bool was_still(const MovingModel& model, std::uint64_t at_time) {
     return model.in_tree && model.stays_since <= at_time && *model.moved_at <= at_time;
   }
-  /// Whether it has not moved at all for long.
+  /// Returns whether the model has not moved for long.
   bool is_at_rest(const MovingModel& model) const;
   const std::map<std::uint32_t, MovingModel>& models() const { return models_; }
 
@@ -56,8 +56,8 @@ class MovingModels {
   SceneKind kind_;
   std::map<const Model*, std::weak_ptr<const MovingModel::Bodies>> compiled_;
   std::map<std::uint32_t, MovingModel> models_;
-  ModelList loose_;  // have shapes and are not in the tree
-  PlaceTree tree_;   // of the others' links; what has left its room does no harm there
+  ModelList loose_;  // models with shapes that are not in the tree
+  PlaceTree tree_;   // links of the others; one that has left its room is skipped
   std::uint64_t time_ = 1;
 };
 

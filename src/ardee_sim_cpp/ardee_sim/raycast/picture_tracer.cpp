@@ -13,7 +13,7 @@ ApproximateTracer tracer_at(const TracedScene& scene, const Eigen::Vector3d& eye
   return {scene.local_scenes.find(eye_W), scene.scenery, scene.moving};
 }
 
-/// Traces packets of rays: by `approximate(first, count)` where it returns true, else exactly, with
+/// Traces packets of rays by `approximate(first, count)` if it returns true, else exactly, with
 /// `take(query, index)` for each ray.
 template <typename Approximate, typename Take>
 void trace_packets(const TracedScene& scene, const SceneRay* rays, std::size_t count,

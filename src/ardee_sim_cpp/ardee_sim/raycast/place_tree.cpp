@@ -6,7 +6,7 @@
 namespace ardee::raycast {
 namespace {
 
-/// Against rounding where a ray enters and leaves the bounds of all.
+/// Margin against rounding where a ray enters and leaves the bounds of all places.
 constexpr double kEndMargin_m = 1e-3;
 
 }  // namespace
@@ -48,8 +48,8 @@ void PlaceTree::intersect(RayQuery queries[kPacketRays], const double t_low[kPac
   RaySegment passages[kPacketRays];
   for (int i = 0; i < kPacketRays; ++i) {
     if (!(t_low[i] <= queries[i].reach())) continue;
-    // Only the part of the ray within the bounds: floats are of the places' size wherever the
-    // sensor is.
+    // Only the part of the ray within the bounds is traced, so that floats are of the places' size
+    // wherever the sensor is.
     const Ray& ray_W = queries[i].ray_W();
     passages[i].ray = {ray_W.origin - origin_W_, ray_W.direction};
     RayInterval chord;

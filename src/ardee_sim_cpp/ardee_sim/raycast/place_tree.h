@@ -11,8 +11,9 @@ namespace ardee::raycast {
 /// Placed bodies, one box each, with an Embree scene over the boxes.
 class PlaceTree {
  public:
-  /// The bodies stay where they are in memory until the next build. In the world they may move, as
-  /// long as they stay in their boxes, which are `room_m` larger than they are now.
+  /// Builds the tree. The bodies must stay where they are in memory until the next build. In the
+  /// world they may move as long as they stay in their boxes, which are `room_m` larger than at the
+  /// build.
   void build(const EmbreeDevice& device, std::vector<const TraceableInstance*> places,
              BuildQuality quality, double room_m = 0.0);
   void clear();
@@ -21,7 +22,7 @@ class PlaceTree {
   const std::vector<const TraceableInstance*>& places() const { return places_; }
   const Bounds& bounds_W() const { return bounds_W_; }
 
-  /// Each query from its t_low on (infinity: not at all).
+  /// Intersects each query from its t_low on (infinity: not at all).
   void intersect(RayQuery queries[kPacketRays], const double t_low[kPacketRays]) const;
 
   /// Calls `found(index in places)` for places whose box touches the rectangle.
@@ -45,7 +46,7 @@ class PlaceTree {
   static void intersect_place(const RTCIntersectFunctionNArguments* args);
 
   std::vector<const TraceableInstance*> places_;
-  std::vector<FloatBox> boxes_;  // of places_, relative to origin_W_
+  std::vector<FloatBox> boxes_;  // the boxes of places_, relative to origin_W_
   Eigen::Vector3d origin_W_ = Eigen::Vector3d::Zero();
   Bounds bounds_W_;
   std::unique_ptr<EmbreeScene> scene_;

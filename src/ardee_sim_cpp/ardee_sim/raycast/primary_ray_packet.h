@@ -6,31 +6,31 @@
 
 namespace ardee::raycast {
 
-/// Sixteen rays of a picture from its eye, and what tells of their hits whether neighbours see one
-/// surface; `PictureTracer::interpolate_hits` tells the rest. One list a number, for vector
-/// instructions.
+/// Sixteen rays of a picture from its eye, and the data of their hits that show whether neighbours
+/// see one surface; `PictureTracer::interpolate_hits` adds the rest. Each number is an array, for
+/// vector instructions.
 struct PrimaryRayPacket {
   static constexpr int kRays = 16;
-  /// In place of a surface: nothing was met.
+  /// Surface number of a ray without a hit.
   static constexpr std::uint32_t kNothing = 0;
-  /// A triangle scene's own surfaces begin here; 1 is left to the caller, for pixels without a ray.
+  /// Number of a triangle scene's first surface; the caller uses 1 for pixels without a ray.
   static constexpr std::uint32_t kFirstSurface = 2;
-  /// The bit of surfaces and triangles that are not in a triangle scene.
+  /// Bit of surfaces and triangles that are not in a triangle scene.
   static constexpr std::uint32_t kOutside = 0x80000000u;
 
-  alignas(64) float x_W[kRays];  // of unit directions
+  alignas(64) float x_W[kRays];  // unit directions
   alignas(64) float y_W[kRays];
   alignas(64) float z_W[kRays];
-  alignas(64) float near_m[kRays];  // what is nearer, or farther than far_m, is not met
+  alignas(64) float near_m[kRays];  // hits count from near_m to far_m
   alignas(64) float far_m[kRays];
 
   alignas(64) std::uint32_t surface[kRays];  // the same for points of one surface
   alignas(
       64) std::uint32_t triangle[kRays];  // the same for points of one triangle of a triangle scene
-  alignas(64) float u[kRays];             // where on it: the shares of its second corner
-  alignas(64) float v[kRays];             // and of its third
-  alignas(64) float range_m[kRays];       // from the eye; +inf: nothing
-  alignas(64) float normal_x_W[kRays];    // unit, to either side; 0: nothing
+  alignas(64) float u[kRays];             // place on it: the shares of its second corner
+  alignas(64) float v[kRays];             // and of its third corner
+  alignas(64) float range_m[kRays];       // distance from the eye; +inf: no hit
+  alignas(64) float normal_x_W[kRays];    // unit, to either side; 0: no hit
   alignas(64) float normal_y_W[kRays];
   alignas(64) float normal_z_W[kRays];
 

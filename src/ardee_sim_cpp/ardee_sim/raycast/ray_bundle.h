@@ -21,16 +21,16 @@ struct BoxTable {
   void add(const Bounds& box);
 };
 
-/// All that a few neighbouring rays can touch: every origin, direction and reach between the least
-/// and the greatest of theirs.
+/// Bounds of a few neighbouring rays: the least and greatest of their origins, directions and
+/// reaches.
 class RayBundle {
  public:
   RayBundle(const RayQuery* queries, int count);
-  /// Of a picture's rays from the eye, as far as they have met nothing.
+  /// Bundles a picture's rays from the eye, each up to its present hit.
   RayBundle(const Eigen::Vector3d& eye_W, const PrimaryRayPacket& block);
 
-  /// Appends to `near` the boxes that one of the rays may touch: none that it does touch is left
-  /// out. `entries` and `exits` are room for the work.
+  /// Appends to `near` all boxes that a ray touches, and perhaps more. `entries` and `exits` are
+  /// working memory.
   void find(const BoxTable& boxes, std::vector<double>& entries, std::vector<double>& exits,
             std::vector<std::uint32_t>& near) const;
 

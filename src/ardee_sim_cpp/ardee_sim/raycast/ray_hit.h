@@ -9,16 +9,16 @@ namespace ardee::raycast {
 constexpr std::uint32_t kNoEntity = 0xFFFFFFFFu;
 constexpr std::uint32_t kAllLinks = 0xFFFFFFFFu;
 
-/// What a ray met first.
+/// First hit of a ray.
 struct RayHit {
-  float range_m = 0.0f;  // +inf: nothing within the maximum
+  float range_m = 0.0f;  // +inf: no hit within the maximum
   std::uint32_t entity =
-      kNoEntity;  // what was passed to add_scenery or add_model (plus the placement's index)
+      kNoEntity;  // the number given to add_scenery or add_model (plus the placement's index)
   std::uint32_t link = 0;   // index in the model's description
   std::uint32_t shape = 0;  // index of the visual or collision in the link
   std::uint32_t label = 0;
   float laser_retro = 0.0f;
-  float reflectivity = 0.0f;          // laser_retro if given, else of the diffuse colour, 0 to 1
+  float reflectivity = 0.0f;          // laser_retro if given, else by the diffuse colour, 0 to 1
   Eigen::Vector3f normal_W{0, 0, 0};  // unit, towards the ray's origin
 };
 

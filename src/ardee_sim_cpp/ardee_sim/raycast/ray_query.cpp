@@ -10,7 +10,7 @@ namespace {
 
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
 constexpr double kBlockSlack = 2e-6;
-/// The reach of a ray that has found what it was sent for.
+/// Reach of a finished query.
 constexpr double kNothingMatters = -1.0;
 
 }  // namespace
@@ -156,8 +156,8 @@ void RayQuery::intersect_traceable(const TraceableInstance& placed, double t_low
     for (const Primitive& primitive : body.primitives) intersect_primitive(primitive);
     return;
   }
-  // From the body's bounding sphere on, so that floats are of the body's size however far the ray
-  // comes from.
+  // The ray starts at the body's bounding sphere, so that floats are of the body's size however far
+  // the ray comes from.
   const Eigen::Vector3d away = body.bounds.center() - ray_B_.origin;
   const double scale = ray_B_.direction.squaredNorm();
   const double t_middle = away.dot(ray_B_.direction) / scale;

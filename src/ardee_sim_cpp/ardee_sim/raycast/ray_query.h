@@ -11,29 +11,29 @@
 
 namespace ardee::raycast {
 
-/// Nothing is met beyond it, so that a ray of infinite reach has no infinite place on it.
+/// Upper bound of a reach, so that a ray of infinite reach has no infinite point.
 constexpr double kLongestReach_m = 1e9;
 
-/// A direction as Embree takes it. Embree sorts the rays of a packet by the signs of their
-/// components, but gives a component nearer to zero than 1e-18 a positive reciprocal whatever its
-/// sign; a negative one would spoil the frustum of all rays of its octant. None is left here.
+/// Returns a direction without tiny negative components. Embree sorts the rays of a packet by the
+/// signs of their components, but gives a component nearer to zero than 1e-18 a positive
+/// reciprocal; a negative one would spoil the frustum of all rays of its octant.
 inline Eigen::Vector3f embree_direction(const Eigen::Vector3f& direction) {
   constexpr float kTiny = 1e-17f;
   return (direction.array().abs() < kTiny).select(Eigen::Vector3f::Zero(), direction);
 }
 
-/// One ray on its way through the world, and the nearest thing that it has met.
+/// One ray's traversal of the world, with its nearest hit.
 ///
-/// What Embree and the float tests do is to sort out: they may name too much, never too little.
-/// Each hit is then computed in double precision from the world's ray, the body's own vertices and
-/// the body's place, and the nearest is kept, ties being decided by (entity, link, shape,
-/// primitive). So the result is the same whatever way led to the candidates.
+/// Embree and the float tests only choose candidates: too many, never too few. Each hit is then
+/// computed in double precision from the world's ray, the body's own vertices and the body's place.
+/// The nearest is kept; (entity, link, shape, primitive) decides ties. So the result does not
+/// depend on the way to the candidates.
 class RayQuery {
  public:
-  /// Shadow: whatever casts one ends the ray, near or far, seen from either side.
+  /// kShadow: any body that casts shadows ends the ray, near or far, seen from either side.
   enum class Purpose { kNearest, kShadow };
 
-  /// Rays meet nothing of the link (own_entity, own_link), or of all links of that entity.
+  /// Starts a ray that ignores the link (own_entity, own_link), or all links of that entity.
   void start(const Ray& ray_W, double reach_m, std::uint32_t own_entity, std::uint32_t own_link,
              Purpose purpose = Purpose::kNearest) {
     purpose_ = purpose;
@@ -44,16 +44,16 @@ class RayQuery {
   }
 
   const Ray& ray_W() const { return ray_W_; }
-  /// No candidate beyond this is of interest any more.
+  /// Greatest t of a candidate that still matters.
   double reach() const { return best_t_; }
   bool is_shadow() const { return purpose_ == Purpose::kShadow; }
   bool has_hit() const { return placed_ != nullptr; }
-  /// Whether the ray passes through that link: the sensor's own.
+  /// Returns whether the ray ignores that link because it carries the sensor.
   bool passes(std::uint32_t entity, std::uint32_t link) const {
     return entity == own_entity_ && (link == own_link_ || own_link_ == kAllLinks);
   }
 
-  /// Makes `placed` the body that the next calls speak of.
+  /// Makes `placed` the body of the next calls.
   void enter(const TraceableInstance& placed) {
     if (entered_ == &placed) return;
     entered_ = &placed;
@@ -61,7 +61,7 @@ class RayQuery {
   }
   const Ray& ray_B() const { return ray_B_; }
 
-  /// All of the body, from t_low on.
+  /// Intersects the whole body, from t_low on.
   void intersect_traceable(const TraceableInstance& placed, double t_low);
   void intersect_primitive(const Primitive& primitive);
   void intersect_block(const TriangleBlock& block);
@@ -95,56 +95,55 @@ class RayQuery {
   std::uint32_t own_link_ = 0;
   Purpose purpose_ = Purpose::kNearest;
   const TraceableInstance* entered_ = nullptr;
-  const TraceableInstance* placed_ = nullptr;  // what the nearest hit belongs to
+  const TraceableInstance* placed_ = nullptr;  // the body of the nearest hit
   std::uint32_t surface_ = 0;
   std::uint32_t primitive_ = 0;
   std::uint32_t item_ = 0;
   Eigen::Vector3d normal_B_;
 };
 
-/// Rays that go through a scene together: neighbours of a pattern meet much the same boxes. Eight
+/// Number of rays that are traced together: neighbours of a pattern hit much the same boxes. Eight
 /// are native from AVX2 on.
 constexpr int kPacketRays = 8;
 
-/// What Embree hands to our callbacks with each ray, whose id says which of the queries it serves.
+/// Data that Embree passes to the callbacks with each ray; the ray's id is the index of its query.
 struct TraversalContext {
   RTCIntersectContext embree;
   RayQuery* queries;
   double t_shift[kPacketRays];  // Embree's t is the world's t minus this
 };
 
-/// One query's way through a scene: the ray in the scene's frame and the stretch of it that
-/// matters.
+/// Stretch of one query's ray in the scene's frame.
 struct RaySegment {
   Ray ray;
   double t_low = 0.0;
-  double t_high = -1.0;  // below t_low: the query stays out
+  double t_high = -1.0;  // below t_low: the query is skipped
 
   bool empty() const { return !(t_low <= t_high); }
 };
 
-/// Rays as Embree takes them: none at first.
+/// Packet of rays in Embree's form, empty at first.
 struct RayPacket {
   RayPacket();
 
   alignas(32) int valid[kPacketRays];
   RTCRayHit8 rays;
 
-  /// Ray `i` of the packet, in the scene's frame.
+  /// Adds ray `i` of the packet, in the scene's frame.
   void add(int i, const Ray& ray, double reach);
-  /// False if all stay out.
+  /// Returns false if all queries are skipped.
   bool load(const RaySegment* passages);
 };
 
 void traverse(RTCSceneTy* scene, RayQuery& query, const RaySegment& passage);
-/// `queries` and `passages` are kPacketRays long.
+/// Traces a packet; `queries` and `passages` are kPacketRays long.
 void traverse_packet(RTCSceneTy* scene, RayQuery* queries, const RaySegment* passages);
 
-/// A float that is safely above the double.
+/// Returns a float that is safely above the double.
 inline float float_above(double t) { return static_cast<float>(t * (1.0 + 1e-6) + 1e-5); }
 
-/// In a callback: the rays that Embree asks about. `intersect(query, rays, i, t_shift)` is called
-/// for each, and Embree is told how near the nearest hit now is.
+/// Calls `intersect(query, rays, i, t_shift)` in a callback for each active ray, and shortens the
+/// ray to its nearest hit.
 template <typename Intersect>
 void for_each_ray(const RTCIntersectFunctionNArguments* args, Intersect intersect) {
   const auto* context = reinterpret_cast<const TraversalContext*>(args->context);
@@ -160,7 +159,7 @@ void for_each_ray(const RTCIntersectFunctionNArguments* args, Intersect intersec
   }
 }
 
-/// The callback of the scene over a body's primitives.
+/// Callback of the scene over a body's primitives.
 void intersect_primitive_of(const RTCIntersectFunctionNArguments* args);
 
 }  // namespace ardee::raycast

@@ -15,7 +15,7 @@
 namespace ardee::raycast {
 namespace {
 
-/// Rays taken at once by a thread: tens of microseconds of work.
+/// Number of rays that a thread takes at once: tens of microseconds of work.
 constexpr std::size_t kGrain = 64;
 
 }  // namespace
@@ -25,15 +25,15 @@ struct RayScene::Impl {
       : scene(kind, options, std::move(log)),
         pictures(scene),
         arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic) {
-    // TBB has no more workers than cores unless it is told.
+    // TBB has at most one worker a core unless told otherwise.
     if (options.threads > tbb::info::default_concurrency()) {
       workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       static_cast<std::size_t>(options.threads));
     }
   }
 
-  /// Calls trace_some(first, count, queries) for packets of rays by all threads, and keeps what
-  /// they have hit.
+  /// Calls trace_some(first, count, queries) for packets of rays in all threads, and stores their
+  /// hits.
   template <typename TraceSome>
   void trace_in_parallel(std::size_t rays, std::vector<RayHit>& hits, TraceSome trace_some) const {
     scene.require_committed();

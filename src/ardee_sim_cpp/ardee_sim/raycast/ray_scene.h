@@ -17,49 +17,48 @@
 
 namespace ardee::raycast {
 
-/// The world as rays see it, on Embree. What a ray returns does not depend on threads, on local
-/// scenes or on timing.
+/// The world as rays see it, on Embree. The hits do not depend on threads, local scenes or timing.
 class RayScene {
  public:
   RayScene(SceneKind kind, const RayOptions& options, Log log);
   ~RayScene();
 
-  /// Placement k of the list gets the entity first_entity + k.
+  /// Adds scenery; placement k of the list gets the entity first_entity + k.
   void add_scenery(std::uint32_t first_entity, const std::vector<Placement>& placements);
-  /// Removes all that was added with that first entity.
+  /// Removes all scenery that was added with that first entity.
   void remove_scenery(std::uint32_t first_entity);
 
-  /// Adds a moving model: its links are placed by set_link_poses.
+  /// Adds a moving model; set_link_poses() places its links.
   void add_model(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove_model(std::uint32_t entity);
-  /// X_WL of each link of the description, in its order.
+  /// Sets X_WL of each link of the description, in its order.
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
 
-  /// Makes the scene ready for rays from these points: commits what has changed and makes local
-  /// scenes. `pictures`: from now on also for pictures().
+  /// Prepares the scene for rays from these points: commits changes and makes local scenes; with
+  /// `pictures`, for pictures() too from now on.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures = false);
 
-  /// Hits nearest to the origin within max_range_m, one a direction. Rays pass through the link
-  /// (entity, link) that carries the sensor: pass kNoEntity for none. One-sided surfaces are not
-  /// met from behind in the visual scene; texels below a material's alpha rejection are holes.
-  /// Inside it the work is parallel; call it from one thread at a time.
+  /// Finds the nearest hit within max_range_m for each direction. Rays ignore the link (entity,
+  /// link) that carries the sensor (kNoEntity: none). In the visual scene, one-sided surfaces are
+  /// invisible from behind, and texels below a material's alpha rejection are holes. The work is
+  /// parallel inside; call it from one thread at a time.
   void cast(const Pose& X_WS, const RayPattern& pattern, float max_range_m,
             std::uint32_t own_entity, std::uint32_t own_link, std::vector<RayHit>& hits) const;
-  /// As above for rays with origins and reaches of their own; `own_link` may be kAllLinks.
+  /// Does the same for rays with their own origins and reaches; `own_link` may be kAllLinks.
   void cast(const std::vector<SceneRay>& rays, std::uint32_t own_entity, std::uint32_t own_link,
             std::vector<RayHit>& hits) const;
-  /// The same of one moving model alone, its link `own_link` left out.
+  /// Does the same with one moving model alone, without its link `own_link`.
   void cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
                      std::uint32_t own_link, std::vector<RayHit>& hits) const;
 
-  /// Rays for pictures of this scene.
+  /// Traces rays for pictures of this scene.
   const PictureTracer& pictures() const;
 
-  /// About each place of the scenery, infinite planes left out; valid after prepare().
+  /// Boxes about each place of the scenery, without infinite planes; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
 
-  /// For benchmarks: bytes held by Embree and local scenes, triangles in the latter, and how many
-  /// of them were made so far.
+  /// Numbers for benchmarks: bytes of Embree and local scenes, triangles of local scenes, and how
+  /// many of them were made so far.
   std::size_t memory_bytes() const;
   std::size_t local_scene_triangles() const;
   std::size_t local_scenes_made() const;

@@ -3,7 +3,7 @@
 
 namespace ardee::raycast {
 
-/// Which bodies of the links rays meet (thesis 4.3.3).
+/// Bodies of the links that rays hit (thesis 4.3.3).
 enum class SceneKind { kVisual, kCollision };
 
 }  // namespace ardee::raycast

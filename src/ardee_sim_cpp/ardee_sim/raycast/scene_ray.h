@@ -7,7 +7,7 @@
 
 namespace ardee::raycast {
 
-/// A ray with an origin of its own.
+/// Ray with its own origin.
 struct SceneRay {
   Eigen::Vector3d origin_W{0, 0, 0};
   Eigen::Vector3d direction_W{1, 0, 0};  // unit

@@ -9,9 +9,10 @@
 namespace ardee::raycast {
 namespace {
 
-/// Larger bodies would cost all others their digits: they are tried for each ray.
+/// Radius above which a body is tested for each ray: in the tree it would coarsen the floats of all
+/// others.
 constexpr double kHugeRadius_m = 2000.0;
-/// Nobody has a field there; Embree's floats would be whole metres.
+/// Greatest coordinate: farther away, Embree's floats would be whole metres.
 constexpr double kFarthest_m = 1e7;
 
 }  // namespace

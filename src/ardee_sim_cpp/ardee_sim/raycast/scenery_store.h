@@ -11,14 +11,14 @@
 
 namespace ardee::raycast {
 
-/// All that stands still: each description compiled once, each place a few numbers, and one Embree
-/// scene over the places.
+/// All fixed bodies: each description compiled once, each place a few numbers, and one Embree scene
+/// over the places.
 class SceneryStore {
  public:
   SceneryStore(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
       : device_(device), masks_(masks), kind_(kind) {}
 
-  /// Throws Error and adds nothing if a placement is not usable.
+  /// Throws Error and adds nothing if a placement is invalid.
   void add(std::uint32_t first_entity, const std::vector<Placement>& placements);
   void remove(std::uint32_t first_entity);
   /// Rebuilds the scene over the places.
@@ -26,9 +26,9 @@ class SceneryStore {
   bool committed() const { return committed_; }
 
   bool has_unbounded() const { return !unbounded_.empty(); }
-  /// What is too large to be put in any box: infinite planes, and bodies of kilometres.
+  /// Intersects bodies too large for a box: infinite planes, and bodies of kilometres.
   void intersect_unbounded(RayQuery& query) const;
-  /// The places: what has boxes.
+  /// Places of all bodies with boxes.
   const PlaceTree& places() const { return places_; }
 
  private:

@@ -8,11 +8,11 @@
 
 namespace ardee::raycast {
 
-/// A link of a model that could move, where it stood at some time.
+/// Link of a movable model where it stood at some time.
 struct StillInstance {
   TraceableInstance placed;
-  std::shared_ptr<const std::vector<std::unique_ptr<Traceable>>> bodies;  // with that of `placed`
-  std::shared_ptr<const std::uint64_t> moved_at;  // later than that time: it stands there no more
+  std::shared_ptr<const std::vector<std::unique_ptr<Traceable>>> bodies;  // owns that of `placed`
+  std::shared_ptr<const std::uint64_t> moved_at;  // later than that time: it has left
 };
 
 struct StillInstances {

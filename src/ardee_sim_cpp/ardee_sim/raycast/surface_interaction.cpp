@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A picture once on each face of a box, upright on its sides.
+/// Maps the picture onto each face of a box, upright on its sides.
 void map_box(const Eigen::Vector3d& p, const Eigen::Vector3d& half, SurfaceInteraction& point) {
   int axis = 0;
   p.cwiseAbs().cwiseQuotient(half.cwiseMax(1e-9)).maxCoeff(&axis);
@@ -21,7 +21,7 @@ void map_box(const Eigen::Vector3d& p, const Eigen::Vector3d& half, SurfaceInter
   point.uv_per_m = 1.0 / std::sqrt(size.prod());
 }
 
-/// Once round a cylinder, and once on each of its ends.
+/// Maps the picture once round a cylinder, and once on each of its ends.
 void map_cylinder(const Eigen::Vector3d& p, double radius, double half_length,
                   SurfaceInteraction& point) {
   if (std::abs(p.z()) >= half_length * (1.0 - 1e-9)) {
@@ -33,7 +33,7 @@ void map_cylinder(const Eigen::Vector3d& p, double radius, double half_length,
   point.uv_per_m = 1.0 / std::sqrt(4.0 * kPi * radius * half_length);
 }
 
-/// Once round a sphere, by longitude and latitude.
+/// Maps the picture once round a sphere, by longitude and latitude.
 void map_sphere(const Eigen::Vector3d& p, double radius, SurfaceInteraction& point) {
   const double sine = std::min(1.0, std::max(-1.0, p.z() / radius));
   point.uv = {std::atan2(p.y(), p.x()) / (2.0 * kPi) + 0.5, std::asin(sine) / kPi + 0.5};

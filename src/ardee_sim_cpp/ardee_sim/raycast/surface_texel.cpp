@@ -9,7 +9,7 @@
 namespace ardee::raycast {
 namespace {
 
-/// Of the power of two below a positive number.
+/// Exponent of the power of two below a positive number.
 std::int16_t exponent_of(float x) {
   std::int32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -23,7 +23,7 @@ float power_of_two(int exponent) {
   return result;
 }
 
-/// How many texels of at most 2^size m there are along a triangle's base, and across.
+/// Numbers of texels of at most 2^size m along a triangle's base, and across.
 struct Grid {
   Grid(float base_m, float height_m, std::int16_t size)
       : columns(texels(base_m, size)), rows(texels(height_m, size)) {}
@@ -31,13 +31,13 @@ struct Grid {
     return static_cast<float>(static_cast<int>(std::min(length_m * power_of_two(-size), kMost)) +
                               1);
   }
-  static constexpr float kMost = 1e6f;  // beyond, floats could not tell them apart
+  static constexpr float kMost = 1e6f;  // with more, floats could not tell them apart
 
   float columns;
   float rows;
 };
 
-/// Which of `count` equal parts of [0, 1] holds a number, or is the nearest to it.
+/// Returns which of `count` equal parts of [0, 1] contains a number, or is nearest to it.
 std::uint32_t place_in(float x, float count) {
   const float place = x * count;
   return place > 0.0f ? static_cast<std::uint32_t>(std::min(place, count - 1.0f)) : 0u;
@@ -69,8 +69,8 @@ void TriangleTexels::middle(const SurfaceTexel& texel, float& u, float& v) const
   const float along = (static_cast<float>(texel.column) + 0.5f) / grid.columns;
   const float lower = static_cast<float>(texel.row) / grid.rows;
   const float upper = static_cast<float>(texel.row + 1) / grid.rows;
-  // Halfway up what of the triangle lies over the column's middle; or, if it ends below the row,
-  // the nearest place on the row's lower edge.
+  // The middle is halfway up the part of the triangle over the column's middle; or, if that ends
+  // below the row, the nearest place on the row's lower edge.
   const float top = std::min(along / lean_, (1.0f - along) / (1.0f - lean_));
   v = 0.5f * (lower + std::clamp(top, lower, upper));
   u = std::clamp(along - lean_ * v, 0.0f, 1.0f - v);

@@ -6,8 +6,8 @@
 
 namespace ardee::raycast {
 
-/// A primitive of a triangle in a triangle scene, about as wide as a pixel sees it. What follows
-/// from the texel alone may be kept for other pictures: who works it out first does not matter.
+/// Piece of a triangle in a triangle scene, about as wide as a pixel sees it. Values that follow
+/// from the texel alone may be kept for other pictures, whichever picture computes them first.
 struct SurfaceTexel {
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
@@ -21,33 +21,33 @@ struct SurfaceTexel {
   bool none() const { return triangle == kNone; }
 };
 
-/// Where a primary ray has hit a triangle of a triangle scene, and how wide the texel there may
-/// be.
+/// Place where a primary ray has hit a triangle of a triangle scene, and the greatest width of the
+/// texel there.
 struct TexelRequest {
   std::uint32_t triangle;
   float u;
   float v;
   float range_m;
   float width_m;      // negative: the triangle is seen from behind
-  std::uint32_t ray;  // its number through all blocks
+  std::uint32_t ray;  // index through all blocks
 };
 
-/// A triangle cut into rows along its longest side, its base, and these into texels.
+/// Triangle cut into rows along its longest side, its base, and these into texels.
 class TriangleTexels {
  public:
   TriangleTexels() = default;
-  /// The base from the first corner to the second, and the way from the first to the third.
+  /// Takes the base from the first corner to the second, and the way from the first to the third.
   TriangleTexels(const Eigen::Vector3f& base, const Eigen::Vector3f& to_top);
 
   SurfaceTexel texel(const TexelRequest& request) const;
-  /// Of a place in the texel and in the triangle, as near to the texel's middle as may be: the
+  /// Finds a place in the texel and in the triangle, as near to the texel's middle as possible: the
   /// shares of the second and the third corner.
   void middle(const SurfaceTexel& texel, float& u, float& v) const;
 
  private:
   float base_m_ = 0.0f;
   float height_m_ = 0.0f;
-  float lean_ = 0.0f;  // where along the base the third corner lies, as a share
+  float lean_ = 0.0f;  // the third corner's place along the base, as a share
 };
 
 }  // namespace ardee::raycast

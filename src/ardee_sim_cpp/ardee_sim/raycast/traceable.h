@@ -15,7 +15,7 @@
 
 namespace ardee::raycast {
 
-/// What all of one shape's (or mesh part's) surface shares.
+/// Data that the surface of one shape (or mesh part) shares.
 struct TraceableSurface {
   std::uint32_t link = 0;
   std::uint32_t shape = 0;
@@ -23,13 +23,13 @@ struct TraceableSurface {
   float reflectivity = 0.0f;
   bool two_sided = true;
   std::shared_ptr<const AlphaMask> mask;  // null: no holes
-  // For pictures.
+  // Pictures alone use these.
   bool casts_shadows = true;
   const Visual* visual = nullptr;
   const Material* material = nullptr;
-  const SubMesh* part = nullptr;                                  // of a mesh
-  std::uint32_t first_vertex = 0;                                 // of the part, in the body
-  Eigen::Matrix3d normals_to_body = Eigen::Matrix3d::Identity();  // from the part's
+  const SubMesh* part = nullptr;                                  // the mesh's part
+  std::uint32_t first_vertex = 0;                                 // the part's, in the body
+  Eigen::Matrix3d normals_to_body = Eigen::Matrix3d::Identity();  // from the part's axes
 };
 
 struct TraceableTriangle {
@@ -38,7 +38,7 @@ struct TraceableTriangle {
   std::uint32_t primitive;  // number within the shape
 };
 
-/// A shape with a formula, in its own axes at a place in the body.
+/// Shape with a formula, in its own axes at a place in the body.
 struct AnalyticSolid {
   enum class Kind { kSphere, kBox, kCylinder, kRectangle, kGround };
 
@@ -61,7 +61,7 @@ struct TerrainPatch {
   HeightPatch cells;
 };
 
-/// The unit of traversal: sixteen triangles, a solid or a patch of terrain.
+/// Unit of traversal: sixteen triangles, a solid or a patch of terrain.
 struct Primitive {
   enum class Kind : std::uint32_t { kBlock, kSolid, kPatch };
 
@@ -69,12 +69,12 @@ struct Primitive {
   std::uint32_t index;
 };
 
-/// The shapes of a description (of one link, if it moves) as rays see them: built once, whatever
-/// the number of places.
+/// Shapes of a description (or of one link, if it moves) as rays see them: built once for any
+/// number of places.
 struct Traceable {
   std::vector<TraceableSurface> surfaces;
   std::vector<Eigen::Vector3f> vertices;
-  std::vector<Eigen::Vector2f> texcoords;  // as many as vertices if a surface has holes, else none
+  std::vector<Eigen::Vector2f> texcoords;    // as many as vertices if there are holes
   std::vector<TraceableTriangle> triangles;  // block by block
   std::vector<TriangleBlock> blocks;
   std::vector<AnalyticSolid> solids;
@@ -83,13 +83,13 @@ struct Traceable {
   std::vector<Primitive> primitives;
   std::vector<Bounds> primitive_bounds;  // in the body's frame
   std::vector<std::uint32_t> grounds;    // infinite planes among the solids: not primitives
-  Bounds bounds;                         // of all primitives
+  Bounds bounds;                         // all primitives
   std::unique_ptr<EmbreeScene> scene;    // over the primitives, if they are many
 
   std::size_t triangle_count() const { return triangles.size(); }
 };
 
-/// A body somewhere in the world: p_W = p + q * (scale * p_B).
+/// Body at a place in the world: p_W = p + q * (scale * p_B).
 struct TraceableInstance {
   const Traceable* body = nullptr;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();

@@ -11,14 +11,14 @@
 namespace ardee::raycast {
 namespace {
 
-/// With fewer primitives a loop over them beats a tree.
+/// Number of primitives below which a loop over them is quicker than a tree.
 constexpr std::size_t kTreeThreshold = 3;
-/// Visuals at least this transparent cast no shadow.
+/// Least transparency of visuals that cast no shadow.
 constexpr double kThin = 0.5;
 
-/// Share of light that a surface sends back: its laser_retro, else the brightest channel of its
-/// diffuse colour. Lidars see near infrared light, which plants send back at least as well as any
-/// colour.
+/// Returns the share of light that a surface sends back: its laser_retro, else the brightest
+/// channel of its diffuse colour. Lidars use near infrared light, which plants reflect at least as
+/// well as any colour.
 float reflectivity(float laser_retro, const Material* material) {
   if (laser_retro > 0.0f) return laser_retro;
   const Color diffuse = material != nullptr ? material->diffuse : Material().diffuse;
@@ -228,7 +228,7 @@ void BodyCompiler::add_part(const SubMesh& part, const Mesh& mesh, const Eigen::
     if (!placed.allFinite()) throw error("mesh '" + mesh.uri + "' has a vertex that is not finite");
     body_->vertices.push_back(placed);
   }
-  // A mirrored mesh keeps its outside, as in OGRE (flip of culling on negative scale).
+  // A mirrored mesh keeps its outside, as in OGRE, which flips the culling for a negative scale.
   const bool mirrored = mesh.scale.prod() < 0.0;
   for (const auto& corners : part.triangles) {
     TraceableTriangle triangle{corners, surface, next_primitive_++};

@@ -10,8 +10,8 @@
 
 namespace ardee::raycast {
 
-/// All links of a static model as one body in the model's frame, or one link alone in its own
-/// frame. Throws Error if a shape is not usable (a submesh that does not exist, a size that is not
+/// Compiles all links of a static model to one body in the model's frame, or one link alone in its
+/// own frame. Throws Error if a shape is invalid (a submesh that does not exist, a size that is not
 /// finite).
 std::unique_ptr<Traceable> compile_model(const EmbreeDevice& device, AlphaMasks& masks,
                                          const Model& model, SceneKind kind);

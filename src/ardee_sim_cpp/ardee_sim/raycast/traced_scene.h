@@ -10,18 +10,17 @@
 
 namespace ardee::raycast {
 
-/// All that rays may meet, and how packets of exact rays go through it: what RayScene and
-/// PictureTracer share.
+/// Everything that rays may hit, and the traversal of exact rays, for RayScene and PictureTracer.
 struct TracedScene {
   TracedScene(SceneKind kind, const RayOptions& options, Log log);
 
-  /// Rays of one origin, in packets of up to kPacketRays: within `local` (null: none) first, and
-  /// beyond it only those that leave it without a hit.
+  /// Traces rays of one origin, in packets of up to kPacketRays: within `local` (null: none) first,
+  /// and beyond it only those that leave it without a hit.
   void trace(RayQuery queries[kPacketRays], int count, const LocalScene* local) const;
-  /// Rays of any origins, up to kPacketRays, from their start.
+  /// Traces up to kPacketRays rays of any origins, from their start.
   void trace(const SceneRay* rays, int count, RayQuery::Purpose purpose, std::uint32_t own_entity,
              std::uint32_t own_link, RayQuery queries[kPacketRays]) const;
-  /// Throws Error where scenery has changed since the last commit.
+  /// Throws Error if scenery has changed since the last commit.
   void require_committed() const;
 
   EmbreeDevice device;

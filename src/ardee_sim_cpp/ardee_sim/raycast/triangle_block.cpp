@@ -12,8 +12,8 @@ namespace {
 /// Float arithmetic within a block errs by a few parts in 2^24 of its size.
 constexpr float kBlockSlack = 2e-6f;
 
-/// Möller and Trumbore (1997) for all lanes, with slack at each comparison. A block is fetched more
-/// often than it is hit, so what follows from its edges is worked out, not fetched.
+/// Möller and Trumbore (1997) for all lanes, with slack at each comparison. A block is loaded more
+/// often than it is hit, so values that follow from its edges are computed, not stored.
 __attribute__((always_inline)) inline std::uint32_t mark(const TriangleBlock& block,
                                                          const BlockRay& ray) {
   const float ox = ray.origin[0], oy = ray.origin[1], oz = ray.origin[2];
@@ -59,7 +59,7 @@ std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockRay& ra
 ARDEE_VECTOR_CLONES
 std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockPlace& place,
                                   const float center[3], const LocalRay& ray, float slack_m) {
-  // From the point of the ray that is nearest to the centre: there floats are of the block's size.
+  // The ray starts at its point nearest to the centre: there floats are of the block's size.
   const float* d = ray.direction;
   const float cx = center[0] - ray.origin[0];
   const float cy = center[1] - ray.origin[1];

@@ -11,8 +11,8 @@ namespace ardee::raycast {
 constexpr int kBlockLanes = 16;
 
 /// Sixteen neighbouring triangles side by side, for one pass of vector instructions. Coordinates
-/// are floats relative to the block's centre: they only sort out; what is left is decided in double
-/// precision from the vertices themselves.
+/// are floats relative to the block's centre: they only choose candidates, which are decided in
+/// double precision from the vertices themselves.
 struct alignas(64) TriangleBlock {
   using Lanes = float[kBlockLanes];
 
@@ -20,7 +20,7 @@ struct alignas(64) TriangleBlock {
   Lanes edge1[3];   // v1 - v0
   Lanes edge2[3];   // v2 - v0
   float radius = 0.0f;
-  float longest = 0.0f;  // edge
+  float longest = 0.0f;  // longest edge
   Eigen::Vector3d center;
   std::uint32_t first = 0;  // index of lane 0 among the body's triangles
   std::uint32_t count = 0;  // lanes in use; the others repeat the last
@@ -32,31 +32,31 @@ struct BlockRay {
   float direction[3];
   float t_low;
   float t_high;
-  float slack_m;  // how far the ray may be off
+  float slack_m;  // greatest error of the ray
 };
 
-/// The triangles that the ray may meet, a bit each: all that it does meet are among them.
+/// Returns the triangles that the ray may hit, a bit each: all that it does hit are among them.
 std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockRay& ray);
 
-/// Where a block stands in a local scene: its centre, and what turns (and scales) the local scene's
-/// axes into the block's.
+/// Place of a block in a local scene: its centre, and the matrix that turns (and scales) the local
+/// scene's axes into the block's.
 struct BlockPlace {
   float m[3][3];
   float scale;
 };
 
-/// A unit ray in a local scene, from t = 0 on.
+/// Unit ray in a local scene, from t = 0 on.
 struct LocalRay {
   float origin[3];
   float direction[3];
   float t_high;
 };
 
-/// The same for a placed block; `slack_m` is how far the local scene's floats may be off.
+/// Does the same for a placed block; `slack_m` is the greatest error of the local scene's floats.
 std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockPlace& place,
                                   const float center[3], const LocalRay& ray, float slack_m);
 
-/// The box about a block, turned and scaled by `m`, its centre moved to `center`.
+/// Computes the box about a block, turned and scaled by `m`, its centre moved to `center`.
 void block_bounds(const TriangleBlock& block, const float m[3][3], const float center[3],
                   float lower[3], float upper[3]);
 

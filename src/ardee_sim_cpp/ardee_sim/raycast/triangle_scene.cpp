@@ -14,7 +14,8 @@ bool is_careful(const TraceableSurface& surface) {
   return surface.mask != nullptr || !surface.two_sided || !surface.casts_shadows;
 }
 
-/// Ground is met from below, too: nobody takes a picture of it from there.
+/// Returns whether hits on the ground need a test; hits from below need none, since no picture is
+/// taken from there.
 bool is_careful_ground(const TraceableSurface& surface) { return !surface.casts_shadows; }
 
 std::uint64_t next_number() {
@@ -30,7 +31,7 @@ bool has_texcoords(const TraceableSurface& surface) {
   return surface.part != nullptr && surface.part->texcoords.size() == surface.part->vertices.size();
 }
 
-/// In the body; zero where the mesh has none.
+/// Vertex normal in the body; zero for a mesh without normals.
 Eigen::Vector3d normal_of(const TraceableSurface& surface, std::uint32_t vertex) {
   if (surface.part == nullptr || surface.part->normals.size() != surface.part->vertices.size()) {
     return Eigen::Vector3d::Zero();
@@ -54,7 +55,7 @@ TriangleScene::TriangleScene(const EmbreeDevice& device, const std::vector<Trian
     }
   }
   for (const bool careful : {false, true}) attach(device, parts_[careful ? 1 : 0], careful);
-  // Else some of the rays that meet a common side of two triangles go through between them.
+  // Without this flag, some rays at a common side of two triangles pass between them.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcCommitScene(scene_);
   try {
@@ -76,7 +77,7 @@ void TriangleScene::add_triangles(const TriangleSource& triangle_scene) {
   }
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const Eigen::Vector3d shift = placed.p - origin_W_;
-  std::vector<std::uint32_t> numbers[2];  // of the body's vertices in each part
+  std::vector<std::uint32_t> numbers[2];  // indices of the body's vertices in each part
   for (auto& each : numbers) each.assign(body.vertices.size(), kNotUsed);
   for (const TraceableTriangle& from : body.triangles) {
     const TraceableSurface& surface = body.surfaces[from.surface];
@@ -118,7 +119,7 @@ void TriangleScene::add_patch(const TraceableInstance& placed, const TerrainPatc
   const Terrain& terrain = placed.body->terrains[patch.terrain];
   const Eigen::Matrix3d R_WB = placed.q.toRotationMatrix();
   const TraceableSurface& ground = placed.body->surfaces[terrain.surface];
-  // Patches of one terrain are one surface, and follow each other.
+  // Patches of one terrain are one surface, and are adjacent.
   if (surfaces_.empty() || surfaces_.back().terrain != &terrain ||
       surfaces_.back().placed != &placed) {
     surfaces_.push_back({&placed, &ground, &terrain, nullptr});
@@ -240,7 +241,7 @@ void TriangleScene::intersect(RayPacket& packet) const {
 }
 
 void TriangleScene::find_shadows(RayPacket& packet) const {
-  // From points on leaves near and far: not coherent.
+  // The rays start on points of leaves near and far, so they are not coherent.
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded8(packet.valid, scene_, &context, &packet.rays.ray);
@@ -301,7 +302,7 @@ void TriangleScene::trace_primary(const Eigen::Vector3f& eye, PrimaryRayPacket& 
 
 TriangleScene::Meeting TriangleScene::meeting(const Part& part, const Triangle& triangle,
                                               const Met& met) {
-  // Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
+  // Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
   const Eigen::Vector3f& a = part.places[triangle.corners[0]];
   const Eigen::Vector3f ab = part.places[triangle.corners[1]] - a;
   const Eigen::Vector3f ac = part.places[triangle.corners[2]] - a;
@@ -313,7 +314,7 @@ TriangleScene::Meeting TriangleScene::meeting(const Part& part, const Triangle& 
   result.t = share * from_a.dot(result.normal);
   result.u = share * ac.dot(across);
   result.v = -share * ab.dot(across);
-  if (!std::isfinite(share)) {  // along the triangle: its middle
+  if (!std::isfinite(share)) {  // the ray lies in the triangle's plane: take its middle
     result.u = result.v = 1.0f / 3.0f;
     result.t = ((ab + ac) / 3.0f - from_a).dot(met.direction);
   }

@@ -11,49 +11,50 @@
 
 namespace ardee::raycast {
 
-/// A placed body's part in a triangle scene: its triangles, and those patches of its terrains.
+/// Part of a placed body in a triangle scene: its triangles, and some patches of its terrains.
 struct TriangleSource {
   const TraceableInstance* placed = nullptr;
   std::vector<std::uint32_t> patches;
   const std::uint64_t* moved_at = nullptr;  // not null: it may leave its place
 };
 
-/// The triangles of placed bodies as Embree takes them, in floats, with what a picture needs of
-/// them: several times as quick as exact tests.
+/// Triangles of placed bodies in Embree's floats, with the data that a picture needs: several times
+/// as quick as exact tests.
 class TriangleScene {
  public:
-  /// Coordinates are relative to `origin_W`. The bodies must outlive the scene. Those that have
-  /// moved after `time` are not met.
+  /// Builds the scene. Coordinates are relative to `origin_W`. The bodies must outlive the scene.
+  /// Rays ignore bodies that have moved after `time`.
   TriangleScene(const EmbreeDevice& device, const std::vector<TriangleSource>& bodies,
                 const Eigen::Vector3d& origin_W, std::uint64_t time);
   ~TriangleScene();
 
-  /// A ray in the scene's coordinates, and the triangle that it has met.
+  /// Ray in the scene's coordinates, and the triangle that it has hit.
   struct Met {
     Eigen::Vector3f origin;
     Eigen::Vector3f direction;
     std::uint32_t triangle;  // triangle_of()
   };
 
-  /// A triangle by one number, from those that Embree gives.
+  /// Returns one number for a triangle, from the two that Embree gives.
   static std::uint32_t triangle_of(std::uint32_t geometry, std::uint32_t primitive) {
     return geometry << kPartBit | primitive;
   }
-  /// Finds what the rays of a block of a picture, which start at `eye`, meet first.
+  /// Finds the first hits of the rays of a picture's block, which start at `eye`.
   void trace_primary(const Eigen::Vector3f& eye, PrimaryRayPacket& block) const;
-  /// Finds the triangle that each ray of the packet meets first.
+  /// Finds the triangle that each ray of the packet hits first.
   void intersect(RayPacket& packet) const;
-  /// Makes tfar negative for rays with something in their way.
+  /// Makes tfar negative for rays with a body in their way.
   void find_shadows(RayPacket& packet) const;
-  /// What a ray has met, worked out from the triangle alone, so that it does not depend on the
-  /// processor's instructions. A mesh's point_S is left out.
+  /// Computes a hit from the triangle alone, so that it does not depend on the processor's
+  /// instructions. Leaves out a mesh's point_S.
   void fill(const Met& met, SurfaceInteraction& point) const;
 
-  /// No other triangle scene of this process has the same.
+  /// Number that no other triangle scene of this process has.
   std::uint64_t number() const { return number_; }
-  /// The texel where a ray has met this triangle scene.
+  /// Returns the texel where a ray has hit this triangle scene.
   SurfaceTexel texel(const TexelRequest& request) const;
-  /// As `fill`, of a texel's middle looked at along the normal; `at` is in the scene's coordinates.
+  /// Computes the hit of a ray along the normal at a texel's middle; `at` is in the scene's
+  /// coordinates.
   void fill(const SurfaceTexel& texel, Eigen::Vector3f& at, SurfaceInteraction& point) const;
 
   std::size_t bytes() const;
@@ -61,7 +62,7 @@ class TriangleScene {
  private:
   static constexpr int kPartBit = 30;
 
-  /// Of one placed body.
+  /// Surface of one placed body.
   struct Surface {
     const TraceableInstance* placed;
     const TraceableSurface* of_body;
@@ -72,21 +73,21 @@ class TriangleScene {
     std::uint32_t corners[3];
     std::uint32_t surface;
     float uv_per_m;
-    TriangleTexels texels;  // its longest side is that from the first corner to the second
+    TriangleTexels texels;  // its base is the side from the first corner to the second
   };
   struct Vertex {
-    Eigen::Vector3f normal{0, 0, 0};  // in the world; zero: that of the triangle
+    Eigen::Vector3f normal{0, 0, 0};  // in the world; zero: the triangle's
     Eigen::Vector2f uv{0, 0};
   };
-  /// Triangles that each ray meets, and those that must be looked at: with holes, without a back,
-  /// without a shadow, of models that may leave.
+  /// Triangles that each ray hits, or those that need a test: with holes, without a back, without a
+  /// shadow, of models that may leave.
   struct Part {
     const TriangleScene* scene = nullptr;
     std::vector<Triangle> triangles;
-    std::vector<Eigen::Vector3f> places;  // of the vertices
+    std::vector<Eigen::Vector3f> places;  // vertices
     std::vector<Vertex> vertices;
   };
-  /// Where the line of a ray meets a triangle.
+  /// Intersection of a ray's line with a triangle.
   struct Meeting {
     float t;
     float u;
@@ -115,7 +116,7 @@ class TriangleScene {
   const Eigen::Vector3d origin_W_;
   const std::uint64_t time_;
   std::vector<Surface> surfaces_;
-  Part parts_[2];  // met by all; to be looked at
+  Part parts_[2];  // hit by all rays; to be tested
   RTCSceneTy* scene_;
 };
 

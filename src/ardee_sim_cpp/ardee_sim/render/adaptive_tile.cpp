@@ -7,15 +7,16 @@
 namespace ardee::render {
 namespace {
 
-/// Pixels between those of the coarsest lattice; blocks of rays have as many pixels each way.
+/// Distance of pixels in the coarsest lattice; a block of rays has as many pixels each way.
 constexpr int kCoarsest_px = 4;
-/// Light of pixels two pixels apart is taken for what lies between if it differs by less; of those
-/// farther apart it may differ by a quarter of it.
+/// Greatest difference of light between pixels two pixels apart that share their light with those
+/// between; for pixels farther apart, a quarter of it.
 constexpr float kSameLight = 0.1f;
-/// In place of a surface where the lens lets no light through.
+/// Surface number of pixels where the lens lets no light through.
 constexpr std::uint32_t kDark = 1;
 
-/// Pixels of even columns and rows: of each row, and in all. The lattice ends one beyond the tile.
+/// Number of pixels of even columns and rows, in each row and in all. The lattice ends one pixel
+/// beyond the tile.
 constexpr std::size_t kInRow = AdaptiveTile::kMostSide_px / 2 + 1;
 constexpr std::size_t kInAll = kInRow * kInRow;
 static_assert(NeighbourInterpolation::kMost == AdaptiveTile::kMostSide_px / 2,
@@ -132,7 +133,7 @@ void AdaptiveTile::set_rays() {
   }
 }
 
-/// Sets the ends of rays whose directions are of length 1 along the camera's axis.
+/// Sets the far ends of rays whose directions are of length 1 along the camera's axis.
 void AdaptiveTile::make_unit(raycast::PrimaryRayPacket& block) const {
   const auto near_m = static_cast<float>(s_->camera.near_m);
   const auto far_m = static_cast<float>(s_->camera.far_m);
@@ -230,8 +231,8 @@ void AdaptiveTile::enqueue(std::size_t place, const LampKnowledge& lamps) {
     set(place, Eigen::Vector3f::Zero(), {});
     return;
   }
-  // Number by number where they stay: what is put together first and then copied whole has to wait
-  // until it is written.
+  // The numbers are written one by one in place: a copy of a whole struct would wait until its
+  // parts are written.
   Sent& sent = sent_.emplace_back();
   sent.place = place;
   sent.lamps.known = lamps.known;

@@ -9,10 +9,11 @@
 namespace ardee::render {
 namespace {
 
-/// Texels are at most so many pixels wide, and at least half as many.
+/// Greatest width of texels in pixels; the least is half of it.
 constexpr float kMost_px = 1.5f;
 
-/// Of all that the light of a triangle scene's texels depends on, beside what the cache is of.
+/// Returns a seed of all settings that the light of a triangle scene's texels depends on, beside
+/// those of the cache itself.
 std::uint64_t seed_of(std::uint64_t draft, const RenderOptions& options) {
   std::uint64_t bits;
   std::memcpy(&bits, &options.max_range_m, sizeof bits);

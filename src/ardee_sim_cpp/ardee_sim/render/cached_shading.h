@@ -9,17 +9,18 @@
 
 namespace ardee::render {
 
-/// The light of what primary rays have hit, texel by texel: a camera sees most texels again and
-/// again, and only what is not in the cache is shaded. The room of one call is used for the next.
+/// Shades hits of primary rays texel by texel: a camera sees most texels again and again, and only
+/// texels that are not in the cache are shaded. The next call reuses the memory.
 class CachedShading {
  public:
-  /// How wide the texel may be that a pixel sees a metre away, straight on.
+  /// Returns the greatest width of a texel that a pixel sees at a distance of one metre, straight
+  /// on.
   static float width_m(const TileShading& shading);
 
-  /// What is known of a request's light.
+  /// Light found for a request.
   struct Found {
     Eigen::Vector3f light;
-    bool met = false;  // else it is not that of a texel
+    bool met = false;  // false: the request has no texel
   };
   const std::vector<Found>& flush(const TileShading& shading,
                                   const std::vector<raycast::PrimaryRayPacket>& blocks,

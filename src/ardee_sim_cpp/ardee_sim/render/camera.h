@@ -10,32 +10,32 @@
 
 namespace ardee::render {
 
-/// A camera with SDF's axes: x forward, y left, z up.
+/// Camera with SDF's axes: x forward, y left, z up.
 struct Camera {
   Pose X_WC;
   int width = 1280;
   int height = 720;
-  double horizontal_fov_rad = 1.0471975511965976;  // 60 degrees; without a lens
+  double horizontal_fov_rad = 1.0471975511965976;  // 60 degrees; only without a lens
   std::shared_ptr<const UndistortionMap> lens;     // of this size; null: a pinhole in the middle
-  double near_m = 0.0;                             // along the axis: what is nearer is not seen
+  double near_m = 0.0;                             // along the axis: nearer points are invisible
   double far_m = std::numeric_limits<double>::infinity();
 
-  /// Pixels between the middle of the picture and 45 degrees off axis.
+  /// Returns the number of pixels between the middle of the picture and 45 degrees off axis.
   double focal_length_px() const;
-  /// The direction in the camera's axes through (x, y) in pixels, of length 1 along the axis;
-  /// (0, 0) is the upper left corner of the upper left pixel. Not finite where a lens lets no light
-  /// through.
+  /// Returns the direction in the camera's axes through (x, y) in pixels, of length 1 along the
+  /// axis; (0, 0) is the upper left corner of the upper left pixel. It is not finite if the lens
+  /// lets no light through.
   Eigen::Vector3d direction_C(double x_px, double y_px) const;
-  /// Whether direction_C is linear in x and y.
+  /// Returns whether direction_C is linear in x and y.
   bool is_straight() const { return !lens || lens->lens().is_straight(); }
-  /// The unit direction in the world.
+  /// Returns the unit direction in the world.
   Eigen::Vector3d direction_W(double x_px, double y_px) const;
-  /// Where in the picture a point lies; none behind the camera.
+  /// Returns the place of a point in the picture; none behind the camera.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_W) const;
 };
 
-/// A camera's pose at `eye_W` that looks at `target_W`, z upwards in the picture. Throws Error if
-/// they are the same.
+/// Returns the pose of a camera at `eye_W` that looks at `target_W`, z upwards in the picture.
+/// Throws Error if they are equal.
 Pose look_at(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& target_W);
 
 }  // namespace ardee::render

@@ -19,18 +19,18 @@ namespace {
 
 const Eigen::Vector3f kLuma(0.299f, 0.587f, 0.114f);  // ITU-R BT.601
 
-// Automatic exposure; nominal, chosen by eye on fields.
+// Constants of automatic exposure are nominal, chosen by eye on fields.
 constexpr float kMiddleGrey = 0.32f;
 constexpr float kLeastGain = 0.5f;
 constexpr float kMostGain = 2.5f;
-constexpr int kEvery = 4;  // each so many pixels, both ways, are metered
+constexpr int kEvery = 4;  // distance of metered pixels, both ways
 
-constexpr std::size_t kPiece = 64;  // pixels of a row that are worked on together; an even number
+constexpr std::size_t kPiece = 64;  // pixels of a row that are processed together; an even number
 
 template <std::size_t kEach>  // values a pixel
 using Values = std::array<float, kEach * kPiece>;
 
-using Colors = std::array<int, 2>;  // of the even and the odd pixels of a row
+using Colors = std::array<int, 2>;  // the even and the odd pixels of a row
 
 Colors bayer(PixelFormat format, int row) {
   const bool upper = row % 2 == 0;
@@ -46,14 +46,15 @@ Colors bayer(PixelFormat format, int row) {
   }
 }
 
-/// What is done to light.
+/// Parameters of the exposure.
 struct Exposure {
   float gain;
-  float mean;  // of the noise, in shares of full brightness
+  float mean;  // of the noise, as a share of full brightness
   float std;
 };
 
-/// Of light, what is stored if rounded down: brightness with noise, of which full is `most`.
+/// Computes values to be rounded down from light: brightness with noise, scaled so that full
+/// brightness is `most`.
 ARDEE_VECTOR_CLONES void expose(const Exposure& how, float most, const float* normals,
                                 std::size_t count, float* values) {
   for (std::size_t k = 0; k < count; ++k) {
@@ -63,7 +64,7 @@ ARDEE_VECTOR_CLONES void expose(const Exposure& how, float most, const float* no
   }
 }
 
-/// Writes pieces of the rows of one frame; noise is drawn by the number of the pixel.
+/// Writes pieces of the rows of one frame; the pixel's number selects its noise.
 class Writer {
  public:
   Writer(const ImageFormation& how, const CounterRng& noise, float gain)
@@ -71,7 +72,7 @@ class Writer {
         noise_(noise),
         exposure_{gain, static_cast<float>(how.noise_mean), static_cast<float>(how.noise_std)} {}
 
-  /// `count` pixels from `pixel` on, whose column is even.
+  /// Writes `count` pixels from `pixel` on, whose column is even.
   void write(const Eigen::Vector3f* light, int row, std::size_t pixel, std::size_t count,
              std::uint8_t* out) const {
     switch (format_) {
@@ -121,7 +122,7 @@ class Writer {
     std::memcpy(out, numbers<std::uint8_t, 1>(values, pixel, colors).data(), count);
   }
 
-  /// From light to what is stored. `draws`: see draw_normals().
+  /// Converts light to stored values. `draws`: see draw_normals().
   template <typename Number, std::size_t kEach>
   std::array<Number, kEach * kPiece> numbers(Values<kEach>& values, std::size_t pixel,
                                              const Colors& draws) const {
@@ -134,14 +135,15 @@ class Writer {
     return rounded;
   }
 
-  /// A pixel has four draws of sixteen bits; those of its values start with number draws[0] in even
-  /// columns, draws[1] in odd ones.
+  /// Draws the noise. A pixel has four draws of sixteen bits; its values use them from number
+  /// draws[0] in even columns, and from draws[1] in odd ones.
   template <std::size_t kEach>
   void draw_normals(std::size_t pixel, const Colors& draws, Values<kEach>& normals) const {
     std::array<std::uint16_t, kEach * kPiece + 3> bits;
     const auto draw = [&](std::size_t k, int first) {
       const std::uint64_t four = noise_.bits(pixel + k) >> (16 * first);
-      // Little-endian: the first draw comes first. The next pixel's are put over what is left.
+      // Little-endian: the first draw comes first. The next pixel's draws overwrite the unused
+      // ones.
       std::memcpy(&bits[kEach * k], &four, sizeof four);
     };
     for (std::size_t k = 0; k < kPiece; k += 2) {

@@ -11,7 +11,8 @@
 
 namespace ardee::render {
 
-/// How a sensor's pixels leave it. A Bayer pixel has one colour, by its place in a square of four.
+/// Pixel format of a sensor's output. A Bayer pixel has one colour, by its place in a square of
+/// four.
 enum class PixelFormat {
   kRgb8,
   kBgr8,
@@ -25,19 +26,20 @@ enum class PixelFormat {
 
 int bytes_per_pixel(PixelFormat format);
 
-/// From light to numbers.
+/// Parameters of the conversion from light to stored values.
 struct ImageFormation {
   PixelFormat format = PixelFormat::kRgb8;
   std::optional<float> exposure;  // factor on the light; none: automatic
-  double noise_mean = 0.0;        // of brightness, of which 1 is full
+  double noise_mean = 0.0;        // as a share of full brightness
   double noise_std = 0.0;
 };
 
-/// The factor of automatic exposure: the median brightness comes to a middle grey, within limits.
+/// Returns the factor of automatic exposure: it maps the median brightness to a middle grey, within
+/// limits.
 float automatic_exposure(const Frame& frame);
 
-/// The bytes of a picture, row by row; the noise of a value uses the counter of its own. The work
-/// is parallel, the bytes do not depend on it.
+/// Returns the bytes of a picture, row by row; the noise of each value has its own counter. The
+/// work is parallel; the bytes do not depend on that.
 std::vector<std::uint8_t> form_image(const Frame& frame, const ImageFormation& how,
                                      const CounterRng& noise);
 

@@ -9,8 +9,8 @@
 namespace ardee::render {
 namespace {
 
-/// From the axis outwards in so many steps, each solved by Newton's method: so the solution stays
-/// on the branch that begins at the axis.
+/// Number of steps from the axis outwards, each solved by Newton's method: so the solution stays on
+/// the branch that begins at the axis.
 constexpr int kSteps = 4;
 constexpr int kMostIterations = 12;
 constexpr double kTolerance = 1e-13;
@@ -19,7 +19,7 @@ Eigen::Matrix2d bend_derivative(const std::array<double, 5>& D, const Eigen::Vec
   const auto [k1, k2, t1, t2, k3] = D;
   const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
   const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // of radial, over r dr
+  const double slope = 2.0 * (k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3));  // d radial / dr / r
   Eigen::Matrix2d J;
   J(0, 0) = radial + x * x * slope + 2.0 * t1 * y + 6.0 * t2 * x;
   J(0, 1) = x * y * slope + 2.0 * t1 * x + 2.0 * t2 * y;
@@ -85,7 +85,8 @@ UndistortionMap::UndistortionMap(const Lens& lens, int width, int height)
 }
 
 Eigen::Vector2d UndistortionMap::between_corners(double x_px, double y_px) const {
-  // Linear between the corners of a pixel: the distort within one is below a thousandth of it.
+  // The map is linear between the corners of a pixel: the error within a pixel is below a
+  // thousandth of it.
   const int column = std::clamp(static_cast<int>(x_px), 0, width_ - 1);
   const int row = std::clamp(static_cast<int>(y_px), 0, height_ - 1);
   const double a = x_px - column;

@@ -8,7 +8,7 @@
 namespace ardee::render {
 namespace {
 
-/// A spot's share at an angle off its axis, as OGRE fades it.
+/// Returns a spot's share at an angle off its axis, faded as in OGRE.
 double spot_share(const Light& light, double angle_rad) {
   const double inner = std::cos(0.5 * light.inner_angle_rad);
   const double outer = std::cos(0.5 * light.outer_angle_rad);

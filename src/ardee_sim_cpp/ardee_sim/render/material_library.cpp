@@ -6,7 +6,7 @@
 namespace ardee::render {
 namespace {
 
-/// Dry loam, for ground without textures.
+/// Colour of dry loam, for ground without textures.
 const Color kBareSoil(0.45f, 0.36f, 0.27f, 1.0f);
 
 }  // namespace

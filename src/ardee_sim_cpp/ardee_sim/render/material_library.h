@@ -13,7 +13,7 @@
 
 namespace ardee::render {
 
-/// What a surface does with light at a point: shares of red, green and blue; its own light.
+/// Optical properties of a surface at a point: shares of red, green and blue; its own light.
 struct SurfaceColor {
   Eigen::Vector3f ambient{0, 0, 0};
   Eigen::Vector3f diffuse{0, 0, 0};
@@ -21,18 +21,19 @@ struct SurfaceColor {
   float opacity = 1.0f;
 };
 
-/// The materials of models, their textures loaded once. Reading is safe from many threads.
+/// Materials of models with their textures, each loaded once. Many threads may read at once.
 class MaterialLibrary {
  public:
   explicit MaterialLibrary(Log log) : log_(std::move(log)) {}
 
-  /// Loads the textures of the model's visuals. One that cannot be read is a warning, and white.
+  /// Loads the textures of the model's visuals. A texture that cannot be read gives a warning, and
+  /// white.
   void add(const std::shared_ptr<const Model>& model);
 
-  /// Forgets all models, but keeps textures for those that come back.
+  /// Drops all models, but keeps textures for models that are added again.
   void clear();
 
-  /// What was found last: neighbours in a picture are mostly of one surface.
+  /// Result of the last look-up: neighbours in a picture are mostly of one surface.
   struct LookupCache {
     const Material* material = nullptr;
     const Texture* texture = nullptr;
@@ -40,7 +41,7 @@ class MaterialLibrary {
     const std::vector<const Texture*>* layers = nullptr;
   };
 
-  /// The colour of a point, seen so that a pixel covers `footprint_m` of it.
+  /// Returns the colour of a point of which a pixel covers `footprint_m`.
   SurfaceColor at(const raycast::SurfaceInteraction& point, double footprint_m,
                   LookupCache& memo) const;
 
@@ -52,7 +53,7 @@ class MaterialLibrary {
                LookupCache& memo) const;
 
   Log log_;
-  std::map<const Model*, std::shared_ptr<const Model>> models_;  // held: keys below point into them
+  std::map<const Model*, std::shared_ptr<const Model>> models_;  // owns the keys below
   std::map<std::string, std::unique_ptr<Texture>> textures_;
   std::unordered_map<const Material*, const Texture*> of_material_;
   std::unordered_map<const Heightmap*, std::vector<const Texture*>> of_ground_;

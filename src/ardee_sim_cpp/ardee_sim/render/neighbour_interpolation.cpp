@@ -8,22 +8,22 @@
 namespace ardee::render {
 namespace {
 
-/// Normals of a surface within this cosine are of a place where it is smooth.
+/// Least cosine between normals of a smooth surface.
 constexpr float kSmooth = 0.85f;
-/// Ranges along one surface that differ by more, as a share, are not next to each other.
+/// Greatest difference of ranges of adjacent points on one surface, as a share.
 constexpr float kSameRange = 0.02f;
-/// Brighter than anything.
+/// Light brighter than any.
 constexpr float kGlare = 1e30f;
 
 std::uint32_t all_if(bool condition) { return condition ? ~0u : 0u; }
 
-/// One colour of some pixels' light.
+/// One colour of the light of some pixels.
 struct Channel {
   float sum = 0.0f;
   float least = kGlare;
   float greatest = -kGlare;
 
-  /// `share` is 1 if the pixel counts, else 0.
+  /// Adds light; `share` is 1 if the pixel counts, else 0.
   void add(float light, float share) {
     const float glare = (1.0f - share) * kGlare;
     const float low = light + glare;
@@ -35,11 +35,12 @@ struct Channel {
   float spread() const { return greatest - least; }
 };
 
-/// Without branches: neighbours differ as they like, and several pixels can go together.
+/// Finds a row without branches: neighbours differ irregularly, and several pixels are processed at
+/// once.
 ARDEE_VECTOR_CLONES void find_row(const NeighbourInterpolation::Lists& p, std::size_t first,
                                   const NeighbourInterpolation::Neighbours& around, float most,
                                   NeighbourInterpolation& result) {
-  NeighbourInterpolation row;  // which nothing else can point to
+  NeighbourInterpolation row;  // local, so that no other pointer aliases it
   for (int i = 0; i < NeighbourInterpolation::kMost; ++i) {
     const std::size_t mine = first + static_cast<std::size_t>(i);
     Channel of_red, of_green, of_blue;

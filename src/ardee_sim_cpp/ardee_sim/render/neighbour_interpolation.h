@@ -7,11 +7,11 @@
 
 namespace ardee::render {
 
-/// Whether some pixels in a row see the same light as their neighbours, which are known already;
-/// and that light. Lists of each number, for they are worked on several at a time.
+/// Finds whether some pixels in a row see the same light as their known neighbours, and that light.
+/// Each number is an array, because several pixels are processed at once.
 struct NeighbourInterpolation {
   static constexpr int kMost = 16;
-  /// What is known of all pixels of a tile, by their places.
+  /// Data of all pixels of a tile, by their places.
   struct Lists {
     const float* normal_x_W;
     const float* normal_y_W;
@@ -22,19 +22,19 @@ struct NeighbourInterpolation {
     const float* blue;
     const std::uint32_t* surface;
     const std::uint32_t* triangle;
-    const std::uint32_t* known;  // lamps, a bit each
+    const std::uint32_t* known;  // known lamps, a bit each
     const std::uint32_t* in_shadow;
   };
-  /// Where the first pixel has its neighbours; those of the others are next to them.
+  /// Places of the first pixel's neighbours; the neighbours of the other pixels follow.
   using Neighbours = std::array<std::size_t, 4>;
 
-  /// Of kMost pixels side by side. Neighbours on the same smooth surface count, and are even if no
-  /// colour differs by more than `most`.
+  /// Interpolates kMost pixels side by side. Neighbours on the same smooth surface count, and are
+  /// even if no colour differs by more than `most`.
   void find(const Lists& lists, std::size_t first, const Neighbours& around, float most);
 
   float red[kMost], green[kMost], blue[kMost];  // mean
   std::uint32_t known[kMost], in_shadow[kMost];
-  std::uint32_t even[kMost];  // 0: not
+  std::uint32_t even[kMost];  // 0: not even
 };
 
 }  // namespace ardee::render

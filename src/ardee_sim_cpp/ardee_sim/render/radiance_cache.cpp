@@ -10,7 +10,7 @@
 namespace ardee::render {
 namespace {
 
-/// Of a float that is not negative: all of its exponent, and as much behind it as there is room.
+/// Bits kept of a float that is not negative: its whole exponent, and the leading digits.
 constexpr int kColorBits = 20;
 constexpr int kCutBits = 31 - kColorBits;
 constexpr std::uint64_t kColorMask = (1u << kColorBits) - 1;
@@ -48,7 +48,7 @@ void RadianceCache::open() {
     constexpr std::size_t kBytes = kBuckets * sizeof(Bucket);
     void* room = std::aligned_alloc(kLargePage_bytes, kBytes);
     if (room == nullptr) throw std::bad_alloc();
-    // Places are looked up far apart: in large pages, if the system has them.
+    // Look-ups are scattered: use large pages if the system has them.
     madvise(room, kBytes, MADV_HUGEPAGE);
     buckets_.reset(new (room) Bucket[kBuckets]());
   });

@@ -12,12 +12,12 @@
 
 namespace ardee::render {
 
-/// Light by name, of what was named last: new names take the places of old ones. Many threads may
-/// use it at once; a name must always stand for the same light.
+/// Cache of light by key; new keys replace old ones. Many threads may use it at once; a key must
+/// always stand for the same light.
 class RadianceCache {
  public:
-  /// A number within a family; those next to each other are kept side by side. Two names are taken
-  /// for each other once in some 10^19 pairs.
+  /// Key of a number within a family; adjacent numbers are stored side by side. Two keys collide
+  /// once in some 10^19 pairs.
   class CacheKey {
    public:
     CacheKey() = default;
@@ -29,22 +29,23 @@ class RadianceCache {
     std::uint64_t check_ = 0;
     std::uint64_t bucket_ = 0;
   };
-  /// What is kept of a light: 13 digits of each colour in binary.
+  /// Stored form of a light: 13 binary digits of each colour.
   struct CachedRadiance {
     Eigen::Vector3f light{0, 0, 0};
-    bool see_through = false;  // then it has no light of its own
+    bool see_through = false;  // true: it has no light of its own
   };
   static CachedRadiance rounded(const CachedRadiance& kept) { return unpacked(packed(kept)); }
 
-  /// Takes the room, once.
+  /// Allocates the memory, once.
   void open();
   void prefetch(const CacheKey& name) const { __builtin_prefetch(&bucket(name)); }
   bool find(const CacheKey& name, CachedRadiance& kept) const;
   void keep(const CacheKey& name, const CachedRadiance& kept);
 
  private:
-  /// Both are written without a lock: where they are of two writers, the name does not come out
-  /// (Hyatt and Mann, A Lockless Transposition Table Implementation for Parallel Search, 2002).
+  /// Both words are written without a lock: a pair from two writers gives a wrong key, which is
+  /// never found (Hyatt and Mann, A Lockless Transposition Table Implementation for Parallel
+  /// Search, 2002).
   struct Entry {
     std::atomic<std::uint64_t> name_and_light;
     std::atomic<std::uint64_t> light;

@@ -27,7 +27,7 @@ void Renderer::for_each_tile(const Camera& camera, int threads,
   }
   const int columns = tiles_along(camera.width);
   const int count = columns * tiles_along(camera.height);
-  // TBB has no more workers than cores unless it is told.
+  // TBB has at most one worker a core unless told otherwise.
   std::unique_ptr<tbb::global_control> workers;
   if (threads > tbb::info::default_concurrency()) {
     workers = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,

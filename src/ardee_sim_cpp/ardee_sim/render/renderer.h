@@ -15,25 +15,27 @@
 
 namespace ardee::render {
 
-/// Draws pictures of a scene: the same world and camera give the same bytes, whatever the threads.
+/// Renders pictures of a scene: the same world and camera give the same bytes with any number of
+/// threads.
 class Renderer {
  public:
-  /// Called with the share that is done, from several threads; false stops the work.
+  /// Callback with the finished share, from several threads; it returns false to stop the work.
   using Progress = std::function<bool(double)>;
 
-  /// `rays` (of the visual scene, prepared) and `materials` are kept by reference.
+  /// Keeps references to `rays` (of the visual scene, prepared) and `materials`.
   Renderer(const raycast::PictureTracer& rays, const MaterialLibrary& materials, const Scene& scene,
            std::vector<Light> lights)
       : rays_(rays), materials_(materials), scene_(scene), lights_(std::move(lights)) {}
 
   const raycast::PictureTracer& rays() const { return rays_; }
 
-  /// Eight bits of red, green, blue and opacity. Empty if `progress` stopped it.
+  /// Renders eight bits of red, green, blue and opacity. Returns an empty image if `progress`
+  /// stopped it.
   Image render(const Camera& camera, const RenderOptions& options,
                const Progress& progress = nullptr) const;
 
-  /// What a sensor behind that lens receives, a ray through the middle of each pixel;
-  /// `options.samples` is not looked at.
+  /// Renders what a sensor behind the lens receives, with one ray through the middle of each pixel;
+  /// ignores `options.samples`.
   Frame render_frame(const Camera& camera, const FrameParts& parts,
                      const RenderOptions& options) const;
 

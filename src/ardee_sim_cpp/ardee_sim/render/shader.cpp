@@ -10,26 +10,26 @@
 namespace ardee::render {
 namespace {
 
-/// A new ray starts this far off the surface that it leaves.
+/// Distance of a new ray's start from the surface that it leaves.
 constexpr double kOffset_m = 1e-4;
-/// So many transparent surfaces one behind the other are looked through.
+/// Greatest number of surfaces along a ray that are shaded; the last counts as opaque.
 constexpr int kMaxLayers = 8;
 constexpr float kOpaque = 0.999f;
-/// So many samples are shaded together, while all that is known of them is in the fastest memory.
+/// Number of samples that are shaded together: their data fit into the fastest memory.
 constexpr std::size_t kAtOnce = 64;
 
-/// Share of the light on the far side of a two-sided sheet that comes through, beside what it
-/// would reflect on the near side: leaves pass less visible light than they reflect.
+/// Share of the light on the far side of a two-sided sheet that comes through, as a fraction of
+/// what it would reflect on the near side: leaves transmit less visible light than they reflect.
 constexpr double kSheetTransmission = 0.4;
 
-/// Two-sided meshes are sheets, as leaves are. Where one encloses something, its own far wall keeps
-/// the light out.
+/// Returns whether a two-sided mesh counts as a sheet, such as a leaf. In a closed mesh, the far
+/// wall keeps the light out.
 bool is_sheet(const raycast::SurfaceInteraction& point) {
   return point.two_sided && point.visual != nullptr &&
          std::holds_alternative<Mesh>(point.visual->geometry);
 }
 
-/// Of the first lamps only: 0 for others.
+/// Returns the bit of a lamp; 0 beyond the first 32.
 std::uint32_t bit_of(std::size_t lamp) { return lamp < 32 ? 1u << lamp : 0u; }
 
 }  // namespace

@@ -19,12 +19,12 @@ struct RenderOptions {
   bool shadows = true;
   int threads = 0;  // 0: all cores
   double max_range_m = 1e5;
-  /// Rays by PictureTracer::trace_approximately, and fewer of them where a surface is even
-  /// (render_frame only).
+  /// Uses the approximate rays of PictureTracer, and fewer of them on even surfaces (render_frame
+  /// only).
   bool approximate = false;
 };
 
-/// All that the shading of a part of a picture needs.
+/// Inputs of the shading of a part of a picture.
 struct TileShading {
   const raycast::PictureTracer& rays;
   const MaterialLibrary& materials;
@@ -32,47 +32,48 @@ struct TileShading {
   const std::vector<Light>& lights;
   const Camera& camera;
   const RenderOptions& options;
-  RadianceCache& store;  // of this scene, these lights and materials
+  RadianceCache& store;  // for this scene, these lights and materials
 };
 
-/// Of the first lamps, a bit each: whether they shine on a place.
+/// Known lamps among the first 32, a bit each: whether they shine on a place.
 struct LampKnowledge {
   std::uint32_t known = 0;
   std::uint32_t in_shadow = 0;
 };
 
-/// Surfaces seen at a slant of which the sine is less are taken for this steep (nominal): the part
-/// that a pixel covers grows beyond all bounds.
+/// Least sine of a slant (nominal); a steeper one counts as this: the area that a pixel covers
+/// would grow without bound.
 constexpr double kLeastSlant = 0.05;
 
-/// One ray through a pixel: the light that it has brought, and the share that is still to come.
+/// One ray through a pixel: the light collected so far, and the share of the light behind.
 struct Sample {
   Eigen::Vector3f light{0, 0, 0};
   float transmittance = 1.0f;
   double travelled_m = 0.0;
-  double stretch = 1.0;      // length of the way for each metre along the camera's axis
-  LampKnowledge lamps;       // at what is met first
-  double footprint_m = 0.0;  // of a texel
-  bool see_through = false;  // a texel that cannot be looked at without what is behind
+  double stretch = 1.0;      // length of the ray for each metre along the camera's axis
+  LampKnowledge lamps;       // at the first hit
+  double footprint_m = 0.0;  // a texel's
+  bool see_through = false;  // a texel whose light depends on the surfaces behind it
 };
 
-/// Shades rays in waves: what all of them hit, which of these points lie in shadow, what is behind
-/// transparent surfaces.
+/// Shades rays in waves: hits of all rays, shadows of the hits, then surfaces behind transparent
+/// ones.
 class Shader {
  public:
-  /// Begins a picture's part; the room of the one before is used again.
+  /// Begins a part of a picture; reuses the memory of the part before.
   void begin(const TileShading& shading);
 
-  /// Adds a sample through (x, y) in pixels; it has no ray where the lens lets no light through.
+  /// Adds a sample through (x, y) in pixels; it has no ray if the lens lets no light through.
   void enqueue(double x_px, double y_px);
-  /// Adds a sample whose first hit a primary ray has found, where some lamps' shadows are known.
+  /// Adds a sample with the first hit of a primary ray, and the shadows of lamps that are known
+  /// there.
   void enqueue(const raycast::PrimaryRayPacket& glances, int ray, const LampKnowledge& lamps);
-  /// Adds a sample straight at a texel's middle, `footprint_m` about it: its light depends on
-  /// nothing else. Texels and other samples are not shaded together.
+  /// Adds a sample straight at a texel's middle, with `footprint_m` about it: its light depends on
+  /// these alone. Texels and other samples are not shaded together.
   void enqueue(const raycast::SurfaceTexel& texel, double footprint_m);
-  /// Whether moving models may shade what is about a place.
+  /// Returns whether moving models may shade the surroundings of a place.
   bool may_be_shaded(const Eigen::Vector3f& at_W, float about_m) const;
-  /// Forgets the samples.
+  /// Removes all samples.
   void clear();
   /// Shades all samples that were added since the last call.
   void flush();
@@ -83,16 +84,17 @@ class Shader {
   const std::vector<std::uint32_t>& owners() const { return owners_; }
 
  private:
-  /// A lit point that waits for the answer of its shadow ray.
+  /// Lit point whose shadow ray is not traced yet.
   struct Waiting {
     std::uint32_t sample;
     Eigen::Vector3f light;
-    std::uint32_t lamp_bit;  // of the first lamps; 0: another
+    std::uint32_t lamp_bit;  // 0: beyond the first lamps
   };
 
-  /// What `count` rays from number `begin` on meet, into the first of points_.
+  /// Finds the hits of `count` rays from number `begin` on, and stores them at the start of
+  /// points_.
   void find_points(std::size_t begin, std::size_t count, bool glanced);
-  /// The light of ray `i`, but for what depends on shadows or lies behind.
+  /// Adds the light of ray `i`, except for light that depends on shadows or comes from behind.
   void shade(const raycast::SurfaceInteraction& point, std::size_t i, int layer);
   void continue_ray(const Eigen::Vector3d& from_W, double range_m, std::size_t i);
   void enqueue_shadow_ray(std::size_t lamp, const Eigen::Vector3d& at_W,
@@ -103,13 +105,13 @@ class Shader {
   const TileShading* s_ = nullptr;
   Eigen::Matrix3d R_WC_;
   double pixel_rad_ = 0.0;
-  std::vector<std::optional<Illumination>> distant_;  // of each light that is the same everywhere
+  std::vector<std::optional<Illumination>> distant_;  // lights that are the same everywhere
   std::vector<Sample> samples_;
-  std::vector<std::uint32_t> triangles_;       // that each primary ray has hit; or empty
-  std::vector<raycast::SurfaceTexel> texels_;  // that each ray looks at; or empty
+  std::vector<std::uint32_t> triangles_;       // one for each primary ray, or empty
+  std::vector<raycast::SurfaceTexel> texels_;  // one for each ray at a texel, or empty
   std::vector<raycast::SceneRay> rays_;
   std::vector<std::uint32_t> owners_;                // the sample of each ray
-  std::vector<raycast::SurfaceInteraction> points_;  // of some rays
+  std::vector<raycast::SurfaceInteraction> points_;  // of the rays in work
   std::vector<raycast::SceneRay> next_rays_;
   std::vector<std::uint32_t> next_owners_;
   std::vector<raycast::SceneRay> shadow_rays_;

@@ -10,7 +10,7 @@ namespace {
 const Eigen::Vector3f kZenith(0.27f, 0.48f, 0.78f);
 const Eigen::Vector3f kHorizon(0.80f, 0.87f, 0.92f);
 const Eigen::Vector3f kHaze(0.74f, 0.78f, 0.80f);  // below the horizon, beyond the scenery
-/// Share of the ambient light that what faces down gets, from the lit ground.
+/// Share of the ambient light that a surface facing down gets, from the lit ground.
 constexpr float kFromBelow = 0.5f;
 
 }  // namespace

@@ -11,20 +11,21 @@ namespace {
 /// Share of the way between two copies in which they are mixed.
 constexpr float kMixed = 0.25f;
 
-// Four numbers at once, as GCC and Clang have them.
+// Vectors of four bytes in the syntax of GCC and Clang.
 using Bytes = std::uint8_t __attribute__((vector_size(4)));
 using Floats = float __attribute__((vector_size(16)));
 
-/// Beyond this a place on a texture has no digits left.
+/// Coordinate beyond which a place on a texture has no digits left.
 constexpr double kFarthest = 1e9;
 
-/// x less the next integer below it.
+/// Returns x minus the greatest integer not above it.
 double fraction(double x) {
   const double rest = x - static_cast<double>(static_cast<std::int64_t>(x));
   return rest < 0.0 ? rest + 1.0 : rest;
 }
 
-/// Straight between powers of two: a positive float's bits, read as a number.
+/// Returns a logarithm that is linear between powers of two: the bits of a positive float, read as
+/// a number.
 float rough_log2(float x) {
   std::int32_t bits;
   std::memcpy(&bits, &x, sizeof bits);
@@ -54,7 +55,8 @@ Texture::Texture(const Image& image) {
   }
 }
 
-/// Each texel is the mean of four, weighted by their opacity: what is under a hole has no say.
+/// Halves a picture: each texel is the mean of four, weighted by their opacity, so holes have no
+/// influence.
 Texture::Level Texture::halved(const Level& level) {
   Level half;
   half.width = std::max(1, level.width / 2);
@@ -80,12 +82,12 @@ Texture::Level Texture::halved(const Level& level) {
 }
 
 Color Texture::Level::bilinear(const Eigen::Vector2d& uv) const {
-  // From -0.5 on, so that adding one and cutting off the fraction finds the texel to the left.
+  // The coordinate starts at -0.5, so that adding one and truncating finds the texel to the left.
   const double x = fraction(uv.x()) * width - 0.5;
   const double y = (1.0 - fraction(uv.y())) * height - 0.5;
   const int left = static_cast<int>(x + 1.0) - 1;
   const int upper = static_cast<int>(y + 1.0) - 1;
-  // Within one of the range [0, count): no division.
+  // k is at most one beyond the range [0, count), so no division is needed.
   const auto wrap = [](int k, int count) { return k < 0 ? k + count : k >= count ? k - count : k; };
   const int c0 = wrap(left, width), c1 = wrap(left + 1, width);
   const int r0 = wrap(upper, height), r1 = wrap(upper + 1, height);
@@ -106,7 +108,7 @@ Color Texture::color(const Eigen::Vector2d& uv, double footprint) const {
   const float level = std::min(wanted, last);
   const auto fine = static_cast<std::size_t>(level);
   const float part = level - static_cast<float>(fine);
-  // Two copies are mixed only where one takes over from the other.
+  // Two copies are mixed only near the change from one to the other.
   const float share = std::min(1.0f, std::max(0.0f, 0.5f + (part - 0.5f) / kMixed));
   if (share == 0.0f) return levels_[fine].bilinear(uv);
   if (share == 1.0f) return levels_[fine + 1].bilinear(uv);

@@ -12,14 +12,14 @@
 
 namespace ardee::render {
 
-/// A picture that repeats, with ever smaller copies of itself for places seen from far.
+/// Repeating picture with successively halved copies for distant surfaces.
 class Texture {
  public:
-  /// `image` has four channels of 8 bits.
+  /// Takes an image with four channels of 8 bits.
   explicit Texture(const Image& image);
 
-  /// The colour about (u, v), v upwards from the lower edge, averaged over a square of `footprint`
-  /// a side (in units of u).
+  /// Returns the colour about (u, v), v upwards from the lower edge, averaged over a square with
+  /// sides of `footprint` (in units of u).
   Color color(const Eigen::Vector2d& uv, double footprint) const;
 
  private:

@@ -9,7 +9,8 @@
 namespace ardee::render {
 namespace {
 
-/// The bits of a number mirrored behind the binary point: with k / n an even pattern (Hammersley).
+/// Returns the bits of a number mirrored behind the binary point; with k / n they give an even
+/// pattern (Hammersley).
 double mirrored_bits(unsigned number) {
   double result = 0.0;
   for (double bit = 0.5; number != 0; number >>= 1, bit *= 0.5) {
@@ -25,7 +26,7 @@ class Tile {
     shader_.begin(shading);
   }
 
-  /// `samples` a pixel, in a fixed pattern.
+  /// Shades `samples` rays a pixel, in a fixed pattern.
   void shade(Image& image) {
     const int count = s_.options.samples;
     for (int k = 0; k < area_.width * area_.height; ++k) {
@@ -41,7 +42,7 @@ class Tile {
     write(image);
   }
 
-  /// Through the middle of each pixel.
+  /// Renders one ray through the middle of each pixel.
   void render_frame(const FrameParts& parts, Frame& frame) {
     const bool approximate = parts.light && s_.options.approximate;
     if (parts.depth || parts.ids || !approximate) enqueue_all();

@@ -6,7 +6,7 @@
 
 namespace ardee::render {
 
-/// What a thread works with, from tile to tile.
+/// Memory of a thread that is reused from tile to tile.
 struct TileWorker {
   Shader shader;
   AdaptiveTile adaptive;
@@ -14,7 +14,7 @@ struct TileWorker {
 
 /// Computes the pixels of `area` and writes them into `image`. `worker` is the thread's own.
 void shade_tile(const TileShading& shading, const TileArea& area, TileWorker& worker, Image& image);
-/// The same for one sample a pixel, and for what else is wanted of the pixels.
+/// Does the same for one sample a pixel, and for the other requested data of the pixels.
 void render_frame_tile(const TileShading& shading, const TileArea& area, const FrameParts& parts,
                        TileWorker& worker, Frame& frame);
 

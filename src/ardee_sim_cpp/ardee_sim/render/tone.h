@@ -5,12 +5,11 @@
 
 namespace ardee::render {
 
-/// Light up to this is shown as it is; what is brighter approaches white.
+/// Greatest light that is shown unchanged; brighter light approaches white.
 constexpr float kToneKnee = 0.8f;
 
-/// From light to a pixel's brightness, both 0 to 1 (light may exceed it). Nearly as
-/// 1 - exp(-x) beyond the knee, but by the sixteenth power of 1 + x / 16: loops over many values go
-/// several at once.
+/// Converts light to a pixel's brightness, both 0 to 1 (light may exceed 1). Beyond the knee it is
+/// nearly 1 - exp(-x), but computed by the sixteenth power of 1 + x / 16, which vectorizes.
 inline float tone(float light) {
   constexpr float kRoom = 1.0f - kToneKnee;
   const float shown = light > 0.0f ? light : 0.0f;

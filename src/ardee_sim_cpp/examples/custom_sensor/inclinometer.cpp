@@ -27,7 +27,7 @@ Inclinometer::Inclinometer(const std::string& name, const Params& params, std::u
 
 void Inclinometer::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!timer_.due(now_ns) || !output_.demanded) return;
-  // The numbers of a reading are a function of its index, whatever else has been measured.
+  // The noise of a reading is a function of its index, independent of other readings.
   const CounterRng of_reading = noise_.frame(timer_.count());
   VectorReading reading;
   reading.header = {now_ns, robot_.model().links.front().name};

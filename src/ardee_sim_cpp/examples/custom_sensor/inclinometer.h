@@ -14,7 +14,8 @@ class Inclinometer : public ardee::devices::Device {
     double noise_std_rad = 0.0;
   };
 
-  /// From `<plugin filename="libinclinometer.so">` with topicName, updateRate, gaussianNoise.
+  /// Makes the device from `<plugin filename="libinclinometer.so">` with topicName, updateRate,
+  /// gaussianNoise.
   static std::unique_ptr<ardee::devices::Device> make(const ardee::PluginDescription& plugin,
                                                       ardee::Parameters& parameters,
                                                       ardee::devices::DeviceContext& context);

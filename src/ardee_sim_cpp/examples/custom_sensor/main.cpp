@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A box falls on a slope and slides; its inclinometer says how steep that is.
+// Drops a box onto a slope, where it slides; its inclinometer measures the slope.
 #include <iostream>
 
 #include "ardee_sim/readers/loader.h"

@@ -10,7 +10,7 @@
 namespace ardee::control {
 using namespace devices;
 
-/// A client's side of a goal: what came back.
+/// Client's side of a goal: keeps its feedback and result.
 template <typename Action>
 class RecordedGoal : public Action::Handle {
  public:
@@ -37,13 +37,13 @@ class RecordedGoal : public Action::Handle {
   }
 };
 
-/// The only action of a controller.
+/// Returns the only action of a controller.
 template <typename Action>
 const Action& action_of(Rig& rig) {
   return std::get<Action>(rig.controller->ports().actions.at(0));
 }
 
-/// Sends a goal to it.
+/// Sends a goal to the only action of a controller.
 template <typename Action>
 std::shared_ptr<RecordedGoal<Action>> send_goal(Rig& rig, const typename Action::Goal& goal) {
   auto handle = std::make_shared<RecordedGoal<Action>>();

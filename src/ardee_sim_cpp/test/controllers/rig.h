@@ -19,7 +19,7 @@ using namespace devices;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A list of names, of which each is a Setting.
+/// Returns a list of settings from names.
 inline Setting::List names(const std::vector<std::string>& texts) {
   Setting::List list;
   for (const std::string& text : texts) list.push_back({"", text});
@@ -43,14 +43,14 @@ inline Setting settings_of(const Parameters& parameters, const std::string& path
   return {path, map};
 }
 
-/// Those of a drive that are required.
+/// Returns the required parameters of a drive.
 inline Parameters drive_parameters() {
   Setting::List zeros;
   for (int i = 0; i < 6; ++i) zeros.push_back({"", 0.0});
   return {{"pose_covariance_diagonal", zeros}, {"twist_covariance_diagonal", zeros}};
 }
 
-/// What an act throws.
+/// Returns the message of the exception that an act throws.
 inline std::string message_of(const std::function<void()>& act) {
   try {
     act();
@@ -60,7 +60,7 @@ inline std::string message_of(const std::function<void()>& act) {
   return "no error";
 }
 
-/// A controller over joints that are driven by hand, and what it publishes.
+/// Controller over joints that are driven by hand, with its readings.
 class Rig : public ReadingSink {
  public:
   static constexpr TimeNs kStepNs = 10'000'000;
@@ -76,7 +76,7 @@ class Rig : public ReadingSink {
   }
   JointHandle& joint(const std::string& name) { return hardware.at(name); }
   double command_of(const std::string& name) const { return hardware.at(name).command; }
-  /// A link that a joint of that name turns, at a place in the model, with a collision.
+  /// Adds a link with a collision, turned by a joint of that name, at a place in the model.
   void add_wheel(const std::string& name, const Eigen::Vector3d& place, const Geometry& geometry) {
     Link link;
     link.name = name + "_link";
@@ -100,7 +100,7 @@ class Rig : public ReadingSink {
     controller->start(now_ns);
     controller->set_running(true);
   }
-  /// What making one throws.
+  /// Returns the message of the exception that the maker throws.
   std::string refusal(Make maker, const Parameters& parameters) {
     return message_of([&] { make(maker, parameters); });
   }
@@ -111,7 +111,7 @@ class Rig : public ReadingSink {
   void update(int times) {
     for (int i = 0; i < times; ++i) update();
   }
-  /// The joints turn as commanded (rad/s), the controller follows.
+  /// Turns the joints as commanded (rad/s); the controller follows.
   void roll(int times) {
     for (int i = 0; i < times; ++i) {
       for (auto& [name, joint] : hardware) {

@@ -16,7 +16,7 @@ class AckermannSteeringController : public testing::Test {
     parameters["cmd_vel_timeout"] = 100.0;
   }
   void start() { rig.start(&control::AckermannSteeringController::make, parameters); }
-  /// After 2 s of 1 m/s with the wheel and the steering as commanded.
+  /// Drives for 2 s at 1 m/s, with the wheel and the steering as commanded.
   const OdometryReading& drive(double steer_rad) {
     rig.drive(1.0, steer_rad);
     rig.update();
@@ -30,7 +30,7 @@ class AckermannSteeringController : public testing::Test {
 };
 
 TEST_F(AckermannSteeringController, SetsTheSteeringAngleAndTheWheelsSpeed) {
-  parameters["wheel_radius_multiplier"] = 2.0;  // of the odometry alone
+  parameters["wheel_radius_multiplier"] = 2.0;  // the odometry's alone
   start();
   rig.drive(1.0, 0.3);
   rig.update();

@@ -120,7 +120,7 @@ TEST_F(DiffDriveController, TakesSizesTimesTheirMultipliers) {
   rig.drive(0.3, 0.4);
   rig.update();
   expect_wheels((0.3 - 0.2) / 0.05, (0.3 + 0.2) / 0.2);
-  parameters["wheel_radius_multiplier"] = 4.0;  // of both, instead of their own
+  parameters["wheel_radius_multiplier"] = 4.0;  // for both, instead of their own
   start();
   rig.drive(0.3, 0.4);
   rig.update();

@@ -22,7 +22,8 @@ class FourWheelSteeringController : public testing::Test {
     parameters["rear_steering"] = names({"rl_steer", "rr_steer"});
     parameters["cmd_vel_timeout"] = 100.0;
   }
-  /// Steering axes 2 m apart in both directions, wheels of 0.5 m so far outside of them.
+  /// Places steering axes 2 m apart in both directions, and wheels of 0.5 m outside of them by the
+  /// offset.
   void place_wheels(double offset_m) {
     rig.model = {};
     for (const double x : {1.0, -1.0}) {
@@ -44,7 +45,7 @@ class FourWheelSteeringController : public testing::Test {
       EXPECT_NEAR(rig.command_of(order[i] + "_steer"), angles[i], 1e-9) << order[i];
     }
   }
-  /// The wheels stand and turn as commanded for a second.
+  /// Lets the wheels follow their commands for a second.
   const OdometryReading& follow() {
     rig.update();
     for (auto& [name, joint] : rig.hardware) {
@@ -169,7 +170,7 @@ TEST_F(FourWheelSteeringController, PublishesHowItIsSteered) {
   rig.readings.clear();
   rig.update();
   const bool is_due = rig.count("/base/odom_steer") > 0;
-  if (!is_due) {  // the change shows in the one step in which it comes
+  if (!is_due) {  // the change appears in its own step only
     for (const char* wheel : {"fl", "fr", "rl", "rr"}) rig.joint(wheel).velocity *= 4.0 / 3.0;
     rig.update();
   }

@@ -10,7 +10,7 @@ namespace ardee::control {
 using namespace devices;
 namespace {
 
-/// A finger; steps of 0.01 s.
+/// Gripper with one finger; steps of 0.01 s.
 class Gripper : public Rig {
  public:
   using Goal = std::shared_ptr<RecordedGoal<GripperAction>>;
@@ -73,7 +73,7 @@ TEST(GripperController, AbortsWhenItStalls) {
   EXPECT_EQ(goal->state(), "aborted");
   EXPECT_TRUE(goal->result.is_stalled);
   EXPECT_EQ(goal->result.effort, 2.0);
-  EXPECT_EQ(goal->feedback.size(), 30u);  // of 1.51 s at 20 Hz
+  EXPECT_EQ(goal->feedback.size(), 30u);  // 1.51 s at 20 Hz
 }
 
 TEST(GripperController, HoldsWhereItIsWhenAGoalIsCancelled) {

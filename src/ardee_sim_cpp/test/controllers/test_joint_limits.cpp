@@ -82,7 +82,7 @@ TEST(JointLimits, SoftLimitsSlowDownBeforeTheEnd) {
   EXPECT_NEAR(enforced_once(limits, handle(JointInterface::kVelocity, 0.7), -9.0), -3.0, 1e-12);
   EXPECT_NEAR(enforced_once(limits, handle(JointInterface::kVelocity, 0.9), 9.0), -0.2, 1e-12);
   EXPECT_NEAR(enforced_once(limits, handle(JointInterface::kPosition, 0.7), 9.0), 0.72, 1e-12);
-  // The effort is 5 N m s/rad times what the velocity of 0.1 rad/s is short of 0.2 rad/s.
+  // The effort is 5 N m s/rad times the velocity missing to 0.2 rad/s, 0.1 rad/s.
   EXPECT_NEAR(enforced_once(limits, handle(JointInterface::kEffort, 0.7, 0.1), 9.0), 0.5, 1e-12);
   EXPECT_NEAR(enforced_once(limits, handle(JointInterface::kEffort, 0.7, 0.3), 9.0), -0.5, 1e-12);
 }

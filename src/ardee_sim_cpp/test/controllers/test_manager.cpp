@@ -16,7 +16,7 @@ class NoSink : public ReadingSink {
   void on_reading(const Output&, const Reading&) override {}
 };
 
-/// Claims the joints of its parameter `joints` and writes down what it is told.
+/// Claims the joints of its parameter `joints` and records the calls that it gets.
 class Noting : public Controller {
  public:
   Noting(const ControllerContext& context, std::vector<std::string>& notes)
@@ -71,7 +71,7 @@ class ManagerTest : public ::testing::Test {
     return found == parameters_.end() ? no_parameter(name) : found->second;
   }
 
-  /// What an action throws; empty if nothing.
+  /// Returns the message of the exception that an action throws; empty for none.
   template <typename Action>
   static std::string error_of(Action action) {
     try {
@@ -164,7 +164,7 @@ TEST_F(ManagerTest, StrictRefusesWhatBestEffortPassesOver) {
   const struct {
     Names start, stop;
     const char* why;
-    const char* running;  // by best effort
+    const char* running;  // running with best effort
   } cases[]{
       {{"ghost", "arm"}, {}, "could not start controller 'ghost': no controller", "base arm"},
       {{}, {"ghost", "base"}, "could not stop controller 'ghost': no controller", ""},

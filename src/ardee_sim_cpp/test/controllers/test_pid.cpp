@@ -14,7 +14,7 @@ Setting group(const Setting::Map& map) {
   const Setting::Value value(map);
   return {"/robot/pid", value};
 }
-/// What is read of a group, and the only message about it.
+/// Reads gains from a group, and the only message about it.
 PidGains read(const Setting::Map& map, std::string* message = nullptr) {
   Log log([&](LogLevel, const std::string& text) {
     ASSERT_NE(message, nullptr) << text;
@@ -52,7 +52,7 @@ TEST(Pid, WindsUpUnlessItIsToldNotTo) {
   for (const bool antiwindup : {false, true}) {
     Pid pid(gains(0.0, 2.0, 0.0, 1.0, antiwindup));
     EXPECT_DOUBLE_EQ(pid.update(5.0, 1.0), 1.0);  // 10, clamped
-    // The integral of 5 has to go down to 0.5 first, or is there at once.
+    // The integral of 5 first falls to 0.5, or is there at once with antiwindup.
     EXPECT_DOUBLE_EQ(pid.update(-1.0, 1.0), antiwindup ? -1.0 : 1.0);
   }
 }

@@ -49,7 +49,7 @@ TEST_F(PidController, BringsAPositionWithinItsLimits) {
   rig.joint("j").position = 0.25;
   rig.start(&control::PidController::make_effort_position, parameters);
   rig.update();
-  EXPECT_EQ(rig.command_of("j"), 0.0);  // it holds where it is
+  EXPECT_EQ(rig.command_of("j"), 0.0);  // it holds its place
   rig.send("/base/command", 5.0);
   rig.update();
   EXPECT_NEAR(rig.command_of("j"), 10.0 * 0.75 + 0.1 * 0.75 / 0.01, 1e-9);
@@ -90,7 +90,7 @@ TEST_F(PidController, TurnsAContinuousJointTheShortWay) {
   add_joint(JointInterface::kVelocity, JointType::kContinuous);
   rig.start(&control::PidController::make_velocity_position, parameters);
   rig.joint("j").position = 3.0;
-  rig.send("/base/command", -3.0);  // the limits are of no matter
+  rig.send("/base/command", -3.0);  // the limits do not count here
   rig.update(2);
   EXPECT_NEAR(rig.command_of("j"), 10.0 * (2.0 * kPi - 6.0), 1e-9);
 }
@@ -100,7 +100,7 @@ TEST_F(PidController, BringsAVelocity) {
   rig.joint("j").velocity = 2.0;
   rig.start(&control::PidController::make_effort_velocity, parameters);
   rig.update(2);
-  EXPECT_NEAR(rig.command_of("j"), -20.0, 1e-9);  // 0 until told
+  EXPECT_NEAR(rig.command_of("j"), -20.0, 1e-9);  // 0 before the first command
   rig.send("/base/command", 5.0);
   rig.update(2);
   EXPECT_NEAR(rig.command_of("j"), 30.0, 1e-9);

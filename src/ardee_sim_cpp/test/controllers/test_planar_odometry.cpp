@@ -45,7 +45,7 @@ TEST(PlanarOdometry, GivesTheMeanVelocityOfItsWindow) {
   EXPECT_NEAR(after(0.1), 1.0, 1e-12);
   EXPECT_NEAR(after(0.3), 2.0, 1e-12);
   EXPECT_NEAR(after(0.5), 3.0, 1e-12);
-  EXPECT_NEAR(after(0.7), 5.0, 1e-12);  // of 3, 5, 7
+  EXPECT_NEAR(after(0.7), 5.0, 1e-12);  // the mean of 3, 5, 7
 }
 
 TEST(PlanarOdometry, KeepsItsPoseAtAStartAndLosesItAtAReset) {

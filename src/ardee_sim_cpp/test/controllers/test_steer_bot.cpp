@@ -10,7 +10,8 @@ namespace {
 constexpr double kBase_m = 0.65;
 constexpr double kTrack_m = 0.6;
 
-/// A car of four wheels and two knuckles. The bicycle's wheel is its own, its steering is not.
+/// Car with four wheels and two knuckles. It has the bicycle's wheel, but no steering joint of the
+/// bicycle.
 class SteerBotTest : public testing::Test {
  protected:
   SteerBotTest() {
@@ -56,8 +57,8 @@ TEST_F(SteerBotTest, AxesOfAllWheelsMeetInOnePoint) {
   EXPECT_NEAR(kBase_m / std::tan(left), radius_m - kTrack_m / 2, 1e-12);
   EXPECT_NEAR(kBase_m / std::tan(right), radius_m + kTrack_m / 2, 1e-12);
   EXPECT_NEAR(follow(3.0, -0.3).at("knuckle_right").command, -left, 1e-12);
-  EXPECT_EQ(car.at("steer").position, 0.3);  // there is no such joint
-  EXPECT_EQ(car.at("rear").position, 0.0);   // it is driven
+  EXPECT_EQ(car.at("steer").position, 0.3);  // this joint does not exist
+  EXPECT_EQ(car.at("rear").position, 0.0);   // this joint is driven
 }
 
 TEST_F(SteerBotTest, WithoutTheLinkKnucklesTurnAlike) {

@@ -54,7 +54,7 @@ TEST(Segment, OfNoDurationIsWhereItBegins) {
 TEST(Trajectory, StopsWithinADuration) {
   const JointPath path = stopping_path(1.0, {2.0, 0.8, 0.0}, 0.5);
   EXPECT_NEAR(segment_at(path, 1.0).at(1.0).velocity, 0.8, 1e-12);
-  // There and back within 2 T turns after 5 (2 T) (2 v) / 32 = 5/8 v T.
+  // A path there and back within 2 T turns after 5 (2 T) (2 v) / 32 = 5/8 v T.
   expect_motion(segment_at(path, 2.0).at(2.0), 2.0 + 0.625 * 0.8 * 0.5, 0.0, 0.0);
   EXPECT_NEAR(segment_at(path, 1.5).at(1.5).velocity, 0.0, 1e-12);
 }
@@ -64,7 +64,7 @@ TEST(Trajectory, GoesOnUntilTheNewOneBeginsAndThenToItsFirstPoint) {
   JointPath path = resting_path(0.0, 0.0);
   path = spliced_path(path, 0.0, 0.0, {{1.0, {1.0, {}, {}}}}, false, 1, {});
   path = spliced_path(path, 0.1, 0.5, {{1.5, {2.5, {}, {}}}, {2.5, {2.5, {}, {}}}}, false, 2, {});
-  ASSERT_EQ(path.size(), 3u);  // what is over at 0.1 s is gone
+  ASSERT_EQ(path.size(), 3u);  // segments that end before 0.1 s are dropped
   EXPECT_EQ(path[0].goal, 1u);
   EXPECT_EQ(path[1].goal, 2u);
   EXPECT_NEAR(segment_at(path, 0.4).at(0.4).position, 0.4, 1e-12);
@@ -81,7 +81,7 @@ TEST(Trajectory, TurnsToTheNearestOfAContinuousJoint) {
   EXPECT_NEAR(end_of(6.2, 0.1, true), 0.1 + 2.0 * kPi, 1e-12);
   EXPECT_NEAR(end_of(-6.2, 0.1, true), 0.1 - 2.0 * kPi, 1e-12);
   EXPECT_NEAR(end_of(6.2, 0.1, false), 0.1, 1e-12);
-  EXPECT_NEAR(end_of(0.0, kPi, true), kPi, 1e-12);  // half a turn: the way that the numbers go
+  EXPECT_NEAR(end_of(0.0, kPi, true), kPi, 1e-12);  // half a turn: the numbers' direction
   EXPECT_NEAR(end_of(0.0, -kPi, true), -kPi, 1e-12);
 }
 

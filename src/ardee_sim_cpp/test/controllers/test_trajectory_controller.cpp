@@ -27,7 +27,7 @@ class Arm : public Rig {
     return follow(FollowTrajectoryGoal{trajectory, {}, {}, 0.0});
   }
   void cancel(const Goal& goal) { action_of<FollowTrajectoryAction>(*this).on_cancel(goal); }
-  /// The joints are where they are commanded to be.
+  /// Moves the joints to their commanded positions.
   void track(int steps) {
     for (int i = 0; i < steps; ++i) {
       update();
@@ -36,7 +36,7 @@ class Arm : public Rig {
   }
 };
 
-/// Both joints to positions within a time, along lines.
+/// Returns a trajectory of both joints to positions within a time, along lines.
 JointTrajectory to(double a, double b, double time_s) {
   return {std::nullopt, {"a", "b"}, {{{a, b}, {}, {}, {}, time_s}}};
 }
@@ -78,8 +78,8 @@ TEST(TrajectoryController, BeginsAtTheTimeOfAStampAndDropsPointsOfThePast) {
   EXPECT_EQ(arm.messages.back(),
             "/base/state: the first 1 points of a trajectory lie in the past and are dropped");
   arm.track(1);
-  EXPECT_NEAR(arm.command_of("a"), 0.51, 1e-12);  // what it would have been without
-  arm.track(99);                                  // 3.5 s, half of the way that was left
+  EXPECT_NEAR(arm.command_of("a"), 0.51, 1e-12);  // the value without the trajectory
+  arm.track(99);                                  // 3.5 s, half of the remaining way
   EXPECT_NEAR(arm.command_of("a"), 0.51 + 0.99 / 1.99 * (2.49 - 0.51), 1e-12);
 }
 
@@ -117,7 +117,7 @@ TEST(TrajectoryController, AbortsWhereAJointLeavesThePath) {
   EXPECT_EQ(goal->result.code, -4);
   EXPECT_EQ(goal->result.text, "b path error 0.110000");
   arm.update(9);
-  EXPECT_NEAR(arm.command_of("b"), 0.2, 1e-12);  // it goes on
+  EXPECT_NEAR(arm.command_of("b"), 0.2, 1e-12);  // it continues
 }
 
 TEST(TrajectoryController, AbortsWhereAJointIsNotAtItsGoalInTime) {
@@ -144,7 +144,7 @@ TEST(TrajectoryController, TakesTolerancesOfTheGoalOverItsOwn) {
   FollowTrajectoryGoal free{to(1, 0, 1), {{"a", -1, 0, 0}}, {{"a", -1, 0, 0}}, 0.0};
   auto goal = arm.follow(free);
   arm.update(101);
-  EXPECT_EQ(goal->state(), "succeeded");  // stuck, and nobody minds
+  EXPECT_EQ(goal->state(), "succeeded");  // stuck, but without a tolerance
   arm.joint("a").position = 1.0;
   FollowTrajectoryGoal strict{to(0, 1, 1), {{"b", 0.5, 0, 0}, {"c", 1, 0, 0}}, {}, 0.0};
   goal = arm.follow(strict);
@@ -214,12 +214,12 @@ TEST(TrajectoryController, MovesSomeOfItsJointsWhereItMay) {
   arm.track(50);
   const auto goal = arm.follow(partial);
   arm.track(50);
-  EXPECT_NEAR(arm.command_of("a"), 1.0, 1e-12);   // goes on as it did
+  EXPECT_NEAR(arm.command_of("a"), 1.0, 1e-12);   // continues its path
   EXPECT_NEAR(arm.command_of("b"), 0.49, 1e-12);  // from 0.51 s on
   arm.track(60);
   EXPECT_EQ(goal->state(), "accepted");
   arm.track(41);
-  EXPECT_EQ(goal->state(), "succeeded");  // when a is there too
+  EXPECT_EQ(goal->state(), "succeeded");  // once a has arrived, too
 }
 
 TEST(TrajectoryController, RejectsGoalsThatAreNoneAndGoesOn) {

@@ -9,7 +9,7 @@ from PIL import Image
 
 HERE = pathlib.Path(__file__).resolve().parent
 CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-# Twelve triangles of the unit cube, seen from outside counter-clockwise; vertex = x + 2 y + 4 z.
+# Twelve triangles of the unit cube, counter-clockwise from outside; vertex = x + 2 y + 4 z.
 CUBE = [
     (0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4),
     (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5),
@@ -17,7 +17,7 @@ CUBE = [
 
 
 def pictures(folder: pathlib.Path) -> None:
-    """4 x 3 pixels: grey value 20 * (column + 4 * row), 16 bits 5000 times that index, RGBA with a hole."""
+    """Writes 4 x 3 pixels: grey value 20 * (column + 4 * row), 16 bits 5000 times that index, RGBA with a hole."""
     index = np.arange(12).reshape(3, 4)
     grey = Image.fromarray((20 * index).astype(np.uint8))
     for name in ("grey8.png", "grey8.bmp", "grey8.tga", "grey8.tif"):
@@ -33,7 +33,7 @@ def pictures(folder: pathlib.Path) -> None:
 
 
 def stl(scale: float, nan: bool = False) -> bytes:
-    """The cube as binary STL."""
+    """Writes the cube as binary STL."""
     data = b"cube".ljust(80, b"\0") + struct.pack("<I", len(CUBE))
     for triangle in CUBE:
         data += struct.pack("<3f", 0, 0, 0)
@@ -44,7 +44,7 @@ def stl(scale: float, nan: bool = False) -> bytes:
 
 
 def dae(unit: float, up: str, nodes: str, double_sided: bool = False, index_shift: int = 0) -> str:
-    """A Collada file of the unit cube's geometry under the given <node> elements."""
+    """Returns a Collada file of the unit cube's geometry under the given <node> elements."""
     places = " ".join(str(c) for corner in CORNERS for c in corner)
     corners = " ".join(str(v + index_shift) for triangle in CUBE for v in triangle)
     extra = (
@@ -74,7 +74,7 @@ def dae(unit: float, up: str, nodes: str, double_sided: bool = False, index_shif
 
 
 def node(name: str, transform: str) -> str:
-    """A scene node that shows the cube."""
+    """Returns a scene node that shows the cube."""
     return f"""
     <node id="id_{name}" name="{name}">{transform}<instance_geometry url="#g"><bind_material>
       <technique_common><instance_material symbol="s" target="#m"/></technique_common>
@@ -82,7 +82,7 @@ def node(name: str, transform: str) -> str:
 
 
 def meshes(folder: pathlib.Path) -> None:
-    """Cubes of all formats; the Collada ones with parts, units and up-axes."""
+    """Writes cubes of all formats; the Collada ones with parts, units and up-axes."""
     (folder / "cube.stl").write_bytes(stl(1.0))
     (folder / "cube_mm.stl").write_bytes(stl(1000.0))
     (folder / "solid_header.stl").write_bytes(b"solid " + stl(1.0)[6:])
@@ -101,7 +101,7 @@ def meshes(folder: pathlib.Path) -> None:
 
 
 def broken(folder: pathlib.Path) -> None:
-    """The same, spoilt in one way each."""
+    """Writes the same, broken in one way each."""
     png = (HERE / "images/grey16.png").read_bytes()
     noise = Image.fromarray(np.random.default_rng(0).integers(0, 256, (64, 64), np.uint8))
     noise.save(folder / "truncated.png")
@@ -110,7 +110,7 @@ def broken(folder: pathlib.Path) -> None:
     noise.save(folder / "truncated.jpg")
     whole = (folder / "truncated.jpg").read_bytes()
     (folder / "truncated.jpg").write_bytes(whole[: len(whole) // 2])
-    # A header that promises 2^30 x 2^30 pixels, its checksum right.
+    # The header promises 2^30 x 2^30 pixels, with a right checksum.
     import zlib
 
     header = b"IHDR" + struct.pack(">IIBBBBB", 1 << 30, 1 << 30, 8, 0, 0, 0, 0)

@@ -25,7 +25,7 @@ TEST(Scenery, NestedPosesScalesAndLabelsMultiplyDown) {
 
   const auto placements = flatten_scenery(field);
   ASSERT_EQ(placements.size(), 2u);  // the plot itself has no links
-  // Rotated by -90 degrees, (2 * 1, 0) becomes (0, -2).
+  // A rotation by -90 degrees takes (2 * 1, 0) to (0, -2).
   EXPECT_TRUE(placements[0].X_WM.p.isApprox(Eigen::Vector3d(10, -2, 0)));
   EXPECT_EQ(placements[0].scale, 3.0);
   EXPECT_EQ(placements[0].label, 4u);

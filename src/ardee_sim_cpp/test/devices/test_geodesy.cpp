@@ -35,7 +35,7 @@ TEST(LocalFrame, there_and_back_is_exact_to_a_millimetre_over_a_kilometre) {
 TEST(LocalFrame, tangent_is_the_earth_centred_frame_turned_and_moved) {
   const GeoPoint origin{40.1021496545, -88.2267974168, 220.0};
   const LocalFrame frame(origin, 90.0 * kDegree, kTangent);
-  // A point whose Earth-centred coordinates were found from the east, north and up vectors.
+  // The point's Earth-centred coordinates follow from the east, north and up vectors.
   const double lat = origin.latitude_deg * kDegree, lon = origin.longitude_deg * kDegree;
   const Vector3d east(-std::sin(lon), std::cos(lon), 0);
   const Vector3d up(std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat));
@@ -67,7 +67,7 @@ TEST(LocalFrame, flat_is_hectors_formula_and_near_the_tangent_one) {
   const LocalFrame tangent({latitude_deg, 8.9, 0}, 0.0, kTangent);
   const Vector3d seen = tangent.to_local(flat.to_geodetic({700, -700, 0}));
   EXPECT_LE((seen - Vector3d(700, -700, 0)).norm(), 0.3);
-  EXPECT_GE((seen - Vector3d(700, -700, 0)).norm(), 0.01);  // they are not the same
+  EXPECT_GE((seen - Vector3d(700, -700, 0)).norm(), 0.01);  // they differ
 }
 
 TEST(LocalFrame, heading_turns_x_from_north_clockwise) {

@@ -13,7 +13,7 @@ namespace {
 
 class RayBlockTest : public testing::Test {
  protected:
-  /// The first sensor of a model.
+  /// Returns the first sensor of a model.
   SensorDescription sensor(const std::string& body) {
     Loader loader(ResourceLocator{}, log_);
     const auto model = loader.load_model_text(

@@ -5,8 +5,8 @@
 
 namespace ardee::test {
 
-/// A rod's inertia about its end: the moment of a link turning about a joint at the link's origin,
-/// with its centre of mass there too, so that gravity has no lever.
+/// Returns a rod's inertia about its end: the moment of a link that turns about a joint at the
+/// link's origin, with its centre of mass there too, so that gravity has no lever.
 inline Inertial wheel_inertial(double mass_kg, double moment_kg_m2) {
   Inertial inertial;
   inertial.mass_kg = mass_kg;
@@ -14,8 +14,8 @@ inline Inertial wheel_inertial(double mass_kg, double moment_kg_m2) {
   return inertial;
 }
 
-/// One link on a joint to the world. The link's frame lies at `X_ML`, the joint's at the link's
-/// origin.
+/// Returns one link on a joint to the world. The link's frame lies at `X_ML`, the joint's at the
+/// link's origin.
 inline std::shared_ptr<Model> jointed_model(JointType type, const Inertial& inertial,
                                             const JointAxis& axis, const Pose& X_ML = {}) {
   auto result = model(link("child", inertial));

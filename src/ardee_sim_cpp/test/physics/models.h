@@ -72,7 +72,7 @@ inline std::shared_ptr<Model> sphere_model(double mass_kg, double radius_m,
   return model(body);
 }
 
-/// Static model of one shape.
+/// Returns a static model of one shape.
 inline std::shared_ptr<Model> static_model(const Geometry& geometry, const Surface& surface = {}) {
   Link body;
   body.name = "static";
@@ -93,7 +93,7 @@ inline void add_ground(PhysicsWorld& world, const Surface& surface = {}) {
   world.add_scenery({placement(static_model(Plane{}, surface))});
 }
 
-/// A grid of heights h(x, y).
+/// Returns a grid of heights h(x, y).
 inline std::shared_ptr<const HeightGrid> height_grid(
     int points, double size_m, const std::function<double(double, double)>& height) {
   auto grid = std::make_shared<HeightGrid>();
@@ -115,7 +115,7 @@ inline Geometry heightmap(const std::shared_ptr<const HeightGrid>& grid) {
   return result;
 }
 
-/// A square of `size_m` in the plane z = 0, in n x n cells of two triangles each.
+/// Returns a square of `size_m` in the plane z = 0, in n x n cells of two triangles each.
 inline Geometry mesh_square(unsigned n, double size_m) {
   auto file = std::make_shared<MeshFile>();
   SubMesh part;

@@ -6,7 +6,7 @@
 namespace ardee::test {
 using namespace physics;
 
-/// A four-wheeled robot with legs on torsional springs, in the dimensions of a small field robot:
+/// Four-wheeled robot with legs on torsional springs, in the dimensions of a small field robot:
 /// wheels of 97 mm, legs of 160 mm, 100 N m/rad, 12 kg in all. Forward is x. Joints: leg and wheel
 /// of front left, front right, rear left, rear right.
 struct RoverShape {
@@ -17,7 +17,7 @@ struct RoverShape {
   bool legs = true;
   double mu = 0.8;
   double mass_kg = 8.0;
-  double mass_forward_m = 0.0;  // of the base
+  double mass_forward_m = 0.0;  // the base's centre of mass
   double mass_left_m = 0.0;
   Eigen::Vector3d fdir1{0, 0, 1};
   bool friction_cone = Surface{}.friction_cone;
@@ -80,7 +80,7 @@ inline void add_rover_corner(Model& rover, const std::string& name, double forwa
   rover.joints.push_back(rover_joint(carrier, wheel.name, JointType::kContinuous));
 }
 
-/// The model's origin is between the hubs, at their height.
+/// Returns the model; its origin is between the hubs, at their height.
 inline std::shared_ptr<Model> rover_model(const RoverShape& shape = {}) {
   Link base = link("base", box_inertial(shape.mass_kg, {0.5, 0.3, 0.13}));
   base.inertial->X_LI.p = {shape.mass_forward_m, shape.mass_left_m, 0.1};
@@ -94,12 +94,12 @@ inline std::shared_ptr<Model> rover_model(const RoverShape& shape = {}) {
   return rover;
 }
 
-/// Index of the wheel joints in the order front left, front right, rear left, rear right.
+/// Returns the index of a wheel joint in the order front left, front right, rear left, rear right.
 inline std::size_t wheel_joint(const RoverShape& shape, std::size_t corner) {
   return shape.legs ? 2 * corner + 1 : corner;
 }
 
-/// Turns the wheels of both sides, rad/s, each with up to so much torque.
+/// Turns the wheels of both sides [rad/s], each with at most the given torque.
 inline void drive(PhysicsModel& rover, const RoverShape& shape, double left, double right,
                   double torque_n_m = 10.0) {
   for (std::size_t corner = 0; corner < 4; ++corner) {

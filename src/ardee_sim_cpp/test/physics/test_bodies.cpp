@@ -135,7 +135,7 @@ TEST_P(Bodies, DecayTakesItsShareOfTheVelocityInEachStep) {
   for (int i = 0; i < 10; ++i) world.step();
   EXPECT_NEAR(body.link_twist(0).linear.x(), std::pow(0.9, 10), 1e-12);
   EXPECT_NEAR(body.link_twist(0).angular.z(), std::pow(0.8, 10), 1e-12);
-  // ODE leaves alone what is slower than 0.01 m/s or rad/s.
+  // ODE disables bodies below 0.01 m/s and rad/s.
   body.set_twist({{0.0099, 0, 0}, {0, 0, 0.0099}});
   for (int i = 0; i < 10; ++i) world.step();
   EXPECT_NEAR(body.link_twist(0).linear.x(), 0.0099, 1e-15);

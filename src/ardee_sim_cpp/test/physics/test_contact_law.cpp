@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What two surfaces make of a contact.
+// Tests of the contact that two surfaces give.
 #include <gtest/gtest.h>
 
 #include "joints.h"
@@ -14,7 +14,7 @@ PhysicsParams layered(double layer_m) {
   return made;
 }
 
-/// How deep a box of 2 kg rests in the ground (m).
+/// Returns how deep a box of 2 kg rests in the ground [m].
 double rest_depth(double layer_m, const Surface& surface, const Surface& ground) {
   PhysicsWorld world(layered(layer_m), silent());
   add_ground(world, ground);
@@ -63,7 +63,7 @@ TEST(ContactParameters, ABodyIsPushedOutAsFastAsItMayBe) {
     PhysicsParams slow = weightless(0.001);
     slow.max_correcting_velocity_m_per_s = 0.6;
     PhysicsWorld world(slow, silent());
-    add_ground(world);  // whose own 0.01 m/s are no body's
+    add_ground(world);  // its own 0.01 m/s belong to no body
     PhysicsModel& box = world.add_model(box_model(2, {0.2, 0.2, 0.2}, surface), at(0, 0, 0.05));
     run(world, 0.05);
     EXPECT_NEAR(box.link_twist(0).linear.z(), own < 0 ? 0.6 : own, 1e-4);

@@ -59,7 +59,7 @@ TEST_P(Contacts, MeshRestsOnAHeightmapAndAPlane) {
 }
 
 TEST_P(Contacts, FrictionDirectionTurnsWithTheBody) {
-  // No friction along the body's x, much along its y.
+  // The runner has no friction along the body's x, and much along its y.
   Surface runner;
   runner.mu = 0.0;
   runner.mu2 = 1.0;

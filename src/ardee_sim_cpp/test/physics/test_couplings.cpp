@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Joints that follow others: gears, grippers, rocker differentials.
+// Tests of joints that follow others: gears, grippers, rocker differentials.
 #include <gtest/gtest.h>
 
 #include "ardee_sim/core/error.h"
@@ -20,7 +20,7 @@ Joint hinge(const std::string& name, const std::string& parent, const std::strin
   return joint;
 }
 
-/// Two wheels of 0.1 kg m^2 on a frame, the second of which turns as the first one says.
+/// Returns two wheels of 0.1 kg m^2 on a frame; the second follows the first.
 std::shared_ptr<Model> geared(double multiplier, double offset = 0.0) {
   auto made = model(link("frame", wheel_inertial(10.0, 1.0)));
   made->links.push_back(link("a", wheel_inertial(1.0, 0.1)));
@@ -47,7 +47,8 @@ void run(
 }
 
 TEST(Couplings, AGearFeelsTheOtherWheelsInertia) {
-  // 0.1 + 2^2 * 0.1 = 0.5 kg m^2: 1 N m for 0.5 s gives 1 rad/s, and 2 rad/s beyond the gear.
+  // The moment is 0.1 + 2^2 * 0.1 = 0.5 kg m^2: 1 N m for 0.5 s gives 1 rad/s, and 2 rad/s beyond
+  // the gear.
   PhysicsWorld world(weightless(kStep_s), silent());
   PhysicsModel& made = world.add_model(geared(2.0), Pose{});
   run(world, 0.5, [&] { made.apply_joint_effort(1, 1.0); });
@@ -66,8 +67,8 @@ TEST(Couplings, AnEffortOnTheFollowerDrivesTheLeader) {
 }
 
 TEST(Couplings, AGearHoldsOnARobotThatTurns) {
-  // The frame is free: what counts is the turn against it. No torque from outside acts, so that the
-  // angular momentum about z stays: as long as nothing pushes, that of the throw.
+  // The frame is free: the turn relative to it counts. No outer torque acts, so the angular
+  // momentum about z remains that of the throw.
   auto model = geared(2.0);
   model->joints.erase(model->joints.begin());
   PhysicsWorld world(weightless(kStep_s), silent());
@@ -110,8 +111,8 @@ TEST(Couplings, AFollowerOfLittleStrengthGivesWay) {
 }
 
 TEST(Couplings, FingersCloseOnABoxAndHoldIt) {
-  // Two fingers on slides; the second follows the first. 20 N at the first are 10 N at each, and a
-  // box of 0.5 kg (4.9 N) between them stays in the grip by friction, 2 * 10 N.
+  // Two fingers slide; the second follows the first. 20 N at the first are 10 N at each, and
+  // friction, 2 * 10 N, holds a box of 0.5 kg (4.9 N) between them.
   auto hand = model(link("palm", wheel_inertial(5.0, 0.1)));
   for (const char* name : {"left", "right"}) {
     Link finger = link(name, wheel_inertial(0.2, 1e-3));

@@ -16,7 +16,7 @@ class Ground : public testing::TestWithParam<double> {
 
 INSTANTIATE_TEST_SUITE_P(Steps, Ground, testing::Values(0.001, 0.005));
 
-/// A wheel alone, lying in the x-z plane, free to roll along x.
+/// Returns a wheel alone, in the x-z plane, free to roll along x.
 std::shared_ptr<Model> wheel_model() {
   auto result = model(rover_wheel("wheel", {}));
   return result;
@@ -65,7 +65,7 @@ TEST_P(Ground, SphereRestsOnABumpAtItsHeight) {
 }
 
 TEST_P(Ground, ScaleAndRotationOfAHeightmapAreThoseOfItsPlacement) {
-  // Higher towards +x in its own frame; turned by 90 degrees that is +y.
+  // The ground is higher towards +x in its own frame; turned by 90 degrees this is +y.
   const auto ramp = height_grid(21, 2.0, [](double x, double) { return x > 0.35 ? 0.2 : 0.0; });
   PhysicsWorld world(params(h()), silent());
   const Pose turned = Pose::from_xyz_rpy({0, 0, 0.5}, {0, 0, M_PI / 2});
@@ -86,7 +86,7 @@ TEST_P(Ground, SphereRollsDownATiltedHeightmapAsPredicted) {
   PhysicsModel& ball = world.add_model(
       sphere_model(1, r), at(-r * std::sin(angle), 0.123, r * std::cos(angle) - 0.0005));
   run(world, 2.0);
-  // A solid sphere that rolls: a = 5/7 g sin(angle).
+  // The acceleration of a rolling solid sphere is 5/7 g sin(angle).
   const double way = 0.5 * 5.0 / 7.0 * kGravity * std::sin(angle) * 4.0;
   const Eigen::Vector3d moved = ball.pose().p;
   EXPECT_NEAR(moved.x() + r * std::sin(angle), -way * std::cos(angle),
@@ -115,8 +115,8 @@ TEST_P(Ground, WheelOverRidgesNeitherSinksNorJolts) {
     previous = wheel.link_twist(0).linear.z();
   }
   EXPECT_LT(deepest, 0.0015);
-  // Between two facets the slope changes by 0.03 (2 pi / 1.6)^2 0.1 = 0.046: at 0.9 m/s a change of
-  // 0.04 m/s at most.
+  // Between two facets the slope changes by 0.03 (2 pi / 1.6)^2 0.1 = 0.046: at 0.9 m/s this is a
+  // change of at most 0.04 m/s.
   EXPECT_LT(jolt, 0.06 + kGravity * h());
   EXPECT_NEAR(wheel.pose().p.y(), 0.03, 0.05);
 }
@@ -191,7 +191,7 @@ TEST(GroundContacts, DepthChangesSmoothlyWhileAWheelRollsOn) {
     if (previous >= 0.0) worst = std::max(worst, std::abs(deepest - previous));
     previous = deepest;
   }
-  // In 0.4 mm the ground rises by at most 0.4 mm times the slope of 0.19, and the shape follows
+  // In 0.4 mm the ground rises by at most 0.4 mm times the slope of 0.19; the shape adds at most
   // another such slope.
   EXPECT_LT(worst, 2.0 * 4e-4 * 0.25);
 }

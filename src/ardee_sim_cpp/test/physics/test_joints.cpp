@@ -157,7 +157,7 @@ TEST_P(Joints, UniversalCountsItsFirstAxisInTheParent) {
     EXPECT_NEAR(body.joint_position(0), 0.5, 5e-3);
     const double yaw = rpy_from_quaternion(body.link_pose(0).q).z();
     EXPECT_NEAR(yaw, body.joint_position(0), 1e-6);
-    // About the second axis, y in the child, it turns freely; about x it does not turn.
+    // The link turns freely about the second axis, y in the child, but not about x.
     body.set_joint_motor(0, 0.0, 100.0);
     const Eigen::Vector3d y = body.link_pose(0).q * Eigen::Vector3d::UnitY();
     for (int i = 0; i < steps(world, 0.2); ++i) {
@@ -216,7 +216,8 @@ TEST_P(Joints, SettingAPositionMovesAllThatHangsOnIt) {
   EXPECT_NEAR(body.link_pose(3).p.z(), 5.0, 1e-12);
 }
 
-/// A wheel that steers about z and spins about an axis that leans 20 degrees out of the plane.
+/// Returns a wheel that steers about z and spins about an axis that leans 20 degrees out of the
+/// plane.
 std::shared_ptr<Model> leaning_wheel() {
   auto wheel = jointed_model(JointType::kRevolute2, wheel_inertial(1, 0.02), axis_along({0, 0, 1}));
   wheel->joints[0].axis2.axis = {0, std::cos(M_PI / 9), std::sin(M_PI / 9)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models of very many links are made quickly, or refused.
+// Tests that models of very many links are made quickly or refused.
 #include <gtest/gtest.h>
 
 #include <ctime>
@@ -11,11 +11,11 @@ using namespace physics;
 namespace {
 
 constexpr int kLinks = 20'000;
-/// Of this process's own time, ten times what a slow machine needs; what grows with the square
-/// takes far longer.
+/// Limit of this process's time: ten times the need of a slow machine. Work that grows with the
+/// square takes far longer.
 constexpr double kAtOnce_s = 10.0;
 
-/// Boxes a centimetre apart, each hanging on the one before.
+/// Returns boxes a centimetre apart, each on a joint to the one before.
 std::shared_ptr<Model> chain(JointType type, bool self_collide) {
   const std::shared_ptr<Model> one = box_model(1.0, {0.1, 0.1, 0.1});
   auto made = std::make_shared<Model>(*one);

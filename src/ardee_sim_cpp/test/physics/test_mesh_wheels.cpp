@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot on wheels that are meshes of 40,000 triangles each.
+// Tests of a robot on wheels that are meshes of 40,000 triangles each.
 #include <gtest/gtest.h>
 
 #include "rover.h"
@@ -11,7 +11,7 @@ namespace {
 constexpr double kStep_s = 0.001;
 constexpr int kAround = 200, kProfile = 100;  // corners
 
-/// A ring along z whose profile is a rounded rectangle, tread outwards.
+/// Returns a ring along z whose profile is a rounded rectangle, tread outwards.
 std::shared_ptr<MeshFile> tyre(double radius_m, double width_m) {
   auto file = std::make_shared<MeshFile>();
   file->parts.emplace_back();
@@ -56,7 +56,8 @@ class MeshWheels : public ::testing::Test {
  protected:
   MeshWheels() : world_(params(kStep_s), silent()) { shape_.legs = false; }
 
-  /// Distance over that of a wheel of that radius, both over the same second of a straight drive.
+  /// Returns the robot's distance as a share of an ideal wheel's, over the same second of a
+  /// straight drive.
   double rolling() {
     PhysicsModel& rover =
         world_.add_model(rover_on_meshes(shape_), at(0, 0, shape_.wheel_radius_m + 0.002));

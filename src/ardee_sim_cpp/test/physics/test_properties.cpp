@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What services change of links and joints while they move.
+// Tests of changes that services make to links and joints while they move.
 #include <gtest/gtest.h>
 
 #include "joints.h"
@@ -83,7 +83,7 @@ TEST(Properties, AHingeHangsWhereItsNewMassPullsIt) {
     properties.inertial->X_LI.p = {0.5, 0, 0};
     arm.set_link_properties(0, properties);
     run(world, 3.0);
-    // The spring's torque is that of the weight: k a = m g L cos(a).
+    // The spring's torque balances the weight's: k a = m g L cos(a).
     double angle = 0.0;
     for (int i = 0; i < 50; ++i) angle = 3.0 * kGravity * 0.5 * std::cos(angle) / 100.0;
     EXPECT_NEAR(arm.joint_position(0), angle, 1e-4);

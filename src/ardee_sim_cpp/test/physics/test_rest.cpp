@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Models at rest are left out of steps, and come back as soon as anything can move them.
+// Tests that steps leave out models at rest, and include them again once anything can move them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ TEST(RestInSpace, MomentumIsConservedWhenASleeperIsHit) {
   EXPECT_EQ(box.rest(), 0u);
   const double momentum = 1.0 * box.link_twist(0).linear.x() + 2.0 * ball.link_twist(0).linear.x();
   EXPECT_NEAR(momentum, 3.0, 1e-3);
-  EXPECT_NEAR(box.link_twist(0).linear.x(), 1.0, 0.05);  // without a bounce both go on as one
+  EXPECT_NEAR(box.link_twist(0).linear.x(), 1.0, 0.05);  // without a bounce both move on together
 }
 
 TEST_F(Rest, ASleeperFallsWhenItsSupportIsRemoved) {
@@ -142,7 +142,7 @@ TEST_F(Rest, WhatMayNotSleepStaysAwake) {
   sensing->links[0].sensors.emplace_back();
   world_.add_model(restless, at(0, 0, 0.1), "restless");
   world_.add_model(sensing, at(2, 0, 0.1), "sensing");
-  PhysicsModel& on_top = add_box(0, 0.3, "on_top");  // of one that is awake
+  PhysicsModel& on_top = add_box(0, 0.3, "on_top");  // on one that is awake
   add_box(4, 0.1, "other");
   run(1.5);
   EXPECT_EQ(world_.stats().models, 3u);

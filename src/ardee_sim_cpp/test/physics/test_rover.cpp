@@ -47,8 +47,9 @@ TEST_P(Rover, EachLegCarriesAQuarterOfTheBody) {
   add_ground(world);
   PhysicsModel& rover = world.add_model(rover_model(), at(0.3, 0.2, 0.1));
   run(world, 4.0);
-  // Wheels roll freely, so that the ground pushes straight up: spring torque = load times the hub's
-  // lever about the leg's joint, less the leg's own weight. The lever grows as the leg turns.
+  // Wheels roll freely, so the ground pushes straight up: the spring's torque is the load times the
+  // hub's lever about the leg's joint, less the torque of the leg's own weight. The lever grows as
+  // the leg turns.
   const double load = kGravity * (8.0 + 4 * 0.19) / 4.0;
   double angle = 0.0;
   for (int i = 0; i < 20; ++i) {
@@ -95,8 +96,8 @@ TEST_P(Rover, SkidSteersInPlaceWithinTheKinematicBound) {
     const Pose start = rover.pose();
     run(world, 2.0);
     const double rate = rover.link_twist(0).angular.z();
-    // Wheels at +-omega r over half the track would turn without skidding at omega r / (track / 2);
-    // they do skid.
+    // Without skidding, wheels at +-omega r over half the track would turn the robot at omega r /
+    // (track / 2); they do skid.
     const double bound = 4.0 * 0.097 / shape.half_track_m;
     EXPECT_LT(rate, bound);
     EXPECT_GT(rate, 0.3 * bound);
@@ -104,9 +105,10 @@ TEST_P(Rover, SkidSteersInPlaceWithinTheKinematicBound) {
   }
 }
 
-/// What turns a skid-steering robot in place, and what shifts it sideways, as shares of the
-/// friction available: both vanish in a steady turn by Coulomb's cone. `load_front`: share of the
-/// weight; tread: speed of the wheels' rims (m/s); center_x: of the turn, in the body (m).
+/// Returns the moment and the lateral force on a skid-steering robot that turns in place, as shares
+/// of the available friction: both vanish in a steady turn by Coulomb's cone. `load_front`: share
+/// of the weight; tread: speed of the wheels' rims (m/s); center_x: the turn's centre, in the body
+/// (m).
 Eigen::Vector2d turn_balance(const RoverShape& shape, double load_front, double tread, double rate,
                              double center_x) {
   Eigen::Vector2d sum(0, 0);
@@ -155,13 +157,14 @@ TEST_P(Rover, TurnsAboutItsMiddleWithAFrictionCone) {
     const Eigen::Vector2d balance = turn_balance(shape, load_front, tread, rate, center_x);
     EXPECT_NEAR(balance.x(), 0.0, 0.01) << "rate " << rate << " centre " << center_x;
     EXPECT_NEAR(balance.y(), 0.0, 0.03) << "rate " << rate << " centre " << center_x;
-    EXPECT_LT(std::abs(center_x), 0.4 * b);  // the pyramid has it at b
+    EXPECT_LT(std::abs(center_x), 0.4 * b);  // the friction pyramid's centre is at b
   }
 }
 
 TEST_P(Rover, TurnsWithItsWeightToOneSide) {
-  // Wheels, track and wheelbase of a Husky, its weight 7 cm to the right. The pyramid, whose axes
-  // slide independently, lets the left wheels slip and the robot drive straight on.
+  // The dimensions are those of a Husky: wheels, track, wheelbase; its weight is 7 cm to the right.
+  // With the friction pyramid, whose axes slide independently, the left wheels would slip and the
+  // robot would drive straight on.
   struct Case {
     bool pyramid;
     Eigen::Vector3d fdir1;
@@ -189,8 +192,8 @@ TEST_P(Rover, TurnsWithItsWeightToOneSide) {
     run(world, 2.0);
     const double rate = std::remainder(rpy_from_quaternion(rover.pose().q).z() - yaw, 2 * M_PI) / 2;
     const double b = shape.half_base_m, c = shape.half_track_m;
-    // Of an evenly loaded robot (Rover.TurnsAboutItsMiddleWithAFrictionCone); its maker's factor,
-    // nominal, is 0.53.
+    // The factor of an evenly loaded robot (Rover.TurnsAboutItsMiddleWithAFrictionCone); the
+    // maker's nominal factor is 0.53.
     const double even = 1.7 * shape.wheel_radius_m * c / (b * b + c * c);
     if (friction.pyramid) {
       EXPECT_LT(rate, 0.2 * even);
@@ -246,8 +249,8 @@ TEST_P(Rover, PushesAgainstAStalkAndIsStopped) {
     world.step();
     farthest = std::max(farthest, rover.link_pose(2).p.x());
   }
-  // The front left wheel meets the stalk: its hub stays a wheel's and a stalk's radius short of it,
-  // or slides round it.
+  // The front left wheel hits the stalk: its hub stays away by the radii of wheel and stalk, or
+  // slides round it.
   const Eigen::Vector3d hub = rover.link_pose(2).p;
   EXPECT_GT((hub - Eigen::Vector3d(1.0, 0.216, hub.z())).norm(), 0.02);
   EXPECT_LT(rover.pose().p.norm(), 3.0);

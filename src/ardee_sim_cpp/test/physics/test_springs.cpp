@@ -16,8 +16,8 @@ class Springs : public testing::TestWithParam<double> {
 
 INSTANTIATE_TEST_SUITE_P(Steps, Springs, testing::Values(0.001, 0.005));
 
-/// The roots z of a spring and damper under implicit Euler: (1 + h c / I + h^2 k / I) z^2 - (2 + h
-/// c / I) z + 1 = 0.
+/// Returns a root z of a spring and damper under implicit Euler: (1 + h c / I + h^2 k / I) z^2 - (2
+/// + h c / I) z + 1 = 0.
 std::complex<double> implicit_root(double stiffness, double damping, double moment, double step_s) {
   const std::complex<double> a =
       1.0 + step_s * damping / moment + step_s * step_s * stiffness / moment;
@@ -40,7 +40,7 @@ TEST_P(Springs, SwingsWithItsPeriodAndDecay) {
     PhysicsModel& body = add_sprung(world, moment, {stiffness, damping, 0.0}, type);
     body.set_joint_position(0, 0.1);
     const std::complex<double> z = implicit_root(stiffness, damping, moment, h());
-    // The solution of the recurrence with x(0) = x(-1) = 0.1 (at rest).
+    // This solves the recurrence with x(0) = x(-1) = 0.1 (at rest).
     const std::complex<double> weight = (0.1 - 0.1 / std::conj(z)) / (1.0 / z - 1.0 / std::conj(z));
     double crossing = 0.0, previous = 0.1;
     int crossings = 0;

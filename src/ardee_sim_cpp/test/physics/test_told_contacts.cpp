@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts as they are told to who asks: names, and the forces that balance.
+// Tests of reported contacts: their names, and the balance of their forces.
 #include <gtest/gtest.h>
 
 #include "models.h"
@@ -10,14 +10,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A cube that does not sleep, and is told of at rest too.
+/// Returns a cube that does not sleep, and reports contacts at rest too.
 std::shared_ptr<Model> sleepless_box(double mass_kg, double size_m) {
   auto made = box_model(mass_kg, {size_m, size_m, size_m});
   made->allow_auto_disable = false;
   return made;
 }
 
-/// A cube of 2 kg and 0.2 m at rest on a plane.
+/// Cube of 2 kg and 0.2 m at rest on a plane.
 struct RestingCube {
   RestingCube() : world(params(0.001), silent()) {
     world.add_scenery({placement(static_model(Plane{}))}, "ground");
@@ -57,7 +57,7 @@ TEST(ToldContacts, CarryTheWeightOfWhatRests) {
   const Vector3d weight(0, 0, 2.0 * kGravity);
   EXPECT_LT((on_cube.force - weight).norm(), 1e-3);
   EXPECT_LT(on_cube.torque.norm(), 1e-3);
-  // On the ground the weight acts 0.3 m along x from its frame: (0.3, 0, 0) x (0, 0, -m g).
+  // The weight acts on the ground 0.3 m along x from its frame: (0.3, 0, 0) x (0, 0, -m g).
   EXPECT_LT((on_ground.force + weight).norm(), 1e-3);
   EXPECT_LT((on_ground.torque - Vector3d(0, 0.3 * weight.z(), 0)).norm(), 1e-3);
   resting.world.step();

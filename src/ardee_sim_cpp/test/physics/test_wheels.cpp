@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wide wheels without give roll on their whole width.
+// Tests that wide wheels without springs roll on their whole width.
 #include <gtest/gtest.h>
 
 #include "joints.h"
@@ -16,11 +16,11 @@ struct Tread {
   double kp_n_per_m = 1e12;
   bool friction_cone = true;
   int max_contacts = 10;
-  double mass_left_m = 0.0;  // of the hull
+  double mass_left_m = 0.0;  // the hull's centre of mass
   Geometry foot = Sphere{kRadius_m};
 };
 
-/// A hull on two driven wheels and a sliding foot behind. Joints: left, right.
+/// Returns a hull on two driven wheels and a sliding foot behind. Joints: left, right.
 std::shared_ptr<Model> differential_drive(const Tread& tread) {
   auto robot = model(link("hull", box_inertial(4.0, {0.4, 0.3, 0.1})));
   Surface slippery;
@@ -49,7 +49,7 @@ std::shared_ptr<Model> differential_drive(const Tread& tread) {
   return robot;
 }
 
-/// Mean rate of turn (rad/s) at so much speed of the left and right rim.
+/// Returns the mean yaw rate [rad/s] at these speeds of the left and right rim.
 double yaw_rate(PhysicsWorld& world, PhysicsModel& robot, double left_m_per_s,
                 double right_m_per_s) {
   robot.set_joint_motor(0, left_m_per_s / kRadius_m, 20.0);
@@ -69,7 +69,7 @@ double yaw_rate(PhysicsWorld& world, PhysicsModel& robot, double left_m_per_s,
 
 constexpr double kYaw_rad_per_s = 0.8;
 
-/// How a robot on flat ground answers a turn, on the spot and while it goes forward.
+/// Checks a robot's turns on flat ground, on the spot and while it goes forward.
 void expect_turns(const Tread& tread, const Geometry& ground, double step_s,
                   double tolerance = 0.01) {
   for (const double forward : {0.0, 0.3}) {
@@ -106,8 +106,8 @@ TEST(Wheels, OnAMeshTheyDoSoWithinTheAccuracyOfItsContacts) {
 }
 
 TEST(Wheels, TheyAreAsStiffAsTheirEnds) {
-  // 5 kg on two wheels and a foot, the centre of mass 0.05 m behind the axle and the foot 0.3 m:
-  // the wheels carry 5/6 of the hull and themselves, on two springs each, in series with the
+  // The 5 kg rest on two wheels and a foot, the centre of mass 0.05 m and the foot 0.3 m behind the
+  // axle: the wheels carry 5/6 of the hull and themselves, on two springs each, in series with the
   // ground's.
   Tread tread;
   tread.kp_n_per_m = 1e5;

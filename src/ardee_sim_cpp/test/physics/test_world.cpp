@@ -58,7 +58,7 @@ std::uint64_t drive_hash(PhysicsParams::Solver solver, bool with_company) {
   world.reset_random(7);
   const RoverShape shape;
   PhysicsModel& rover = world.add_model(rover_model(shape), at(0, 0, 0.2));
-  // A pile too large to be solved directly.
+  // The pile is too large for the direct solver.
   for (int i = 0; i < 16; ++i) {
     world.add_model(box_model(1, {0.3, 0.2, 0.1}), at(1 + 0.01 * (i % 3), 0, 0.2 + 0.11 * i));
   }
@@ -201,7 +201,8 @@ TEST(PhysicsWorld, StateThatIsNotValidIsRefusedOrNamed) {
 }
 
 TEST(PhysicsWorld, OutlivesWhatTheEngineCannotSolve) {
-  // Whatever lifts the end of a board of 1e9 m, its light middle turns by more than a number holds.
+  // A force at the end of a board of 1e9 m would turn its light middle faster than a number can
+  // hold.
   PhysicsWorld world(params(0.02), silent());
   world.add_scenery({Placement{static_model(Plane{}), Pose{}}});
   const auto board = box_model(0.1, {0.4, 1e9, 0.4});
@@ -266,7 +267,7 @@ TEST(PhysicsWorld, FixedLinksMoveAsOneAndKeepTheirFrames) {
   body.set_twist({{0, 0, 0}, {0, 0, 1}});
   const Eigen::Vector3d arm = body.link_pose(2).p - X_WM.p;
   EXPECT_LT((body.link_twist(2).linear - Eigen::Vector3d::UnitZ().cross(arm)).norm(), 1e-12);
-  // Pushed at the common centre of mass it does not turn.
+  // A push at the common centre of mass does not turn it.
   body.set_twist({});
   const Eigen::Vector3d com = X_WM * Eigen::Vector3d((1.0 * mast.X_ML.p) / 3.0);
   body.apply_wrench(2, {0, 30, 0}, com, {0, 0, 0});
@@ -276,8 +277,8 @@ TEST(PhysicsWorld, FixedLinksMoveAsOneAndKeepTheirFrames) {
 }
 
 TEST(PhysicsWorld, AnImpossibleInertiaIsTheNearestPossibleOne) {
-  // A body with the second moments of mass p has the principal moments p_j + p_k; what is less than
-  // that of a ball of water of its mass becomes that.
+  // A body with the second moments of mass p has the principal moments p_j + p_k; smaller ones are
+  // raised to those of a ball of water of its mass.
   const double a = 0.02;
   const double ball = 0.2 * std::pow(1.0 / (4.0 / 3.0 * M_PI * 1000.0), 2.0 / 3.0);
   for (const auto& [given, expected] :
@@ -336,7 +337,7 @@ TEST(PhysicsWorld, LinksFarApartAndWideFloorsCostNoMoreThanWhatIsThere) {
   PhysicsWorld wide(weightless(0.001), silent());
   wide.add_scenery(posts);
   wide.add_model(box_model(1e6, {1e5, 1e5, 0.1}), Pose{});
-  wide.step();  // 10^10 cells, of which 2,000 hold something
+  wide.step();  // 10^10 cells, of which 2,000 are occupied
   EXPECT_LE(wide.stats().scenery_tested, 4u * 2000u);
   EXPECT_EQ(wide.stats().scenery_built, 0u);
 }

@@ -16,7 +16,7 @@ using namespace raycast;
 constexpr double kPi = 3.14159265358979323846;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A model of one link with `geometry` as its visual and its collision.
+/// Returns a model of one link with `geometry` as its visual and its collision.
 inline std::shared_ptr<Model> model_of(const Geometry& geometry, const Pose& X_LS = {},
                                        std::optional<Material> material = std::nullopt) {
   auto model = std::make_shared<Model>();
@@ -51,7 +51,7 @@ inline Placement placed(std::shared_ptr<const Model> model, const Pose& X_WM = {
   return {std::move(model), X_WM, scale, label};
 }
 
-/// A closed box of twelve outward triangles as a mesh part.
+/// Returns a closed box of twelve outward triangles as a mesh part.
 inline SubMesh box_mesh(const std::string& name, const Eigen::Vector3f& size,
                         const Eigen::Vector3f& center = Eigen::Vector3f::Zero()) {
   SubMesh part;
@@ -76,7 +76,7 @@ inline Mesh mesh_of(std::vector<SubMesh> parts) {
   return mesh;
 }
 
-/// Beams in the sensor's xy plane.
+/// Returns beams in the sensor's xy plane.
 inline RayPattern fan(int count, double from_rad, double to_rad) {
   RayPattern pattern;
   for (int k = 0; k < count; ++k) {
@@ -91,7 +91,7 @@ inline RayPattern towards(const Eigen::Vector3d& direction) {
   return {{direction.normalized().cast<float>()}};
 }
 
-/// Evenly random directions.
+/// Returns evenly random directions.
 inline RayPattern random_pattern(int count, std::uint64_t seed) {
   Rng rng(mix_bits(seed));
   RayPattern pattern;
@@ -105,7 +105,7 @@ inline RayPattern random_pattern(int count, std::uint64_t seed) {
   return pattern;
 }
 
-/// Rays of a picture in those directions, each from `near_m` to `far_m`; whole blocks of them.
+/// Returns a picture's rays in those directions, each from `near_m` to `far_m`, in whole blocks.
 inline std::vector<PrimaryRayPacket> blocks_of(const RayPattern& pattern, float near_m,
                                                float far_m) {
   std::vector<PrimaryRayPacket> blocks(pattern.directions_S.size() / PrimaryRayPacket::kRays);
@@ -125,7 +125,7 @@ inline RayOptions instances_only() {
   return options;
 }
 
-/// A scene with static placements, ready for a sensor at any place; ray after ray.
+/// Scene with static placements, ready for a sensor at any place; it traces ray after ray.
 class TestScene {
  public:
   explicit TestScene(SceneKind kind, const RayOptions& options = {})

@@ -11,7 +11,7 @@ namespace ardee::test {
 using namespace raycast;
 namespace {
 
-/// An uncompressed TGA of 2 x 2 texels with the given opacities, upper row first.
+/// Writes an uncompressed TGA of 2 x 2 texels with the given opacities, upper row first.
 std::string write_texture(const std::array<unsigned char, 4>& opacity) {
   const std::string path =
       (std::filesystem::path(::testing::TempDir()) / "alpha_mask.tga").string();
@@ -30,7 +30,7 @@ std::string write_texture(const std::array<unsigned char, 4>& opacity) {
   return path;
 }
 
-/// The square [-1, 1]^2 in the yz plane, textured once: u along y, v along z.
+/// Returns the square [-1, 1]^2 in the yz plane, textured once: u along y, v along z.
 Mesh textured_square() {
   SubMesh part;
   part.name = "leaf";
@@ -45,7 +45,7 @@ INSTANTIATE_TEST_SUITE_P(NearAndFar, Alpha, ::testing::Bool());
 
 TEST_P(Alpha, TexelsBelowTheRejectionAreHoles) {
   Material material = two_sided();
-  // Upper left 255, upper right 0, lower left 128, lower right 127.
+  // Opacities: upper left 255, upper right 0, lower left 128, lower right 127.
   material.texture_path = write_texture({255, 0, 128, 127});
   material.alpha_rejection = 127.5f / 255.0f;
   RayOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays along axes and beside them, as a device at rest has them: components that are zero, denormal
-// or tiny, of either sign, in every octant and on the borders between octants.
+// Tests of rays along axes and beside them, as from a device at rest: components that are zero,
+// denormal or tiny, of either sign, in every octant and on the borders between octants.
 #include <gtest/gtest.h>
 
 #include "scenes.h"
@@ -15,7 +15,7 @@ const Eigen::Vector3d kEye_W(0.1, -0.2, 0.3);
 
 enum class Walls { kMesh, kBox, kHeights };
 
-/// A sheet of 8 x 8 squares at z = 0 that is seen from above.
+/// Returns a sheet of 8 x 8 squares at z = 0 that is visible from above.
 SubMesh sheet() {
   constexpr int kSquares = 8;
   SubMesh part;
@@ -53,7 +53,7 @@ std::shared_ptr<Model> wall(Walls kind) {
   return model_of(map);
 }
 
-/// Where the six walls of a room about the origin stand, each turned to the middle.
+/// Returns the poses of the six walls of a room about the origin, each facing the middle.
 std::vector<Pose> places() {
   std::vector<Pose> poses;
   for (int axis = 0; axis < 3; ++axis) {
@@ -66,7 +66,7 @@ std::vector<Pose> places() {
   return poses;
 }
 
-/// How far the room's walls are from the eye.
+/// Returns the distance of the room's walls from the eye.
 double range_m(const Eigen::Vector3d& direction) {
   double nearest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
@@ -77,7 +77,7 @@ double range_m(const Eigen::Vector3d& direction) {
   return nearest;
 }
 
-/// Zero and sizes down to the least denormal, of either sign.
+/// Returns zero and sizes down to the least denormal, of either sign.
 std::vector<double> tiny_components() {
   std::vector<double> result;
   for (const double size :
@@ -88,8 +88,8 @@ std::vector<double> tiny_components() {
   return result;
 }
 
-/// Appends a block of sixteen rays about an octant or a border between some: every fifth one has
-/// `tiny` along the axes whose sign is 0, its neighbours are on one side of it.
+/// Appends a block of sixteen rays about an octant or a border between octants: every fifth ray has
+/// `tiny` along the axes whose sign is 0, and its neighbours are on one side of it.
 void add_block(const Eigen::Vector3i& sign, const Eigen::Vector3d& tiny, double side,
                std::vector<Eigen::Vector3d>& directions) {
   for (int k = 0; k < PrimaryRayPacket::kRays; ++k) {
@@ -217,7 +217,7 @@ TEST_P(Directions, MeetWallsThatMove) {
   expect_room(hits);
 }
 
-/// Above all that there is, looking up or past it as far as there is anything.
+/// The eye is above all bodies, and looks up or past them without limit.
 TEST(InfiniteReach, MeetsNothingBeyondTheScenery) {
   for (const RayOptions& options : {RayOptions{}, instances_only()}) {
     TestScene test(SceneKind::kVisual, options, 0,

@@ -10,15 +10,15 @@ namespace {
 
 constexpr std::size_t kPlenty = 1u << 30;
 constexpr double kBox_m = 0.2;
-constexpr std::size_t kTriangles = 12;  // of a box
+constexpr std::size_t kTriangles = 12;  // per box
 
-/// What `count` boxes take in a triangle scene; a byte less than one more does.
+/// Returns a budget for `count` boxes in a triangle scene, one byte short of the next.
 std::size_t bytes_of(std::size_t count) {
   return (count + 1) * kTriangles * LocalScene::kBytesPerTriangle - 1;
 }
 
-/// Boxes a metre apart, one at each whole place up to 10 m each way: (2 n + 1)^2 of them touch the
-/// square that reaches n metres and no farther than the next ones.
+/// Boxes a metre apart, one at each integer place up to 10 m each way: (2 n + 1)^2 of them touch
+/// the square that reaches n metres but not the next ones.
 class LocalSceneTest : public testing::Test {
  protected:
   LocalSceneTest() {
@@ -75,7 +75,7 @@ class TrianglesTooMany : public LocalSceneTest, public testing::WithParamInterfa
 INSTANTIATE_TEST_SUITE_P(LocalScene, TrianglesTooMany, testing::Values(40.0f, 0.5f));
 
 TEST_P(TrianglesTooMany, DoesNotShrinkTheSquare) {
-  // 50 boxes in one mesh at the middle; a wide one is in the triangle scene as a whole.
+  // One mesh at the middle has 50 boxes; a wide mesh is in the triangle scene as a whole.
   std::vector<SubMesh> parts;
   for (int k = 0; k < 50; ++k) {
     const float x = 0.01f * static_cast<float>(k);

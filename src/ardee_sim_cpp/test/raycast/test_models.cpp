@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Moving models, ids, removal and refusals.
+// Tests of moving models, ids, removal and refusals.
 #include <gtest/gtest.h>
 
 #include "scenes.h"
@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 Pose at(double x, double y, double z) { return {{x, y, z}, Eigen::Quaterniond::Identity()}; }
 
-/// Two links: a body of two boxes and a wheel.
+/// Returns two links: a body of two boxes and a wheel.
 std::shared_ptr<Model> robot() {
   auto model = model_of(Box{{0.4, 0.4, 0.4}});
   model->name = "robot";
@@ -84,7 +84,7 @@ TEST(Models, TwoModelsAndRemoval) {
   EXPECT_EQ(scene.one({0, 0, 0}, {1, 0, 0}).range_m, kInfinity);
 }
 
-/// Boxes of 1 m, 2 m apart along y, each seen from straight below x = 0.
+/// Boxes of 1 m stand 2 m apart along y, each seen straight along x.
 TEST(Models, ManyThatStayAreMetWhereTheyAre) {
   constexpr std::uint32_t kCount = 40;
   TestScene scene(SceneKind::kCollision);
@@ -177,7 +177,7 @@ TEST(Models, IdsOfInstancesNearAndFar) {
 }
 
 /// A camera in its housing looks along x, with a picture of 64 x 64 pixels and 90 degrees, at an
-/// arm of its robot before a wall: pixels no more than 3.5 aside, of 32 a metre at 1 m, see the
+/// arm of its robot before a wall: pixels at most 3.5 off the middle, 32 a metre at 1 m, see the
 /// arm's face of 0.1 m at 0.45 m.
 TEST(Models, LinksOfTheCamerasOwnRobotAreInItsPicture) {
   constexpr int kSide_px = 64;

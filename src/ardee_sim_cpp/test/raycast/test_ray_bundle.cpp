@@ -18,7 +18,7 @@ struct Case {
   RayQuery queries[kRays];
 };
 
-/// Neighbouring rays among random boxes; some along an axis, some with a component of -0.
+/// Returns neighbouring rays among random boxes; some along an axis, some with a component of -0.
 Case make_case(std::uint64_t number) {
   const CounterRng rng(stream_key(number, "bundle"));
   std::uint64_t n = 0;
@@ -46,7 +46,7 @@ Case make_case(std::uint64_t number) {
   return made;
 }
 
-/// By points along the ray, 0.5 mm apart: no formula that could be wrong in the same way.
+/// Tests points along the ray, 0.5 mm apart, so that no formula can be wrong in the same way.
 bool visits(const Bounds& box, const RayQuery& query) {
   for (double t = 0.0; t <= query.reach(); t += 5e-4) {
     const Eigen::Vector3d point = query.ray_W().at(t);
@@ -82,7 +82,8 @@ TEST(RayBundle, LeavesOutNoBoxThatARayVisits) {
   EXPECT_GT(visited, 100);
 }
 
-/// Of one ray it is the exact test: a box a little smaller than one it names is visited.
+/// With one ray, the bundle is the exact test: a slightly smaller box than each named one is
+/// visited.
 TEST(RayBundle, NamesForOneRayTheBoxesOnItsWay) {
   for (std::uint64_t number = 0; number < 120; ++number) {
     Case some = make_case(number);
@@ -94,7 +95,7 @@ TEST(RayBundle, NamesForOneRayTheBoxesOnItsWay) {
   }
 }
 
-/// Of a picture's rays: from near to what they have met.
+/// A picture's rays count from near to their hits.
 TEST(RayBundle, LooksAtRaysOfAPictureFromNearToWhatTheyHaveMet) {
   int visited = 0;
   int left_out = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a ray returns must not depend on threads, on local scenes or on their timing.
+// Tests that hits do not depend on threads, on local scenes or on their timing.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -10,8 +10,8 @@ namespace ardee::test {
 using namespace raycast;
 namespace {
 
-/// A crumpled sheet of triangles, edges shared, everywhere overlapping its neighbours when placed
-/// densely.
+/// Returns a crumpled sheet of triangles with shared edges, which overlaps its neighbours
+/// everywhere if placed densely.
 std::shared_ptr<Model> crumpled(std::uint64_t seed, bool both_sides) {
   Rng rng(mix_bits(seed));
   SubMesh part;
@@ -40,8 +40,7 @@ std::shared_ptr<Model> crumpled(std::uint64_t seed, bool both_sides) {
   return model;
 }
 
-/// Plants on a jittered grid, every tenth one twice at the very same place (ties), with a ground
-/// under them.
+/// Returns plants on a jittered grid, every tenth one twice at the same place (ties), on a ground.
 std::vector<Placement> field(int side, double spacing, const Eigen::Vector3d& corner) {
   const std::vector<std::shared_ptr<Model>> models = {crumpled(1, true), crumpled(2, false),
                                                       crumpled(3, true)};
@@ -131,12 +130,12 @@ TEST(SameBytes, WhileRegionsFollowADrivingSensor) {
   }
 }
 
-/// Far from the first local scene's centre, then up and down within a metre: one more local scene
-/// is enough.
+/// The eye goes far from the first local scene's centre, then up and down within a metre: one more
+/// local scene is enough.
 TEST(Regions, AreNotMadeAgainWhereOneIsNear) {
   TestScene test(SceneKind::kVisual, options(true, 4.0, 1));
   test.scene.add_scenery(0, field(40, 0.4, {0, 0, 0}));
-  constexpr bool kAtOnce = true;  // for pictures, a local scene that is due is waited for
+  constexpr bool kAtOnce = true;  // for pictures, a due local scene is waited for
   test.scene.prepare({{2.0, 8.0, 0.3}}, kAtOnce);
   const std::size_t before = test.scene.local_scenes_made();
   for (int k = 0; k < 200; ++k) {
@@ -159,7 +158,7 @@ TEST(SameBytes, AgainAfterRemovalAndReturn) {
   EXPECT_TRUE(same(before, scene.cast(eye, pattern)));
 }
 
-/// The nearest of all triangles of the visual meshes, by brute force in long double.
+/// Returns the nearest of all triangles of the visual meshes, by brute force in long double.
 double nearest(const std::vector<Placement>& placements, const Eigen::Vector3d& o,
                const Eigen::Vector3d& d) {
   using V = Eigen::Matrix<long double, 3, 1>;
@@ -225,7 +224,7 @@ TEST(Truth, FarFromTheOriginAsExactAsNear) {
                                          {corner + Eigen::Vector3d(0, 2, 0), {1, 0, 0, 0}})});
       EXPECT_FLOAT_EQ(scene.one(corner, {1, 0, 0}).range_m, 2.5f);
       EXPECT_FLOAT_EQ(scene.one(corner, {0, 1, 0}).range_m, 1.99f);
-      // The edge lies where it lies, to a micrometre.
+      // The edge's place is exact to a micrometre.
       const Eigen::Vector3d up(0, 0, 1);
       EXPECT_TRUE(std::isfinite(scene.one(corner + 0.499999 * up, {1, 0, 0}).range_m));
       EXPECT_EQ(scene.one(corner + 0.500001 * up, {1, 0, 0}).range_m, kInfinity);
@@ -323,8 +322,8 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
   }
 }
 
-/// A wall without a gap, whose two triangles meet where rays of the same slope to the side and
-/// upwards go.
+/// The wall has no gap; its two triangles share an edge along rays of equal slope to the side and
+/// upwards.
 TEST(QuickLooks, DoNotSlipBetweenTriangles) {
   const auto wall = model_of(mesh_of({box_mesh("wall", {1.0f, 20.0f, 20.0f})}));
   TestScene test(SceneKind::kVisual, {}, 0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranges and normals against closed forms.
+// Tests of ranges and normals against closed forms.
 #include <gtest/gtest.h>
 
 #include "scenes.h"
@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Both ways to the same answer: local scenes and instances.
+/// Fixture for both ways to the same answer: local scenes and instances.
 class Shapes : public ::testing::TestWithParam<bool> {
  protected:
   RayOptions options() const { return GetParam() ? RayOptions{} : instances_only(); }
@@ -28,7 +28,7 @@ void expect_normal(const RayHit& hit, const Vector3d& expected) {
 TEST_P(Shapes, SphereRangeAndNormal) {
   TestScene scene = scene_with(Sphere{0.5}, {{3, 0, 0}, Eigen::Quaterniond::Identity()});
   EXPECT_FLOAT_EQ(scene.one({0, 0, 0}, {1, 0, 0}).range_m, 2.5f);
-  // Off centre by 0.3 m: half the chord is 0.4 m.
+  // The ray is 0.3 m off centre: half the chord is 0.4 m.
   const RayHit hit = scene.one({0, 0.3, 0}, {1, 0, 0});
   EXPECT_FLOAT_EQ(hit.range_m, 2.6f);
   expect_normal(hit, {-0.8, 0.6, 0});
@@ -44,14 +44,14 @@ TEST_P(Shapes, BoxRangeAndNormalFromATurnedSensor) {
   const RayHit hit = scene.cast(turned, fan(1, -kPi / 2, 0)).front();
   EXPECT_FLOAT_EQ(hit.range_m, 4.0f);
   expect_normal(hit, {-1, 0, 0});
-  // Rolled and pitched, at 30° to the normal.
+  // The sensor is rolled and pitched, at 30° to the normal.
   const Pose pitched = Pose::from_xyz_rpy({0, 0, 0}, {0.7, kPi / 6, 0});
   EXPECT_NEAR(scene.cast(pitched, fan(1, 0, 0)).front().range_m, 4.0 / std::cos(kPi / 6), 1e-6);
 }
 
 TEST_P(Shapes, CylinderChordAndCap) {
   TestScene scene = scene_with(Cylinder{0.02, 1.0}, {{2, 0, 0.5}, Eigen::Quaterniond::Identity()});
-  // Beam at a distance h from the axis: half the chord is sqrt(r^2 - h^2).
+  // A beam is at a distance h from the axis: half the chord is sqrt(r^2 - h^2).
   for (const double h : {0.0, 0.005, 0.012, 0.019}) {
     const RayHit hit = scene.one({0, h, 0.3}, {1, 0, 0});
     const double half = std::sqrt(0.02 * 0.02 - h * h);

@@ -7,7 +7,7 @@ namespace ardee::test {
 using namespace raycast;
 namespace {
 
-/// A single quad facing +x.
+/// Returns a single quad facing +x.
 Mesh quad() {
   SubMesh part;
   part.name = "quad";

@@ -11,7 +11,7 @@ namespace ardee::test {
 using namespace raycast;
 namespace {
 
-/// Models that could move, boxes of triangles on a grid about the eye and a row of them beyond its
+/// Movable models at rest: boxes of triangles on a grid about the eye, and a row of them beyond its
 /// local scene.
 class StillModels : public testing::Test {
  protected:
@@ -23,7 +23,7 @@ class StillModels : public testing::Test {
     prepare(30);
   }
 
-  /// The middle of the grid is left to the eye.
+  /// Returns the place of box k; the middle of the grid is free for the eye.
   static Eigen::Vector3d place(std::uint32_t k) {
     if (k >= kNear) return {40.0, k - kNear - 7.5, 0.0};
     const std::uint32_t cell = k < kNear / 2 ? k : k + 1;
@@ -41,8 +41,8 @@ class StillModels : public testing::Test {
     for (int k = 0; k < times; ++k) test.scene.prepare({eye_W}, true);
   }
 
-  /// Looks all round: pictures and shadows must be those of exact rays. Returns how many
-  /// rays met each model, by the triangle scene or exactly.
+  /// Looks all round and expects pictures and shadows equal to those of exact rays. Returns how
+  /// many rays hit each model, in the triangle scene or exactly.
   struct Seen {
     std::vector<int> drafted = std::vector<int>(200);
     std::vector<int> exact = std::vector<int>(200);

@@ -31,7 +31,8 @@ bool shadow(const RayScene& scene, const Eigen::Vector3d& from, const Eigen::Vec
   return found;
 }
 
-/// A sheet of 2 m x 1 m in the yz plane, facing +x, textured once, its normals leaning to +z.
+/// Returns a sheet of 2 m x 1 m in the yz plane, facing +x, textured once, its normals leaning to
+/// +z.
 Mesh sheet() {
   SubMesh part;
   part.vertices = {{0, -1, 0}, {0, 1, 0}, {0, 1, 1}, {0, -1, 1}};
@@ -51,7 +52,7 @@ TEST(SurfaceInteraction, KnowsPlaceOnTheTextureNormalAndMaterial) {
   TestScene scene(SceneKind::kVisual);
   scene.scene.add_scenery(7, {placed(model, {{5, 0, 0}, Eigen::Quaterniond::Identity()}, 2.0, 3)});
   scene.scene.prepare({{0, 0, 0}});
-  // From behind; twice as large: y from -2 to 2, z from 0 to 2.
+  // The ray comes from behind; the sheet is twice as large: y from -2 to 2, z from 0 to 2.
   const SurfaceInteraction point = trace(scene.scene, {0, 1, 0.5}, {1, 0, 0});
   ASSERT_TRUE(point.met());
   EXPECT_NEAR(point.range_m, 5.0, 1e-12);
@@ -98,7 +99,8 @@ TEST(SurfaceInteraction, TerrainIsSmooth) {
   EXPECT_NEAR(point.point_S.x(), 1.5, 1e-9);
   scene.scene.prepare({{0, 0, 5}}, true);
   const SurfaceInteraction quick = trace_approximately(scene.scene, {1.5, 0.3, 5}, {0, 0, -1});
-  // Between normals instead of slopes: (sin a + sin b) / (cos a + cos b), tan a = 0.2, tan b = 0.4.
+  // Interpolated normals instead of slopes give (sin a + sin b) / (cos a + cos b), tan a = 0.2, tan
+  // b = 0.4.
   EXPECT_NEAR(-quick.smooth_normal_W.x() / quick.smooth_normal_W.z(), 0.29727, 1e-4);
   EXPECT_NEAR((quick.point_S - point.point_S).norm(), 0.0, 1e-5);
   EXPECT_EQ(quick.visual, point.visual);
@@ -122,7 +124,7 @@ TEST(SurfaceInteraction, ShadowsAreCastFromBothSidesWithinReach) {
   EXPECT_FALSE(shadow(without.scene, {1, 0, 0.5}, {-1, 0, 0}));
 }
 
-/// What trace() meets is what cast() meets, in a local scene and beyond it.
+/// trace() and cast() hit the same points, in a local scene and beyond it.
 TEST(SurfaceInteraction, AgreesWithTheSensorsRays) {
   std::vector<Placement> placements;
   for (int k = 0; k < 40; ++k) {

@@ -11,8 +11,8 @@ namespace ardee::test {
 using namespace raycast;
 namespace {
 
-/// Triangles of all shapes about the origin, the ones with a side of a few centimetres, others of
-/// metres.
+/// Returns triangles of all shapes about the origin, some with a side of a few centimetres, others
+/// of metres.
 std::vector<Placement> shards() {
   Rng rng(mix_bits(3));
   const auto anywhere = [&rng](double size_m) -> Eigen::Vector3d {
@@ -38,7 +38,7 @@ struct Glances {
     scene.pictures().trace_primary(eye, blocks.data(), blocks.size());
   }
 
-  /// Requests for all rays, with `width_m` of texels.
+  /// Returns requests for all rays, with texels of `width_m`.
   std::vector<TexelRequest> requests(float width_m) const {
     std::vector<TexelRequest> all;
     for (std::uint32_t ray = 0; ray < blocks.size() * PrimaryRayPacket::kRays; ++ray) {
@@ -85,7 +85,7 @@ TEST(SurfaceTexels, LieWhereRaysHaveMetThem) {
       const Eigen::Vector3d way_W = glances.direction_W(k);
       const Eigen::Vector3d at_W = eye_W + static_cast<double>(requests[k].range_m) * way_W;
       const Eigen::Vector3d middle_W = ray.origin_W + point.range_m * ray.direction_W;
-      // Both lie in one row and one column.
+      // Both points lie in one row and one column.
       EXPECT_LT((middle_W - at_W).norm(), 1.5 * size_m + 1e-5);
       EXPECT_NEAR(point.normal_W.dot(middle_W - at_W), 0.0, 1e-5);
       EXPECT_LT(point.normal_W.dot(way_W), 1e-6);
@@ -96,7 +96,8 @@ TEST(SurfaceTexels, LieWhereRaysHaveMetThem) {
 }
 
 TEST(SurfaceTexels, AreAsManyAsTheAreaHolds) {
-  // A right triangle of a metre: its longest side of 1.414 m is cut into 46, its height into 23.
+  // A right triangle of one metre: its longest side of 1.414 m is cut into 46 parts, its height
+  // into 23.
   SubMesh part;
   part.name = "right";
   part.vertices = {{3, 0, 0}, {3, 1, 0}, {3, 0, 1}};
@@ -105,7 +106,7 @@ TEST(SurfaceTexels, AreAsManyAsTheAreaHolds) {
   TestScene test(SceneKind::kVisual, {}, 0, {placed(model_of(mesh_of({part}), {}, two_sided()))});
   test.scene.prepare({eye_W}, true);
   const Glances glances(test.scene, eye_W, 1600000);
-  const std::vector<TexelRequest> requests = glances.requests(0.04f);  // of 1/32 m
+  const std::vector<TexelRequest> requests = glances.requests(0.04f);  // texels of 1/32 m
   std::vector<SurfaceTexel> texels(requests.size());
   test.scene.pictures().find_texels(eye_W, glances.blocks.data(), requests.data(), requests.size(),
                                     texels.data());
@@ -117,7 +118,7 @@ TEST(SurfaceTexels, AreAsManyAsTheAreaHolds) {
     EXPECT_LT(texel.row, 23u);
     seen.emplace(texel.column, texel.row);
   }
-  // Row r holds what is between two sides of 45 degrees: 46 less two texels for each row below.
+  // Row r lies between two sides of 45 degrees: 46 texels less two for each row below.
   EXPECT_EQ(seen.size(), 552u);
 }
 

@@ -19,7 +19,7 @@ std::shared_ptr<HeightGrid> rough_grid(int columns, int rows, double size_x_m, d
   return grid;
 }
 
-/// Height by the cell's two triangles, cut from (column, row) to (column + 1, row + 1).
+/// Returns the height on the cell's two triangles, cut from (column, row) to (column + 1, row + 1).
 double height_at(const HeightGrid& grid, double x, double y) {
   const double u = (x / grid.size_m.x() + 0.5) * (grid.columns - 1);
   const double v = (y / grid.size_m.y() + 0.5) * (grid.rows - 1);
@@ -52,8 +52,8 @@ TEST(Terrain, HeightsFromAboveAreThoseOfTheTriangles) {
 }
 
 TEST(Terrain, NoRaySlipsThrough) {
-  // From below, on vertices, along edges and anywhere: the collision scene's terrain is met from
-  // both sides.
+  // Rays come from below, on vertices, along edges and anywhere: the collision scene's terrain is
+  // hit from both sides.
   const auto grid = rough_grid(65, 65, 32.0, 32.0);
   Heightmap map;
   map.grid = grid;

@@ -14,7 +14,7 @@
 
 namespace ardee {
 
-/// A loader over a temporary model folder and the test data, with what it says recorded.
+/// Loader over a temporary model folder and the test data, with a record of its messages.
 class ReadersTest : public ::testing::Test {
  protected:
   explicit ReadersTest(BadParts bad_parts = BadParts::kRefuse)
@@ -36,7 +36,7 @@ class ReadersTest : public ::testing::Test {
     return loader_.load_model_text("<robot name='r'>\n" + body + "</robot>", "test.urdf");
   }
 
-  /// What an action throws; empty if nothing.
+  /// Returns the message of the exception that an action throws; empty for none.
   template <typename Action>
   static std::string error_of(Action action) {
     try {

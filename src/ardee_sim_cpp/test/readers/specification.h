@@ -12,8 +12,8 @@
 
 namespace ardee {
 
-/// Walks all that one version of SDF may hold, by the descriptions that Debian's package
-/// sdformat-sdf brings, and expects each element and attribute in the table at its place.
+/// Walks through all elements of one version of SDF, by the descriptions in Debian's package
+/// sdformat-sdf, and expects each element and attribute in the table at its place.
 class SpecificationWalk {
  public:
   explicit SpecificationWalk(const std::string& version) : folder_(root() + version + "/") {
@@ -29,9 +29,9 @@ class SpecificationWalk {
                                               "1.6", "1.7", "1.8", "1.9"};
     return all;
   }
-  /// "place/name" of all that was met.
+  /// Set of "place/name" of all visited entries.
   const std::set<std::string>& met() const { return met_; }
-  /// Those that act and hold a number, a switch, or several numbers.
+  /// Visited entries that act and hold a number, a switch, or several numbers.
   const std::set<std::string>& acting_numbers() const { return acting_numbers_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has a meaning is taken, though it is not written as the specifications would have it.
+// Tests that meaningful input is accepted even if it deviates from the specifications.
 #include <cmath>
 
 #include "fixture.h"
@@ -201,7 +201,8 @@ TEST_F(Accepted, AllThatGazeboKnowsInABlockActsIsWarnedOfOrRefused) {
     const std::string where = reference.empty() ? "" : " reference='" + reference + "'";
     return robot(parts + "<gazebo" + where + ">" + block + "</gazebo>");
   };
-  // What sdformat's parser of URDF looks for; of each a value that it would not have by default.
+  // These are the elements that sdformat's parser of URDF looks for, each with a value that is not
+  // its default.
   for (const auto& [name, text] : Texts{{"mu1", "0.5"},
                                         {"mu2", "0.5"},
                                         {"kp", "1e5"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What newer Gazebo calls its systems and sensors is read as the stock plugins.
+// Tests that newer Gazebo's names of systems and sensors are read as the stock plugins.
 #include <map>
 
 #include "fixture.h"
@@ -16,7 +16,7 @@ class GzSystems : public ReadersTest {
     for (const Element& key : plugin.element.children) keys[key.name] = key.text;
     return keys;
   }
-  /// A robot of four wheels with a plugin.
+  /// Returns a robot of four wheels with a plugin.
   std::shared_ptr<const Model> rover(const std::string& plugin) {
     std::string body = "<link name='base'/>";
     for (const std::string wheel : {"fl", "fr", "rl", "rr"}) {
@@ -76,7 +76,7 @@ TEST_F(GzSystems, EachFurtherPairOfWheelsHasADriveThatSaysNothing) {
   EXPECT_EQ(rear.at("publishOdomTF"), "false");
   EXPECT_EQ(keys_of(m->plugins[0]).count("publishOdom"), 0u);
   EXPECT_NE(m->plugins[0].name, m->plugins[1].name);
-  // What has no counterpart stays, for the plugin to name it.
+  // A key without counterpart stays, so that the plugin reports it.
   EXPECT_EQ(rear.at("max_velocity"), "1");
   EXPECT_HAS(error_of([&] { rover("<plugin filename='gz-sim-diff-drive-system' name='d'/>"); }),
              "found no <left_joint> or no <right_joint>");
@@ -145,7 +145,7 @@ TEST_F(GzSystems, ALidarPublishesOnItsTopic) {
   EXPECT_EQ(deep.plugins.at(0).filename, "libgazebo_ros_velodyne_gpu_laser.so");
   EXPECT_EQ(keys_of(deep.plugins[0]),
             (Keys{{"topicName", "scan/points"}, {"frameName", "f"}, {"organize_cloud", "true"}}));
-  // Gazebo Classic's sensors say nothing on ROS without a plugin.
+  // Without a plugin, Gazebo Classic's sensors publish nothing on ROS.
   EXPECT_TRUE(sensor("<sensor name='s' type='ray'/>").plugins.empty());
   EXPECT_TRUE(sensor("<sensor name='s' type='ray'><topic>__default_topic__</topic></sensor>")
                   .plugins.empty());

@@ -26,7 +26,7 @@ TEST(Image, ReadsGreyOfEachFormat) {
   }
 }
 
-/// The numbers of a heightmap are no brightness, whatever a file says of screens.
+/// The values of a heightmap are not brightness, whatever gamma the file names.
 TEST(Image, DoesNotCorrectGamma) {
   const TempFolder folder;
   std::string png = read_text_file(picture("grey8.png"), {}, 10'000);
@@ -68,7 +68,7 @@ TEST(Image, HoldsALargeGreyOne) {
   EXPECT_EQ(*std::max_element(image.samples16.begin(), image.samples16.end()), 0);
 }
 
-/// Heights of a file, and what is said of it.
+/// Heights of a file, and the messages about it.
 struct Heights {
   Heights(const std::string& path, const Eigen::Vector3d& size_m)
       : log([this](LogLevel, const std::string& text) { said += text; }),
@@ -85,7 +85,7 @@ std::string little(std::uint32_t value, int bytes) {
   return text;
 }
 
-/// A grey TGA of 8 bits and two columns, from the upper edge.
+/// Returns a grey TGA of 8 bits and two columns, from the upper edge.
 std::string tga(const std::string& pixels) {
   return std::string("\0\0\3\0\0\0\0\0\0\0\0\0", 12) + little(2, 2) +
          little(static_cast<std::uint32_t>(pixels.size() / 2), 2) + little(8, 1) + little(0x20, 1) +
@@ -94,7 +94,8 @@ std::string tga(const std::string& pixels) {
 
 enum class Samples : std::uint32_t { kUnsigned = 1, kSigned = 2, kFloat = 3 };
 
-/// A TIFF of two columns and one strip, with GDAL's tag for no data and a GeoTIFF's keys if asked.
+/// Returns a TIFF of two columns and one strip, with GDAL's tag for no data and a GeoTIFF's keys if
+/// asked.
 template <typename Number>
 std::string tiff(Samples format, const std::vector<Number>& samples,
                  const std::string& no_data = "", bool is_geo = false,
@@ -135,7 +136,7 @@ std::string tiff(Samples format, const std::vector<Number>& samples,
          little(count, 2) + entries + little(0, 4);
 }
 
-/// Row by row from the upper edge, as in the file.
+/// Returns the heights row by row from the upper edge, as in the file.
 std::vector<float> as_written(const HeightGrid& grid) {
   std::vector<float> heights;
   for (int row = grid.rows - 1; row >= 0; --row) {
@@ -173,7 +174,7 @@ TEST(Heightmap, TheBrightestOfEightBitsStandsAtSizeZ) {
   };
   expect_heights(heights(std::string("\0\x02\x01\x01", 4)), {0, 10, 5, 5});
   expect_heights(heights(std::string("\0\xff\x33\x01", 4)), {0, 10, 2, 10 / 255.0f});
-  // A brightest value of 1 is Gazebo's full scale: what is 1 of 255 high stays so.
+  // A brightest value of 1 is Gazebo's full scale: 1 of 255 stays as high.
   expect_heights(heights(std::string("\0\x01\x01\0", 4)), {0, 10 / 255.0f, 10 / 255.0f, 0});
   expect_heights(heights(std::string(4, '\0')), {0, 0, 0, 0});
   expect_heights(heights("@@@@"), {10, 10, 10, 10});

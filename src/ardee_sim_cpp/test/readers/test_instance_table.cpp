@@ -15,7 +15,7 @@ class InstanceTable : public ReadersTest {
     for (const char* name : {"corn", "weed"}) folder_.write_model(name, "<link name='link'/>");
   }
 
-  /// A field whose plants are the rows of a table.
+  /// Returns a field whose plants are the rows of a table.
   std::shared_ptr<const Model> field(const std::string& rows,
                                      const std::string& fixed = "<static>1</static>") {
     return table(kHeader + rows, fixed);

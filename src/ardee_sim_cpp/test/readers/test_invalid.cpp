@@ -8,7 +8,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the first lines of a broken file say must be in the message: <!-- expected: PART -->.
+/// Returns the parts of the message that the first lines of a broken file name: <!-- expected: PART
+/// -->.
 std::vector<std::string> expected_parts(const fs::path& file) {
   const std::string mark = "<!-- expected: ";
   std::ifstream stream(file);

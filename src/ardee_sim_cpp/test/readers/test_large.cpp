@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Descriptions that ask for much in few lines are read quickly or refused at once.
+// Tests that short descriptions of much work are read quickly or refused at once.
 #include <chrono>
 
 #include "fixture.h"
@@ -9,7 +9,8 @@ namespace {
 
 using Large = ReadersTest;
 
-/// Ten times what a slow machine needs; what grows with the square takes far longer.
+/// Limit of time: ten times the need of a slow machine. Work that grows with the square takes far
+/// longer.
 constexpr double kAtOnce_s = 10.0;
 
 template <typename Action>
@@ -49,7 +50,7 @@ TEST_F(Large, AChainOfTwentyThousandLinksIsReadInProportionToItsLength) {
     EXPECT_LT(seconds_of([&] { model = robot(text); }), kAtOnce_s);
     EXPECT_NEAR(model->find_link("l19999")->X_ML.p.z(), 19.999, 1e-9);
   }
-  // The last has no mass where it moves: one warning for all its joints.
+  // The last link has no mass in its direction of motion: one warning for all its joints.
   EXPECT_EQ(warnings_->size(), 1u);
   EXPECT_TRUE(warned("(and 19998 more)"));
 }
@@ -75,8 +76,8 @@ TEST_F(Large, ManyRootsAreNamedInAShortMessage) {
 
 class LargeIncludes : public ReadersTest {
  protected:
-  /// Model `name``depth` holds ten to the power of `depth` of the innermost, by includes that have
-  /// `more` in them.
+  /// Writes models of which `name``depth` holds ten to the power of `depth` of the innermost, by
+  /// includes with `more` in them.
   void nest(const std::string& name, int depth, const std::string& innermost,
             const std::string& more = "") {
     folder_.write_model(name + "0", innermost);

@@ -5,7 +5,7 @@
 namespace ardee {
 namespace {
 
-/// Reads a script and keeps what is said of it.
+/// Reads a script and keeps the messages about it.
 MaterialScript read_script(const std::string& text, std::string* said = nullptr) {
   std::string warnings;
   Log log([&warnings](LogLevel, const std::string& warning) { warnings += warning + "\n"; });

@@ -5,15 +5,14 @@
 #include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
 
-// Assimp forgets some memory when it refuses a broken file; a leak check is to look at our own
-// code.
+// Assimp leaks some memory when it refuses a broken file; the leak check is for our own code.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
 
 namespace ardee {
 namespace {
 
-/// Reads a file and keeps what is said of it.
+/// Reads a file and keeps the messages about it.
 struct Reading {
   explicit Reading(const std::string& path)
       : log([this](LogLevel, const std::string& text) { said += text + "\n"; }),
@@ -41,7 +40,7 @@ void expect_box(const SubMesh& part, const Eigen::Vector3f& low, const Eigen::Ve
   EXPECT_LT((most - high).norm(), 1e-5f) << most.transpose();
 }
 
-/// By the divergence theorem; positive if the triangles face outwards.
+/// Returns the volume by the divergence theorem; positive if the triangles face outwards.
 double volume(const SubMesh& part) {
   double sum = 0.0;
   for (const auto& t : part.triangles) {
@@ -107,7 +106,7 @@ TEST(MeshReader, FindsTexturesBesideTheMeshAndInTheModelsFolder) {
   EXPECT_EQ(file.parts.at(0).texcoords.at(2), Eigen::Vector2f(0, 1));
 }
 
-/// Of all triangles of a file.
+/// Returns the area of all triangles of a file.
 double area(const MeshFile& file) {
   double sum = 0.0;
   for (const SubMesh& part : file.parts) {
@@ -125,7 +124,7 @@ std::size_t triangles(const MeshFile& file) {
   return sum;
 }
 
-/// A block of 1 x 2 x 3 m in quadrilaterals, and the six corners of an L of 3 square metres.
+/// Block of 1 x 2 x 3 m in quadrilaterals, and the six corners of an L of 3 square metres.
 const std::string kBlock =
     "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nv 0 0 3\nv 1 0 3\nv 1 2 3\nv 0 2 3\n"
     "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
@@ -207,7 +206,8 @@ TEST(MeshReader, FollowsALongChainOfColladaParametersOnce) {
   const std::string part = primitive("triangles", 1, "<p>0 1 2</p>");
   const std::clock_t start = std::clock();
   EXPECT_EQ(triangles(Reading(folder.write("l.dae", collada(part, effect))).file), 1u);
-  // Ten times what a slow machine needs; what grows with the square takes far longer.
+  // The limit is ten times the need of a slow machine; work that grows with the square takes far
+  // longer.
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
 }
 
@@ -248,7 +248,7 @@ TEST(MeshPolygons, AFanIsReadWhateverStandsBesideTheElements) {
   }
 }
 
-/// What reading a file throws; empty if nothing.
+/// Returns the message of the exception that reading a file throws; empty for none.
 std::string error_of(const std::string& path) {
   try {
     const Reading reading(path);
@@ -258,7 +258,7 @@ std::string error_of(const std::string& path) {
   return "";
 }
 
-/// A comb of many teeth, none of which is cut off before all corners were looked at.
+/// Each tooth of a comb of many teeth is cut off only after all corners were tested.
 TEST(MeshPolygons, TakeAtMostSomeSecondsAFile) {
   std::string corners;
   std::string face = "f";
@@ -274,7 +274,7 @@ TEST(MeshPolygons, TakeAtMostSomeSecondsAFile) {
   EXPECT_HAS(error_of(folder.write("combs.obj", text)), "found too many polygons of many corners");
 }
 
-/// Nodes of a library, each of which holds the next `copies` times.
+/// Returns nodes of a library, each of which holds the next `copies` times.
 std::string chain(int length, int copies) {
   std::string nodes;
   for (int k = 0; k < length; ++k) {

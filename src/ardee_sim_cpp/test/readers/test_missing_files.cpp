@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a loader that leaves out missing files reads of descriptions that need them.
+// Tests of a loader that leaves out missing files, on descriptions that need them.
 #include "fixture.h"
 
 namespace ardee {
@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kBox = "<geometry><box><size>1 1 1</size></box></geometry>";
 
-/// A collision with a mesh.
+/// Returns a collision with a mesh.
 std::string mesh(const std::string& name, const std::string& uri) {
   return "<collision name='" + name + "'><geometry><mesh><uri>" + uri +
          "</uri></mesh></geometry></collision>";
@@ -20,7 +20,7 @@ class MissingFilesTest : public ReadersTest {
                                    std::string(kBox) + "</collision></link>");
   }
 
-  /// The one error that was said.
+  /// Returns the only error that was reported.
   std::string only_error() const {
     EXPECT_EQ(errors_->size(), 1u);
     return errors_->empty() ? "" : errors_->front();
@@ -53,7 +53,7 @@ TEST_F(MissingFilesTest, LeavesOutAnIncludeThatCannotBeRead) {
   folder_.write_model("wrong", "<link name='l'><pose>0 0</pose></link>");
   folder_.write_model("ring", include("ring"));
   const World w = world(include("torn") + include("wrong") + include("ring") + include("box"));
-  ASSERT_EQ(w.models.size(), 2u);  // of the ring what is in it beside itself: nothing
+  ASSERT_EQ(w.models.size(), 2u);  // the ring of includes holds its other content, without itself
   EXPECT_EQ(w.models[1].name, "box");
   ASSERT_EQ(errors_->size(), 3u);
   EXPECT_HAS(errors_->at(0), "torn/model.sdf:");
@@ -139,7 +139,7 @@ struct BadPart {
 
 class BadPartsTest : public MissingFilesTest, public ::testing::WithParamInterface<BadPart> {};
 
-/// A world between whose good models one part is bad: of it there is one error, and no name.
+/// A world has one bad part between good models: it gives one error, and its name is free.
 TEST_P(BadPartsTest, AreLeftOutOfAWorld) {
   const World w = world("<model name='a'><link name='l'/></model>" + std::string(GetParam().xml) +
                         "<model name='m'><link name='l'/></model>");

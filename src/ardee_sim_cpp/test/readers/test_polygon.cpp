@@ -13,7 +13,7 @@ namespace {
 
 using Corners = std::vector<Eigen::Vector3f>;
 
-/// Half the sum of cross products (the shoelace formula).
+/// Returns half the sum of cross products (the shoelace formula).
 Eigen::Vector3d area_of(const Corners& corners) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -23,7 +23,7 @@ Eigen::Vector3d area_of(const Corners& corners) {
   return sum;
 }
 
-/// The triangles turn as the polygon does and cover its area: none lies outside of it or over
+/// Expects triangles that turn as the polygon does and cover its area, none outside of it or over
 /// another.
 void expect_cut(const Corners& corners) {
   const Eigen::Vector3d whole = area_of(corners);
@@ -36,7 +36,7 @@ void expect_cut(const Corners& corners) {
   EXPECT_LT((sum - whole).norm(), 1e-5 * whole.norm());
 }
 
-/// The polygon in other planes, turned the other way and begun at each corner.
+/// Cuts the polygon in other planes, turned the other way and begun at each corner.
 void expect_cut_however(const Corners& corners) {
   for (const Eigen::Vector3f& axis : {Eigen::Vector3f(0, 0, 1), Eigen::Vector3f(1, 0, 0),
                                       Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(1, 2, 3)}) {

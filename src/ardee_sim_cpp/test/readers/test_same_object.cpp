@@ -4,7 +4,7 @@
 namespace ardee {
 namespace {
 
-/// Listing A.1, with the lines that its page lost put back.
+/// Listing A.1, with the lines that its page lost restored.
 constexpr const char* kSdf = R"(<?xml version="1.0"?>
 <sdf version="1.5">
   <model name="sensor_gps">

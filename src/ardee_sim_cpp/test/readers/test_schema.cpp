@@ -15,12 +15,13 @@ TEST_F(SchemaTest, HasEachElementAndAttributeOfTheSpecificationAtEachPlace) {
   }
 }
 
-/// The last part of "place/name".
+/// Returns the last part of "place/name".
 std::string name_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 TEST_F(SchemaTest, HasNoOtherNamesButItsOwnAndNewerOnes) {
   std::set<std::string> known{"ardee:scale", "ardee:label", "ardee:instances", "@filename",
-                              // SDF 1.10 to 1.12, and what its package leaves out of 1.7 to 1.9
+                              // Entries of SDF 1.10 to 1.12, and those that its package leaves out
+                              // of 1.7 to 1.9
                               "@auto", "@optimization", "air_speed", "anti_aliasing",
                               "auto_inertia_params", "camera_info_topic", "cone",
                               "convex_decomposition", "cubemap_uri", "density", "fluid_added_mass",

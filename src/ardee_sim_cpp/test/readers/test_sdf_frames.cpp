@@ -4,7 +4,7 @@
 namespace ardee {
 namespace {
 
-constexpr const char* kQuarter = "1.5707963267948966";  // of a turn, rad
+constexpr const char* kQuarter = "1.5707963267948966";  // a quarter turn [rad]
 
 /// Poses of SDF 1.7 relative to each other
 /// (http://sdformat.org/tutorials?tut=pose_frame_semantics).
@@ -51,7 +51,7 @@ TEST_F(SdfFramesTest, AJointIsInItsChildUnlessItSaysOtherwise) {
   const std::string links = link("a") + link("b", "<pose>" + turned("1 0 0") + "</pose>");
   const auto plain = model(links + fixed("a", "b", "<pose>1 0 0 0 0 0</pose>"));
   expect_near(plain->joints[0].X_CJ.p, {1, 0, 0});
-  // The model's origin, as the turned link sees it.
+  // The pose of the model's origin in the turned link's frame.
   const auto other = model(links + fixed("a", "b", pose("__model__", "0 0 0 0 0 0")));
   expect_near(other->joints[0].X_CJ.p, {0, 1, 0});
 }
@@ -231,7 +231,7 @@ TEST_F(SdfFramesTest, NamesWhatIsWrong) {
       "found that frame 'f' lies in itself");
   EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
              "found frame 'x', expected one of world, m");
-  // Where no frames are known: the pose of a file's own model.
+  // Without known frames, only the pose of a file's own model counts.
   EXPECT_HAS(error_of([&] {
                loader_.load_model_text("<sdf version='1.7'><model name='m'>" +
                                            pose("x", "0 0 0 0 0 0") + link("a") + "</model></sdf>",

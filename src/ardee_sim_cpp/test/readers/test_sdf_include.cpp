@@ -88,7 +88,7 @@ TEST_F(SdfInclude, KeepsStaticModelsOfAFieldAsInstances) {
   const World w = world(include("field", "<pose>0 0 1 0 0 0</pose>"));
   const auto placed = flatten_scenery(w.models.at(0));
   ASSERT_EQ(placed.size(), 2u);
-  // Row turned by 90 degrees at (0, 10, 1): its x runs along the world's y.
+  // The row is turned by 90 degrees at (0, 10, 1): its x runs along the world's y.
   expect_near(placed[0].X_WM.p, {0, 11, 1});
   expect_near(placed[0].X_WM.q * Eigen::Vector3d::UnitX(), {-1, 0, 0});
   expect_near(placed[1].X_WM.p, {0, 12, 1});

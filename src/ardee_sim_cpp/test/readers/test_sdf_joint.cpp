@@ -53,7 +53,7 @@ TEST_F(SdfJointTest, AnAxisMaySayInWhichFrameItIs) {
 }
 
 TEST_F(SdfJointTest, TheJointsOwnPoseTurnsAModelAxisToo) {
-  // Joint turned back by 90 degrees: its axes are the model's.
+  // The joint is turned back by 90 degrees: its axes are the model's.
   const Joint j =
       joint("revolute", "<pose>0 0 0.5 0 0 -1.5707963267948966</pose><axis><xyz>1 0 0</xyz></axis>",
             "1.4");
@@ -101,7 +101,7 @@ TEST_F(SdfJointTest, KnowsAllTypes) {
   EXPECT_EQ(joint("prismatic", axis).type, JointType::kPrismatic);
   EXPECT_EQ(joint("universal", axes).type, JointType::kUniversal);
   expect_near(joint("revolute2", axes).axis2.axis, {0, 1, 0});
-  // 2 pi radians a metre, left-handed: one metre back in a turn.
+  // A pitch of 2 pi radians a metre, left-handed: one metre back in a turn.
   EXPECT_NEAR(
       joint("screw", axis + "<thread_pitch>6.283185307179586</thread_pitch>").thread_pitch_m, -1.0,
       1e-12);
@@ -133,7 +133,7 @@ TEST_F(SdfJointTest, AGearboxCouplesTheJointsOnItsReferenceBody) {
   EXPECT_EQ(m->couplings[0].follower, "jb");
   EXPECT_EQ(m->couplings[0].multiplier, -3.0);
   EXPECT_EQ(m->couplings[0].offset, 0.0);
-  // A joint that counts the other way round, by its axis or by its links.
+  // The joint counts the other way round, by its axis or by its links.
   EXPECT_EQ(geared(second("f", "b", "0 0 -1"), "f")->couplings.at(0).multiplier, 3.0);
   EXPECT_EQ(geared(second("b", "f", "0 0 1"), "f")->couplings.at(0).multiplier, 3.0);
   EXPECT_TRUE(geared(second("a", "b", "0 0 1"), "f")->couplings.empty());

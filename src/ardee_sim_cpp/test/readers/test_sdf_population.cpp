@@ -30,7 +30,7 @@ TEST_F(SdfPopulation, StandsInAGridAboutItsPose) {
   EXPECT_EQ(w.models[5].name, "stalk_clone_5");
   EXPECT_EQ(w.models[5].model, w.models[0].model);
   EXPECT_TRUE(w.models[0].is_static);
-  // Columns go along the population's x, the world's y; rows along its y, the world's -x.
+  // Columns run along the population's x, the world's y; rows along its y, the world's -x.
   expect_near(w.models[0].pose.p, Eigen::Vector3d(11, 19.5, 1));
   expect_near(w.models[2].pose.p, Eigen::Vector3d(11, 20.5, 1));
   expect_near(w.models[5].pose.p, Eigen::Vector3d(9, 20.5, 1));
@@ -58,7 +58,7 @@ TEST_F(SdfPopulation, RandomPlacesFillTheirRegionEvenly) {
       EXPECT_TRUE((each.pose.p.cwiseAbs().array() <= Eigen::Array3d(2, 1, 0.25)).all());
       sum += each.pose.p;
     }
-    // Four standard errors of a uniform distribution's mean.
+    // The bound is four standard errors of a uniform distribution's mean.
     const Eigen::Array3d most = 4.0 * Eigen::Array3d(4, 2, 0.5) / std::sqrt(12.0 * kCount);
     EXPECT_TRUE(((sum / kCount).array().abs() <= most).all()) << type;
     const World in_cylinder =
@@ -68,14 +68,14 @@ TEST_F(SdfPopulation, RandomPlacesFillTheirRegionEvenly) {
       EXPECT_LE(each.pose.p.head<2>().norm(), 2.0 + 1e-12);
       inner += each.pose.p.head<2>().norm() < 1.0 ? 1 : 0;
     }
-    // A quarter of its area; four standard deviations of a binomial.
+    // The inner part is a quarter of the area; the bound is four standard deviations of a binomial.
     EXPECT_NEAR(inner, kCount / 4, 4.0 * std::sqrt(kCount * 0.25 * 0.75)) << type;
     const World again = populate(kBox + count + how(type));
     EXPECT_EQ(again.models.back().pose.p, in_box.models.back().pose.p) << type;
   }
 }
 
-/// The least distance between any two.
+/// Returns the least distance between any two models.
 double least_distance(const World& w) {
   double least = 1e9;
   for (std::size_t i = 0; i < w.models.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worlds as Gazebo saves them: <state> says where everything stands.
+// Tests of worlds as Gazebo saves them, with all poses in <state>.
 #include "fixture.h"
 
 namespace ardee {

@@ -72,7 +72,7 @@ TEST_F(Urdf, HoldsTheJointOfALinkWithoutInertial) {
   const auto held = robot(heavy + "<link name='b'/>" + joint("continuous", ""));
   EXPECT_EQ(held->joints.at(0).type, JointType::kFixed);
   EXPECT_TRUE(warned("link 'b' by joint 'j'"));
-  // What is fixed to a link moves with it and lends it its mass.
+  // A link moves with the bodies that are fixed to it, and has their mass.
   const std::string carrier =
       "<link name='b'/><link name='c'><inertial><mass value='1'/>"
       "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"

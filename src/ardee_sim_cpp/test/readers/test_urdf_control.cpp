@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a URDF says for ros_control: transmissions and safety limits.
+// Tests of a URDF's data for ros_control: transmissions and safety limits.
 #include "fixture.h"
 
 namespace ardee {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One text has one reading: encodings, declarations, names, and what is refused before it is read.
+// Tests that each text has one reading: encodings, declarations, names, and texts that are refused
+// unread.
 #include <array>
 
 #include "fixture.h"
@@ -58,7 +59,7 @@ TEST_F(XmlText, EncodingsAreConverted) {
   EXPECT_EQ(link_name(declared + "<robot name='r'><link name='\xE9'/></robot>"), "\xC3\xA9");
   EXPECT_EQ(link_name(declared + "<robot name='r'><link name='&#233;'/></robot>"), "\xC3\xA9");
   EXPECT_EQ(link_name("\xEF\xBB\xBF<?xml version='1.0' encoding='UTF-8'?>" + kRobot), "a");
-  // Plain ASCII is what it is in any encoding that is named.
+  // Plain ASCII is the same in any declared encoding.
   EXPECT_EQ(link_name("<?xml version='1.0' encoding='utf-16'?>" + kRobot), "a");
   EXPECT_EQ(link_name("<?xml version='1.0' encoding='latin-99'?>" + kRobot), "a");
   std::string little, big;

@@ -11,7 +11,7 @@ namespace ardee::test {
 using namespace raycast;
 using namespace render;
 
-/// A matt surface that returns `share` of direct light, and none from all around.
+/// Returns a matt surface that reflects `share` of direct light, and no ambient light.
 inline Material matt(float share) {
   Material material;
   material.diffuse = Color(share, share, share, 1.0f);
@@ -26,7 +26,7 @@ inline Light sun(const Eigen::Vector3d& direction) {
   return light;
 }
 
-/// A black background and no light but what is added.
+/// Stage with a black background and only the lights that a test adds.
 struct TestStage {
   TestStage() {
     scene.background = Color(0, 0, 0, 1);
@@ -47,7 +47,8 @@ struct TestStage {
   std::vector<Placement> placements;
 };
 
-/// Straight down from `height_m`, x upwards in the picture and y to the left.
+/// Returns a camera that looks straight down from `height_m`, x upwards in the picture and y to the
+/// left.
 inline Camera from_above(double height_m, int side_px = 101) {
   Camera camera;
   camera.X_WC = Pose::from_xyz_rpy({0, 0, height_m}, {0, 0.5 * kPi, 0});
@@ -60,7 +61,7 @@ inline int red_at(const Image& image, const Eigen::Vector2d& place_px) {
                                     static_cast<int>(std::floor(place_px.y())))];
 }
 
-/// How many pixels are not black.
+/// Returns the number of pixels that are not black.
 inline int lit_pixels(const Image& image) {
   int count = 0;
   for (std::size_t i = 0; i < image.samples8.size(); i += 4) {

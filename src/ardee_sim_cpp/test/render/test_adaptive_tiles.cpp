@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Quick pictures against thorough ones.
+// Tests of quick pictures against thorough ones.
 #include <gtest/gtest.h>
 
 #include "pictures.h"
@@ -9,8 +9,8 @@ using namespace raycast;
 using namespace render;
 namespace {
 
-/// Boxes of triangles, which are in the triangle scene, on a floor, which is not; a stick of a
-/// pixel or two.
+/// Returns boxes of triangles, which are in the triangle scene, on a floor, which is not; and a
+/// stick of one or two pixels.
 TestStage boxes() {
   TestStage stage;
   Plane floor;
@@ -39,7 +39,7 @@ struct Pair {
   Frame quick;
   Frame thorough;
 
-  /// How many pixels differ by more than `most`.
+  /// Returns the number of pixels that differ by more than `most`.
   int different(float most) const {
     int count = 0;
     for (std::size_t k = 0; k < quick.light.size(); ++k) {
@@ -69,7 +69,7 @@ Pair render_frame(const TestStage& stage, const Camera& camera, bool shadows) {
 }
 
 TEST(QuickPictures, AreThoroughOnesWhereLightIsEven) {
-  // Each face has one light: only whose surface a pixel at an edge is may be seen otherwise.
+  // Each face has one light: only the surface of a pixel at an edge may differ.
   for (const auto& [width, height] : std::vector<std::pair<int, int>>{
            {1, 1}, {3, 2}, {4, 4}, {10, 11}, {31, 33}, {64, 48}, {101, 67}, {320, 240}}) {
     const Pair pair = render_frame(boxes(), ahead(width, height), false);
@@ -158,7 +158,7 @@ TEST(QuickPictures, AreTheSameWithAnyNumberOfThreads) {
 }
 
 TEST(QuickPictures, AreTheSameWhateverCameBefore) {
-  // What is kept of earlier pictures is what would be worked out now.
+  // Values kept from earlier pictures equal those that would be computed now.
   Studio fresh(boxes());
   const Frame expected = fresh.render_frame(ahead(150, 110), 1);
   EXPECT_EQ(fresh.render_frame(ahead(150, 110), 1).light, expected.light);

@@ -48,7 +48,7 @@ TEST(Develop, PutsColoursWhereTheFormatSays) {
   EXPECT_NEAR((mono16[0] + 256 * mono16[1]) / 65535.0, 0.363, 1e-4);
 }
 
-/// Light from below nothing to far above white.
+/// Returns light from below zero to far above white.
 Frame uneven_frame(int width, int height) {
   Frame frame = even_frame(width, height, {0, 0, 0});
   const CounterRng draws(11);
@@ -58,7 +58,7 @@ Frame uneven_frame(int width, int height) {
   return frame;
 }
 
-/// The formula for one value: `draw` is which of the pixel's four draws of noise it uses.
+/// Returns one value by the formula: `draw` is which of the pixel's four draws of noise it uses.
 float value(float light, const ImageFormation& how, std::uint64_t bits, int draw) {
   const float brightness = tone(*how.exposure * light) + static_cast<float>(how.noise_mean);
   if (how.noise_std == 0.0) return brightness;
@@ -66,7 +66,7 @@ float value(float light, const ImageFormation& how, std::uint64_t bits, int draw
   return brightness + static_cast<float>(how.noise_std) * NormalTable::get()[number];
 }
 
-/// The bytes of one pixel. `colors`: of its values, as the letters R, G, B, or W for grey.
+/// Returns the bytes of one pixel. `colors`: its values as the letters R, G, B, or W for grey.
 std::vector<std::uint8_t> pixel_bytes(const Eigen::Vector3f& light, const std::string& colors,
                                       const ImageFormation& how, std::uint64_t bits) {
   std::vector<std::uint8_t> bytes;
@@ -87,7 +87,7 @@ std::vector<std::uint8_t> pixel_bytes(const Eigen::Vector3f& light, const std::s
 }
 
 TEST(Develop, FollowsTheFormulaPixelByPixel) {
-  // Colours in even and odd columns, first in even and then in odd rows.
+  // Colours are those of even and odd columns, first in even and then in odd rows.
   const std::pair<PixelFormat, std::array<std::string, 4>> kFormats[] = {
       {PixelFormat::kRgb8, {"RGB", "RGB", "RGB", "RGB"}},
       {PixelFormat::kBgr8, {"BGR", "BGR", "BGR", "BGR"}},
@@ -140,7 +140,7 @@ TEST(Develop, NoiseHasTheStatedDeviationAndIsNotShared) {
   }
   const double n = static_cast<double>(bytes.size());
   const double quantised = std::sqrt(kStd * kStd + 1.0 / (12.0 * 255 * 255));
-  // Four standard errors.
+  // The bound is four standard errors.
   EXPECT_NEAR(sum / n, 0.0, 4.0 * kStd / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), quantised, 4.0 * kStd / std::sqrt(2.0 * n));
   EXPECT_NEAR(product / (n / 3), 0.0, 4.0 * kStd * kStd / std::sqrt(n / 3));

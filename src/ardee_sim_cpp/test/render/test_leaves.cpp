@@ -7,7 +7,7 @@ namespace ardee::test {
 using namespace render;
 namespace {
 
-/// Leaves turned in all directions about the vertical, each a strip that bends over.
+/// Returns leaves turned in all directions about the vertical, each a strip that bends over.
 Mesh plant() {
   std::vector<SubMesh> parts;
   for (int leaf = 0; leaf < 8; ++leaf) {

@@ -41,7 +41,7 @@ TEST(Lens, SkewShiftsRows) {
   EXPECT_NEAR(pixel.x(), 320.0 * 0.25 + 12.0 * 0.5 + 319.5, 1e-9);
   EXPECT_NEAR(pixel.y(), 320.0 * 0.5 + 239.5, 1e-9);
   EXPECT_NEAR((*lens.to_plane(pixel) - Eigen::Vector2d(0.25, 0.5)).norm(), 0.0, 1e-12);
-  const UndistortionMap table(lens, 640, 480);  // whose pixels are counted from their corners
+  const UndistortionMap table(lens, 640, 480);  // its pixels count from their corners
   EXPECT_NEAR((table.plane(pixel.x() + 0.5, pixel.y() + 0.5) - Eigen::Vector2d(0.25, 0.5)).norm(),
               0.0, 1e-12);
 }

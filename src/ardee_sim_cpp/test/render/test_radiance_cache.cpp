@@ -15,7 +15,7 @@ namespace {
 
 using CachedRadiance = RadianceCache::CachedRadiance;
 
-/// The light of a name, so that each place in a store can be checked.
+/// Returns the light of a key, so that each place in a cache can be checked.
 CachedRadiance light_of(std::uint64_t family, std::uint64_t number) {
   const std::uint64_t bits = mix_bits(family ^ mix_bits(number));
   const auto share = [bits](int k) {
@@ -54,7 +54,7 @@ TEST(RadianceCache, FindsWhatWasKeptAndNothingElse) {
 TEST(RadianceCache, GivesUpOldNamesForNewOnes) {
   RadianceCache store;
   store.open();
-  // All of one place: the families' upper halves and the number choose it.
+  // All keys have one place: the families' upper halves and the number choose it.
   constexpr std::uint64_t kNames = 40;
   for (std::uint64_t family = 1; family <= kNames; ++family) {
     store.keep({family, 0}, light_of(family, 0));
@@ -82,7 +82,7 @@ TEST(RadianceCache, NeverMixesWhatSeveralThreadsKeep) {
     threads.emplace_back([&, thread] {
       for (int k = 0; k < 200000; ++k) {
         const std::uint64_t bits = mix_bits(static_cast<std::uint64_t>(k) * 4 + thread);
-        // Few places, many names for each of them.
+        // There are few places, and many keys for each.
         const std::uint64_t family = bits % 50;
         const std::uint64_t number = bits >> 32 & 7;
         CachedRadiance found;

@@ -42,8 +42,8 @@ TEST(Shading, AmbientAndEmissiveNeedNoLamp) {
   EXPECT_NEAR(image.samples8[image.index(50, 50) + 1], 255.0 * 0.2, 0.51);
 }
 
-/// A box of 1 m on the floor under a sun at 45 degrees from -x: its shadow reaches from its far
-/// face at x = 0.5 to x = 1.5.
+/// A box of 1 m stands on the floor under a sun at 45 degrees from -x: its shadow reaches from its
+/// far face at x = 0.5 to x = 1.5.
 TEST(Shading, ShadowFallsWhereTheSunSays) {
   TestStage stage;
   const Pose on_floor{{0, 0, 0.5}, Eigen::Quaterniond::Identity()};

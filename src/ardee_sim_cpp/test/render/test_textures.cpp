@@ -7,7 +7,7 @@ namespace ardee::test {
 using namespace render;
 namespace {
 
-/// Writes a picture whose colours `color_of(column, row)` gives, and returns its path.
+/// Writes a picture with the colours of `color_of(column, row)`, and returns its path.
 std::string write_texture(const std::string& name, int side,
                           const std::function<Eigen::Vector3i(int, int)>& color_of) {
   Image image;
@@ -29,7 +29,7 @@ Material glowing(const std::string& texture) {
   return material;
 }
 
-/// One black field in a white board of 8 x 8 fields: it lies where the camera's formula puts it.
+/// The one black field in a white board of 8 x 8 fields appears where the camera's formula puts it.
 TEST(Textures, FieldOfABoardProjectsToItsPixel) {
   const std::string path = write_texture("board.png", 64, [](int column, int row) {
     const bool black = column / 8 == 6 && row / 8 == 1;
@@ -43,7 +43,7 @@ TEST(Textures, FieldOfABoardProjectsToItsPixel) {
   Camera camera;
   camera.X_WC = look_at({-2, -4, 3}, {0.5, 0.5, 0});
   const Image image = stage.picture(camera);
-  // Column 6 of 8 from x = -2 on; row 1 from the upper edge, y = 2, on.
+  // The field is in column 6 of 8 from x = -2 on; row 1 from the upper edge, y = 2, on.
   const auto shown = [&](double x, double y) { return red_at(image, *camera.project({x, y, 0})); };
   EXPECT_LT(shown(1.25, 1.25), 5);
   for (const Eigen::Vector2d& next : {Eigen::Vector2d(0.85, 1.25), Eigen::Vector2d(1.65, 1.25),

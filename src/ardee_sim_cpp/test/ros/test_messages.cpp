@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What devices measure as ROS messages, and the messages of the log that reach a service's caller.
+// Tests of readings as ROS messages, and of the log messages that reach a service's caller.
 #include <gtest/gtest.h>
 
 #include <cmath>

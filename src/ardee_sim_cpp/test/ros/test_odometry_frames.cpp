@@ -10,7 +10,7 @@ namespace ardee::node {
 using namespace devices;
 namespace {
 
-/// A robot at (3, 1), turned to the left, and what /tf_static says of it last.
+/// Robot at (3, 1), turned to the left, with the latest transforms of /tf_static.
 struct Scene {
   Scene() { robot.place(Pose::from_xyz_rpy({3, 1, 0.2}, {0, 0, M_PI / 2})); }
 
@@ -25,7 +25,7 @@ struct Scene {
   Robot robot{"robot", std::make_shared<Model>(), 0};
 };
 
-/// A drive's transform of the robot's base.
+/// Returns a drive's transform of the robot's base.
 TransformReading odometry(const std::string& frame, const Pose& X_OB) {
   return {{0, frame}, "base", X_OB, true};
 }
@@ -58,7 +58,7 @@ TEST(OdometryFrames, ComeFromMessagesTooWhoseHeightIsNone) {
 }
 
 TEST(OdometryFrames, AreNotTheLinksThatCarryWheels) {
-  // <publishWheelTF> tells of each wheel in the chassis, which has its place in the tree.
+  // <publishWheelTF> gives each wheel in the chassis, which has its place in the tree.
   Scene scene;
   scene.frames.on_reading(scene.robot, TransformReading{{0, "chassis"}, "wheel", {}});
   EXPECT_TRUE(scene.told.empty());

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs the unit tests of ros/ as the workspace's build has made them: they need ROS's library, but no ROS master."""
+"""Runs the unit tests of ros/ from the workspace's build: they need ROS's library, but no ROS master."""
 import pathlib
 import re
 import subprocess

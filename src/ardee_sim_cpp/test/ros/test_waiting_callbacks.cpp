@@ -39,7 +39,7 @@ TEST(WaitingCallbacks, AreCalledOnceAndInOrder) {
 
 TEST(WaitingCallbacks, AreCalledFromACallbackToo) {
   ros::CallbackQueue queue;
-  constexpr int kRounds = 100000;  // so many until that list has to be moved at a bad moment
+  constexpr int kRounds = 100000;  // enough rounds to move that list at a bad moment
   std::mt19937 random;
   int outer = 0, left = 0, inner = 0, inner_added = 0;
   for (int round = 0; round < kRounds; ++round) {

@@ -12,13 +12,13 @@ namespace ardee {
 using namespace physics;
 using namespace devices;
 
-/// A plugin of the model; its name is the library's.
+/// Returns a plugin of the model; its name is the library's.
 inline std::string model_device(const std::string& library, const std::string& keys) {
   return "<gazebo><plugin name='" + library + "' filename='lib" + library + ".so'>" + keys +
          "</plugin></gazebo>";
 }
 
-/// A sensor on the mast; its name is the library's.
+/// Returns a sensor on the mast; its name is the library's.
 inline std::string mast_sensor(const std::string& library, const std::string& type,
                                const std::string& block, const std::string& keys) {
   return "<gazebo reference='mast'><sensor name='" + library + "' type='" + type +
@@ -156,7 +156,7 @@ inline std::vector<std::string> camera_devices() {
   };
 }
 
-/// One of each plugin that there is, as elements of a robot.
+/// Returns one of each known plugin, as elements of a robot.
 inline std::vector<std::string> all_devices() {
   std::vector<std::string> all;
   for (const auto& some :
@@ -166,7 +166,8 @@ inline std::vector<std::string> all_devices() {
   return all;
 }
 
-/// The rover without its own drive, with a mast, a driven arm, a sprung flag and these elements.
+/// Returns the rover without its own drive, with a mast, a driven arm, a sprung flag and these
+/// elements.
 inline std::string rover_with(const std::vector<std::string>& devices) {
   const auto light_link = [](const std::string& name, const std::string& joint,
                              const std::string& rest) {
@@ -191,7 +192,7 @@ inline std::string rover_with(const std::vector<std::string>& devices) {
   return xml + "</robot>";
 }
 
-/// Whatever a robot takes on a topic, once.
+/// Sends one command to each topic of a robot.
 inline void command_all(Entity& robot) {
   for (const auto& device : robot.devices) {
     for (const Input& input : device->ports().inputs) {

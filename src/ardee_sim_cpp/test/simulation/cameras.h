@@ -9,8 +9,8 @@
 namespace ardee {
 using namespace devices;
 
-/// A camera that stands still at its model's origin; `camera` goes into <camera>, `keys` into the
-/// plugin.
+/// Returns a camera that stands still at its model's origin; `camera` goes into <camera>, `keys`
+/// into the plugin.
 inline std::string camera_post(const std::string& plugin, const std::string& camera,
                                const std::string& keys = "", const std::string& type = "camera",
                                double rate_hz = 10.0) {
@@ -31,7 +31,7 @@ inline std::string camera_block(int width, int height, double fov_rad,
          more + "</camera>";
 }
 
-/// A box that glows in one brightness from 0 to 1, whatever the light.
+/// Returns a box that glows in one brightness from 0 to 1, in any light.
 inline std::string glowing_box(const std::string& name, const std::string& pose,
                                const std::string& size, double brightness) {
   const std::string b = std::to_string(brightness);

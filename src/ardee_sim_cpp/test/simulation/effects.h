@@ -6,9 +6,9 @@
 
 namespace ardee {
 
-/// Two values of an element with which one world goes on differently.
+/// Two values of an element that make one world behave differently.
 struct Effect {
-  std::string element;  // as the table of elements names it: "place/name"
+  std::string element;  // "place/name", as in the table of elements
   std::string world;    // {} stands for the element
   const char* one;
   const char* other;
@@ -40,7 +40,7 @@ constexpr char kFloor[] =
     "<model name='floor'><static>true</static><link name='l'><collision name='c'><geometry><plane>"
     "<normal>0 0 1</normal></plane></geometry></collision></link></model>";
 
-/// A cube of one kilogram that is thrown down askew, on ground of the same kind.
+/// Returns a cube of one kilogram that is thrown down askew, on ground of the same kind.
 inline std::string thrown(const std::string& in_collision, const std::string& z_m = "0.495") {
   const std::string ground = "<plane><normal>0 0 1</normal></plane>";
   return still("floor", in_link(collision(ground, in_collision))) +
@@ -50,7 +50,7 @@ inline std::string thrown(const std::string& in_collision, const std::string& z_
          "<velocity>1 0.5 -1 0 0 1</velocity></link></model></state>";
 }
 
-/// A pile whose contacts are more than what is solved directly.
+/// Returns a pile with more contacts than the direct solver takes.
 inline std::string pile() {
   std::string cubes = kFloor;
   for (int i = 0; i < 20; ++i) {
@@ -61,7 +61,7 @@ inline std::string pile() {
   return cubes;
 }
 
-/// A weight on a joint of the world, 1 m out along x.
+/// Returns a weight on a joint of the world, 1 m out along x.
 inline std::string jointed(const std::string& in_joint, const std::string& type = "revolute",
                            const std::string& in_arm = "",
                            const std::string& joint_pose = "-1 0 0 0 0 0") {
@@ -73,7 +73,7 @@ inline std::string axis(const std::string& inside, const std::string& xyz = "0 1
                         const std::string& name = "axis") {
   return "<" + name + "><xyz>" + xyz + "</xyz>" + inside + "</" + name + ">";
 }
-/// A joint of two axes whose weight turns about both.
+/// Returns a joint of two axes whose weight turns about both.
 inline std::string two_axes(const std::string& first, const std::string& second,
                             const std::string& joint_pose = "-1 0 0 0 0 0") {
   return jointed(first + second, "universal", "", joint_pose) +
@@ -81,7 +81,7 @@ inline std::string two_axes(const std::string& first, const std::string& second,
          "0 1 0 0 0 1</velocity></link></model></state>";
 }
 
-/// What a sensor on a post 1 m up sees or feels.
+/// Returns a sensor on a post of 1 m.
 inline std::string post(const std::string& type, const std::string& in_sensor,
                         const std::string& plugin, const std::string& keys) {
   return still(
@@ -113,7 +113,7 @@ inline std::string camera(const std::string& in_camera, const std::string& in_se
       "<update_rate>20</update_rate>" + in_sensor + "<camera>" + image + in_camera + "</camera>",
       "gazebo_ros_camera", "<exposure>1</exposure>");
 }
-/// A picture of a cube, a ground and a wall 3 m ahead, in the light that is given.
+/// Returns a camera with a cube, a ground and a wall 3 m ahead, in the given light.
 inline std::string pictured(
     const std::string& of_cube,
     const std::string& light =
@@ -128,7 +128,7 @@ inline std::string lamp(const std::string& type, const std::string& inside) {
   return "<light name='lamp' type='" + type + "'><pose>2 1.5 4 0 0 0</pose>" + inside + "</light>";
 }
 
-/// What an IMU at rest says with a <noise>.
+/// Returns an IMU at rest with a <noise>.
 inline std::string imu(const std::string& in_imu) {
   return post("imu", "<update_rate>50</update_rate><imu>" + in_imu + "</imu>",
               "gazebo_ros_imu_sensor",

@@ -37,10 +37,10 @@ class Recorder : public ReadingSink {
   std::map<std::string, std::vector<Reading>> readings_;
 };
 
-/// A running world from text, its readings and its messages.
+/// Running world from text, with its readings and messages.
 class TestWorld {
  public:
-  /// `body` stands inside <world>; physics takes `step_s`.
+  /// Starts a world with `body` inside <world> and physics steps of `step_s`.
   explicit TestWorld(const std::string& body, double step_s = 0.001,
                      const SimulationOptions& options = {})
       : loader_(ResourceLocator::from_environment(), Log(sink())) {
@@ -91,7 +91,7 @@ class TestWorld {
   Recorder recorder_;
 };
 
-/// A static box in SDF.
+/// Returns a static box in SDF.
 inline std::string static_box(const std::string& name, const std::string& pose,
                               const std::string& size) {
   const std::string geometry = "<geometry><box><size>" + size + "</size></box></geometry>";
@@ -107,7 +107,7 @@ inline std::string ground_plane() {
          "100</size></plane></geometry></collision></link></model>";
 }
 
-/// A room of inside measure 10 m x 6 m about the origin.
+/// Returns a room of inside measure 10 m x 6 m about the origin.
 inline std::string room() {
   return static_box("east", "5.5 0 1 0 0 0", "1 8 4") +
          static_box("west", "-5.5 0 1 0 0 0", "1 8 4") +
@@ -115,7 +115,7 @@ inline std::string room() {
          static_box("south", "0 -3.5 1 0 0 0", "12 1 4");
 }
 
-/// A lidar that stands still at its model's origin; `extra` goes into the plugin block.
+/// Returns a lidar that stands still at its model's origin; `extra` goes into the plugin block.
 inline std::string lidar_post(const std::string& plugin, const std::string& type, int samples,
                               double noise_std_m = 0.0, const std::string& extra = "",
                               const std::string& range = "<min>0.1</min><max>30</max>") {

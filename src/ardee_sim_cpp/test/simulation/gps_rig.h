@@ -23,7 +23,7 @@ inline std::string bands(const std::string& all) {
   return "<field_gps_noise_characteristics>" + all + "</field_gps_noise_characteristics>";
 }
 
-/// 20 m along its rows, 6 m across.
+/// Returns a plot, 20 m along its rows, 6 m across.
 inline std::string plot(const std::string& id, double x, double height_m,
                         double rotation_rad = 0.0) {
   return "<plot><plot_id>" + id + "</plot_id><plot_range_index>0</plot_range_index>" +
@@ -42,7 +42,7 @@ inline std::vector<GpsQualityReading> quality(TestWorld& world) {
   return world.recorder().on<GpsQualityReading>("/gps/data");
 }
 
-/// Quality readings of a robot that stands still for a number of samples.
+/// Returns quality readings of a robot that stands still for a number of samples.
 inline std::vector<GpsQualityReading> stand(const std::string& keys, const Pose& pose,
                                             std::size_t count) {
   TestWorld world(free_space(0.0), 0.1);

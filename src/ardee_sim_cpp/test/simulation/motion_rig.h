@@ -10,13 +10,13 @@
 namespace ardee {
 using namespace devices;
 
-/// A world without ground, of a gravity along z.
+/// Returns a world without ground, with a gravity along z.
 inline std::string free_space(double gravity_m_per_s2) {
   return "<gravity>0 0 " + std::to_string(gravity_m_per_s2) + "</gravity>";
 }
 
-/// A ball of 1 kg and 1 kg m^2 (it spins as it likes) with a plugin on its link "body" and, 1 m in
-/// front, a link "nose" on a fixed joint, rolled by 90 degrees.
+/// Returns a ball of 1 kg and 1 kg m^2 (it spins without bound) with a plugin on its link "body"
+/// and, 1 m in front, a link "nose" on a fixed joint, rolled by 90 degrees.
 inline std::string ball(const std::string& plugin, const std::string& in_model = "",
                         const std::string& in_link = "") {
   const std::string inertial =
@@ -36,12 +36,12 @@ inline std::string plugin(const std::string& library, const std::string& keys,
   return "<plugin name='" + name + "' filename='lib" + library + ".so'>" + keys + "</plugin>";
 }
 
-/// One that does not move.
+/// Returns a ball that does not move.
 inline std::string still(const std::string& plugin) {
   return ball(plugin, "<static>true</static>");
 }
 
-/// The service of that name of any of the robot's devices; throws if there is none.
+/// Returns the service of that name of any of the robot's devices; throws if there is none.
 inline const Service& service(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
     for (const Service& each : device->ports().services) {

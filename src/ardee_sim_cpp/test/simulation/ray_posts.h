@@ -7,7 +7,7 @@
 
 namespace ardee {
 
-/// A model of one link with a ray sensor at its origin, in SDF.
+/// Model of one link with a ray sensor at its origin, in SDF.
 struct RayPost {
   std::string plugin;
   std::string type = "ray";
@@ -17,7 +17,7 @@ struct RayPost {
   std::string noise = "";
   std::string keys = "";
   std::string rate = "<update_rate>10</update_rate>";
-  bool is_static = true;  // else it floats: no weight, round inertia
+  bool is_static = true;  // false: it floats, with no weight and round inertia
 
   std::string xml() const {
     return "<sdf version='1.6'><model name='post'><static>" +
@@ -36,7 +36,8 @@ inline std::string angles(int samples, double min_rad, double max_rad) {
          "</min_angle><max_angle>" + std::to_string(max_rad) + "</max_angle>";
 }
 
-/// A static board across the x axis, 1 cm thick, whose near face is at x; laser_retro if not 0.
+/// Returns a static board across the x axis, 1 cm thick, whose near face is at x; with laser_retro
+/// if not 0.
 inline std::string board(const std::string& name, double x_m, double y_m, double width_m,
                          double retro = 0.0, const std::string& material = "") {
   const std::string geometry =

@@ -13,7 +13,7 @@ namespace ardee {
 using namespace physics;
 using namespace devices;
 
-/// All that readings say, as bytes: what is equal in them is equal in each bit.
+/// Readings as bytes: equal bytes mean values equal in each bit.
 class ReadingBytes {
  public:
   void put(const Reading& reading) {
@@ -125,7 +125,7 @@ class ReadingBytes {
   std::string bytes_;
 };
 
-/// The bytes of all readings, topic by topic, in the order in which they come.
+/// Bytes of all readings, topic by topic, in the order of arrival.
 class BytesByTopic : public ReadingSink {
  public:
   void on_reading(const Output& output, const Reading& reading) override {
@@ -142,7 +142,7 @@ class BytesByTopic : public ReadingSink {
   std::map<std::string, ReadingBytes> topics_;
 };
 
-/// The topics whose bytes differ, or that one of the two lacks.
+/// Returns the topics whose bytes differ, or that one of the two lacks.
 inline std::vector<std::string> differing(const std::map<std::string, std::string>& one,
                                           const std::map<std::string, std::string>& other) {
   std::vector<std::string> topics;

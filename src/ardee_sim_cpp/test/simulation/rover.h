@@ -9,8 +9,8 @@ namespace ardee {
 constexpr double kRoverRadius_m = 0.1;
 constexpr double kRoverSeparation_m = 0.4;
 
-/// A box of 6 kg on four driven wheels; `keys` goes into the skid-steer block, `more` into the
-/// robot.
+/// Returns a box of 6 kg on four driven wheels; `keys` goes into the skid-steer block, `more` into
+/// the robot.
 inline std::string rover(const std::string& keys = "", const std::string& more = "") {
   std::string xml =
       "<robot name='rover'><link name='base'><inertial><mass value='4'/><origin xyz='0 0 0'/>"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the readers take the physics takes too; what it does not is refused where the file says so.
+// Tests that the physics accepts whatever the readers accept; the readers refuse the rest, with its
+// place in the file.
 #include <gtest/gtest.h>
 
 #include "effects.h"
@@ -9,7 +10,7 @@ namespace ardee {
 using namespace raycast;
 namespace {
 
-/// A world with one number, `{}`, in it.
+/// World with one number, `{}`, in it.
 struct Number {
   std::string world;
   std::vector<std::string> taken;

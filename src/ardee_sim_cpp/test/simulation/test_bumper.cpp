@@ -10,8 +10,8 @@ using namespace physics;
 using namespace devices;
 namespace {
 
-/// A deck of 8 kg that slides with friction 0.2, and a guard fixed before it whose front face is
-/// 0.36 m ahead; `sensor` goes into the guard's contact sensor.
+/// Returns a deck of 8 kg that slides with friction 0.2, and a guard fixed before it whose front
+/// face is 0.36 m ahead; `sensor` goes into the guard's contact sensor.
 std::string mower(const std::string& sensor, const std::string& plugin = "") {
   return "<robot name='mower'><link name='deck'><inertial><mass value='8'/>"
          "<inertia ixx='0.2' iyy='0.3' izz='0.4' ixy='0' ixz='0' iyz='0'/></inertial>"
@@ -59,7 +59,7 @@ TEST_P(NamedBumper, FeelsTheBoxThatItIsPushedAgainst) {
       EXPECT_NEAR(point.position.x(), 0.5, 0.01);
       force += point.on1.force.x();
     }
-    // The push less what friction takes: 0.2 x 8.2 kg x 9.8 m/s^2 = 16 N, either way at rest.
+    // The push is reduced by friction: 0.2 x 8.2 kg x 9.8 m/s^2 = 16 N, either way at rest.
     EXPECT_LT(force, -(40.0 - 16.08) * 0.98);
     EXPECT_GT(force, -(40.0 + 16.08) * 1.02);
   }

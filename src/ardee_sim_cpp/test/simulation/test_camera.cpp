@@ -15,10 +15,10 @@ namespace {
 
 const Pose kOneMetreUp = Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0});
 constexpr double kBoard_m = 2.0;   // in front of the camera
-constexpr double kSquare_m = 0.2;  // the board has 8 x 6 of them
+constexpr double kSquare_m = 0.2;  // one of 8 x 6
 constexpr int kColumns = 8, kRows = 6;
 
-/// White squares of a checkerboard; the background is black.
+/// Returns the white squares of a checkerboard; the background is black.
 std::string checkerboard() {
   std::string xml = "<scene><ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>";
   for (int k = 0; k < kColumns * kRows; ++k) {
@@ -39,7 +39,7 @@ bool is_white(const ImageReading& image, int column, int row) {
                     3 * static_cast<std::size_t>(column)] > 127;
 }
 
-/// Where black and white meet about `near` on a line of pixels.
+/// Returns where black meets white about `near` on a line of pixels.
 template <typename White>
 double edge(int near, const White& white) {
   for (int reach = 0; reach < 4; ++reach) {
@@ -50,7 +50,7 @@ double edge(int near, const White& white) {
   return std::nan("");
 }
 
-/// Errors [px] of the board's inner corners against what camera_info says of them.
+/// Returns the errors [px] of the board's inner corners against their places by camera_info.
 std::vector<double> corner_errors(const ImageReading& image, const CameraInfoReading& info) {
   Lens lens;
   lens.fx_px = info.K[0];
@@ -81,7 +81,7 @@ std::vector<double> corner_errors(const ImageReading& image, const CameraInfoRea
   return errors;
 }
 
-/// In the first pictures that have been taken.
+/// Checks the corners in the first pictures.
 void expect_corners_in_place(const TestWorld& world) {
   const auto images = world.recorder().on<ImageReading>("/cam/image_raw");
   const auto infos = world.recorder().on<CameraInfoReading>("/cam/camera_info");
@@ -104,7 +104,7 @@ void expect_corners_in_place(const std::string& camera, const std::string& keys 
   expect_corners_in_place(world);
 }
 
-/// <lens> with <intrinsics>.
+/// Returns a <lens> with <intrinsics>.
 std::string lens_block(const std::string& intrinsics, const std::string& more = "") {
   return "<lens>" + more + "<intrinsics>" + intrinsics + "</intrinsics></lens>";
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plugin blocks as users copy them from Gazebo's documentation, with what is legal but rare there.
+// Tests of plugin blocks as users copy them from Gazebo's documentation, with rare but legal
+// variants.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -76,7 +76,7 @@ TEST(DepthCamera, NoiseGrowsAsItsParametersSay) {
     sum += error;
     squares += error * error;
   }
-  // Four standard errors.
+  // The bound is four standard errors.
   EXPECT_NEAR(sum / n, 0.0, 4.0 * std / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(squares / n), std, 4.0 * std / std::sqrt(2.0 * n));
 }
@@ -95,7 +95,7 @@ TEST(DepthCamera, MillimetresAndCutOffs) {
   EXPECT_EQ(value_at<std::uint16_t>(cut_mm.depth().data, 0), 0);
 }
 
-/// A wall of one colour that glows: what a pixel says is its luma by ITU-R BT.601, in closed form.
+/// A wall of one colour glows: a pixel's value is its luma by ITU-R BT.601, in closed form.
 TEST(DepthCamera, AnInfraredImageIsGreyWhileTheCloudHasColours) {
   const std::string glow =
       "<model name='wall'><static>true</static><pose>3.5 0 0 0 0 0</pose><link name='link'><visual "

@@ -11,7 +11,7 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// A field of boards at all angles, 20 a metre: dense enough for rays to graze edges.
+/// Returns a field of boards at all angles, 20 a metre: dense enough for rays to graze edges.
 std::string field(double length_m = 6.0) {
   std::string models;
   const CounterRng rng(stream_key(1, "field"));
@@ -71,7 +71,8 @@ TEST(Determinism, SameBytesForAnyThreadsAndForTilesAndInstances) {
   EXPECT_EQ(hash_of_run(2, false, 5), reference);
 }
 
-/// Of the pictures of a robot that drives so far that what is held about its camera is made anew.
+/// Returns a hash of the pictures of a robot that drives far enough to renew its camera's local
+/// scene.
 std::uint64_t hash_of_pictures(int threads) {
   SimulationOptions options;
   options.rays.threads = threads;

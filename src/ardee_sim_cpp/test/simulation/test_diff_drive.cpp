@@ -11,8 +11,8 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// A box on two balls as wheels (they touch in one point, so that the track is exact) of radius 0.1
-/// m, 0.4 m apart, and a frictionless ball in front and behind.
+/// Returns a box on two balls as wheels (with one point of contact, so that the track is exact) of
+/// radius 0.1 m, 0.4 m apart, and a frictionless ball in front and behind.
 std::string two_wheeler(const std::string& keys) {
   std::string xml =
       "<robot name='cart'><link name='base'><inertial><mass value='4'/>"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever element of SDF is said to act does: a world goes on differently with another value.
+// Tests that each element of SDF that is listed as acting does act: a world behaves differently
+// with another value.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -14,7 +15,7 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// Elements whose effect has a test of its own, with a closed form or a file to go with it.
+/// Elements with a test of their own, by a closed form or a file.
 struct OtherTest {
   const char* element;
   const char* file;
@@ -46,7 +47,7 @@ std::string filled(const Effect& effect, const std::string& value) {
   return world;
 }
 
-/// All that a while of a world gives: the clock, where links are and how they move, readings.
+/// Results of a while of a world: the clock, poses and velocities of links, readings.
 class Course {
  public:
   explicit Course(const std::string& world) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A row an element of SDF that acts and holds numbers or switches.
+// Rows for the elements of SDF that act and hold numbers or switches.
 #include "effects.h"
 
 namespace ardee {
@@ -182,7 +182,7 @@ void add_models(std::vector<Effect>& rows) {
                     pictured(kCube, lamp("point", ""), "<material>{}</material>"), "0.1 0.1 0.1 1",
                     "0.9 0.9 0.9 1"});
   }
-  // The axes of a body that is let go with a spin about all of them.
+  // The axes are those of a body that is released with a spin about all of them.
   for (const char* moment : {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"}) {
     const bool is_off_diagonal = moment[1] != moment[2];
     rows.push_back(
@@ -203,7 +203,7 @@ void add_shapes(std::vector<Effect>& rows) {
   const auto seen = [](const std::string& shape, const std::string& pose = "3 0 1 0.3 0.2 0.4") {
     return lidar(scan(), kRange) + still("thing", in_link(collision(shape)), pose);
   };
-  // Seen from above.
+  // The camera looks from above.
   const auto ground = [&](const std::string& inside) {
     const std::string shape = "<heightmap>" + heights + inside + "</heightmap>";
     const std::string down = "<pose>0 0 9 0 1.2 0</pose>";
@@ -308,7 +308,7 @@ void add_joints(std::vector<Effect>& rows) {
        {"joint/physics/ode/limit/erp", stopped("<cfm>0.1</cfm>{}"), "0.1", "0.9"}});
 }
 
-/// Where things stand.
+/// Adds rows for poses.
 void add_poses(std::vector<Effect>& rows) {
   const char* const here = "3 0 1 0 0 0";
   const char* const there = "4 0 1 0 0 0.3";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A row an element of SDF's sensors that acts and holds numbers.
+// Rows for the elements of SDF's sensors that act and hold numbers.
 #include <tuple>
 
 #include "effects.h"
@@ -23,7 +23,7 @@ void add_rays(std::vector<Effect>& rows) {
         "<horizontal><samples>5</samples><min_angle>-0.3</min_angle><max_angle>0.3"
         "</max_angle>{}</horizontal>";
     std::string upward = up;
-    for (std::string* text : {&across, &upward}) {  // what is asked for stands alone
+    for (std::string* text : {&across, &upward}) {  // the requested part stands alone
       const std::size_t from = text->find(cut);
       if (from == std::string::npos) continue;
       const std::string end = std::string("</") + name + ">";
@@ -109,7 +109,7 @@ void add_imus(std::vector<Effect>& rows) {
     }
     if (std::string(number.name).rfind("dynamic", 0) == 0 ||
         std::string(number.name) == "precision") {
-      continue;  // not of SDF 1.4's <noise>
+      continue;  // SDF 1.4's <noise> lacks it
     }
     for (const std::string kind : {"rate", "accel"}) {
       rows.push_back({"imu/noise/" + kind + "/" + number.name,

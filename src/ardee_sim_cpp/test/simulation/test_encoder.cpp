@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kTurn_rad = 2.0 * M_PI;
 
-/// A wheel of 0.2 m diameter on a bracket that is fixed to the world, with an encoder of 150 pulses
-/// a turn.
+/// Returns a wheel of 0.2 m diameter on a bracket that is fixed to the world, with an encoder of
+/// 150 pulses a turn.
 std::string test_bench(const std::string& keys, const std::string& joint = "axle") {
   return "<sdf version='1.6'><model name='bench'><link name='bracket'/><link name='wheel'>"
          "<inertial><mass>1</mass><inertia><ixx>0.01</ixx><iyy>0.01</iyy><izz>0.01</izz></inertia>"

@@ -11,7 +11,7 @@ namespace {
 constexpr double kWeight_N = 3.0 * 9.8;
 constexpr double kArm_m = 0.5;
 
-/// 3 kg whose centre of mass is `com` from a joint to the world at the link's origin.
+/// Returns 3 kg whose centre of mass is `com` from a joint to the world at the link's origin.
 std::string hanging(const std::string& joint_type, const std::string& in_joint,
                     const std::string& com, const std::string& plugin = "") {
   return "<sdf version='1.7'><model name='scale'><link name='load'><inertial><pose>" + com +
@@ -27,7 +27,7 @@ const std::string kLocked = kAxisY + "<limit><lower>0</lower><upper>0</upper></l
 const std::string kFeedback = "<provide_feedback>true</provide_feedback>";
 const std::string kMeasured = "<physics><ode>" + kFeedback + "</ode></physics>";
 
-/// The last of half a second.
+/// Returns the last reading of half a second.
 ForceTorque reading(const std::string& xml, const Pose& pose = {}) {
   TestWorld world("");
   world.spawn(xml, "scale", pose);
@@ -50,7 +50,8 @@ TEST(ForceTorque, OfAHangingMassIsItsWeight) {
 }
 
 TEST(ForceTorque, OfAnOffsetMassHasTheMomentOfItsArm) {
-  // (0.5, 0, 0) x (0, 0, -m g) = (0, 0.5 m g, 0), held by the stop, and by a fixed joint.
+  // The torque is (0.5, 0, 0) x (0, 0, -m g) = (0, 0.5 m g, 0), held by the stop, and by a fixed
+  // joint.
   const Eigen::Vector3d force(0, 0, -kWeight_N), torque(0, kArm_m * kWeight_N, 0);
   expect_wrench(reading(hanging("revolute", kLocked, "0.5 0 0")), force, torque);
   const std::string outside_ode = "<physics>" + kFeedback + "</physics>";
@@ -59,14 +60,14 @@ TEST(ForceTorque, OfAnOffsetMassHasTheMomentOfItsArm) {
 }
 
 TEST(ForceTorque, IsInTheAxesOfTheChild) {
-  // Rolled by a quarter turn, the world's down is the child's -y.
+  // With a roll of a quarter turn, the world's down is the child's -y.
   const Pose rolled = Pose::from_xyz_rpy({0, 0, 0}, {M_PI / 2, 0, 0});
   expect_wrench(reading(hanging("fixed", kMeasured, "0.5 0 0"), rolled), {0, -kWeight_N, 0},
                 {0, 0, -kArm_m * kWeight_N});
 }
 
 TEST(ForceTorque, HoldsWhatSpringsAndMotorsCarry) {
-  // A spring that holds the arm level at its reference: k x 0.1 rad = m g r.
+  // A spring holds the arm level at its reference: k x 0.1 rad = m g r.
   const double stiffness = kArm_m * kWeight_N / 0.1;
   const std::string sprung = kAxisY + "<dynamics><damping>10</damping><spring_stiffness>" +
                              std::to_string(stiffness) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands before the frames of readings: a tf_prefix, the robot's namespace, or nothing; and
-// the velocities that odometry gives of a robot that is not level.
+// Tests of the prefix of frames in readings: a tf_prefix, the robot's namespace, or nothing; and of
+// the velocities in the odometry of a robot that is not level.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using Frames = std::map<std::string, std::string>;
 
-/// The frame of what was last given, by topic.
+/// Frame of the latest reading, by topic.
 class FramesByTopic : public ReadingSink {
  public:
   void on_reading(const Output& output, const Reading& reading) override {
@@ -27,7 +27,7 @@ class FramesByTopic : public ReadingSink {
   Frames frames_;
 };
 
-/// Of a robot in the namespace r1.
+/// Returns the frames of a robot in the namespace r1.
 Frames frames_with(const std::string& tf_prefix) {
   const auto sensor = [](const std::string& library, const std::string& type,
                          const std::string& block, const std::string& name) {
@@ -80,7 +80,7 @@ TEST(Frames, HaveThePrefixInFrontWhereThereIsOne) {
 }
 
 TEST(PlanarTwist, IsWhatIsSeenFromAbove) {
-  // Headed north, rolled and pitched; moves north, a little east, and up.
+  // The robot heads north, rolled and pitched; it moves north, a little east, and up.
   TestWorld world("");
   const double north = M_PI / 2;
   Entity& rover =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Five runs and the hashes of what they gave: a change of behaviour does not pass unseen. Whether
-// it was right, other tests say. The C library's sines differ in the last bit between processors
-// with and without FMA instructions; the hashes are those of one with them.
+// Five runs and the hashes of their results: they show every change of behaviour, and other tests
+// tell whether it is right. The C library's sines differ in the last bit between processors with
+// and without FMA instructions; the hashes are those of one with them.
 #include <gtest/gtest.h>
 
 #include "all_devices.h"
@@ -12,7 +12,7 @@
 namespace ardee {
 namespace {
 
-/// Of all that is measured in `duration_s`, and of where all links of models are in the end.
+/// Returns a hash of all readings in `duration_s`, and of the final poses of all links of models.
 std::uint64_t hash_of(TestWorld& world, double duration_s) {
   BytesByTopic sink;
   world->set_sink(&sink);

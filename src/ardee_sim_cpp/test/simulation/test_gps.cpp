@@ -33,7 +33,7 @@ TEST(Gps, tells_where_it_is_to_a_millimetre_over_a_kilometre) {
                           std::to_string(heading_deg) + "</referenceHeading>")),
                 "ball", Pose::from_xyz_rpy({999, 1000, -3}, {0, 0, 0}));
     world.run(1.0);
-    ASSERT_EQ(fixes(world).size(), 4u);  // hector's own 4 Hz
+    ASSERT_EQ(fixes(world).size(), 4u);  // hector's default of 4 Hz
     const FixReading fix = fixes(world).back();
     EXPECT_LE((local(fix, heading_deg) - Vector3d(1000, 1000, -3)).norm(), 1e-3);
     EXPECT_GT(fix.latitude_deg, 40.1);
@@ -82,7 +82,7 @@ TEST(Gps, noise_has_its_deviation_and_covariance) {
   EXPECT_NEAR(std_of(x) / 0.5, 1.0, kFourSigma / (root * M_SQRT2));
   EXPECT_NEAR(std_of(y) / 0.1, 1.0, kFourSigma / (root * M_SQRT2));
   const FixReading fix = fixes(world).back();
-  // East, north, up: x is north at heading 0.
+  // The order is east, north, up: x is north at heading 0.
   EXPECT_NEAR(fix.covariance[0], 0.01, 1e-9);
   EXPECT_NEAR(fix.covariance[1], 0.25, 1e-9);
   EXPECT_NEAR(fix.covariance[2], 1.0, 1e-9);
@@ -101,7 +101,7 @@ TEST(Gps, exact_drift_is_correlated_over_its_time) {
   const double phi = std::exp(-0.2 / 12.0);
   const double independent = static_cast<double>(count) * (1 - phi * phi) / (1 + phi * phi);
   EXPECT_NEAR(std_of(x) / 1.37, 1.0, kFourSigma / std::sqrt(2.0 * independent));
-  // After 12 s a correlation of 1/e is left; Bartlett's variance of it is at most that of
+  // After 12 s a correlation of 1/e remains; Bartlett's variance of it is at most that of
   // independent / 2 values.
   EXPECT_NEAR(correlation_at(x, 60), std::exp(-1.0), kFourSigma * std::sqrt(2.0 / independent));
 }
@@ -219,7 +219,7 @@ TEST(Magnetometer, field_in_the_body) {
   // x is east, y north; the robot is turned to the north.
   expect_near(world.recorder().on<MagneticFieldReading>("/east").back().field_T, {5e-5, 0, 0},
               1e-12);
-  // 30 degrees to the east of x = north; the nose's -z is its left.
+  // The direction is 30 degrees to the east of x = north; the nose's -z is its left.
   expect_near(world.recorder().on<VectorReading>("/declined").back().vector,
               {std::sqrt(0.75), 0, 0.5}, 1e-12);
 }
@@ -267,7 +267,7 @@ TEST(GroundTruth, pose_and_velocity_of_a_link) {
   EXPECT_EQ(in_world.header.frame_id, "world");
   EXPECT_EQ(in_world.child_frame_id, "nose");
   EXPECT_FALSE(in_world.places_frame);
-  // The nose: x forwards (world's y), y up, z to its right (world's x).
+  // The nose has x forwards (world's y), y up, z to its right (world's x).
   expect_near(last("/local").twist.linear, {0, 0, 0.5}, 1e-9);
   const OdometryReading seen = last("/seen");
   expect_near(seen.pose.p, {1, 0, 0}, 1e-9);

@@ -11,7 +11,7 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// GAZEBO_RESOURCE_PATH as long as this lives.
+/// Sets GAZEBO_RESOURCE_PATH for its lifetime.
 class ResourcePath {
  public:
   explicit ResourcePath(const std::string& path) {
@@ -113,7 +113,8 @@ TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
   EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 1.37, 1e-9);
 }
 
-/// Messages of a world in which a robot with this GPS is spawned, and whether it has the GPS.
+/// Returns the messages of a world in which a robot with this GPS is spawned, and whether it has
+/// the GPS.
 std::pair<std::vector<std::string>, bool> spawned(const std::string& keys) {
   TestWorld world(free_space(0.0));
   const bool has_gps = !world.spawn(ball(gps(keys)), "ball").devices.empty();

@@ -132,7 +132,7 @@ TEST(GpsRegions, fix_is_lost_as_often_and_as_long_as_said) {
     losses += had && !has ? 1 : 0;
     had = has;
   }
-  // A two-state process: stationary share, and its autocorrelation exp(-(a + b) dt).
+  // The process has two states: a stationary share, and the autocorrelation exp(-(a + b) dt).
   const double both_hz = rate_hz + 1.0 / duration_s;
   const double share = rate_hz / both_hz, phi = std::exp(-both_hz * dt_s);
   const double independent = static_cast<double>(count) * (1 - phi) / (1 + phi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A gripper of ros_control whose goal lies beyond the stop of its finger.
+// Tests of a gripper of ros_control whose goal lies beyond the stop of its finger.
 #include "../controllers/recorded_goal.h"
 #include "ardee_sim/controllers/ros_control.h"
 #include "fixture.h"
@@ -13,7 +13,8 @@ using control::RecordedGoal;
 constexpr double kStop_m = 0.05;
 constexpr double kEffort_n = 20.0;
 
-/// A finger of 1 kg on a post in the world, without damping; it slides along x up to a stop.
+/// Returns a finger of 1 kg on a post in the world, without damping; it slides along x up to a
+/// stop.
 std::string finger() {
   const std::string inertial =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/>"

@@ -10,7 +10,7 @@ namespace {
 
 const Pose kOnWheels = Pose::from_xyz_rpy({0, 0, 0.151}, {0, 0, 0});
 
-/// The message of what `call` throws; empty: nothing.
+/// Returns the message of the exception that `call` throws; empty for none.
 template <typename Call>
 std::string message_of(Call call) {
   try {

@@ -14,7 +14,7 @@ constexpr double kRightAngle = 1.5707963267948966;
 
 std::string hector(const std::string& keys) { return plugin("hector_gazebo_ros_imu", keys); }
 
-/// All IMU readings of a run.
+/// Returns all IMU readings of a run.
 std::vector<ImuReading> imu(TestWorld& world, const std::string& topic = "/imu") {
   std::vector<ImuReading> readings = world.recorder().on<ImuReading>(topic);
   EXPECT_FALSE(readings.empty());
@@ -56,7 +56,7 @@ TEST(Imu, at_rest_on_the_ground_from_the_first_sample_after_settling) {
 }
 
 TEST(Imu, any_mounting_feels_gravity_along_its_own_axes) {
-  // Signs as Gazebo's: roll gives +g sin(roll) on y, pitch -g sin(pitch) on x.
+  // Signs are Gazebo's: roll gives +g sin(roll) on y, pitch -g sin(pitch) on x.
   const double roll = 0.3, pitch = -0.4;
   const struct {
     std::string keys;
@@ -104,16 +104,16 @@ TEST(Imu, on_a_circle_feels_the_centripetal_acceleration) {
                   "ball");
       spin(world, {0, 0, 0}, {0, 0, turn});
       world.run(0.2);
-      const double share = 1e-4 + std::pow(turn * step_s, 2);  // of the integrator's turn
+      const double share = 1e-4 + std::pow(turn * step_s, 2);  // the integrator's turn
       world.recorder().clear();
       world.run(0.5);
       for (const ImuReading& reading : imu(world)) {
-        // 1 m in front; its own y points up, its z to the right.
+        // The sensor is 1 m in front; its own y points up, its z to the right.
         expect_near(reading.linear_acceleration, {-turn * turn, 0, 0}, turn * turn * share);
         expect_near(reading.angular_velocity, {0, turn, 0}, turn * share);
       }
       for (const ImuReading& reading : imu(world, "/tilted")) {
-        // 2 m to the left; x points there.
+        // The sensor is 2 m to the left; x points there.
         expect_near(reading.linear_acceleration, {-2 * turn * turn, 0, 0}, 2 * turn * turn * share);
         expect_near(reading.angular_velocity, {0, 0, turn}, turn * share);
       }
@@ -130,7 +130,8 @@ TEST(Imu, a_torque_is_felt_along_the_lever_arm) {
     robot.robot->dynamics().apply_wrench(0, Vector3d::Zero(), Vector3d::Zero(), {0, 0, alpha});
     world->step();
     const ImuReading reading = imu(world).back();
-    // Tangential to the left, which is -z of the nose; the velocity is that of the step's begin.
+    // The tangent points to the left, which is -z of the nose; the velocity is that of the step's
+    // begin.
     if (i > 1) {
       expect_near(reading.linear_acceleration, {-turn * turn, 0, -alpha}, 0.01 * alpha);
     }
@@ -204,7 +205,7 @@ TEST(Imu, services_set_and_take_away_biases) {
   ImuReading reading = imu(world).back();
   expect_near(reading.linear_acceleration, {0.1, 0.2, kG + 0.3}, 1e-12);
   expect_near(reading.angular_velocity, {0.01, 0.02, 0.53}, 1e-12);
-  // Levelled by the biased accelerometer: tilted by bias / g about the other axis.
+  // The biased accelerometer levels it: tilted by bias / g about the other axis.
   const Vector3d tilt = rpy_from_quaternion(reading.orientation);
   EXPECT_NEAR(tilt.x(), 0.2 / kG, 1e-3);
   EXPECT_NEAR(tilt.y(), -0.1 / kG, 1e-3);

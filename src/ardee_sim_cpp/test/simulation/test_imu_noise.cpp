@@ -180,7 +180,7 @@ TEST(Vibration, has_its_deviation_and_its_band_at_any_step) {
   }
 }
 
-/// Amplitude of what comes of a sine of a frequency.
+/// Returns the amplitude of the output for a sine of a frequency.
 double response(double frequency_hz) {
   BandNoise noise(3.0, 20.0);
   const double dt_s = 0.001;
@@ -194,15 +194,17 @@ double response(double frequency_hz) {
 
 TEST(Vibration, passes_its_band_only) {
   const double middle = response(std::sqrt(3.0 * 20.0));
-  // Second order: at a corner the root of a half, a factor of 10 off it a hundredth.
+  // The filter is of second order: at a corner the root of a half, a factor of 10 off it a
+  // hundredth.
   EXPECT_NEAR(response(3.0) / middle, M_SQRT1_2, 0.03);
   EXPECT_NEAR(response(20.0) / middle, M_SQRT1_2, 0.03);
   EXPECT_NEAR(response(0.3) / middle, 0.01, 0.002);
   EXPECT_LT(response(200.0) / middle, 0.011);
 }
 
-/// The share of the deviation that is left of a band of 3 to 20 Hz (Butterworth of second order)
-/// in means over a time: white noise through the filters and through sin(pi f T) / (pi f T).
+/// Returns the share of the deviation of a band of 3 to 20 Hz (Butterworth of second order) that
+/// remains in means over a time: white noise through the filters and through sin(pi f T) / (pi f
+/// T).
 double kept_of_vibration(double mean_s) {
   double all = 0.0, kept = 0.0;
   for (double f = 0.005; f < 500.0; f += 0.01) {

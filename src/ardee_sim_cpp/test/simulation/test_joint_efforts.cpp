@@ -11,7 +11,7 @@ constexpr double kStep_s = 0.001;
 constexpr double kInertia_kg_m2 = 0.5;
 constexpr TimeNs kMillisecond_ns = 1000000;
 
-/// A head that turns about a fixed post without friction.
+/// Head that turns about a fixed post without friction.
 struct Turret {
   JointEffort effort(double n_m, int from_ms, int for_ms) {
     return {world->find("turret")->robot.get(), 1, n_m, from_ms * kMillisecond_ns,

@@ -11,15 +11,16 @@ using namespace devices;
 namespace {
 
 constexpr double kStep_s = 0.001;
-constexpr double kFar_m = 5.0;  // to the mark
+constexpr double kFar_m = 5.0;  // distance of the mark
 
-/// Blocks of a link's inertia, a mass in its middle.
+/// Returns a link's inertia, with the mass in its middle.
 std::string inertial(const std::string& mass_kg, const std::string& moment) {
   return "<inertial><mass>" + mass_kg + "</mass><inertia><ixx>" + moment + "</ixx><iyy>" + moment +
          "</iyy><izz>" + moment + "</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>";
 }
 
-/// A head on a joint about `axis`, held by the world at the origin; `in_head` goes into its link.
+/// Returns a head on a joint about `axis`, held by the world at the origin; `in_head` goes into its
+/// link.
 std::string head(const std::string& axis, const std::string& plugins,
                  const std::string& in_head = "", const std::string& limits = "") {
   return "<sdf version='1.6'><model name='head'><link name='base'>" + inertial("5", "1") +
@@ -59,7 +60,8 @@ TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
       "head");
   ASSERT_EQ(command(robot).topic, "/neck_position_controller/command");
   command(robot).on_command(1.2);
-  // 0.2 s up to speed over 0.2 m, 0.4 s at speed, 0.2 s down: 1.2 / 2 + 2 / 10 = 0.8 s.
+  // The head takes 0.2 s up to speed over 0.2 m, 0.4 s at speed, 0.2 s down: 1.2 / 2 + 2 / 10 = 0.8
+  // s.
   world.run(0.2);
   EXPECT_NEAR(angle(robot), 0.2, 0.01);
   world.run(0.2);
@@ -70,7 +72,7 @@ TEST(JointPosition, GoesThereAtItsSpeedAndAcceleration) {
   EXPECT_NEAR(angle(robot), 1.2, 2e-3);
   world.run(0.5);
   EXPECT_NEAR(angle(robot), 1.2, 1e-6);
-  // Back over a short way, on which it never gets up to speed: 2 sqrt(0.1 / 10) = 0.2 s.
+  // The way back is short, and the head never gets up to speed: 2 sqrt(0.1 / 10) = 0.2 s.
   command(robot).on_command(1.1);
   world.run(0.1);
   EXPECT_NEAR(angle(robot), 1.15, 0.005);
@@ -90,7 +92,7 @@ TEST(JointPosition, StopsAtTheJointsLimit) {
 }
 
 TEST(JointPosition, HoldsAgainstWhatItsEffortCan) {
-  // The weight of a head whose mass is 0.1 m off the axis: 0.4 kg g 0.1 m = 0.392 N m when level.
+  // The head's centre of mass is 0.1 m off the axis: 0.4 kg g 0.1 m = 0.392 N m when level.
   const std::string heavy = "<inertial><pose>0.1 0 0 0 0 0</pose>";
   const auto farthest_sag = [&](const std::string& effort) {
     std::string xml = head("0 1 0", servo("<maxEffort>" + effort + "</maxEffort>"));
@@ -105,7 +107,7 @@ TEST(JointPosition, HoldsAgainstWhatItsEffortCan) {
     return farthest;
   };
   EXPECT_LT(farthest_sag("0.5"), 1e-3);
-  // It falls until the weight's work is what 0.3 N m have taken: 0.392 sin(a) = 0.3 a.
+  // It falls until the weight's work equals the work against 0.3 N m: 0.392 sin(a) = 0.3 a.
   const double a = farthest_sag("0.3");
   EXPECT_NEAR(0.392 * std::sin(a), 0.3 * a, 0.01);
   EXPECT_GT(a, 1.0);
@@ -121,7 +123,7 @@ TEST(JointPosition, IsHeldWhereItIsAfterAReset) {
   EXPECT_NEAR(angle(robot), 0.0, 1e-4);
 }
 
-/// Where the one white mark is in the last picture, px.
+/// Returns the place of the one white mark in the last picture [px].
 Eigen::Vector2d mark_in(const ImageReading& image) {
   Eigen::Vector2d sum(0, 0);
   double count = 0.0;
@@ -135,7 +137,8 @@ Eigen::Vector2d mark_in(const ImageReading& image) {
   return sum / count;
 }
 
-/// Where a mark straight ahead is seen by a camera on a head that was told to turn.
+/// Returns the place of a mark straight ahead in the picture of a camera on a head after a
+/// commanded turn.
 Eigen::Vector2d mark_after_turn(const std::string& axis, double turn_rad) {
   TestWorld world(
       "<scene><ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>" +
@@ -155,7 +158,7 @@ Eigen::Vector2d mark_after_turn(const std::string& axis, double turn_rad) {
 
 TEST(JointPosition, APannedOrTiltedCameraSeesTheMarkMove) {
   const double f_px = 160.0 / std::tan(0.6);
-  // Panned to the left, what was ahead is to the right; tilted down, it is above.
+  // After a pan to the left, a point ahead appears to the right; after a tilt down, above.
   for (const double turn : {0.3, -0.2}) {
     const Eigen::Vector2d panned = mark_after_turn("0 0 1", turn);
     EXPECT_NEAR(panned.x(), 159.5 + f_px * std::tan(turn), 0.6);

@@ -13,7 +13,7 @@ constexpr const char* kGpu = "libgazebo_ros_gpu_laser.so";
 constexpr const char* kRay = "libgazebo_ros_laser.so";
 const Pose kOneMetreUp = Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0});
 
-/// Distance from the origin to the walls of room() along an angle.
+/// Returns the distance from the origin to the walls of room() along an angle.
 double room_range(double angle) {
   return std::min(5.0 / std::abs(std::cos(angle)), 3.0 / std::abs(std::sin(angle)));
 }
@@ -65,7 +65,7 @@ TEST(Lidar, NoiseHasTheStatedMeanAndDeviation) {
     }
   }
   ASSERT_EQ(count, 40 * 1081);
-  // Four standard errors.
+  // The bound is four standard errors.
   EXPECT_NEAR(sum / count, 0.0, 4.0 * kStd / std::sqrt(count));
   EXPECT_NEAR(std::sqrt(squares / count), kStd, 4.0 * kStd / std::sqrt(2.0 * count));
 }
@@ -151,7 +151,7 @@ TEST(Lidar, BeyondTheMaximumIsPlusInfinity) {
             std::numeric_limits<float>::infinity());
 }
 
-/// Times of the first scan of a post with 1081 beams over 270 degrees at 40 Hz.
+/// Returns times of the first scan of a post with 1081 beams over 270 degrees at 40 Hz.
 std::pair<double, double> times_of(std::string post, double step_s = 0.001) {
   TestWorld world("", step_s);
   world.spawn(post, "post");
@@ -188,7 +188,7 @@ TEST(Lidar, ABackwardScanHasANegativeIncrement) {
   EXPECT_NEAR(scan.ranges_m[0], 2.0, 1e-5);  // the first beam points left
 }
 
-// Thesis 4.3.3, Figure 4.14: a plant whose leaves are only visual, its stalk a collision cylinder.
+// See thesis 4.3.3, Figure 4.14: a plant with visual leaves, and a collision cylinder as its stalk.
 TEST(Lidar, CollisionAndVisualLidarsDifferOnALeafAndAgreeOnABox) {
   const std::string plant =
       "<model name='plant'><static>true</static><pose>2 0 0 0 0 0</pose><link name='link'>"

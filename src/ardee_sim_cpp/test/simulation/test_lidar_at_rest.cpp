@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A robot that has come to rest is turned by 1e-19 and the like, and its beams with it.
+// Tests of the beams of a robot at rest, which is turned by angles of some 1e-19.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Device {
   double span_rad;
 };
 
-/// A box that carries the device 5 cm above itself.
+/// Returns a box that carries the device 5 cm above itself.
 std::string carrier(const Device& device, bool is_static) {
   const std::string half = std::to_string(0.5 * device.span_rad);
   return "<sdf version='1.6'><model name='carrier'><static>" +
@@ -37,7 +37,8 @@ std::string carrier(const Device& device, bool is_static) {
          device.plugin + "'><topicName>scan</topicName></plugin></sensor></link></model></sdf>";
 }
 
-/// A wall ahead of a robot at the origin, its near face at 2.9 m, and other things about it.
+/// Returns a wall ahead of a robot at the origin, its near face at 2.9 m, and other bodies about
+/// it.
 std::string wall_ahead(double yaw_rad) {
   const std::string pose = std::to_string(3.0 * std::cos(yaw_rad)) + " " +
                            std::to_string(3.0 * std::sin(yaw_rad)) + " 1 0 0 " +
@@ -46,8 +47,8 @@ std::string wall_ahead(double yaw_rad) {
          static_box("farther", "40 50 1 0 0 0", "1 1 1");
 }
 
-/// How often neighbours differ in whether they meet anything, the last and the first beam being
-/// neighbours.
+/// Returns how often a beam has a hit and its neighbour none, or the reverse; the last and the
+/// first beam are neighbours.
 int borders(const std::vector<float>& ranges_m) {
   int count = 0;
   for (std::size_t beam = 0; beam < ranges_m.size(); ++beam) {
@@ -67,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Device{"tim571", "ray", "libgazebo_ros_laser.so", 811, 4.71238898}),
     [](const auto& device) { return device.param.name; });
 
-/// A level scan meets one wall in one run of beams, 2.8 m ahead.
+/// Expects that a level scan hits one wall in one run of beams, 2.8 m ahead.
 void expect_wall(const Recorder& recorder, TimeNs from_ns) {
   int scans = 0;
   for (const LidarReading& scan : recorder.on<LidarReading>("/scan")) {

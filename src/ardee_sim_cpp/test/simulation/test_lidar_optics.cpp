@@ -11,7 +11,7 @@ using namespace devices;
 namespace {
 
 constexpr const char* kGpu = "libgazebo_ros_gpu_laser.so";
-constexpr double kGreyReflectivity = 0.7;  // of what has no material
+constexpr double kGreyReflectivity = 0.7;  // without a material
 const Pose kOneMetreUp = Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0});
 
 RayPost lidar(const std::string& keys, const std::string& horizontal = angles(1, 0.0, 0.0)) {
@@ -33,14 +33,14 @@ std::string wide_beam(double divergence_rad, const std::string& more = "") {
          "</beamDivergence>" + more;
 }
 
-/// A board left of the x axis at 2 m, and one across it behind.
+/// Returns a board left of the x axis at 2 m, and one across it behind.
 std::string edge(double behind_m, double retro_front = 0.0, double retro_behind = 0.0) {
   return board("front", 2.0, 1.0, 2.0, retro_front) +
          board("behind", behind_m, 0.0, 10.0, retro_behind);
 }
 
 TEST(LidarOptics, ABeamHalfOnAnEdgeMixesWhatIsCloseTogether) {
-  // Half of the beam at 2 m, half at 2.2 m, each weighed with its 1 / range^2.
+  // Half of the beam is at 2 m, half at 2.2 m, each weighted by its 1 / range^2.
   const double near = 0.5 / (2.0 * 2.0);
   const double far = 0.5 / (2.2 * 2.2);
   const LidarReading scan = first_scan(edge(2.2), lidar(wide_beam(0.02)));
@@ -49,14 +49,14 @@ TEST(LidarOptics, ABeamHalfOnAnEdgeMixesWhatIsCloseTogether) {
 }
 
 TEST(LidarOptics, OfReturnsFarApartTheStrongestOrTheFirstCounts) {
-  // Powers, half of the beam each: front 0.1 / 4, behind 0.9 / 9.
+  // The powers, half of the beam each: front 0.1 / 4, behind 0.9 / 9.
   const std::string dark_front = edge(3.0, 0.1, 0.9);
   EXPECT_NEAR(first_scan(dark_front, lidar(wide_beam(0.02))).ranges_m[0], 3.0, 1e-3);
   const std::string first = "<returnMode>first</returnMode>";
   EXPECT_NEAR(first_scan(dark_front, lidar(wide_beam(0.02, first))).ranges_m[0], 2.0, 1e-3);
   const std::string bright_front = edge(3.0, 0.9, 0.1);
   EXPECT_NEAR(first_scan(bright_front, lidar(wide_beam(0.02))).ranges_m[0], 2.0, 1e-3);
-  // A longer pulse makes one of them.
+  // A longer pulse merges both.
   const std::string longer = "<pulseLength>1.5</pulseLength>";
   const double near = 0.9 / 4.0;
   const double far = 0.1 / 9.0;
@@ -64,8 +64,8 @@ TEST(LidarOptics, OfReturnsFarApartTheStrongestOrTheFirstCounts) {
               (near * 2.0 + far * 3.0) / (near + far), 0.01);
 }
 
-/// Two walls one step apart: the beams that mix are those whose footprint has the edge in it, and
-/// they say the same as if all were sampled.
+/// Two walls are one step apart: beams whose footprint contains the edge mix them, with the same
+/// ranges as if all beams were sampled.
 TEST(LidarOptics, SamplingWhereSurfacesMixIsSamplingEverywhere) {
   for (const double step_m : {0.1, 0.25}) {
     const std::string world = edge(2.0 + step_m);
@@ -86,7 +86,7 @@ TEST(LidarOptics, SamplingWhereSurfacesMixIsSamplingEverywhere) {
 }
 
 TEST(LidarOptics, OnlyNeighboursCloseEnoughTellWhereToSample) {
-  // 5 mrad beside the board's edge, beams 50 mrad apart: each samples its own footprint.
+  // The beams are 5 mrad beside the board's edge, 50 mrad apart: each samples its own footprint.
   const RayPost sparse = lidar(wide_beam(0.02), angles(3, -0.055, 0.045));
   const float range_m = first_scan(edge(2.2), sparse).ranges_m[1];
   EXPECT_GT(range_m, 2.02f);
@@ -94,8 +94,8 @@ TEST(LidarOptics, OnlyNeighboursCloseEnoughTellWhereToSample) {
 }
 
 TEST(LidarOptics, ANarrowPoleIsMetByAsManyBeamsAsTouchIt) {
-  // 2 cm wide at 5 m, under beams 1 mrad apart: it spans 4 mrad, and a beam of 10 mrad meets it
-  // 5 mrad beside that on both sides.
+  // The pole is 2 cm wide at 5 m, under beams 1 mrad apart: it spans 4 mrad, and a beam of 10 mrad
+  // hits it up to 5 mrad beside it on both sides.
   const std::string pole = board("pole", 5.0, 0.0, 0.02);
   const auto count = [&](const std::string& keys) {
     const LidarReading scan = first_scan(pole, lidar(keys, angles(41, -0.02, 0.02)));
@@ -108,7 +108,7 @@ TEST(LidarOptics, ANarrowPoleIsMetByAsManyBeamsAsTouchIt) {
 }
 
 TEST(LidarOptics, ThePoleSendsBackItsShareOfTheBeam) {
-  // The share of a disc of radius R = 25 mm that a centred strip of half width 10 mm covers.
+  // A centred strip of half width 10 mm covers this share of a disc of radius R = 25 mm.
   const double u = 0.4;
   const double share = 2.0 / M_PI * (std::asin(u) + u * std::sqrt(1.0 - u * u));
   const LidarReading scan = first_scan(board("pole", 5.0, 0.0, 0.02),
@@ -146,7 +146,7 @@ TEST(LidarOptics, RangeEndsWhereTooLittleLightComesBack) {
       EXPECT_EQ(std::isfinite(scan.ranges_m[beam]), std::abs(angle) < widest) << angle;
     }
   }
-  // Head on: to 2 m * sqrt(reflectivity / 0.1).
+  // The greatest range at normal incidence is 2 m * sqrt(reflectivity / 0.1).
   const double farthest = 2.0 * std::sqrt(0.4 / 0.1);
   EXPECT_TRUE(std::isfinite(
       first_scan(board("wall", farthest - 0.01, 0.0, 9.0, 0.4), lidar(limit)).ranges_m[0]));

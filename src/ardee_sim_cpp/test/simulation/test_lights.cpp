@@ -7,8 +7,8 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// A white board in front of a camera, with a ball that throws its shadow on it; no light but that
-/// of `lights`.
+/// Returns a white board in front of a camera, with a ball that casts its shadow on it; `lights`
+/// are the only lights.
 std::string stage(const std::string& lights) {
   return "<scene><ambient>0 0 0 1</ambient><background>0 0 0 1</background></scene>" + lights +
          "<model name='board'><static>true</static><pose>2 0 0 0 0 0</pose><link name='l'>"
@@ -18,7 +18,7 @@ std::string stage(const std::string& lights) {
          "</model>";
 }
 
-/// A light from behind the camera, a little from above.
+/// Returns a light from behind the camera, a little from above.
 std::string lamp(const std::string& diffuse, const std::string& direction = "1 0 -0.2") {
   return "<light name='sun' type='directional'><cast_shadows>true</cast_shadows><diffuse>" +
          diffuse + " 1</diffuse><direction>" + direction + "</direction></light>";
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> next_picture(TestWorld& world) {
   return world.recorder().on<ImageReading>("/cam/image_raw").at(0).data;
 }
 
-/// The world with its camera, that has taken a picture already.
+/// World with its camera, which has taken a picture already.
 class Studio {
  public:
   explicit Studio(const std::string& lights) : world_(stage(lights)) {

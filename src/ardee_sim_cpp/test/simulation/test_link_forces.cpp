@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libgazebo_ros_f3d.so and libgazebo_ros_force.so.
+// Tests of libgazebo_ros_f3d.so and libgazebo_ros_force.so.
 #include <gtest/gtest.h>
 
 #include "fixture.h"
@@ -9,7 +9,7 @@ using namespace physics;
 using namespace devices;
 namespace {
 
-/// A cube of 2 kg and 0.2 m that slides without friction; its centre of mass is 0.05 m up.
+/// Returns a cube of 2 kg and 0.2 m that slides without friction; its centre of mass is 0.05 m up.
 std::string cube(const std::string& plugin) {
   return "<sdf version='1.7'><model name='cube'><link name='body'><inertial>"
          "<pose>0 0 0.05 0 0 0</pose><mass>2</mass><inertia><ixx>0.02</ixx><iyy>0.02</iyy>"
@@ -42,7 +42,7 @@ TEST(LinkPush, AcceleratesByForceOverMassAndTorqueOverInertia) {
   EXPECT_EQ(input.topic, "/wrench");
   input.on_command(ForceTorque{{4, 0, 0}, {0, 0, 0.01}});
   world.run(0.5);
-  // Through the centre of mass: no turn but the torque's, 0.01 / 0.02 rad/s^2.
+  // The force passes through the centre of mass: only the torque turns it, by 0.01 / 0.02 rad/s^2.
   const Twist twist = world->state("cube", "").twist;
   EXPECT_NEAR(twist.linear.x(), 4.0 / 2.0 * 0.5, 1e-9);
   EXPECT_NEAR(twist.angular.z(), 0.25, 1e-9);

@@ -7,7 +7,7 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// Two wheels of 0.1 kg m^2 on a post, with a plugin.
+/// Returns two wheels of 0.1 kg m^2 on a post, with a plugin.
 std::string post(const std::string& keys, const std::string& file) {
   const auto wheel = [](const std::string& name) {
     return "<link name='" + name +
@@ -51,7 +51,7 @@ TEST(MimicJoint, FollowsWithAnOffsetAlsoAfterAReset) {
 }
 
 TEST(MimicJoint, AnEffortBoundsTheFollowerOfAPid) {
-  // 0.2 N m on 0.1 kg m^2 for 0.5 s.
+  // A torque of 0.2 N m acts on 0.1 kg m^2 for 0.5 s.
   TestWorld world(free_space(0.0));
   Entity& robot = world.spawn(
       post(std::string(kNames) + "<hasPID/><maxEffort>0.2</maxEffort>", kRobotics), "post");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plugins of a model within another name its links and joints without its name.
+// Tests that plugins of a nested model name its links and joints without its name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// Two links and a hinge between them, as a model "arm" within the robot's own link and joint of
-/// the same names, 1 m above.
+/// Returns two links and a hinge between them, as a model "arm" within the robot's own link and
+/// joint of the same names, 1 m above.
 std::string robot_with_arm(const std::string& plugins) {
   const std::string parts =
       "<link name='imu'/><link name='hand'/><joint name='wrist' type='revolute'>"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What comes of a run depends neither on the order in which plugins and models are written nor on
-// that in which models are spawned.
+// Tests that a run depends neither on the order of plugins and models in the file nor on the order
+// in which models are spawned.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -70,13 +70,13 @@ TEST(Order, AnImuFeelsWhatADriveDoesWhicheverIsFirst) {
     Entity& robot = world.spawn(ball(plugin("hector_gazebo_ros_imu", "", name) + move), "ball");
     world.command(robot, 1.0, 1.0);
     world.run(1.0);
-    // On a circle: v w = 1 m/s^2 to the left.
+    // The robot drives a circle: v w = 1 m/s^2 to the left.
     const ImuReading last = world.recorder().on<ImuReading>("/imu").back();
     expect_near(last.linear_acceleration, {0, 1, 0}, 1e-3);
   }
 }
 
-/// A box of 0.3 m on the ground that tells where it is and how a wall looks from it.
+/// Returns a box of 0.3 m on the ground that publishes its pose and its view of a wall.
 std::string crate(const std::string& name, const std::string& pose, const std::string& more = "") {
   const std::string geometry = "<geometry><box><size>0.3 0.3 0.3</size></box></geometry>";
   return "<model name='" + name + "'><pose>" + pose +
@@ -94,14 +94,14 @@ std::string crate(const std::string& name, const std::string& pose, const std::s
          more + "</model>";
 }
 
-/// It drives into whatever stands on +x.
+/// Returns a robot that drives into any body on +x.
 std::string pusher(const std::string& name, const std::string& pose) {
   return crate(
       name, pose,
       plugin("gazebo_ros_planar_move", "<robotNamespace>" + name + "</robotNamespace>", "move"));
 }
 
-/// Runs models, in the order in which they are written, in a world of one file.
+/// Runs models, in their order in the text, in a world of one file.
 Bytes run_world(const std::vector<std::string>& models, double duration_s) {
   std::string text;
   for (const std::string& model : models) text += model;
@@ -110,7 +110,7 @@ Bytes run_world(const std::vector<std::string>& models, double duration_s) {
   return bytes_of(world, duration_s);
 }
 
-/// The same where each is spawned, at once one after the other.
+/// Does the same with all models spawned at once, one after the other.
 Bytes run_spawned(const std::vector<std::string>& models, double duration_s) {
   TestWorld world("", 0.002);
   for (const std::string& model : models) {
@@ -154,7 +154,7 @@ TEST_P(OrderOfModels, DoesNotMatterApart) {
 }
 
 TEST_P(OrderOfModels, DoesNotMatterWhereTheyTouch) {
-  // Two rows that are pushed along a wall, in contact with it, the ground and one another.
+  // Two rows are pushed along a wall, in contact with it, the ground and one another.
   expect_same_in_any_order({ground_plane(), static_box("wall", "2 0.65 1 0 0 0", "6 1 2"),
                             pusher("d", "0 0 0.15 0 0 0.1"), crate("a", "0.31 0.01 0.15 0 0 0"),
                             crate("c", "0.62 -0.02 0.15 0 0 0.05"), pusher("b", "0 -2 0.15 0 0 0"),
@@ -163,7 +163,7 @@ TEST_P(OrderOfModels, DoesNotMatterWhereTheyTouch) {
 }
 
 TEST_P(OrderOfModels, DoesNotMatterWhereTheSolverIterates) {
-  // Two towers, each of more constraint rows than are solved directly.
+  // Two towers, each with more constraint rows than the direct solver takes.
   std::vector<std::string> models{ground_plane()};
   for (int i = 0; i < 9; ++i) {
     const std::string z = std::to_string(0.15 + 0.3 * i);

@@ -9,7 +9,7 @@ namespace ardee {
 using namespace devices;
 namespace {
 
-/// A box in the air, without weight unless it has some.
+/// Returns a box in the air, by default without weight.
 std::string mover(const std::string& keys, bool gravity = false) {
   return "<robot name='mover'><link name='base'><inertial><mass value='4'/>"
          "<inertia ixx='0.05' ixy='0' ixz='0' iyy='0.08' iyz='0' izz='0.1'/></inertial>"
@@ -32,7 +32,7 @@ TEST(PlanarMove, MovesAlongAndAcrossItsHeading) {
   Entity& robot = world.spawn(mover(""), "mover", Pose::from_xyz_rpy({1, 2, 3}, {0, 0, M_PI / 2}));
   command(robot, {0.5, 0.25, 7.0}, 0.0);
   world.run(2.0);
-  // Its x is the world's y, its y the world's -x; heights are none of its business.
+  // Its x is the world's y, its y the world's -x; it ignores heights.
   const Pose end = world->state("mover", "").pose;
   EXPECT_NEAR(end.p.x(), 1 - 0.5, 1e-9);
   EXPECT_NEAR(end.p.y(), 2 + 1.0, 1e-9);
@@ -102,7 +102,7 @@ TEST(PlanarMove, AnAbsurdCommandIsCutToWhatStaysInTheWorld) {
   const RelativeState end = world->state("mover", "");
   EXPECT_NEAR(end.twist.linear.norm(), 1e3, 1e-6);
   EXPECT_NEAR(end.twist.angular.z(), -1e3, 1e-6);
-  // Ways of 1 m, each turned by 1 rad: the corners of a polygon of radius 1 / (2 sin 0.5).
+  // The legs of 1 m, each turned by 1 rad, are sides of a polygon of radius 1 / (2 sin 0.5).
   EXPECT_LT(end.pose.p.norm(), 1.0 / std::sin(0.5));
 }
 

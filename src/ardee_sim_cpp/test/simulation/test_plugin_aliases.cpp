@@ -16,7 +16,7 @@ std::string receiver(const std::string& file, const std::string& keys) {
 const std::string kGravityFree = "<gravity>0 0 0</gravity>";
 
 TEST(PluginAliases, OfTheThesisReceiverIsHectors) {
-  // Listings A.1 and A.2.
+  // The plugins are those of listings A.1 and A.2.
   TestWorld world(kGravityFree);
   world.spawn(receiver("libgazebo_ros_gps.so",
                        "<bodyName>l</bodyName><topicName>gps</topicName>"
@@ -37,7 +37,7 @@ std::string shipped(const std::string& plugin, const std::string& keys) {
 }
 
 TEST(PluginAliases, OfTheLibraryPublishWhatTheirPluginsDo) {
-  // The topic, below a namespace of its own, on which each row of the file measures.
+  // Each row of the file publishes on this topic, below a namespace of its own.
   const std::map<std::string, std::pair<std::string, std::string>> topics{
       {"libgazebo_ros_gps.so", {"fix", ""}},
       {"libhector_gazebo_ros_gps_with_dropout.so", {"fix", ""}},

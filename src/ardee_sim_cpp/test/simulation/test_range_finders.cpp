@@ -29,8 +29,8 @@ class RangeFinders : public testing::TestWithParam<const char*> {};
 
 TEST_P(RangeFinders, TellTheNearestThingInTheirCone) {
   TestWorld world(room());
-  // Turned by 0.6 rad the cone spans 0.4 to 0.8 rad, where the wall in front is 5 m / cos away and
-  // the one beside 3 m / sin; the rows fan out by cos(elevation), the middle one is level.
+  // Turned by 0.6 rad, the cone spans 0.4 to 0.8 rad, with the front wall at 5 m / cos and the side
+  // wall at 3 m / sin; the rows fan out by cos(elevation), the middle one is level.
   world.spawn(cone(GetParam()).xml(), "post", Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 0.6}));
   world.run(0.1);
   const auto readings = world.recorder().on<RangeReading>("/seen");
@@ -185,7 +185,7 @@ TEST(BlockLaser, NoiseIsOnEachCoordinate) {
   }
 }
 
-// Gazebo reads 0, and none, as "as fast as can be".
+// Gazebo reads a rate of 0, and none, as "as fast as possible".
 class RateOfZero : public testing::TestWithParam<const char*> {};
 
 TEST_P(RateOfZero, MeasuresAtEachStep) {

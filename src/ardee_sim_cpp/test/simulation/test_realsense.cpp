@@ -28,7 +28,7 @@ std::string plugin(const std::string& keys) {
          keys + "</plugin>";
 }
 
-/// A device on a mast that looks at a wall; `keys` go into its plugin.
+/// Returns a device on a mast that looks at a wall; `keys` go into its plugin.
 std::string device(const std::string& keys, const std::string& depth = "depth") {
   return "<sdf version='1.6'><model name='post'><static>true</static><link name='mast'>" +
          eyes(depth) + "</link>" + plugin(keys) + "</model></sdf>";
@@ -53,7 +53,7 @@ struct Realsense {
 };
 
 TEST(Realsense, ItsFourCamerasPublish) {
-  // The keys of the device's published macro.
+  // The keys are those of the device's published macro.
   const Realsense d435(
       device("<depthUpdateRate>10</depthUpdateRate><colorUpdateRate>5</colorUpdateRate>"
              "<infraredUpdateRate>1</infraredUpdateRate><depthTopicName>depth/image_raw"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A reset gives what construction gave.
+// Tests that a reset restores the state after construction.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -15,7 +15,7 @@ namespace {
 const Pose kOnWheels = Pose::from_xyz_rpy({0, 0, 0.151}, {0, 0, 0});
 const std::string kScene = ground_plane() + static_box("wall", "3 0 1 0 0 0", "0.2 4 2");
 
-/// Changes whatever can be changed of a running robot.
+/// Changes every property that a running robot has.
 void tune_all(Entity& robot) {
   for (const auto& device : robot.devices) {
     for (const ParameterGroup& tuning : device->ports().tunings) {
@@ -68,7 +68,7 @@ TEST(Reset, TestsEachPluginThatThereIs) {
   }
 }
 
-/// What the numbers of a robot at rest are but for their noise.
+/// Returns the noise in the readings of a robot at rest.
 std::map<std::string, std::string> noise_of(const std::string& more) {
   TestWorld world(free_space(0.0), 0.01);
   world.spawn(ball(plugin("gazebo_ros_imu",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// libgazebo_ros_control.so on a flywheel of 1 kg m^2 and on two wheels, in closed form.
+// Tests of libgazebo_ros_control.so on a flywheel of 1 kg m^2 and on two wheels, in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using Parameters = std::map<std::string, Setting>;
 Setting text(const std::string& value) { return {"", value}; }
 Setting number(double value) { return {"", value}; }
 
-/// A group with the paths that a parameter server's has.
+/// Returns a group with the paths of a parameter server's.
 Setting group(const std::string& path, Setting::Map map) {
   for (auto& [key, value] : map) value = Setting(path + "/" + key, value.value());
   return {path, std::move(map)};
@@ -37,7 +37,7 @@ std::string control(const std::string& keys = "") {
   return "<gazebo>" + plugin("gazebo_ros_control", keys, "control") + "</gazebo>";
 }
 
-/// A flywheel about z on a post in the world.
+/// Returns a flywheel about z on a post in the world.
 std::string flywheel(const std::string& interface, const std::string& keys = "",
                      const std::string& type = "continuous",
                      const std::string& in_joint = "<limit effort='2' velocity='50'/>") {
@@ -100,7 +100,7 @@ TEST_F(RosControlTest, AnEffortAccelerates) {
   command(effort, 1.5);
   world_->run(1.0);
   EXPECT_NEAR(velocity(), 1.5, 1e-9);
-  command(effort, 9.0);  // 2 N m are the limit
+  command(effort, 9.0);  // the limit is 2 N m
   world_->run(1.0);
   EXPECT_NEAR(velocity(), 3.5, 1e-9);
 }
@@ -145,8 +145,9 @@ TEST_F(RosControlTest, GainsMakeAnEffortOfAPosition) {
   world_->run(kStep_s);
   command(positions, 0.25);
   world_->run(0.5);
-  // x'' = 4 (r - x) - 4 x' from rest: x = r (1 - (1 + 2 t) exp(-2 t)); 50 rad/s let the command
-  // jump within 5 ms, and its jump is a kick of the derivative that the effort limit takes away.
+  // The equation x'' = 4 (r - x) - 4 x' from rest gives x = r (1 - (1 + 2 t) exp(-2 t)); 50 rad/s
+  // let the command jump within 5 ms, and the effort limit removes the derivative's kick at the
+  // jump.
   EXPECT_NEAR(position(), 0.25 * (1.0 - 2.0 * std::exp(-1.0)), 0.01);
   world_->run(5.0);
   EXPECT_NEAR(position(), 0.25, 1e-3);
@@ -160,7 +161,7 @@ TEST_F(RosControlTest, GainsMakeAnEffortOfAVelocityWithinTheLimit) {
   control::Controller& velocities = start("velocity");
   world_->run(kStep_s);
   command(velocities, 10.0);
-  world_->run(1.0);  // 10 N m are asked for, 2 are the limit
+  world_->run(1.0);  // the command is 10 N m, the limit 2
   EXPECT_NEAR(velocity(), 2.0, 1e-3);
   command(velocities, 3.0);
   world_->run(1.0);
@@ -227,7 +228,7 @@ TEST_F(RosControlTest, AResetRestartsWhatRuns) {
   EXPECT_EQ(run(), first);
   EXPECT_TRUE(velocities.is_running());
   world_->run(0.5);
-  EXPECT_NEAR(velocity(), 0.0, 1e-12);  // the command is forgotten
+  EXPECT_NEAR(velocity(), 0.0, 1e-12);  // the command is dropped
 }
 
 TEST_F(RosControlTest, LimitsOfParametersCount) {

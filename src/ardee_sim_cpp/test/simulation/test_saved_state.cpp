@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worlds that were saved while they ran go on from there.
+// Tests that worlds that were saved while they ran continue from there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A gate 1 m up whose leaf hangs on a hinge 5 cm beside its post.
+/// Returns a gate 1 m up whose leaf hangs on a hinge 5 cm beside its post.
 std::string gate(const std::string& name, const std::string& y,
                  const std::string& limits = "<lower>-1.7</lower><upper>1.7</upper>") {
   return "<model name='" + name + "'><pose>0 " + y +
@@ -24,7 +24,7 @@ std::string gate(const std::string& name, const std::string& y,
          limits + "</limit><dynamics><damping>1</damping></dynamics></axis></joint></model>";
 }
 
-/// The gate's links as saved at an angle of its leaf.
+/// Returns the gate's links as saved at an angle of its leaf.
 std::string open_gate(const std::string& name, double y, double angle) {
   const auto pose = [](double x, double py, double yaw) {
     return "<pose>" + std::to_string(x) + " " + std::to_string(py) + " 1 0 0 " +
@@ -54,7 +54,7 @@ TEST(SavedState, ADoorStandsAsFarOpenAsItWas) {
   EXPECT_NEAR(hinge(world, "one"), M_PI / 2, 1e-5);
   EXPECT_NEAR(hinge(world, "two"), -0.5, 1e-5);
   EXPECT_LT((leaf(world, "one") - Vector3d(0.05, 4.55, 1)).norm(), 1e-5);
-  world.run(0.2);  // nothing pulls it back
+  world.run(0.2);  // no force pulls it back
   EXPECT_NEAR(hinge(world, "one"), M_PI / 2, 1e-4);
   EXPECT_NEAR(hinge(world, "two"), -0.5, 1e-4);
 }

@@ -87,7 +87,8 @@ TEST(Simulation, ABadPluginValueRefusesTheSpawnAndLeavesNothing) {
   world.spawn(ball(), "ball", kHigh);
 }
 
-/// Between two good models one with a plane that moves, and one with a drive without its joints.
+/// Two good models, and between them one with a plane that moves, and one with a drive without its
+/// joints.
 const std::string kTwoBadModels =
     static_box("a", "0 0 0 0 0 0", "1 1 1") +
     "<model name='m'><link name='l'><collision name='c'><geometry><plane/></geometry></collision>"
@@ -170,7 +171,8 @@ TEST(Simulation, AModelMovesWithItsRootLinkWhateverLinkComesFirst) {
       "r", kHigh);
   robot.robot->dynamics().apply_joint_effort(0, 0.5);
   world->step();
-  // Wheel and base turn about one axis the opposite way; the wheel's own rate is not the model's.
+  // Wheel and base turn about one axis in opposite directions; the wheel's own rate is not the
+  // model's.
   const Twist base = world->state("r::base", "").twist;
   const Twist model = world->state("r", "").twist;
   EXPECT_LT(base.angular.y(), -1e-4);
@@ -226,7 +228,7 @@ TEST(Simulation, AFixedLinkMayLackMassOrInertia) {
   EXPECT_TRUE(any_contains(world.messages(), "found no mass on a link that moves"));
   world.spawn(robot("1", "fixed"), "1", kHigh);
   EXPECT_TRUE(any_contains(world.messages(), "it counts as a part of the body"));
-  // Two masses of 2 and 1 kg at 1.5 m: the moment about their centre is 1 + 2 / 3 * 1.5^2.
+  // The masses are 2 and 1 kg at 1.5 m: the moment about their centre is 1 + 2 / 3 * 1.5^2.
   Wrench turn;
   turn.robot = world->find("1")->robot.get();
   turn.torque_W = {0, 0, 1};
@@ -289,10 +291,10 @@ TEST(Simulation, WrenchesAddUpAndEnd) {
   push.force_W = {1, 0, 0};
   push.duration_ns = 1000000000;
   world->wrenches().add(push);
-  push.force_W = {2, 0, 9.8};  // holds the weight, too
+  push.force_W = {2, 0, 9.8};  // carries the weight, too
   world->wrenches().add(push);
   world.run(2.0);
-  // F = m a for one second: 3 m/s.
+  // The force m a acts for one second: 3 m/s.
   EXPECT_NEAR(world->state("ball", "").twist.linear.x(), 3.0, 1e-9);
   EXPECT_NEAR(world->state("ball", "").twist.linear.z(), -9.8, 1e-9);
 }

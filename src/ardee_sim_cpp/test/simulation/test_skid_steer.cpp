@@ -37,8 +37,8 @@ TEST_P(SkidSteerAtStep, TurnsLeftForPositiveYawRateButSlowerThanIdealWheelsWould
   world.command(robot, 0.0, 1.0);
   world.run(2.0);
   const double rate = world->state("rover", "").twist.angular.z();
-  // Wheels at (+-a, +-b) whose rims run as commanded slide by (w - w0) b along and w a across.
-  // Under Coulomb's friction of equal loads the moments cancel where (w - w0) b^2 + w a^2 = 0.
+  // Wheels at (+-a, +-b) with rims at the commanded speed slide by (w - w0) b along and w a across.
+  // Under Coulomb's friction of equal loads the moments cancel at (w - w0) b^2 + w a^2 = 0.
   constexpr double kA = 0.15, kB = kRoverSeparation_m / 2.0;
   EXPECT_NEAR(rate, kB * kB / (kA * kA + kB * kB), 0.03);
 }
@@ -159,7 +159,7 @@ TEST(JointStates, FollowTheWheelsAndAreNamedBelowTheModel) {
   ASSERT_EQ(states.size(), 300u);
   const JointStateReading& last = states.back();
   ASSERT_EQ(last.names, (std::vector<std::string>{"fl_joint", "rr_joint"}));
-  // Rolling without slip: angle = path / radius, speed = v / r.
+  // The wheels roll without slip: angle = path / radius, speed = v / r.
   EXPECT_NEAR(last.positions[0], world->state("rover", "").pose.p.x() / kRoverRadius_m, 0.3);
   EXPECT_NEAR(last.velocities[1], 0.5 / kRoverRadius_m, 0.05);
 }

@@ -22,7 +22,7 @@ std::string wheel(const std::string& name, const std::string& parent, const std:
          "'/><origin xyz='" + xyz + "'/><axis xyz='0 1 0'/></joint>";
 }
 
-/// The origin is on the ground between the rear wheels.
+/// Returns a tricycle with its origin on the ground between the rear wheels.
 std::string tricycle(const std::string& keys) {
   return "<robot name='trike'><link name='base_link'><inertial><origin xyz='0.25 0 0.12'/>"
          "<mass value='8'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.2' iyz='0' izz='0.2'/>"
@@ -40,7 +40,7 @@ std::string tricycle(const std::string& keys) {
          keys + "</plugin></gazebo></robot>";
 }
 
-/// linear.x: speed of the front wheel, angular.z: its angle.
+/// Sends a command; linear.x: speed of the front wheel, angular.z: its angle.
 void command(Entity& robot, double speed_m_per_s, double angle_rad) {
   robot.devices.at(0)->ports().inputs.at(0).on_command(
       Twist{{speed_m_per_s, 0, 0}, {0, 0, angle_rad}});
@@ -60,7 +60,7 @@ TEST(TricycleDrive, GoesAroundTheCircleOfItsSteeringAngle) {
   world->reset_world();
   command(robot, speed, angle);
   world.run(4.0);
-  // Front wheel at `speed` along its angle: yaw rate v sin(a) / L, rear at v cos(a).
+  // The front wheel goes at `speed` along its angle: yaw rate v sin(a) / L, rear at v cos(a).
   const Twist twist = world->state("trike", "").twist;
   EXPECT_NEAR(twist.angular.z(), speed * std::sin(angle) / kWheelBase_m, 0.01);
   EXPECT_NEAR(twist.linear.norm(), speed * std::cos(angle), 0.01);

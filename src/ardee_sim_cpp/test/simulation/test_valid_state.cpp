@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The contract of a valid state (core/limits.h): what would leave it is refused and changes
-// nothing; what leaves it in a step is put back, and the rest of the world goes on.
+// Tests of the contract of a valid state (core/limits.h): input that would break it is refused and
+// changes nothing; a body that leaves it in a step is put back, and the rest of the world
+// continues.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +40,7 @@ Wrench wrench_on(Entity& entity, const Vector3d& force_W, const Vector3d& torque
   return wrench;
 }
 
-/// All that the physics knows of a model's motion.
+/// Returns all numbers of a model's motion in the physics.
 std::vector<double> motion_of(const Entity& entity) {
   std::vector<double> numbers;
   const auto add = [&numbers](const auto& vector) {
@@ -130,7 +131,7 @@ TEST(ValidState, ThatIsRefusedChangesNothing) {
       {at(8e5, 8e5), {}},
       {at(kNan), {}},
       {at(5), {{0, kNan, 0}, {0, 0, 0}}},
-      {at(-1e6), {}},  // its own frame would be within, its rear wheels not
+      {at(-1e6), {}},  // its own frame would be within, but not its rear wheels
       {at(5), {{1e9, 0, 0}, {0, 0, 1e8}}},
   };
   for (const RelativeState& state : refused) {
@@ -170,8 +171,7 @@ TEST(ValidState, OfSceneryIsThatOfAllItHolds) {
   EXPECT_EQ(world->state("field", "").pose.p, Vector3d::Zero());
 }
 
-/// gazebo_ros sets the velocity that is asked for in the frame's axes; the frame's own is not
-/// added.
+/// gazebo_ros sets the given velocity in the frame's axes, without adding the frame's own velocity.
 TEST(ValidState, VelocityIsTheOneAskedForInTheAxesOfAnyFrame) {
   TestWorld world(free_space(0.0));
   world.spawn(ball(""), "sled", Pose::from_xyz_rpy({0, 0, 1}, {0, 0, 1.0}));

@@ -76,7 +76,7 @@ TEST(Velodyne, LaysPointsOutByteForByte) {
     EXPECT_EQ(std::make_tuple(cloud.fields[k].name, cloud.fields[k].offset, cloud.fields[k].type),
               expected[k]);
   }
-  // The middle ring meets the wall squarely: x = 2.0f, intensity 1.0f, ring 1, label 7, time 0.0f.
+  // The middle ring hits the wall squarely: x = 2.0f, intensity 1.0f, ring 1, label 7, time 0.0f.
   const std::array<std::uint8_t, 32> middle{0, 0, 0,    0x40, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
                                             0, 0, 0x80, 0x3F, 1, 0, 0, 0, 7, 0, 0, 0, 0, 0, 0, 0};
   for (std::size_t k = 0; k < middle.size(); ++k) {
@@ -135,7 +135,7 @@ TEST(Velodyne, LeavesOutWhatItsKeysSay) {
   EXPECT_EQ(kept("<min_intensity>0.9</min_intensity>"), 1u);
 }
 
-/// A floating sensor of 181 columns over a full turn, set in motion at 0 s.
+/// Returns the cloud of a floating sensor of 181 columns over a full turn, set in motion at 0 s.
 PointCloudReading cloud_in_motion(TestWorld& world, const std::string& keys, const Pose& X_WM,
                                   const Twist& twist_W) {
   RayPost post{kGpu, "gpu_ray"};
@@ -208,8 +208,8 @@ TEST(Velodyne, WithoutARateATurnTakesAStep) {
 }
 
 TEST(Velodyne, TurningShiftsWhatStandsBesideIt) {
-  // It turns at 2 rad/s: what stands at bearing b is met by the beam at azimuth a with a + yaw(a) =
-  // b, where yaw(a) = yaw_now - spin * (pi - a) / 2 pi.
+  // It turns at 2 rad/s: the beam at azimuth a hits a body at bearing b with a + yaw(a) = b, where
+  // yaw(a) = yaw_now - spin * (pi - a) / 2 pi.
   const double rate = 2.0;
   const double yaw_now = rate * 2.0 * kSpin_s;
   const double bearing = 0.9;
@@ -262,7 +262,7 @@ TEST(Velodyne, DistortedScansDoNotDependOnWhoListensNorOnThreads) {
 }
 
 TEST(Velodyne, MeetsItsOwnRobotWhereItIsAndLooksOutOfItsHousing) {
-  // A deck 0.5 m below, beyond the housing about the sensor; the robot moves at 3 m/s.
+  // The deck is 0.5 m below, beyond the housing about the sensor; the robot moves at 3 m/s.
   RayPost post{kGpu, "gpu_ray"};
   post.horizontal = angles(4, -M_PI, M_PI);
   post.vertical = angles(2, -1.2, -1.0);

@@ -23,19 +23,19 @@ class Motion(NamedTuple):
 
 
 STANDSTILL = Motion(0.0, 0.0)
-# So many commands that arrive together are passed on; of more, the newest.
+# Greatest number of commands that are passed on at once; of more, the newest.
 MOST_AT_ONCE = 64
 
 
 def to_motion(commands: codec.MotionCommands, settings: ControlSettings) -> Motion:
-    """Listing A.19's limits: normalized / multiplier of the greatest speed and yaw rate, clamped to -1...1."""
+    """Applies Listing A.19's limits: normalized / multiplier of the greatest speed and yaw rate, clamped to -1...1."""
     shares = (commands.normalized_speed, commands.normalized_yaw_rate)
     speed, yaw_rate = (max(-1.0, min(1.0, share / commands.multiplier)) for share in shares)
     return Motion(speed * settings.max_speed_m_s, yaw_rate * settings.max_yaw_rate_rad_s)
 
 
 def what_was_obeyed(done: Dict[str, int], before: Dict[str, int], latest: Motion) -> str:
-    """Counts of what was done, now and earlier, as a line for the terminal (thesis 4.6.1); empty for nothing new."""
+    """Returns the new counts since `before` as a line for the terminal (thesis 4.6.1); empty for none."""
     fresh = {kind: count - before.get(kind, 0) for kind, count in sorted(done.items())}
     counts = ", ".join(f"{kind}: {count}" for kind, count in fresh.items() if count)
     if not counts:
@@ -58,14 +58,14 @@ class ControlsClient:
         self._settings, self._socket, self._counters = settings, opened, counters
         self._move, self._pause_simulation, self._clock = move, pause_simulation, clock
         self._requests = Requests(opened, settings.peers, counters, clock, "sender is no peer")
-        # One that was killed before may have left the robot driving, so the watchdog waits from the start.
+        # A client that was killed before may have left the robot driving, so the watchdog runs from the start.
         self._stop_at_s: Optional[float] = clock() + settings.watchdog_s
         self._is_stopped = False
         self._pending: "Deque[Motion]" = deque()
         self._told, self._has_ended, self._telling = STANDSTILL, False, threading.Lock()
 
     def receive(self, timeout_s: float) -> None:
-        """Waits at most this long, obeys the messages that came, stops the robot when its commands have ceased."""
+        """Waits at most this long, obeys the messages that came, stops the robot when its commands have stopped."""
         if self._stop_at_s is not None:
             timeout_s = max(0.0, min(timeout_s, self._stop_at_s - self._clock()))
         for message, sender, at_s in self._requests.receive(timeout_s):

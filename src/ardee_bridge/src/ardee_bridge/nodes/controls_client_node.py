@@ -23,12 +23,12 @@ from ardee_common import ros_node
 # Time for a last command to leave before the topic is closed.
 FAREWELL_S = 0.1
 TELL_PERIOD_S = 1.0
-# Some 700 datagrams as Linux counts: in a flood a command waits behind no more, some 0.1 s.
+# Some 700 datagrams by Linux's count: in a flood a command waits at most behind these, some 0.1 s.
 RECEIVE_BYTES = 256 << 10
 
 
 class Mover:
-    """Passes motions on to cmd_vel, and says once a second what was obeyed, from a thread of its own."""
+    """Publishes motions on cmd_vel, and logs once a second what was obeyed, from a thread of its own."""
 
     def __init__(self, topic: str, counters: Counters) -> None:
         self._publisher = rospy.Publisher(topic, Twist, queue_size=MOST_AT_ONCE, tcp_nodelay=True)

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""ROS messages to data structs of the wire; no rospy, messages are looked at only by their fields."""
+"""Converts ROS messages to data structs of the wire; reads only their fields, without rospy."""
 import io
 import math
 import re
-from typing import Any, Callable, Dict, NamedTuple, Optional
+from typing import Any, Callable, Dict, NamedTuple, Optional, Type
 
 import numpy as np
 from PIL import Image
 
 from ardee_bridge.wire import codec
-from ardee_bridge.wire.c_struct import INT32, NO_VALUE
+from ardee_bridge.wire.c_struct import INT32, NO_VALUE, CStruct, S, Scalar
 from ardee_bridge.wire.chunks import MAX_TOTAL
 
 Vector = codec.Xyz
@@ -33,8 +33,16 @@ class Frame(NamedTuple):
     payload: codec.Buffer
 
 
-def _vector(v: Any, kind: Any = Vector) -> Any:
-    return kind(x=v.x, y=v.y, z=v.z)
+def _copied(message: Any, kind: Type[S], **others: Any) -> S:
+    """Returns a struct of the message's values that its scalar fields name, and of the others."""
+    names = [
+        name for name, field in kind.FIELDS if isinstance(field, Scalar) and name not in others
+    ]
+    return kind(**{name: getattr(message, name) for name in names}, **others)
+
+
+def _reading(data: CStruct) -> Reading:
+    return Reading(data.to_raw().pack())
 
 
 def _diagonal(matrix: Any) -> Vector:
@@ -42,13 +50,13 @@ def _diagonal(matrix: Any) -> Vector:
 
 
 def _motion(v: Any, covariance: Any) -> codec.MotionData:
-    return codec.MotionData(x=v.x, y=v.y, z=v.z, covariance=_diagonal(covariance))
+    return _copied(v, codec.MotionData, covariance=_diagonal(covariance))
 
 
 def _orientation(message: Any) -> codec.OrientationData:
-    q, c = message.orientation, message.orientation_covariance
+    c = message.orientation_covariance
     covariance = codec.Euler(roll=c[0], pitch=c[4], yaw=c[8])
-    return codec.OrientationData(x=q.x, y=q.y, z=q.z, w=q.w, covariance=covariance)
+    return _copied(message.orientation, codec.OrientationData, covariance=covariance)
 
 
 def imu(message: Any) -> Reading:
@@ -58,28 +66,28 @@ def imu(message: Any) -> Reading:
         gyro=_motion(message.angular_velocity, message.angular_velocity_covariance),
         orientation=_orientation(message),
     )
-    return Reading(data.to_raw().pack())
+    return _reading(data)
 
 
 def gyro(message: Any) -> Reading:
-    """Angular velocity of a sensor_msgs/Imu."""
-    return Reading(_vector(message.angular_velocity, codec.GyroData).to_raw().pack())
+    """Converts the angular velocity of a sensor_msgs/Imu."""
+    return _reading(_copied(message.angular_velocity, codec.GyroData))
 
 
 def acceleration(message: Any) -> Reading:
-    """Specific force of a sensor_msgs/Imu."""
-    return Reading(_vector(message.linear_acceleration, codec.AccelerationData).to_raw().pack())
+    """Converts the specific force of a sensor_msgs/Imu."""
+    return _reading(_copied(message.linear_acceleration, codec.AccelerationData))
 
 
 def orientation(message: Any) -> Reading:
-    """Orientation of a sensor_msgs/Imu."""
-    return Reading(_orientation(message).to_raw().pack())
+    """Converts the orientation of a sensor_msgs/Imu."""
+    return _reading(_orientation(message))
 
 
 def gps(message: Any, velocity: Any = None) -> Reading:
-    """sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one.
+    """Converts a sensor_msgs/NavSatFix, with the latest geometry_msgs/Vector3 of velocity [m/s] if there is one.
 
-    Without a fix the receiver says nothing new of its velocity: position and velocity have no value then.
+    Without a fix, position and velocity have no value.
     """
     has_fix = message.status.status >= 0
     nothing = Vector(x=math.nan, y=math.nan, z=math.nan)
@@ -88,7 +96,7 @@ def gps(message: Any, velocity: Any = None) -> Reading:
         latitude=message.latitude if has_fix else math.nan,
         longitude=message.longitude if has_fix else math.nan,
         altitude=message.altitude if has_fix else math.nan,
-        velocity=_vector(velocity) if has_fix and velocity is not None else nothing,
+        velocity=_copied(velocity, Vector) if has_fix and velocity is not None else nothing,
         covariance=_diagonal(message.position_covariance),
         covariance_type=message.position_covariance_type,
         service=message.status.service,
@@ -99,39 +107,28 @@ def gps(message: Any, velocity: Any = None) -> Reading:
 
 
 def lidar(message: Any) -> Reading:
-    """sensor_msgs/LaserScan of at most 1081 beams."""
+    """Converts a sensor_msgs/LaserScan of at most 1081 beams."""
     count = len(message.ranges)
     if count > codec.LIDAR_SLOTS:
         raise ConvertError(f"a scan of {count} beams, expected at most {codec.LIDAR_SLOTS}")
-    raw = codec.LidarData(
-        angle_min=message.angle_min,
-        angle_max=message.angle_max,
-        dAngle=message.angle_increment,
-        scan_time=message.scan_time,
-        dTime=message.time_increment,
-        range_min=message.range_min,
-        range_max=message.range_max,
-        intensities=message.intensities[:count],
-    ).to_raw()
+    steps = dict(dAngle=message.angle_increment, dTime=message.time_increment)
+    intensities = message.intensities[:count]
+    raw = _copied(message, codec.LidarData, intensities=intensities, **steps).to_raw()
     raw.ranges = codec.range_counts(message.ranges, message.range_min, message.range_max)
     return Reading(raw.pack(), count)
 
 
 def encoder(message: Any) -> Reading:
-    """ardee_msgs/Encoder."""
-    data = codec.EncoderData(
-        id=message.id, position=message.position, speed=message.speed, qpps=message.qpps
-    )
-    return Reading(data.to_raw().pack())
+    """Converts an ardee_msgs/Encoder."""
+    return _reading(_copied(message, codec.EncoderData))
 
 
 def battery(message: Any) -> Reading:
-    """ardee_msgs/Battery."""
-    data = codec.BatteryData(voltage=message.voltage, vmax=message.vmax, vmin=message.vmin)
-    return Reading(data.to_raw().pack())
+    """Converts an ardee_msgs/Battery."""
+    return _reading(_copied(message, codec.BatteryData))
 
 
-# By the kind of sensor; of a GPS a velocity may be given, too.
+# Kind of sensor -> converter; gps() also takes a velocity.
 SINGLES: Dict[str, Callable[..., Reading]] = {
     each.__name__: each
     for each in (imu, gyro, acceleration, orientation, gps, lidar, encoder, battery)
@@ -151,7 +148,7 @@ _MOST_JPEG_PIXELS = 65500
 
 
 def image(message: Any, image_format: str, quality: int) -> Frame:
-    """sensor_msgs/Image; depth is never compressed."""
+    """Converts a sensor_msgs/Image; depth is never compressed."""
     if message.encoding not in _ENCODINGS:
         known = ", ".join(_ENCODINGS)
         raise ConvertError(f"an image of encoding {message.encoding!r}, expected one of {known}")
@@ -179,12 +176,12 @@ def image(message: Any, image_format: str, quality: int) -> Frame:
 # sensor_msgs/CompressedImage.format: "jpeg" as drivers have it, "rgb8; jpeg compressed bgr8" as image_transport does
 _IS_JPEG = re.compile(r"([^;]*;)?\s*jpe?g\b", re.IGNORECASE)
 
-# All that is looked at of a JPEG file: its header with what may be embedded there.
+# The part of a JPEG file that is read: its header with embedded data.
 _JPEG_HEADER_BYTES = 1 << 18
 
 
 def compressed_image(message: Any) -> Frame:
-    """sensor_msgs/CompressedImage of a JPEG file, whose bytes are sent as they are."""
+    """Wraps the bytes of a sensor_msgs/CompressedImage of JPEG, unchanged."""
     if not _IS_JPEG.match(message.format):
         raise ConvertError(f"a compressed image of format {message.format[:80]!r}, expected jpeg")
     try:
@@ -233,7 +230,7 @@ def _point_fields(message: Any) -> np.ndarray:
 
 
 def point_cloud(message: Any) -> Frame:
-    """sensor_msgs/PointCloud2; points without finite coordinates are left out."""
+    """Converts a sensor_msgs/PointCloud2; leaves out points without finite coordinates."""
     head = codec.PointCloudChunk(chunk=_stamped(message))
     if message.width == 0 or message.height == 0:
         return Frame(head, b"")
@@ -243,7 +240,7 @@ def point_cloud(message: Any) -> Frame:
         raise ConvertError(f"a point cloud of {points} points, expected at most {most}")
     fields = _point_fields(message).reshape(-1)
     points = np.zeros((fields.size, len(_POINT_FIELDS)))
-    with np.errstate(all="ignore"):  # of numbers that are not finite
+    with np.errstate(all="ignore"):  # numbers that are not finite
         for column, name in enumerate(_POINT_FIELDS):
             if name in fields.dtype.names:
                 points[:, column] = fields[name]
@@ -253,7 +250,7 @@ def point_cloud(message: Any) -> Frame:
 
 
 def _counts(values: np.ndarray) -> np.ndarray:
-    """Returns them rounded and saturated as the codec does it; NaN is NO_VALUE."""
+    """Returns the values rounded and saturated as by the codec; NaN becomes NO_VALUE."""
     limit = INT32.limits[1]
     is_nan = np.isnan(values)
     counts = np.rint(np.clip(np.where(is_nan, 0.0, values), -limit, limit)).astype("<i4")
@@ -262,7 +259,7 @@ def _counts(values: np.ndarray) -> np.ndarray:
 
 
 def stamp_s(message: Any) -> float:
-    """Time of a message [s]; ConvertError where the wire's int32_t do not reach."""
+    """Time of a message [s]; raises ConvertError for a time beyond the wire's int32_t."""
     stamp = message.header.stamp
     if stamp.secs > INT32.limits[1] or stamp.nsecs >= 1_000_000_000:
         found = f"a time stamp of {stamp.secs} s and {stamp.nsecs} ns"

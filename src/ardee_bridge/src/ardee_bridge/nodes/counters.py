@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Counts of what a node did and of what it dropped and why; the first of each kind is logged, then a few."""
+"""Counts successes, and drops with their reasons; the first of each kind is logged, then a few."""
 import threading
 import time
 from collections import Counter

@@ -9,10 +9,10 @@ def _stamp(message: Any) -> Tuple[int, int]:
 
 
 class FixWithVelocity:
-    """Sends each fix with the velocity of its own time where the receiver has one, else with the latest.
+    """Sends each fix with the velocity of its own time if the receiver has one, else with the latest.
 
-    Receivers publish the velocity right after the fix. One that was seen to do so with the same stamp is waited for,
-    at the longest until the next fix; then no more, until stamps agree again.
+    Receivers publish the velocity right after the fix. If the last one came with the stamp of its fix, the next one is
+    awaited, at the longest until the next fix; then no more, until stamps agree again.
     """
 
     def __init__(self, send: Callable[[Any, Any], None]) -> None:
@@ -31,7 +31,7 @@ class FixWithVelocity:
                 self._comes_after = False
                 self._send_waiting()
             self._waiting, self._latest_fix = fix, _stamp(fix)
-            has_fix = fix.status.status >= 0  # without one there is no velocity either
+            has_fix = fix.status.status >= 0  # without a fix there is no velocity either
             if not (has_fix and self._comes_after) or self._has_velocity_of(fix):
                 self._send_waiting()
 

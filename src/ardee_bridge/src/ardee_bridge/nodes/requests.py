@@ -16,7 +16,7 @@ _EXTRAS_BYTES = socket.CMSG_SPACE(4) + socket.CMSG_SPACE(16)  # overflow, time o
 
 
 class Requests:
-    """Messages that arrive at a socket. `prefix` begins the names of what is counted, `stranger` is such a name."""
+    """Messages arriving at a socket. `prefix` begins the names of counters; `stranger` is that of unknown senders."""
 
     def __init__(
         self,
@@ -32,7 +32,7 @@ class Requests:
         self._pairer, self._overflowed = Pairer(), 0
 
     def receive(self, timeout_s: float) -> Iterator[Tuple[Message, Sender, float]]:
-        """Waits so long at most; yields each message, its sender and the time of its arrival on the clock [s]."""
+        """Waits at most this long; yields each message, its sender and the time of its arrival on the clock [s]."""
         if not select.select([self._socket], [], [], timeout_s)[0]:
             return
         for datagram, sender, age_s in self._datagrams():
@@ -47,13 +47,13 @@ class Requests:
             self._counters.drop(self._prefix + reason, detail, count)
 
     def _datagrams(self) -> Iterator[Tuple[bytes, Sender, float]]:
-        """Yields what is there already: data, sender, and for how long it has been there [s]."""
+        """Yields the datagrams that have arrived: data, sender, and their age [s]."""
         for _ in range(MOST_AT_ONCE):
             try:
                 read = self._socket.recvmsg(MAX_DATAGRAM, _EXTRAS_BYTES, socket.MSG_DONTWAIT)
             except (BlockingIOError, InterruptedError):
                 return
-            except ConnectionError:  # a port that an answer went to is closed
+            except ConnectionError:  # an answer went to a closed port
                 continue
             data, extras, _, sender = read
             age_s = 0.0

@@ -33,9 +33,9 @@ class Target(NamedTuple):
 
 
 class RateLimit:
-    """Lets through at most so many messages a second of simulated time, exact in the mean; 0: all.
+    """Limits messages to a rate of simulated time, exact in the mean; 0: no limit.
 
-    Messages whose time stamp is left at 0 are all let through: nothing tells how many they are in a second.
+    Messages whose time stamp is left at 0 all pass, because their rate is unknown.
     """
 
     def __init__(self, max_rate_hz: float) -> None:
@@ -43,7 +43,7 @@ class RateLimit:
         self._due_s = self._last_s = float("-inf")
 
     def admits(self, stamp_s: float) -> bool:
-        """Returns whether the message of this time is let through."""
+        """Returns whether the message of this time passes."""
         if not self._period_s or stamp_s == self._last_s == 0.0:
             return True
         if stamp_s < self._last_s:  # the simulation was reset
@@ -158,7 +158,7 @@ class SensorServer:
     # -- clients
 
     def receive(self, timeout_s: float) -> None:
-        """Waits so long for requests, and answers them; forgets clients whose lease has ended."""
+        """Waits at most this long for requests, and answers them; drops clients whose lease has ended."""
         for message, sender, _ in self._requests.receive(timeout_s):
             if message.header.msg_type == codec.MessageType.SET_PORT:
                 self._set_port(message, sender)

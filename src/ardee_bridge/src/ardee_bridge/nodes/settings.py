@@ -15,7 +15,7 @@ from ardee_common.options import bounded, converted, option, ros_name
 FRAME_KINDS = ("image", "point_cloud")
 _SMALL_KINDS = ("imu", "gyro", "acceleration", "orientation", "gps", "lidar", "encoder", "battery")
 KINDS = {kind: codec.DataType[kind.upper()] for kind in _SMALL_KINDS + FRAME_KINDS}
-# Of images that come as JPEG files: no setting, but what becomes of "jpeg" where a camera compresses by itself.
+# Format of images that a camera compresses itself; no setting, but replaces "jpeg".
 COMPRESSED = "compressed"
 SELECTIONS = dict(KINDS, all=codec.DataType.ALL, time=codec.DataType.TIME)
 
@@ -98,11 +98,6 @@ class Source:
     def data_type(self) -> codec.DataType:
         return KINDS[self.kind]
 
-    @property
-    def is_frame(self) -> bool:
-        """Returns whether the source sends images or clouds."""
-        return self.kind in FRAME_KINDS
-
 
 @dataclass(frozen=True)
 class GpsSource(Source):
@@ -120,7 +115,7 @@ class ImageSource(Source):
     chunk_bytes: int = option(MAX_PAYLOAD, limits=(256, MAX_PAYLOAD))
 
     def of_camera(self) -> "ImageSource":
-        """The same images, compressed by whoever publishes them, on the topic that image_transport gives them."""
+        """Returns the same images as compressed by their publisher, on the topic that image_transport gives them."""
         return dataclasses.replace(self, topic=f"{self.topic}/compressed", format=COMPRESSED)
 
 
@@ -136,13 +131,9 @@ class CloudSource(Source):
             raise GeneratorError(f"{found}, expected a multiple of {codec.Point.size}")
 
 
-_SOURCE_CLASSES = {"gps": GpsSource, "image": ImageSource, "point_cloud": CloudSource}
-
-
 def _source_class(mapping: Mapping) -> type:
-    return next(
-        (cls for kind, cls in _SOURCE_CLASSES.items() if mapping.get("kind") == kind), Source
-    )
+    classes = {"gps": GpsSource, "image": ImageSource, "point_cloud": CloudSource}
+    return classes.get(str(mapping.get("kind")), Source)
 
 
 @dataclass(frozen=True)
@@ -199,46 +190,37 @@ def silent(peers: Peers) -> List[str]:
     return [str(host) for host in hosts if host.is_multicast or host == everybody]
 
 
-def _check_distinct(values: Sequence[Any], complaint: Callable[[int, int], str]) -> None:
-    """Refuses a value that occurs twice; the complaint is of the later one, and names the first."""
-    for number, value in enumerate(values):
-        if value in values[:number]:
-            raise GeneratorError(complaint(number, values.index(value)))
-
-
 def _check_unique(sources: Tuple[Source, ...]) -> None:
-    """Sources are told apart by their names here, and by kind and component on the wire."""
-    _check_distinct(
-        [source.name for source in sources],
-        lambda number, other: f"sources[{number}]: name: found {sources[number].name!r}, "
-        f"which is sources[{other}]'s; expected one of its own",
-    )
-    _check_distinct(
-        [(source.data_type, source.component_id) for source in sources],
-        lambda number, other: f"sources[{number}]: component_id: found {sources[number].component_id}, "
-        f"which is {sources[other].name}'s; expected one of its own among kind {sources[number].kind}",
-    )
+    """Refuses sources of the same name, and of the same kind and component, which the wire could not tell apart."""
+    for number, source in enumerate(sources):
+        for place, other in enumerate(sources[:number]):
+            if source.name == other.name:
+                found = f"name: found {source.name!r}, which is sources[{place}]'s"
+                raise GeneratorError(f"sources[{number}]: {found}; expected one of its own")
+            if (source.kind, source.component_id) == (other.kind, other.component_id):
+                found = f"component_id: found {source.component_id}, which is {other.name}'s"
+                expected = f"expected one of its own among kind {source.kind}"
+                raise GeneratorError(f"sources[{number}]: {found}; {expected}")
 
 
 def _check_destinations(destinations: Tuple[Destination, ...], own: Tuple[str, int]) -> None:
-    """One selection for each address and port: the server keeps no more. None for the server itself."""
+    """Refuses destinations that cannot be reached, the server itself, and a second entry of an address and port."""
     of_bind = ipaddress.IPv4Address(own[0])
+    places: List[Tuple[str, int]] = []
     for number, peer in enumerate(destinations):
-        address = ipaddress.IPv4Address(peer.address)
-        where = f"peers[{number}]: address: found {peer.address}, "
+        address, place = ipaddress.IPv4Address(peer.address), (peer.address, peer.port)
         if address.is_unspecified:
-            raise GeneratorError(f"{where}expected where to send to")
+            found, expected = f"address: found {peer.address}", "the address of a receiver"
+            raise GeneratorError(f"peers[{number}]: {found}, expected {expected}")
         if of_bind.is_loopback and not (address.is_loopback or address.is_multicast):
             raise GeneratorError(
-                f"{where}which cannot be reached from bind_address {own[0]}; "
-                "expected the bind_address of an interface towards it, or 0.0.0.0"
+                f"peers[{number}]: address: found {peer.address}, which cannot be reached from "
+                f"bind_address {own[0]}; expected the bind_address of an interface towards it, or 0.0.0.0"
             )
-    places = [(peer.address, peer.port) for peer in destinations]
-    if own in places:
-        found = f"peers[{places.index(own)}]: found {own[0]}:{own[1]}"
-        raise GeneratorError(f"{found}, which is the server's own; expected another's")
-    _check_distinct(
-        places,
-        lambda number, other: "peers[%d]: found %s:%d, which is " % (number, *places[number])
-        + f"peers[{other}]'s; expected each address and port once, with all its data_types",
-    )
+        found = f"peers[{number}]: found {peer.address}:{peer.port}"
+        if place == own:
+            raise GeneratorError(f"{found}, which is the server's own; expected another's")
+        if place in places:
+            expected = "expected each address and port once, with all its data_types"
+            raise GeneratorError(f"{found}, which is peers[{places.index(place)}]'s; {expected}")
+        places.append(place)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Subscriptions of the sensor server: to the topics that somebody wants, and of a camera's two to the better one."""
+"""Subscribes the sensor server to the topics that a target wants, and to the better one of a camera's two."""
 import functools
 import http.client
 import threading
@@ -25,14 +25,14 @@ TYPES = {
     "image": Image,
     "point_cloud": PointCloud2,
 }
-# A publisher makes its topics known one after the other: so long must compressed images be missing beside raw ones.
+# Time for which compressed images must be missing beside raw ones, because a publisher announces its topics one by one.
 PATIENCE_S = 1.0
 LOOK_S = 0.5  # between two looks at the publishers of cameras
 Topics = AbstractSet[Tuple[str, str]]  # names and types
 
 
 class CameraTopics:
-    """Chooses between the JPEG images of a camera's own and its raw ones, which the server compresses."""
+    """Chooses between a camera's own JPEG images and its raw ones, which the server compresses."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -60,9 +60,9 @@ class CameraTopics:
 
 
 class Subscriptions:
-    """Follows what the server's targets want, so that no unwanted camera is rendered. Topics are full names.
+    """Follows the targets' wishes, so that no unwanted camera is rendered. Topics are full names.
 
-    A thread of its own speaks to the ROS master, whose silence then holds up nothing else.
+    A thread of its own calls the ROS master, whose silence then delays nothing else.
     """
 
     def __init__(self, sources: Iterable[Source], server: SensorServer) -> None:
@@ -72,7 +72,7 @@ class Subscriptions:
         threading.Thread(target=self._repeat, daemon=True).start()
 
     def update(self) -> None:
-        """Tells that the targets of the server have changed."""
+        """Reports that the targets of the server have changed."""
         self._changed.set()
 
     def _repeat(self) -> None:
@@ -80,7 +80,7 @@ class Subscriptions:
             try:
                 self._follow(self._to_read())
             except (OSError, xmlrpc.client.Error, http.client.HTTPException):
-                pass  # the master is away, which watch_master tells
+                pass  # the master is away; watch_master reports it
             self._changed.wait(LOOK_S)
             self._changed.clear()
 

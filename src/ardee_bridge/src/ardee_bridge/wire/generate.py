@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes what the C header and docs/wire_format.md take from the table of scales and the layouts of the codec."""
+"""Writes the parts of the C header and of docs/wire_format.md that follow from the scales and the codec's layouts."""
 from pathlib import Path
 from typing import Dict, List, Type
 
@@ -11,7 +11,7 @@ BEGIN, END = "begin generated", "end generated"
 
 
 def _between_marks(text: str, body: List[str]) -> str:
-    """`text` with the lines between those that hold BEGIN and END replaced."""
+    """Returns `text` with the lines between the marks BEGIN and END replaced."""
     lines = text.split("\n")
     first = next(i for i, line in enumerate(lines) if BEGIN in line)
     last = next(i for i, line in enumerate(lines) if END in line)
@@ -19,7 +19,7 @@ def _between_marks(text: str, body: List[str]) -> str:
 
 
 def header_lines() -> List[str]:
-    """Scale constants, then assertions of every size and offset."""
+    """Returns scale constants, then assertions of every size and offset."""
     constants = {row.constant: row for row in reversed(SCALES) if row.constant}
     lines = ["/* Integer on the wire / scale = physical value */"]
     for row in reversed(list(constants.values())):
@@ -32,7 +32,7 @@ def header_lines() -> List[str]:
 
 
 def _offset_lines(kind: Type[codec.CStruct]) -> List[str]:
-    """Assertions of where the fields are; of int32 fields alone the size says it."""
+    """Returns assertions of the fields' offsets; none for int32 fields alone, whose size is enough."""
     if all(field_kind is INT32 for _, field_kind in kind.FIELDS):
         return []
     places = {leaf.path.split(".")[0]: leaf.offset for leaf in reversed(kind.leaves)}
@@ -40,7 +40,7 @@ def _offset_lines(kind: Type[codec.CStruct]) -> List[str]:
 
 
 def scale_table() -> List[str]:
-    """The table of scales in Markdown."""
+    """Returns the table of scales in Markdown."""
     lines = ["| struct | field | counts per unit | unit | constant | meaning |", "|---" * 6 + "|"]
     for row in SCALES:
         field = f"`{row.path}`" if row.path else "all"
@@ -52,7 +52,7 @@ def scale_table() -> List[str]:
 
 
 def generated(package: Path) -> Dict[Path, str]:
-    """File -> what it should hold, of the files that are partly generated."""
+    """Returns file -> expected content, for the partly generated files."""
     parts = {"include/ardee_message.h": header_lines(), "docs/wire_format.md": scale_table()}
     files = {package / name: body for name, body in parts.items()}
     return {file: _between_marks(file.read_text("utf-8"), body) for file, body in files.items()}

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Pairs each data datagram with its header, though datagrams may be lost, doubled or change places.
+"""Pairs each data datagram with its header, even if datagrams are lost, doubled or reordered.
 
 The rule: no data datagram has the size of a header, so one of 20 bytes is a header and any other is data. A receiver
-keeps, for each sender, its latest header that is not used up. Data of the size that this header asks for, within
-WINDOW_S of it, completes the message and uses the header up. Everything else is dropped and counted.
+keeps, for each sender, its latest unused header. Data of the size that this header gives, within WINDOW_S of it,
+completes the message and uses the header. Everything else is dropped and counted.
 """
 from collections import Counter, OrderedDict
 from typing import Any, Dict, Hashable, Iterator, NamedTuple, Optional, Tuple
@@ -22,7 +22,7 @@ class Message(NamedTuple):
 
 
 class Pairer:
-    """Makes messages of the datagrams of several senders, within bounded memory; `dropped` counts by reason."""
+    """Makes messages from the datagrams of several senders, within bounded memory; `dropped` counts by reason."""
 
     def __init__(self) -> None:
         self.dropped: "Counter[str]" = Counter()
@@ -30,7 +30,7 @@ class Pairer:
         self._waiting: "OrderedDict[Hashable, Tuple[codec.Header, int, float]]" = OrderedDict()
 
     def take_drops(self) -> Iterator[Tuple[str, int, str]]:
-        """What was dropped since it was asked last: reason, count, and about the latest of them who and what."""
+        """Yields and clears the drops since the last call: reason, count, and sender and content of the latest."""
         for reason, count in self.dropped.items():
             sender, found, expected = self._latest[reason]
             who = ":".join(map(str, sender)) if isinstance(sender, tuple) else sender

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The one table of scales of the wire format; the C header and docs/wire_format.md are generated from it.
+"""Table of scales of the wire format, from which the C header and docs/wire_format.md are generated.
 
 A field carries round(value * counts_per_unit); fields without a unit (counts_per_unit None) carry plain integers.
 A row holds for the field of that path and for all fields below it, unless a longer path says otherwise.
@@ -8,7 +8,7 @@ from typing import NamedTuple, Optional
 
 
 class Scale(NamedTuple):
-    """How a field's integer becomes a physical value: integer / counts_per_unit, in `unit`."""
+    """Scale of a field: its physical value is integer / counts_per_unit, in `unit`."""
 
     struct: str
     path: str
@@ -76,7 +76,7 @@ _UNSCALED = Scale("", "", None, "", "", "")
 
 
 def scale_of(struct: str, path: str) -> Scale:
-    """The row of the table for a field: that of the longest path which holds it; plain integers without a row."""
+    """Returns the row of the table with the longest path that contains the field; plain integers without a row."""
     fitting = [
         row
         for row in SCALES

@@ -6,7 +6,7 @@ from typing import Callable, Dict, Optional
 
 
 class Answers:
-    """Put in by one thread in the order of time, taken out by another."""
+    """Queue of answers, filled by one thread in the order of time, emptied by another."""
 
     def __init__(self) -> None:
         self._by_time_ms: Dict[int, dict] = {}
@@ -22,7 +22,7 @@ class Answers:
             self._by_time_ms[self._key(answer["time_s"])] = answer
 
     def _look(self, wanted: int) -> Optional[dict]:
-        """The answer, empty if there will be none: a later scan has one; None if it may still come."""
+        """Returns the answer; empty if a later scan has one, so none will come; None if it may still come."""
         with self._lock:
             for key in [key for key in self._by_time_ms if key < wanted]:
                 del self._by_time_ms[key]
@@ -31,9 +31,9 @@ class Answers:
     def take(
         self, time_s: float, patience_s: float, check: Callable[[], None] = lambda: None
     ) -> Optional[dict]:
-        """The answer to the scan of a time; None once a later scan has one, or `patience_s` of wall time is over.
+        """Returns the answer to the scan of a time; None once a later scan has one, or after `patience_s` of wall time.
 
-        Scans are to be asked for in the order of time. `check` is called again and again meanwhile; it may raise.
+        Scans must be asked for in the order of time. `check` is called repeatedly meanwhile; it may raise.
         """
         deadline, wanted = time.monotonic() + patience_s, self._key(time_s)
         while True:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
+"""Writes the report of an experiment: report.md with its table and figures, a CSV file a run, one of all runs."""
 import re
 from pathlib import Path
 from typing import Callable, List, Sequence, Tuple
@@ -76,7 +76,7 @@ def _never_there(records: Sequence[Record]) -> str:
 
 
 def table(records: Sequence[Record]) -> str:
-    """Markdown: a line a run, one of all; which runs never came between the rows."""
+    """Returns Markdown: a line a run, one of all, and the runs that never came between the rows."""
     text = _line(["run", "seed", "end", *(name for name, _ in _TABLE)])
     text += "|" + "---|" * (3 + len(_TABLE)) + "\n"
     for record in records:
@@ -132,7 +132,7 @@ def write_run(record: Record, folder: Path) -> None:
 
 
 def _drop_other_runs(records: Sequence[Record], folder: Path) -> None:
-    """An earlier experiment in the same folder may have had more runs."""
+    """Removes runs that an earlier experiment left in the same folder."""
     stems = {_stem(record) for record in records}
     for path in folder.glob("run_*"):
         named = re.fullmatch(r"(run_\d{2,})(\.csv|_lidar\.png|_errors\.png)", path.name)
@@ -141,7 +141,7 @@ def _drop_other_runs(records: Sequence[Record], folder: Path) -> None:
 
 
 def write_report(records: Sequence[Record], command: str, folder: Path) -> Path:
-    """What all runs have in common into the folder of `write_run`, rid of others' runs; the path of report.md."""
+    """Writes the report of all runs into the folder of `write_run`, without others' runs; returns report.md's path."""
     _drop_other_runs(records, folder)
     pictures = ""
     for record in records:

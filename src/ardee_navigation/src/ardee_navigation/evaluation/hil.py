@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A run with hardware in the loop: in real time, the row follower a process without ROS behind the UDP bridge."""
+"""Drives a run with hardware in the loop: in real time, the row follower without ROS behind the UDP bridge."""
 import contextlib
 import dataclasses
 import json
@@ -27,12 +27,12 @@ from ardee_navigation.evaluation.trial import Judge, Seen
 from ardee_navigation.lbirnt import Parameters
 
 SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
-ANSWER_WITHIN_S = 5.0  # of a scan; the first one waits for the bridge to start
+ANSWER_WITHIN_S = 5.0  # time limit of an answer; the first one waits for the bridge to start
 START_WITHIN_S = 30.0
 
 
 def _free_ports(count: int) -> List[int]:
-    """UDP ports of loopback that nobody has just now, so that experiments can run side by side."""
+    """Returns UDP ports of loopback that are free at the moment, so that experiments can run side by side."""
     with contextlib.ExitStack() as stack:
         sockets = [
             stack.enter_context(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
@@ -44,7 +44,7 @@ def _free_ports(count: int) -> List[int]:
 
 
 class Bridge:
-    """Both nodes of ardee_bridge, which send nothing that nobody asks for."""
+    """Both nodes of ardee_bridge, which send only requested data."""
 
     def __init__(self) -> None:
         self.sensors_port, self.controls_port = _free_ports(2)
@@ -59,7 +59,7 @@ class Bridge:
 
 
 class Follower:
-    """The process without ROS: its environment knows no master; it says on its standard output what it did."""
+    """Row follower as a process without ROS: its environment has no master; it reports on its standard output."""
 
     def __init__(self, parameters: Path, bridge: Bridge) -> None:
         command = ["rosrun", "ardee_navigation", "hil_row_follower", "--log", "-"]
@@ -89,12 +89,12 @@ class Follower:
             raise SimulationError("hil_row_follower has ended")
 
     def answer(self, time_s: float, patience_s: float) -> Optional[dict]:
-        """What it made of the scan of this simulated time; None where it has none, for all patience."""
+        """Returns the answer to the scan of this simulated time; None if there is none in time."""
         return self._answers.take(time_s, patience_s, self._check)
 
 
 class Latency:
-    """From a scan's arrival on its ROS topic to that of the next command on cmd_vel, both in this process."""
+    """Measures from a scan's arrival on its ROS topic to the next command on cmd_vel, both in this process."""
 
     def __init__(self) -> None:
         self.milliseconds: List[float] = []
@@ -147,7 +147,7 @@ def drive(
     judge: Judge,
     progress: Callable[[float], None],
 ) -> Record:
-    """One run in real time. After an intervention the follower is started anew."""
+    """Drives one run in real time. After an intervention the follower is started anew."""
     with tempfile.NamedTemporaryFile("w", prefix="ardee_lbirnt_", suffix=".yaml") as file:
         yaml.safe_dump(dataclasses.asdict(parameters), file)
         file.flush()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A run in lockstep: a scan, what the row follower makes of it, its command, the physics steps between scans."""
+"""Drives a run in lockstep: a scan, the row follower's answer and command, the physics steps between scans."""
 import time
 from typing import Callable
 
@@ -11,7 +11,7 @@ from ardee_navigation.evaluation.simulation import Simulation, SimulationError
 from ardee_navigation.evaluation.trial import Judge, Seen
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 
-STEP_S = 0.005  # of the worlds
+STEP_S = 0.005  # step of the worlds
 STEPS_A_SCAN = 5  # 25 ms: the UST-10LX's 40 Hz
 SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 
@@ -41,7 +41,7 @@ def drive(
     judge: Judge,
     progress: Callable[[float], None],
 ) -> Record:
-    """Drives one run; the robot stands at its start. `progress` is told how far along the lane it is [m]."""
+    """Drives one run; the robot stands at its start. `progress` gets the distance along the lane [m]."""
     began = time.monotonic()
     follower = RowFollower(parameters)
     _settle(simulation)

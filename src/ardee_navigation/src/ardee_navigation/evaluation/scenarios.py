@@ -45,7 +45,7 @@ class Trial:
     ground: object  # has height_at(x_m, y_m)
 
     def height_m(self, pose: Pose) -> float:
-        """Of base_footprint for a robot that is set down there: as high as its highest wheel wants."""
+        """Returns the height of base_footprint at a place: the highest wheel determines it."""
         around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
         x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
         return float(np.max(self.ground.height_at(x, y))) + STAND_M
@@ -63,7 +63,7 @@ def _sow(plan: Path, seed: int, folder: Path) -> None:
 
 
 def start_near(start: Start, seed: int) -> Pose:
-    """The start pose with a person's inaccuracy, drawn from the seed."""
+    """Returns the start pose with a person's inaccuracy, drawn from the seed."""
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,)))
     aside, turn = rng.standard_normal(2) * (START_SD_M, START_SD_RAD)
     x = start.x_m - np.sin(start.yaw_rad) * aside

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command `hil_row_follower`: the row follower of a target computer, without ROS: over UDP alone (thesis 4.5).
+"""Command `hil_row_follower`: the row follower of a target computer, without ROS, over UDP alone (thesis 4.5).
 
 It asks the sensor server for scans and their time stamps (SET_PORT), follows the rows and sends motion commands to
 the controls client. With --log each answer is written as a line of JSON.
@@ -26,15 +26,15 @@ from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 
 ASK_EVERY_S = 5.0  # the server forgets a client after 30 s of silence
 LARGEST_DATAGRAM = 65_535
-BACK_S = 1.0  # time that goes back by more: another simulation, no datagrams that changed places
+BACK_S = 1.0  # a larger step back in time means another simulation, not reordered datagrams
 WANTED = (codec.DataType.LIDAR, codec.DataType.TIME)
 Address = Tuple[str, int]
 
 
 class Clock:
-    """Simulated time of a scan: that of the time stamp sent before it, else counted on by the scan's own period.
+    """Simulated time of a scan: that of the time stamp sent before it, else the last one plus the scan's own period.
 
-    A scan that does not tell its period (simulated lidars leave it 0) took as long as it was waited for.
+    A scan without a period (simulated lidars leave it 0) counts with the time since the scan before it.
     """
 
     def __init__(self) -> None:
@@ -42,12 +42,12 @@ class Clock:
         self._last_s = self._arrived_s = 0.0
 
     def stamp(self, data: codec.TimeStamp) -> None:
-        """A time stamp, which the next message of its component belongs to."""
+        """Takes a time stamp, which the next message of its component belongs to."""
         if data.data_type == codec.DataType.LIDAR:
             self._stamps = {data.component_id: data.sec + 1e-9 * data.nsec}
 
     def of_scan(self, component_id: int, period_s: float, arrived_s: float) -> float:
-        """Time [s] of the scan that has arrived at `arrived_s` by this computer's clock."""
+        """Returns the time [s] of the scan that has arrived at `arrived_s` by this computer's clock."""
         waited_s = arrived_s - self._arrived_s if self._arrived_s else 0.0
         self._arrived_s = arrived_s
         step_s = period_s if 0.0 < period_s < math.inf else waited_s
@@ -76,13 +76,13 @@ class Target:
         for datagram in datagrams:
             try:
                 self._socket.sendto(datagram, to)
-            except OSError as error:  # the network is away, or none leads there
+            except OSError as error:  # the network is away, or no route leads there
                 self._say_once(to, error)
                 return
         self._out_of_reach.discard(to)
 
     def _say_once(self, to: Address, error: OSError) -> None:
-        """Logs once why nothing can be sent there, until a message could be sent again."""
+        """Logs once why sending fails, until a message could be sent again."""
         if to not in self._out_of_reach:
             self._out_of_reach.add(to)
             text = f"hil_row_follower: cannot send to {to[0]}:{to[1]}: {error.strerror or error}"
@@ -95,7 +95,7 @@ class Target:
             self._send(codec.encode_set_port(WANTED), self._sensors)
 
     def receive(self) -> Optional[Dict[str, Any]]:
-        """Wait a moment for a datagram; what was answered if it completed a scan."""
+        """Waits a moment for a datagram; returns the answer if it completed a scan."""
         try:
             datagram, sender = self._socket.recvfrom(LARGEST_DATAGRAM)
         except (socket.timeout, ConnectionError):
@@ -122,7 +122,7 @@ class Target:
         return _line(now_s, output)
 
     def _command(self, output: Output) -> codec.Datagrams:
-        """The motion command of an answer; a standstill, said once, where the answer is not finite."""
+        """Returns the motion command of an answer; a standstill, logged once, if the answer is not finite."""
         try:
             command = codec.encode_motion_si(output.speed_m_s, output.turn_rad_s)
             self._is_astray = False
@@ -168,7 +168,7 @@ def _peer(text: str) -> Address:
 
 
 def _own_address(*others: Address) -> Address:
-    """Where to listen: on loopback, which keeps the network out, where nobody else is farther away."""
+    """Returns the address to listen at: loopback, which keeps the network out, unless a peer is farther away."""
     is_here = all(ipaddress.ip_address(host).is_loopback for host, _ in others)
     return ("127.0.0.1" if is_here else "0.0.0.0"), 0
 

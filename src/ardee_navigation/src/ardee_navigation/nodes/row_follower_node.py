@@ -44,7 +44,7 @@ VALID, INVALID, CENTRE, CHOSEN = (
 def line_marker(
     header: Header, name: str, line: Line, colour: ColorRGBA, parameters: Parameters
 ) -> Marker:
-    """A line in the scan's frame, as long as the rectangle in which rows are looked for."""
+    """Returns a line in the scan's frame, as long as the rectangle in which rows are looked for."""
     marker = Marker(header=header, ns=name, type=Marker.LINE_STRIP, color=colour)
     marker.scale.x, marker.pose.orientation.w = 0.02, 1.0
     ends = (-parameters.behind_m, parameters.ahead_m)
@@ -53,7 +53,7 @@ def line_marker(
 
 
 def points_marker(header: Header, sides: List[np.ndarray]) -> Marker:
-    """The returns that lines were fitted to."""
+    """Returns the points that lines were fitted to."""
     marker = Marker(header=header, ns="chosen points", type=Marker.POINTS, color=CHOSEN)
     marker.scale.x = marker.scale.y = 0.02
     marker.pose.orientation.w = 1.0
@@ -146,7 +146,7 @@ class Node:
         self._commands.publish(command)
 
     def watch(self, wait_s: float) -> None:
-        """Waits; stops the robot once if scans have stopped, for it keeps to its last command."""
+        """Waits; stops the robot once if scans have stopped, because it keeps its last command."""
         time.sleep(wait_s)
         with self._sending:
             if self._drive and self._silence.begins(rospy.get_time(), time.monotonic()):
@@ -162,7 +162,7 @@ class Node:
 
 
 def _parameters(settings: Settings) -> Parameters:
-    """Returns those of the file, else those of the scenario, else the defaults."""
+    """Returns the parameters of the file, else those of the scenario, else the defaults."""
     if settings.parameters:
         return read_parameters(FilePath(settings.parameters))
     if not settings.scenario:

@@ -4,9 +4,9 @@ from typing import Optional, Tuple
 
 
 class Silence:
-    """A silence is as long as both clocks say: the simulation's, which stands still while it is paused, and the wall's.
+    """Silence by the shorter time of two clocks: the simulation's, which stops in a pause, and the wall's.
 
-    By the simulation's alone one that runs many times as fast as real time would be silent while a scan is on its way.
+    By the simulation's clock alone, a run many times faster than real time would be silent while a scan is on its way.
     """
 
     def __init__(self, longest_s: float) -> None:
