@@ -2,9 +2,11 @@
 """Tests that every node that drives leaves the robot at rest when it ends, even while its input goes on."""
 import os
 import pty
+import signal
 import socket
 import subprocess
 import time
+import xmlrpc.client
 from typing import Any, Callable, Dict, List, Tuple
 
 import pytest
@@ -103,6 +105,28 @@ def feed(pipe: Any) -> None:
     pipe.send(speeds[-1])
 
 
+def pid_of(graph: RosGraph, node: str) -> int:
+    """Returns the process id that the node itself reports."""
+    _, _, address = xmlrpc.client.ServerProxy(graph.uri).lookupNode("/test", node)
+    return xmlrpc.client.ServerProxy(address).getPid("/test")[2]
+
+
+def end_by_name(graph: RosGraph, node: str) -> None:
+    """Ends a node as `rosnode kill` does."""
+    assert "killed" in graph.run("rosnode", "kill", node)
+
+
+def ctrl_c(graph: RosGraph, node: str) -> None:
+    """Ends a node by SIGINT."""
+    os.kill(pid_of(graph, node), signal.SIGINT)
+
+
+def terminate(graph: RosGraph, node: str) -> None:
+    """Ends a node by SIGTERM."""
+    os.kill(pid_of(graph, node), signal.SIGTERM)
+
+
+@pytest.mark.parametrize("end", [end_by_name, ctrl_c, terminate])
 @pytest.mark.parametrize(
     "feeding, node, command",
     [
@@ -122,15 +146,19 @@ def feed(pipe: Any) -> None:
     ],
     ids=["controls client", "joystick", "row follower", "drive_row", "keyboard"],
 )
-def test_who_is_ended_by_rosnode_kill_commands_a_stand_last(
-    feeding: Tuple[Any, ...], node: str, command: Tuple[str, ...], graph: RosGraph
+def test_a_driver_commands_a_stand_last(
+    feeding: Tuple[Any, ...],
+    node: str,
+    command: Tuple[str, ...],
+    end: Callable[[RosGraph, str], None],
+    graph: RosGraph,
 ) -> None:
     process = graph.spawn(*command) if command else None
     robot, pipe = start_in(graph, feed)
     pipe.send(feeding)
     wait_until(lambda: pipe.poll(0.1), "the robot moves", 60.0)
     assert pipe.recv() == "moving"
-    assert "killed" in graph.run("rosnode", "kill", node)
+    end(graph, node)
     if process:
         assert process.wait(30.0) == 0
     time.sleep(0.5)

@@ -70,6 +70,7 @@ class Survey:
                 self._listen(name, topic, kind)
         self._buffer = tf2_ros.Buffer()
         self._tf = tf2_ros.TransformListener(self._buffer)
+        self._command = Twist()
         self._commands = [rospy.Publisher(f"/{n}/cmd_vel", Twist, queue_size=1) for n in ROBOTS]
         try:
             wait_until(self._complete, "every stream of every robot", START_S)
@@ -98,16 +99,17 @@ class Survey:
     def wait(self, seconds: float) -> None:
         """Lets simulated time pass."""
         end_s = self.now_s() + seconds
-        wait_until(lambda: self.now_s() >= end_s, f"{seconds} s of simulated time")
+
+        def has_passed() -> bool:
+            for publisher in self._commands:  # again and again: the robots stop soon after the last
+                publisher.publish(self._command)
+            return self.now_s() >= end_s
+
+        wait_until(has_passed, f"{seconds} s of simulated time")
 
     def command(self, forward_m_s: float, turn_rad_s: float) -> None:
-        """Sends a command to all robots."""
-        from geometry_msgs.msg import Twist
-
-        command = Twist()
-        command.linear.x, command.angular.z = forward_m_s, turn_rad_s
-        for publisher in self._commands:
-            publisher.publish(command)
+        """Sets what all robots are told from now on."""
+        self._command.linear.x, self._command.angular.z = forward_m_s, turn_rad_s
 
     def rates(self) -> Dict[str, Dict[str, float]]:
         """Returns messages a simulated second of each stream, by their stamps, and their frames."""
