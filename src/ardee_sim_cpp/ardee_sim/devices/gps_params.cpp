@@ -32,19 +32,21 @@ LocalFrame read_frame_on_earth(Parameters& parameters, DeviceContext& context) {
       parameters.number("referenceLongitude", origin.longitude_deg, -360.0, 360.0);
   origin.altitude_m = parameters.number("referenceAltitude", 0.0, -1e5, 1e7);
   double heading_deg = parameters.number("referenceHeading", 0.0, -360.0, 360.0);
-  if (parameters.boolean("useWorldSphericalCoordinates", false)) {
-    if (const auto& world = context.world_info.spherical_coordinates) {
-      if (std::abs(world->latitude_deg) > kMostLatitude_deg) {
-        throw parameters.error("useWorldSphericalCoordinates",
-                               "expected a world less than 89.9 degrees from the equator");
-      }
-      origin = {world->latitude_deg, world->longitude_deg, world->elevation_m};
-      heading_deg = 90.0 - world->heading_deg;
-    } else {
-      context.log.warn(parameters.source().to_string() +
-                       ": found no <spherical_coordinates> in the world, expected them for "
-                       "useWorldSphericalCoordinates; the plugin's own reference is used");
+  const bool uses_world = parameters.boolean("useWorldSphericalCoordinates", false);
+  const bool prefers_world = parameters.boolean("preferWorldSphericalCoordinates", false);
+  const auto& world = context.world_info.spherical_coordinates;
+  if (world && (uses_world || prefers_world)) {
+    if (std::abs(world->latitude_deg) > kMostLatitude_deg) {
+      throw parameters.error(
+          uses_world ? "useWorldSphericalCoordinates" : "preferWorldSphericalCoordinates",
+          "expected a world less than 89.9 degrees from the equator");
     }
+    origin = {world->latitude_deg, world->longitude_deg, world->elevation_m};
+    heading_deg = 90.0 - world->heading_deg;
+  } else if (uses_world) {
+    context.log.warn(parameters.source().to_string() +
+                     ": found no <spherical_coordinates> in the world, expected them for "
+                     "useWorldSphericalCoordinates; the plugin's own reference is used");
   }
   return {origin, heading_deg * kDegree, projection};
 }

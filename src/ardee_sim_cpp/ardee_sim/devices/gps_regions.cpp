@@ -146,6 +146,10 @@ struct GpsRegions::Parts {
       throw Error(root.source, std::string("found nothing in it, expected ") + kBands + ", " +
                                    kPlot + " or " + kBox);
     }
+    add_root(root, log);
+  }
+
+  void add_root(const Element& root, Log& log) {
     for (const Element& child : root.children) {
       if (!is_part(child.name)) {
         throw Error(child.source, "found <" + child.name + ">, expected " + kBands + ", " + kPlot +
@@ -164,6 +168,7 @@ struct GpsRegions::Parts {
     }
   }
 
+  /// A field without a plot is open sky.
   void add_plots_beside(const std::vector<std::string>& scenery_files, const Source& source,
                         Log& log) {
     std::set<std::string> folders;
@@ -173,7 +178,9 @@ struct GpsRegions::Parts {
     for (const std::string& folder : folders) {
       const std::string path = (std::filesystem::path(folder) / "plots.xacro").string();
       std::error_code error;
-      if (std::filesystem::is_regular_file(path, error)) add_plots_file(path, source, log);
+      if (std::filesystem::is_regular_file(path, error)) {
+        add_root(read_element_file(path, source), log);
+      }
     }
   }
 

@@ -137,6 +137,27 @@ TEST(Gps, reference_from_the_world) {
   EXPECT_NEAR(fixes(world).back().altitude_m, 12.0, 1e-6);
 }
 
+TEST(Gps, prefers_the_worlds_reference_where_there_is_one) {
+  const std::string keys =
+      std::string(kReference) +
+      "<preferWorldSphericalCoordinates>true</preferWorldSphericalCoordinates>";
+  TestWorld world(free_space(0.0) +
+                      "<spherical_coordinates><latitude_deg>52</latitude_deg>"
+                      "<longitude_deg>6</longitude_deg></spherical_coordinates>",
+                  0.01);
+  world.spawn(still(gps(keys)), "ball");
+  world.run(0.5);
+  EXPECT_NEAR(fixes(world).back().latitude_deg, 52.0, 1e-9);
+  EXPECT_NEAR(fixes(world).back().longitude_deg, 6.0, 1e-9);
+
+  TestWorld elsewhere(free_space(0.0), 0.01);
+  elsewhere.spawn(still(gps(keys)), "ball");
+  elsewhere.run(0.5);
+  EXPECT_NEAR(fixes(elsewhere).back().latitude_deg, 40.1, 1e-9);
+  EXPECT_NEAR(fixes(elsewhere).back().longitude_deg, -88.2, 1e-9);
+  EXPECT_TRUE(elsewhere.messages().empty());  // that there is none is no fault
+}
+
 TEST(Gps, reference_is_set_by_the_service_with_its_radii) {
   TestWorld world(free_space(0.0), 0.01);
   Entity& robot =

@@ -56,6 +56,18 @@ TEST(GpsFiles, plots_of_the_worlds_field_and_the_geofence_on_the_path) {
   EXPECT_NEAR(std_in_corn(), 1.0, 1e-9);
 }
 
+TEST(GpsFiles, a_field_without_a_plot_is_open_sky) {
+  const TempFolder folder;
+  folder.write_model("field", "<static>true</static><link name='l'/>");
+  folder.write("field/plots.xacro", "<robot>\n</robot>");
+  const ResourcePath path(folder.path());
+  TestWorld world(free_space(0.0) + "<include><uri>file://field</uri></include>", 0.1);
+  world.spawn(still(gps("<gaussianNoise>0.1</gaussianNoise>")), "ball", at(30));
+  world.run(0.1);
+  EXPECT_TRUE(world.messages().empty());
+  EXPECT_NEAR(quality(world).back().position_std_m, 0.1, 1e-9);
+}
+
 TEST(GpsFiles, regions_follow_fields_that_come_later_and_go) {
   const TempFolder folder;
   folder.write_model("field", "<static>true</static><link name='l'/>");
