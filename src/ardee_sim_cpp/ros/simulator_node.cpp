@@ -13,7 +13,9 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <map>
 
+#include "ardee_sim/readers/start_pose.h"
 #include "ros/log_to_ros.h"
 #include "ros/setting_from_ros.h"
 
@@ -102,6 +104,17 @@ void let_messages_go_first(int realtime_priority) {
   }
 }
 
+/// Tells where a robot starts in this world; a parameter of an earlier world is removed.
+void set_start_pose(const ros::NodeHandle& node, const std::string& world_file) {
+  const std::optional<StartPose> pose = read_start_pose(world_file);
+  node.deleteParam("start_pose");
+  if (!pose) return;
+  node.setParam(
+      "start_pose",
+      std::map<std::string, double>{
+          {"x_m", pose->x_m}, {"y_m", pose->y_m}, {"z_m", pose->z_m}, {"yaw_rad", pose->yaw_rad}});
+}
+
 void log_at_debug_level() {
   if (ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Debug)) {
     ros::console::notifyLoggerLevelsChanged();
@@ -137,6 +150,7 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
     runner_.follow_physics();
   }
   runner_.set_paused(settings.paused);
+  set_start_pose(private_node, simulation_.world().source.file);
   add_spawn_services(servers_, context_);
   add_control_services(servers_, context_);
   add_model_state_services(servers_, context_);
@@ -169,7 +183,7 @@ void check_world(const CommandLine& command_line) {
   ros::param::get("~lenient", lenient);
   Loader loader(make_locator(), Log([](LogLevel, const std::string&) {}),
                 bad_parts(command_line.lenient.value_or(lenient)));
-  if (!world.empty()) load_world(loader, world);
+  if (!world.empty()) read_start_pose(load_world(loader, world).source.file);
 }
 
 void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {

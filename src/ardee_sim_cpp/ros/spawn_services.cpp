@@ -9,7 +9,13 @@
 namespace ardee::node {
 namespace {
 
-Error already_exists() { return Error("Failure - entity already exists."); }
+/// The first words are Gazebo's.
+Error already_exists(const std::string& kind, const std::string& name) {
+  return Error(
+      "Failure - entity already exists: there is a " + kind + " named '" + name +
+      "'; delete it (rosservice call /gazebo/delete_" + kind + " " + name +
+      "), or choose another name (spawn_model -model NAME, launch files model_name:=NAME)");
+}
 
 /// Pose of a request's model in the world.
 Pose requested_pose(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& request) {
@@ -22,7 +28,7 @@ void spawn_light(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& 
   light.name = request.model_name;
   light.pose = requested_pose(context, request) * light.pose;
   for (const Light& other : context.simulation.lights()) {
-    if (other.name == light.name) throw already_exists();
+    if (other.name == light.name) throw already_exists("light", light.name);
   }
   context.simulation.add_light(light);
 }
@@ -47,7 +53,9 @@ void spawn_model(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& 
 std::string spawn(ServiceContext& context, const gazebo_msgs::SpawnModelRequest& request) {
   const MessageTap::Kept warnings(context.messages);
   if (request.model_name.empty()) throw Error("found an empty model_name, expected a name");
-  if (context.simulation.find(request.model_name)) throw already_exists();
+  if (context.simulation.find(request.model_name)) {
+    throw already_exists("model", request.model_name);
+  }
   std::string why;
   if (!ros::names::validate(request.robot_namespace, why)) {
     throw Error("found robot_namespace '" + request.robot_namespace + "': " + why);

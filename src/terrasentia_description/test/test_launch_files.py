@@ -2,6 +2,7 @@
 """Tests the launch files as roslaunch reads them, without starting anything."""
 import os
 import pathlib
+import re
 import subprocess
 
 import pytest
@@ -48,8 +49,9 @@ def roslaunch(file: str, option: str, *arguments: str, display: str = "") -> str
 
 
 def nodes(file: str, *arguments: str, display: str = "") -> list:
-    """Returns names of the nodes that would start."""
-    return sorted(roslaunch(file, "--nodes", *arguments, display=display).split())
+    """Returns names of the nodes that would start, the spawner's without its unique ending."""
+    names = roslaunch(file, "--nodes", *arguments, display=display).split()
+    return sorted(re.sub(r"(?<=/spawn_terrasentia)_\w+", "", name) for name in names)
 
 
 @pytest.mark.parametrize("file", FILES)
@@ -95,15 +97,18 @@ def test_the_joystick_is_the_default_of_a_desk():
 
 
 def test_spawn_arguments():
-    text = spawn_arguments(FILES[0], "x:=1.5", "yaw:=0.5", "ns:=robot2")
-    assert text == (
-        "-x 1.5 -y 0 -z 0.175 -R 0 -P 0 -Y 0.5 -urdf -param robot_description "
-        "-model TerraSentia_robot2"
-    )
-    assert spawn_arguments(FILES[1]).endswith(
-        "-Y -3.14 -urdf -param robot_description -model TerraSentia_0"
-    )
-    assert spawn_arguments(FILES[0], "model_name:=A").endswith("-model A")
+    start, description = "-at_start 0 0 0.175 -3.14", "-R 0 -P 0 -urdf -param robot_description"
+    assert spawn_arguments(FILES[1]) == f"{start} {description} -model TerraSentia_0 -b"
+    text = spawn_arguments(FILES[0], "x:=1.5", "y:=0", "yaw:=-1e-3", "ns:=robot2")
+    assert text == f"{start} -x 1.5 -y 0 -Y -1e-3 {description} -model TerraSentia_robot2 -b"
+    text = spawn_arguments(FILES[0], "z:=0.2", "model_name:=A")
+    assert text == f"{start} -z 0.2 {description} -model A -b"
+
+
+def test_the_robot_stops_after_its_last_command_unless_told_otherwise():
+    for arguments, timeout in (([], "0.5"), (["command_timeout:=0"], "0")):
+        text = yaml.safe_load(roslaunch(FILES[0], "--dump-params", *arguments))
+        assert f"<commandTimeout>{timeout}</commandTimeout>" in text["/robot_description"]
 
 
 def spawn_arguments(file: str, *arguments: str) -> str:
