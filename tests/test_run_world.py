@@ -105,6 +105,60 @@ def test_a_field_of_ones_own_stands_where_plots_truth_and_start_say(
         assert abs(np.sin((turn - yaw) / 2.0)) < 0.02
 
 
+def test_without_names_the_gps_sees_the_open_sky(graph: RosGraph) -> None:
+    run = graph.spawn(str(SCRIPTS / "run_custom_world"), "-y", "use_rviz:=false")
+    fix = graph.call(probes.collect, "/ardee/gps", "sensor_msgs/NavSatFix", 1)[0]
+    assert fix.status.status >= 0 and np.isfinite(fix.latitude)
+    quality = graph.call(probes.collect, "/ardee/gps/data", "ardee_msgs/GpsQuality", 1)[0]
+    assert quality.region == "" and quality.has_fix
+    assert "left out" not in run.output()
+
+
+def test_a_field_stands_where_the_user_says_with_its_origin_on_the_earth(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    x, y, turn = 5.0, 2.0, 0.5
+    words = ["--models", "corn_variant_8", "--rows", "2", "--row-length", "3", "--seed", "1"]
+    words += ["--gps-origin", "52", "6", "--name", "my_field", "--output", str(tmp_path)]
+    graph.run("rosrun", "ardee_world", "generate_field", *words)
+    kept, field = tmp_path / "kept", str(tmp_path / "my_field/my_field.urdf.xacro")
+    words = ["-y", "-o", str(kept), "-p", str(x), str(y), str(turn), field]
+    graph.spawn(str(SCRIPTS / "run_custom_world"), *words, "use_rviz:=false")
+    fix = graph.call(probes.collect, "/ardee/gps", "sensor_msgs/NavSatFix", 1)[0]
+    states = graph.call(probes.collect, "/gazebo/model_states", "gazebo_msgs/ModelStates", 1)[0]
+    poses = dict(zip(states.name, states.pose))
+    for name, yaw in (("my_field", turn), ("TerraSentia_0", turn - np.pi / 2)):
+        pose = poses[name]
+        assert np.hypot(pose.position.x - x, pose.position.y - y) < 0.05
+        turned = 2.0 * np.arctan2(pose.orientation.z, pose.orientation.w)
+        assert abs(np.sin((turned - yaw) / 2.0)) < 0.02
+    # the antenna is 0.14 m behind; a degree at 52 degrees north is 111,267 m north and 68,678 m east
+    east_m, north_m = x - 0.14 * np.sin(turn), y + 0.14 * np.cos(turn)
+    assert (fix.latitude - 52.0) * 111_267.0 == pytest.approx(north_m, abs=0.06)
+    assert (fix.longitude - 6.0) * 68_678.0 == pytest.approx(east_m, abs=0.06)
+    truth = np.genfromtxt(
+        kept / "models/custom_field/truth.csv", delimiter=",", names=True, dtype=None, encoding=None
+    )
+    plants = np.array([truth["world_x_m"].mean(), truth["world_y_m"].mean()])
+    # the robot's lane is the field's: 1 m of headland, then rows of 3 m, of which the middle is 2.5 m ahead
+    ahead = np.array([np.sin(turn), -np.cos(turn)])
+    assert plants == pytest.approx([x, y] + 2.5 * ahead, abs=0.3)
+    regions = graph.call(probes.collect, "/ardee/gps/regions", "visualization_msgs/MarkerArray", 1)[
+        0
+    ]
+    boxes = [m for m in regions.markers if m.action == m.ADD and m.type == m.CUBE]
+    assert len(boxes) == 1
+    middle = boxes[0].pose.position
+    assert (middle.x, middle.y) == pytest.approx(tuple([x, y] + 2.5 * ahead), abs=0.05)
+
+
+@pytest.mark.parametrize("words", [("-p", "1", "2"), ("-p", "1", "2", "north")])
+def test_a_pose_that_is_none_is_refused(graph: RosGraph, words: tuple) -> None:
+    run = graph.spawn(str(SCRIPTS / "run_custom_world"), *words)
+    assert run.wait(60.0) == 2
+    assert "X Y YAW" in run.output() or "argument --pose: invalid" in run.output()
+
+
 def test_a_running_simulator_is_left_alone(graph: RosGraph) -> None:
     world = graph.launch("ardee_world", "custom_world.launch", "world:=empty.world")
     graph.call(probes.clock_at_least, 0.1)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests a field and a terrain put together into a world."""
 
+import json
 import shutil
 import subprocess
 import sys
@@ -121,18 +122,34 @@ def world_places(folder):
 
 
 @pytest.mark.parametrize("form", ["sdf", "stream"])
-@pytest.mark.parametrize("pose", [None, (3.0, -2.0, 0.7), (0.0, 0.0, 0.0)])
-def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned(
-    put_together, generate_field, tmp_path, models, form, pose
+@pytest.mark.parametrize(
+    "pose, moved_to",
+    [
+        (None, None),
+        ((3.0, -2.0, 0.7), None),
+        ((0.0, 0.0, 0.0), None),
+        (None, (1.5, 4.0, 2.5)),
+        ((3.0, -2.0, 0.7), (-1.0, 0.5, -3.0)),
+    ],
+)
+def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned_or_moved_to(
+    put_together, generate_field, tmp_path, models, form, pose, moved_to
 ):
     words = ("--models", "corn_a", "--name", "turned", "--rows", "2", "--format", form)
     words += ("--world-pose", *map(str, pose)) if pose else ()
     assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
-    assert put_together("models/turned/turned.urdf.xacro") == (0, "")
+    more = ("ground", "pkg/my.geofence", "--pose", *map(str, moved_to)) if moved_to else ()
+    pose = moved_to or pose
+    assert put_together("models/turned/turned.urdf.xacro", *more) == (0, "")
     places = world_places(tmp_path / "out")
-    truth = np.genfromtxt(tmp_path / "models/turned/truth.csv", delimiter=",", names=True)
-    told = np.column_stack((truth["world_x_m"], truth["world_y_m"]))
-    np.testing.assert_allclose(places[:, :2], told, atol=2e-4)
+    truth_file = tmp_path / "out/models/custom_field/truth.csv"
+    truth = np.genfromtxt(truth_file, delimiter=",", names=True)
+    told = np.column_stack((truth["world_x_m"], truth["world_y_m"], truth["z_m"]))
+    np.testing.assert_allclose(places, told, atol=2e-4)
+    everything = json.loads(truth_file.with_suffix(".json").read_text())
+    assert everything["plants"]["world_x_m"] == pytest.approx(truth["world_x_m"])
+    assert everything["config"]["world_pose"] == list(pose or (0.0, 0.0, -1.57))
+    rows = [np.array(row["world_line_m"]).mean(axis=0) for row in everything["rows"]]
     ground = terrain_model("ground", [models])
     np.testing.assert_allclose(
         places[:, 2], ground.height_at(places[:, 0], places[:, 1]), atol=1e-4
@@ -142,15 +159,55 @@ def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned(
     )
     middle = [float(plot.findtext(axis)) for axis in "xy"]
     np.testing.assert_allclose(middle, places[:, :2].mean(axis=0), atol=0.4)
+    np.testing.assert_allclose(middle, np.mean(rows, axis=0), atol=1e-3)
     start = yaml.safe_load((tmp_path / "out/worlds/custom.start.yaml").read_text())
     x, y, turn = pose or (0.0, 0.0, -1.57)
-    assert (start["x_m"], start["y_m"]) == (x, y)
+    assert (start["x_m"], start["y_m"]) == pytest.approx((x, y), abs=1e-4)
+    along_rows = float(plot.findtext("rotation")) - start["yaw_rad"]
+    assert abs(np.sin(along_rows / 2.0)) < 1e-4
     ahead = np.array([np.cos(start["yaw_rad"]), np.sin(start["yaw_rad"])])
     np.testing.assert_allclose(ahead, [np.sin(turn), -np.cos(turn)], atol=1e-6)
     from_start = (places[:, :2] - [x, y]) @ ahead
     assert 0.8 < from_start.min() < 1.2  # the headland
     assert abs(from_start.mean() - float(plot.findtext("row_length")) / 2 - 1.0) < 0.4
     assert start["z_m"] - 0.175 >= ground.height_at(np.array([x]), np.array([y]))[0] - 1e-4
+
+
+@pytest.mark.parametrize("pose", [(), ("5", "2", "1.5707963267948966")])
+def test_the_worlds_origin_is_the_one_that_the_field_was_planned_with(
+    put_together, generate_field, tmp_path, pose
+):
+    words = ("--models", "corn_a", "--name", "placed", "--gps-origin", "40.1", "-88.2")
+    assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
+    more = ("ground", "pkg/my.geofence", "--pose", *pose) if pose else ()
+    assert put_together("models/placed/placed.urdf.xacro", *more) == (0, "")
+    world = ElementTree.parse(tmp_path / "out/worlds/custom.world").getroot().find("world")
+    origin = world.find("spherical_coordinates")
+    assert float(origin.findtext("latitude_deg")) == 40.1
+    assert float(origin.findtext("longitude_deg")) == -88.2
+    truth = np.genfromtxt(tmp_path / "out/models/custom_field/truth.csv", delimiter=",", names=True)
+    # a degree at 40.1 degrees north: 111,132.95 - 559.85 cos(2 lat) + 1.175 cos(4 lat) m to the north,
+    # 111,412.84 cos(lat) - 93.5 cos(3 lat) + 0.118 cos(5 lat) m to the east
+    north_m, east_m = (truth["latitude_deg"] - 40.1) * 111_036.6, (
+        truth["longitude_deg"] + 88.2
+    ) * 85_269.5
+    np.testing.assert_allclose(north_m, truth["world_y_m"], rtol=1e-5, atol=1e-3)
+    np.testing.assert_allclose(east_m, truth["world_x_m"], rtol=1e-5, atol=1e-3)
+
+
+def test_a_field_of_somebody_elses_is_not_moved(put_together, tmp_path):
+    other = "<sdf><model name='m'><include><uri>x</uri><pose>1 2 3 0 0 0</pose></include></model></sdf>\n"
+    (tmp_path / "other.urdf.xacro").write_text(f"{other}{SEPARATOR}\n<robot/>\n")
+    words = ("ground", "pkg/my.geofence", "--pose", "1", "2", "3")
+    code, error = put_together("other.urdf.xacro", *words)
+    assert code == 2 and "not made by generate_field, so it cannot be moved" in error
+
+
+@pytest.mark.parametrize("number", ["nan", "inf", "1e6", "north"])
+def test_a_pose_that_no_world_holds_is_refused(put_together, number):
+    words = ("ground", "pkg/my.geofence", "--pose", number, "0", "0")
+    code, error = put_together("models/field/field.urdf.xacro", *words)
+    assert code == 2 and "argument --pose: " in error and number in error
 
 
 def test_a_field_that_says_no_start_gets_the_usual_one(put_together, tmp_path):

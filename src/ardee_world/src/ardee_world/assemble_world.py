@@ -2,6 +2,7 @@
 """Puts a field, a terrain and a geofence together into a world, as the shell script of thesis Listing A.22 does."""
 
 import argparse
+import json
 import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
@@ -13,9 +14,20 @@ from ardee_models.lookup import find_model, search_path
 from ardee_models.metadata import model_config
 from ardee_models.terrain.ground import ground_model
 from ardee_models.terrain.height_map import Ground
+from ardee_world.field_config import FAR_M
+from ardee_world.moving import (
+    Truth,
+    move_model,
+    move_plots,
+    move_start,
+    origin_of,
+    place_truth,
+    read_truth,
+)
 from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
 from ardee_world.start import read_start, start_file
 from ardee_world.urdf_file import check_xml, split_field
+from ardee_world.writers.truth_files import csv_text
 from ardee_world.writers.world import world_text
 
 FIELD, HEIGHTMAP = "custom_field", "custom_heightmap"
@@ -56,7 +68,27 @@ def _table(field: Path, model: str, ground: Optional[Ground]) -> Dict[str, str]:
     return {name: seat_table(text, path, ground, own_pose(model)) if ground else text}
 
 
-def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> None:
+def _truth(field: Path, models: Sequence[Path]) -> Optional[Truth]:
+    """Ground truth beside a field's file, else that of the model of its name, if that has the same file."""
+    name = field.name.replace(".urdf.xacro", "")
+    for folder in (field.parent, *(path / name for path in models)):
+        same, path = folder / field.name, folder / "truth.json"
+        if path.is_file() and same.is_file() and same.read_bytes() == field.read_bytes():
+            return read_truth(path)
+    return None
+
+
+def _write_truth(truth: Truth, folder: Path) -> None:
+    (folder / "truth.json").write_text(json.dumps(truth) + "\n")
+    for name, columns in (("truth.csv", truth["plants"]), ("clutter.csv", truth["clutter"])):
+        if columns:
+            with (folder / name).open("w") as file:
+                file.writelines(csv_text(columns))
+
+
+def _write_field(
+    text: str, plots: str, table: Dict[str, str], truth: Optional[Truth], models: Path
+) -> None:
     with model_directory(models, FIELD) as folder:
         about = "Field of customized crop plots"
         (folder / "model.config").write_text(model_config(FIELD, about))
@@ -64,6 +96,8 @@ def _write_field(text: str, plots: str, table: Dict[str, str], models: Path) -> 
         (folder / "plots.xacro").write_text(plots)
         for name, rows in table.items():
             (folder / name).write_text(rows)
+        if truth:
+            _write_truth(truth, folder)
 
 
 def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
@@ -81,22 +115,40 @@ def assemble(args: argparse.Namespace) -> Path:
     geofence = find_file(args.geofence, args.search, "geofence")
     model, plots = split_field(field)
     check_xml(geofence.read_text(encoding="utf-8", errors="replace"), geofence)
+    start, truth = read_start(start_file(field)), _truth(field, models)
+    if args.pose:
+        if not is_generated(model):
+            raise GeneratorError(f"{field}: not made by generate_field, so it cannot be moved")
+        pose = own_pose(model)
+        plots, start = move_plots(plots, pose, args.pose), move_start(start, pose, args.pose)
+        model = move_model(model, args.pose)
     ground = ground_model(terrain.name, [terrain.parent, *models])
     seated = is_generated(model) and not args.keep_heights
     table = _table(field, model, ground if seated else None)
     if seated:
         model = seat(model, ground)
-    start = read_start(start_file(field)).on(ground)
+    if truth:
+        place_truth(truth, own_pose(model), ground if seated else None)
+    start = start.on(ground)
     out = args.output
-    _write_field(model, plots, table, out / "models")
+    _write_field(model, plots, table, truth, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
         shutil.copytree(terrain, folder, dirs_exist_ok=True)
         _refer_to_itself(folder, terrain.name, HEIGHTMAP)
     write_file(out / GEOFENCE, geofence.read_bytes())
     world = out / "worlds" / "custom.world"
     write_file(world.with_suffix(".start.yaml"), start.text().encode())
-    write_file(world, world_text(HEIGHTMAP, FIELD).encode())
+    origin = origin_of(truth) if truth else None
+    write_file(world, world_text(HEIGHTMAP, FIELD, origin).encode())
     return world
+
+
+def _place(text: str) -> float:
+    """A number of a pose, within what a world holds."""
+    value = float(text)
+    if not abs(value) <= FAR_M:
+        raise argparse.ArgumentTypeError(f"found {text}, expected at most {FAR_M:g}")
+    return value
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -115,6 +167,13 @@ def make_parser() -> argparse.ArgumentParser:
         nargs="*",
         default=[],
         help="folders of models, searched before GAZEBO_MODEL_PATH",
+    )
+    parser.add_argument(
+        "--pose",
+        type=_place,
+        nargs=3,
+        metavar=("X", "Y", "YAW"),
+        help="pose of the field in the world [m m rad]; default: the one that it was generated for",
     )
     parser.add_argument(
         "--keep-heights", action="store_true", help="do not set plants on the terrain"

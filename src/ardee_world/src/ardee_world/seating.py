@@ -15,7 +15,7 @@ from ardee_world.writers.sdf import EXTENSION_NAMESPACE
 
 WorldPose = Tuple[float, float, float]
 _TABLE = re.compile(r"<ardee:instances>\s*([A-Za-z0-9_][A-Za-z0-9_.-]*)\s*</ardee:instances>")
-_OWN_POSE = re.compile(r"<pose>([^<]*)</pose>")
+OWN_POSE = re.compile(r"<pose>([^<]*)</pose>")
 _POSE = re.compile(r"(<include>.*?<pose>)([^<]*)(</pose>)", re.DOTALL)
 
 
@@ -26,7 +26,7 @@ def is_generated(model: str) -> bool:
 
 def own_pose(model: str) -> WorldPose:
     """Returns x [m], y [m], yaw [rad] of the <pose> that a generated field's model.sdf has."""
-    found = _OWN_POSE.search(model.split("<include>", 1)[0])
+    found = OWN_POSE.search(model.split("<include>", 1)[0])
     if not found:
         return 0.0, 0.0, 0.0
     try:

@@ -13,7 +13,7 @@ _HEAD = """<?xml version="1.0"?>
   <model name="{name}">
     <static>true</static>
 {pose}"""
-_POSE = "    <pose>{} {} 0 0 0 {}</pose>\n"
+POSE = "    <pose>{} {} 0 0 0 {}</pose>\n"
 _ITEM = """    <include>
       <uri>model://%s</uri>
       <name>%s_%d</name>
@@ -29,7 +29,7 @@ _TAIL = """  </model>
 
 def pose_line(layout: Layout) -> str:
     """The model's own <pose>, used by a world that includes it without another pose."""
-    return _POSE.format(*(repr(float(value) + 0.0) for value in layout.config.world_pose))
+    return POSE.format(*(repr(float(value) + 0.0) for value in layout.config.world_pose))
 
 
 def _scale_line(scale: float) -> str:

@@ -3,7 +3,7 @@
 
 import dataclasses
 import json
-from typing import Dict, Iterator, List
+from typing import Dict, Iterator, List, Tuple
 
 import numpy as np
 
@@ -25,13 +25,17 @@ def _listed(columns: Dict[str, np.ndarray]) -> Columns:
     }
 
 
+def degrees(world: np.ndarray, origin_deg: Tuple[float, float]) -> Columns:
+    """Columns of latitudes and longitudes of places in a world whose origin lies there."""
+    found = np.round(to_degrees(world[:, 0], world[:, 1], origin_deg), 9)
+    return {"latitude_deg": found[:, 0].tolist(), "longitude_deg": found[:, 1].tolist()}
+
+
 def _degrees(layout: Layout, world: np.ndarray) -> Columns:
     config = layout.config
     if config.origin_latitude_deg is None:
         return {}
-    origin = (config.origin_latitude_deg, config.origin_longitude_deg)
-    degrees = np.round(to_degrees(world[:, 0], world[:, 1], origin), 9)
-    return {"latitude_deg": degrees[:, 0].tolist(), "longitude_deg": degrees[:, 1].tolist()}
+    return degrees(world, (config.origin_latitude_deg, config.origin_longitude_deg))
 
 
 def plant_columns(layout: Layout) -> Columns:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """A world file that includes a terrain at its origin and a field, with the light and physics of thesis Listing A.22."""
 
+from typing import Optional, Tuple
+
 _HEAD = """<?xml version="1.0" ?>
 <sdf version='1.5'>
   <world name='default'>
@@ -43,6 +45,16 @@ _HEAD = """<?xml version="1.0" ?>
     </scene>
 
 """
+_ORIGIN = """    <!-- The world's origin on the Earth; x points east -->
+    <spherical_coordinates>
+      <surface_model>EARTH_WGS84</surface_model>
+      <latitude_deg>{}</latitude_deg>
+      <longitude_deg>{}</longitude_deg>
+      <elevation>0</elevation>
+      <heading_deg>0</heading_deg>
+    </spherical_coordinates>
+
+"""
 _INCLUDES = """    <include>
       <uri>model://{terrain}</uri>
       <pose>0 0 0 0 0 0</pose>
@@ -58,6 +70,7 @@ _TAIL = """  </world>
 """
 
 
-def world_text(terrain: str, field: str) -> str:
-    """Text of a world."""
-    return _HEAD + _INCLUDES.format(terrain=terrain, field=field) + _TAIL
+def world_text(terrain: str, field: str, origin_deg: Optional[Tuple[float, float]] = None) -> str:
+    """Text of a world, whose origin has this latitude and longitude."""
+    origin = _ORIGIN.format(*origin_deg) if origin_deg else ""
+    return _HEAD + origin + _INCLUDES.format(terrain=terrain, field=field) + _TAIL
