@@ -5,6 +5,7 @@ import os
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
+import numpy as np
 import pytest
 import yaml
 
@@ -40,6 +41,22 @@ def test_every_world_is_tested(package):
 def test_every_field_world_says_where_a_robot_starts(package, name):
     start = yaml.safe_load((package / "worlds" / name.replace(".world", ".start.yaml")).read_text())
     assert sorted(start) == ["x_m", "y_m", "yaw_rad", "z_m"] and abs(start["z_m"] - 0.175) < 0.15
+
+
+@pytest.mark.parametrize("name", [name for name in WORLDS if name != "empty.world"])
+def test_a_world_includes_its_field_where_it_was_planned_and_starts_a_robot_before_it(
+    package, name
+):
+    plan = yaml.safe_load((package / "fields" / f"{WORLDS[name][1]}.yaml").read_text())
+    x, y, turn = plan.get("world_pose", (0.0, 0.0, -1.57))
+    include = ElementTree.parse(package / "worlds" / name).getroot().findall("world/include")[1]
+    pose = [float(number) for number in include.findtext("pose").split()]
+    assert pose == pytest.approx([x, y, 0.0, 0.0, 0.0, turn], abs=1e-6)
+    start = yaml.safe_load((package / "worlds" / name.replace(".world", ".start.yaml")).read_text())
+    assert (start["x_m"], start["y_m"]) == pytest.approx((x, y))
+    # rows run along the field's -y
+    along_rows = turn - np.pi / 2 - start["yaw_rad"]
+    assert abs(np.sin(along_rows / 2.0)) < 2e-3 and np.cos(along_rows) > 0.0
 
 
 @pytest.mark.parametrize("name", WORLDS)
