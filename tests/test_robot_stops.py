@@ -28,7 +28,7 @@ def robots(shared_graph: RosGraph) -> RosGraph:
 
 
 def coast(space: str, simulated_s: float) -> Tuple[float, List[Tuple[float, float]]]:
-    """Drives at SPEED_M_S for 1.5 s and falls silent.
+    """Drives at SPEED_M_S for 1.5 s and falls silent; stops the robot afterwards.
 
     Returns the time [s] of the last command, and times [s] and speeds [m/s] from then on.
     """
@@ -53,7 +53,9 @@ def coast(space: str, simulated_s: float) -> Tuple[float, List[Tuple[float, floa
         time.sleep(0.02)
     last_s = speeds[-1][0]
     wait_until(lambda: speeds[-1][0] >= last_s + simulated_s, "simulated time")
-    return last_s, [(at_s, speed) for at_s, speed in speeds if at_s >= last_s]
+    publisher.publish(Twist())
+    wait_until(lambda: abs(speeds[-1][1]) < 0.01, "a stand")
+    return last_s, [(at_s, speed) for at_s, speed in speeds if 0.0 <= at_s - last_s < simulated_s]
 
 
 def test_a_robot_whose_commander_has_died_stops(robots: RosGraph) -> None:
