@@ -4,7 +4,6 @@ import argparse
 import json
 import pathlib
 import shutil
-import signal
 import sys
 import tempfile
 from typing import Any, Dict, List
@@ -15,6 +14,7 @@ import benchmark_measure
 import benchmark_table
 
 from ardee_common.cli import Parser, number_in, whole_in
+from ardee_common.process import end_by_signals, ignore_end_signals
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
@@ -93,17 +93,10 @@ def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict
     return results
 
 
-def stop_here(number: int, _frame: Any) -> None:
-    """Raises an exception at a signal, so that the benchmark ends through its clean-up."""
-    raise SystemExit(128 + number)
-
-
 def main() -> int:
     """Runs the benchmark; returns its exit code; a missed budget is not a failure."""
     found = options()
-    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    for number in ending:
-        signal.signal(number, stop_here)
+    end_by_signals()
     work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_benchmark_"))
     try:
         about = benchmark_table.machine()
@@ -128,8 +121,7 @@ def main() -> int:
         print(f"scripts/benchmark: {error}", file=sys.stderr)
         return 1
     finally:
-        for number in ending:
-            signal.signal(number, signal.SIG_IGN)
+        ignore_end_signals()
         shutil.rmtree(work, ignore_errors=True)
 
 

@@ -4,7 +4,6 @@ import argparse
 import os
 import pathlib
 import shutil
-import signal
 import sys
 import tempfile
 import time
@@ -15,6 +14,7 @@ import demo_report
 from ros_graph import Process, RosGraph, wait_until
 
 from ardee_common.cli import Parser, number_in, seed_number
+from ardee_common.process import end_by_signals, ignore_end_signals
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 OUTPUT = ROOT / "demo_output"
@@ -171,18 +171,10 @@ def options() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def stop_here(number: int, _frame: Any) -> None:
-    """Raises an exception at a signal, so that the demo ends through its clean-up."""
-    ENDED.append(128 + number)
-    raise SystemExit(128 + number)
-
-
 def main() -> int:
     """Runs the demo; returns its exit code."""
     found = options()
-    ending = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    for number in ending:
-        signal.signal(number, stop_here)
+    end_by_signals(ENDED)
     work = pathlib.Path(tempfile.mkdtemp(prefix=".demo_", dir=ROOT))
     demo = None  # type: Optional[Demo]
     try:
@@ -195,8 +187,7 @@ def main() -> int:
             print(demo.graph.logs(), file=sys.stderr)
         return 1
     finally:
-        for number in ending:
-            signal.signal(number, signal.SIG_IGN)
+        ignore_end_signals()
         if demo:
             demo.graph.close()
         shutil.rmtree(work, ignore_errors=True)

@@ -6,7 +6,7 @@ from typing import Iterator, List, NamedTuple, Tuple
 
 import probes
 import pytest
-from geometry_msgs.msg import Pose, Quaternion
+from gazebo_calls import call, pose, spawn
 from ros_graph import RosGraph
 
 STEP_S = 0.005
@@ -125,7 +125,7 @@ def robot(name: str, folder: pathlib.Path) -> str:
 def complaints(
     shared_graph: RosGraph, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[List[str]]:
-    """Returns warnings and errors of a paused simulator in which all of the robots are spawned."""
+    """Yields warnings and errors of a paused simulator in which all of the robots are spawned."""
     folder = tmp_path_factory.mktemp("bad_sensors")
     (folder / "empty.world").write_text(WORLD)
     for name, text in TEXTS.items():
@@ -137,15 +137,9 @@ def complaints(
     for name in [*BAD, MASSLESS]:
         file = folder / f"{name}.urdf.xacro"
         file.write_text(robot(name, folder))
-        fields = {
-            "model_name": name,
-            "model_xml": shared_graph.run("rosrun", "xacro", "xacro", str(file)),
-            "robot_namespace": "/" + name,
-            "initial_pose": Pose(orientation=Quaternion(0, 0, 0, 1)),
-            "reference_frame": "world",
-        }
-        calls.append(("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields))
-    answers = shared_graph.call(probes.call_services, calls)
+        xml = shared_graph.run("rosrun", "xacro", "xacro", str(file))
+        calls.append(spawn(name, xml, pose(), "urdf", robot_namespace="/" + name))
+    answers = call(shared_graph, *calls)
     assert [
         (fields["model_name"], a.status_message)
         for (*_, fields), a in zip(calls, answers)

@@ -4,7 +4,7 @@ from typing import List
 
 import probes
 import pytest
-from geometry_msgs.msg import Point, Pose, Quaternion
+from gazebo_calls import call, empty, pose, spawn
 from ros_graph import RosGraph
 
 # Slats and wall are less than a pulse length apart: one return.
@@ -27,8 +27,8 @@ ROBOT = """<robot name="post" xmlns:xacro="http://ros.org/wiki/xacro">
 
 def board(name: str, face_m: float, y_m: float, width_m: float) -> str:
     """Returns a visual 1 cm thick whose near face is at x = face_m."""
-    pose = f"<pose>{face_m + 0.005} {y_m} 0 0 0 0</pose>"
-    return f'<visual name="{name}">{pose}{BOX.format(width=width_m)}</visual>'
+    place = f"<pose>{face_m + 0.005} {y_m} 0 0 0 0</pose>"
+    return f'<visual name="{name}">{place}{BOX.format(width=width_m)}</visual>'
 
 
 def world() -> str:
@@ -64,17 +64,9 @@ def scans(graph: RosGraph) -> dict:
     )
     robot = graph.folder / "post.urdf.xacro"
     robot.write_text(ROBOT.format(lidars=lidars))
-    fields = {
-        "model_name": "post",
-        "model_xml": graph.run("rosrun", "xacro", "xacro", str(robot)),
-        "robot_namespace": "/",
-        "initial_pose": Pose(Point(0, 0, HEIGHT_M), Quaternion(0, 0, 0, 1)),
-        "reference_frame": "world",
-    }
-    run = ("/gazebo/unpause_physics", "std_srvs/Empty", {})
-    spawned, _ = graph.call(
-        probes.call_services, [("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields), run]
-    )
+    xml = graph.run("rosrun", "xacro", "xacro", str(robot))
+    post = spawn("post", xml, pose(z=HEIGHT_M), "urdf", robot_namespace="/")
+    spawned, _ = call(graph, post, empty("unpause_physics"))
     assert spawned.success, spawned.status_message
     return {
         name: graph.call(probes.collect, f"/ardee/{name}", "sensor_msgs/LaserScan", 1)[0]

@@ -10,9 +10,9 @@ import sys
 from typing import Any, Dict, Iterator
 
 import device_summary
+import gazebo_calls
 import probes
 import pytest
-from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_graph import RosGraph
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1] / "src/ardee_sensors"
@@ -104,19 +104,11 @@ def everything(
         "--paused",
         "_real_time_factor:=0",
     )
-    fields = {
-        "model_name": "all",
-        "model_xml": urdf,
-        "robot_namespace": NAMESPACE,
-        "initial_pose": Pose(Point(0, 0, 0), Quaternion(0, 0, 0, 1)),
-        "reference_frame": "world",
-    }
-    answer = shared_graph.call(
-        probes.call_service, "/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields
-    )
+    at = gazebo_calls.pose()
+    spawn = gazebo_calls.spawn("all", urdf, at, "urdf", robot_namespace=NAMESPACE)
+    settle = gazebo_calls.step(round(SETTLE_S / STEP_S))
+    answer, _ = gazebo_calls.call(shared_graph, spawn, settle)
     assert answer.success, answer.status_message
-    steps = {"steps": round(SETTLE_S / STEP_S)}
-    shared_graph.call(probes.call_service, "/ardee/step", "ardee_msgs/Step", steps)
     shared_graph.simulator_output = simulator.output
     yield shared_graph
 

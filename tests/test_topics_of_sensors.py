@@ -3,9 +3,9 @@
 import pathlib
 from typing import List
 
+import gazebo_calls
 import probes
 import pytest
-from geometry_msgs.msg import Pose, Quaternion
 from ros_graph import RosGraph
 
 WORLD = """<sdf version="1.5"><world name="default"><physics type="ode">
@@ -37,16 +37,10 @@ def spawn(graph: RosGraph, name: str, calls: str, before: str = "") -> None:
     """Spawns a robot in the namespace of its name; fails if it is refused."""
     file = graph.folder / f"{name}.urdf.xacro"  # type: pathlib.Path
     file.write_text(ROBOT.format(before=before, calls=calls))
-    fields = {
-        "model_name": name,
-        "model_xml": graph.run("rosrun", "xacro", "xacro", str(file)),
-        "robot_namespace": "/" + name,
-        "initial_pose": Pose(orientation=Quaternion(0, 0, 0, 1)),
-        "reference_frame": "world",
-    }
-    answer = graph.call(
-        probes.call_service, "/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", fields
-    )
+    xml = graph.run("rosrun", "xacro", "xacro", str(file))
+    at = gazebo_calls.pose()
+    robot = gazebo_calls.spawn(name, xml, at, "urdf", robot_namespace="/" + name)
+    (answer,) = gazebo_calls.call(graph, robot)
     assert answer.success, answer.status_message
 
 

@@ -4,6 +4,7 @@ import pathlib
 from typing import List, Sequence, Tuple
 
 import probes
+from gazebo_calls import call, pose, spawn
 from ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
@@ -15,12 +16,6 @@ SENSOR = """<sensor name="ray_{k}" type="ray"><pose>{x} {y} 0 0 1.57079632679489
 <topicName>ray_{k}</topicName></plugin></sensor>"""
 
 
-def spawned(name: str, xml: str) -> Tuple[str, str, dict]:
-    """Returns a call that spawns a model at the origin."""
-    fields = {"model_name": name, "model_xml": xml}
-    return "/gazebo/spawn_sdf_model", "gazebo_msgs/SpawnModel", fields
-
-
 def heights_of(graph: RosGraph, model: str, places: Sequence[Tuple[float, float]]) -> List[float]:
     """Returns heights [m] of a model's collision shapes at places x, y [m], above or on level ground at 0."""
     graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD))
@@ -29,8 +24,7 @@ def heights_of(graph: RosGraph, model: str, places: Sequence[Tuple[float, float]
     mast = f"""<sdf version="1.6"><model name="mast"><static>true</static><pose>0 0 {ABOVE_M} 0 0 0</pose>
 <link name="l">{sensors}</link></model></sdf>"""
     models = {"case": file.read_text().replace("DIR", str(file.parent)), "mast": mast}
-    answers = graph.call(probes.call_services, [spawned(*model) for model in models.items()])
-    for answer in answers:
+    for answer in call(graph, *(spawn(*model, pose()) for model in models.items())):
         assert answer.success, answer.status_message
     topics = [f"/ray_{k}" for k in range(len(places))]
     ranges = [graph.call(probes.collect, topic, "sensor_msgs/Range", 1)[0] for topic in topics]

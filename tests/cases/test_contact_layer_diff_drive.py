@@ -6,6 +6,7 @@ import pathlib
 
 import probes
 import pytest
+from gazebo_calls import call, pose, spawn, state, step
 from ros_graph import RosGraph
 
 CASE = pathlib.Path(__file__).parent / "contact-layer-diff-drive"
@@ -13,19 +14,12 @@ CASE = pathlib.Path(__file__).parent / "contact-layer-diff-drive"
 
 def test_the_wheels_sink_by_their_own_depth_and_drive(graph: RosGraph) -> None:
     graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(CASE / "lab.world"), "-u")
-    runner = {"model_name": "runner", "model_xml": (CASE / "runner.urdf").read_text()}
-    spawned, stepped, state = graph.call(
-        probes.call_services,
-        [
-            ("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", runner),
-            ("/ardee/step", "ardee_msgs/Step", {"steps": 3000}),
-            ("/gazebo/get_model_state", "gazebo_msgs/GetModelState", {"model_name": "runner"}),
-        ],
-    )
+    runner = spawn("runner", (CASE / "runner.urdf").read_text(), pose(), "urdf")
+    spawned, stepped, found = call(graph, runner, step(3000), state("runner"))
     assert spawned.success, spawned.status_message
     assert stepped.success
-    assert -0.0015 < state.pose.position.z < 0.0005
-    assert abs(state.pose.orientation.y) < 0.01  # half the pitch
+    assert -0.0015 < found.pose.position.z < 0.0005
+    assert abs(found.pose.orientation.y) < 0.01  # half the pitch
     graph.call(probes.call_service, "/gazebo/unpause_physics", "std_srvs/Empty", {})
     _, last = graph.call(probes.drive, "/cmd_vel", "/odom", 0.2, 0.0, 3.0)
     assert last.twist.twist.linear.x == pytest.approx(0.2, abs=0.01)

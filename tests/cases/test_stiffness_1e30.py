@@ -5,6 +5,7 @@ import pathlib
 
 import probes
 import pytest
+from gazebo_calls import call, pose, spawn, state, step
 from ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
@@ -13,25 +14,12 @@ STEP_S = 0.005
 
 
 def test_the_pad_rests_and_tells_where_it_is(graph: RosGraph) -> None:
-    from geometry_msgs.msg import Point, Pose
-
     graph.spawn("rosrun", "ardee_sim_cpp", "simulator", str(WORLD), "-u")
-    pad = {
-        "model_name": "pad",
-        "model_xml": (CASES / "stiffness-1e30" / "pad.urdf").read_text(),
-        "initial_pose": Pose(position=Point(z=0.1)),
-    }
-    spawned, stepped, state = graph.call(
-        probes.call_services,
-        [
-            ("/gazebo/spawn_urdf_model", "gazebo_msgs/SpawnModel", pad),
-            ("/ardee/step", "ardee_msgs/Step", {"steps": 400}),
-            ("/gazebo/get_model_state", "gazebo_msgs/GetModelState", {"model_name": "pad"}),
-        ],
-    )
+    pad = spawn("pad", (CASES / "stiffness-1e30/pad.urdf").read_text(), pose(z=0.1), "urdf")
+    spawned, stepped, found = call(graph, pad, step(400), state("pad"))
     assert spawned.success, spawned.status_message
     assert stepped.success
-    assert state.pose.position.z == pytest.approx(0.05, abs=0.0011)
+    assert found.pose.position.z == pytest.approx(0.05, abs=0.0011)
     graph.call(probes.call_service, "/gazebo/unpause_physics", "std_srvs/Empty", {})
     truth = graph.call(probes.collect, "/truth", "nav_msgs/Odometry", 5)
     stamps = [message.header.stamp.to_sec() for message in truth]

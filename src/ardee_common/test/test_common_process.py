@@ -4,6 +4,8 @@ import signal
 import subprocess
 from pathlib import Path
 
+import pytest
+
 from ardee_common.process import heed_ctrl_c, start_child, stop_child
 
 
@@ -15,7 +17,7 @@ def test_both_outputs_are_in_the_log(tmp_path: Path) -> None:
 
 def test_a_child_ends_with_what_it_waits_for() -> None:
     options = dict(stdout=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c)
-    child = start_child(["sh", "-c", "echo ready; sleep 60; true"], **options)
+    child = start_child(["sh", "-c", "sh -c 'echo ready; exec sleep 60'; true"], **options)
     assert child.stdout.readline() == "ready\n"
     stop_child(child)
     assert child.returncode == -signal.SIGINT
@@ -27,3 +29,26 @@ def test_a_child_that_has_ended_is_left_alone() -> None:
     child.wait(10.0)
     stop_child(child)
     assert child.returncode == 0
+
+
+PROGRAM = """import time
+from ardee_common.process import end_by_signals, ignore_end_signals
+codes = []
+end_by_signals(codes)
+try:
+    print("ready", flush=True)
+    time.sleep(60.0)
+finally:
+    ignore_end_signals()
+    print(codes, flush=True)
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_a_program_through_its_clean_up(number: signal.Signals) -> None:
+    env = {"PYTHONPATH": str(Path(__file__).resolve().parents[1] / "src")}
+    child = start_child(["/usr/bin/python3", "-c", PROGRAM], env, stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "ready\n"
+    child.send_signal(number)
+    assert child.communicate(timeout=60.0)[0] == f"[{128 + number}]\n"
+    assert child.returncode == 128 + number

@@ -26,6 +26,21 @@ def hash_of():
     return folder_hash
 
 
+@pytest.fixture()
+def run_main(monkeypatch, capsys):
+    """Returns a function that runs a command's main() on words; it returns exit code and standard error."""
+
+    def run(main, *words):
+        monkeypatch.setattr(sys, "argv", [main.__module__, *map(str, words)])
+        try:
+            code = main()
+        except SystemExit as ended:
+            code = ended.code
+        return code, capsys.readouterr().err
+
+    return run
+
+
 @pytest.fixture(scope="session")
 def package() -> Path:
     """Returns the source folder of ardee_models."""

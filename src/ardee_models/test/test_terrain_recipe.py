@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests recipes: every part against its closed form, seeds, files, bad input."""
 
-import sys
+import functools
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -121,18 +121,9 @@ def test_a_recipe_file_says_all_of_it(tmp_path):
 
 
 @pytest.fixture()
-def command(monkeypatch, capsys):
+def command(run_main):
     """Runs generate_terrain; returns exit code and standard error."""
-
-    def call(*arguments):
-        monkeypatch.setattr(sys, "argv", ["generate_terrain", *map(str, arguments)])
-        try:
-            code = generate_terrain.main()
-        except SystemExit as exit_:
-            code = exit_.code
-        return code, capsys.readouterr().err
-
-    return call
+    return functools.partial(run_main, generate_terrain.main)
 
 
 def test_surface_and_look_reach_the_model(command, tmp_path, hash_of):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests ground from a user's image, elevation model or mesh, against the surface of its source."""
 
-import sys
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -20,24 +19,12 @@ def _surface(x, y):
 
 
 @pytest.fixture()
-def command(tmp_path, monkeypatch, capsys):
+def command(tmp_path, run_main):
     """Runs generate_terrain on a source; returns exit code and standard error."""
 
     def call(*arguments):
-        words = [
-            "generate_terrain",
-            *map(str, arguments),
-            "--name",
-            "g",
-            "--output",
-            str(tmp_path / "out"),
-        ]
-        monkeypatch.setattr(sys, "argv", words)
-        try:
-            code = generate_terrain.main()
-        except SystemExit as exit_:
-            code = exit_.code
-        return code, capsys.readouterr().err
+        output = ("--name", "g", "--output", tmp_path / "out")
+        return run_main(generate_terrain.main, *arguments, *output)
 
     return call
 

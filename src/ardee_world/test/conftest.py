@@ -44,17 +44,27 @@ def pool() -> tuple:
 
 
 @pytest.fixture()
-def generate_field(models, monkeypatch, capsys):
+def run_main(monkeypatch, capsys):
+    """Returns a function that runs a command's main() on words; it returns exit code and standard error."""
+
+    def run(main, *words) -> tuple:
+        monkeypatch.setattr(sys, "argv", [main.__module__, *map(str, words)])
+        try:
+            code = main()
+        except SystemExit as ended:
+            code = ended.code
+        return code, capsys.readouterr().err
+
+    return run
+
+
+@pytest.fixture()
+def generate_field(models, monkeypatch, run_main):
     """Runs the command with arguments; returns exit code and standard error."""
     from ardee_world import generate_field
 
     def call(*arguments) -> tuple:
         monkeypatch.setenv("GAZEBO_MODEL_PATH", str(models))
-        monkeypatch.setattr(sys, "argv", ["generate_field", *map(str, arguments)])
-        try:
-            code = generate_field.main()
-        except SystemExit as exit_:
-            code = exit_.code
-        return code, capsys.readouterr().err
+        return run_main(generate_field.main, *arguments)
 
     return call

@@ -4,7 +4,6 @@
 import json
 import shutil
 import subprocess
-import sys
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -20,7 +19,7 @@ BASE = ("--models", "corn_a", "corn_b", "--name", "field", "--world-pose", "0", 
 
 
 @pytest.fixture()
-def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
+def put_together(models, generate_field, tmp_path, monkeypatch, run_main):
     """Runs the command in a folder with a field, an empty field and a geofence; returns code and standard error."""
     assert generate_field(*BASE, "--output", tmp_path / "models")[0] == 0
     (tmp_path / "share" / "pkg").mkdir(parents=True)
@@ -34,23 +33,8 @@ def put_together(models, generate_field, tmp_path, monkeypatch, capsys):
         geofence="pkg/my.geofence",
         *more,
     ):
-        words = [
-            "assemble",
-            field,
-            terrain,
-            geofence,
-            "--output",
-            "out",
-            "--search",
-            "share",
-            *more,
-        ]
-        monkeypatch.setattr(sys, "argv", words)
-        try:
-            code = assemble_world.main()
-        except SystemExit as exit_:
-            code = exit_.code
-        return code, capsys.readouterr().err
+        folders = ("--output", "out", "--search", "share")
+        return run_main(assemble_world.main, field, terrain, geofence, *folders, *more)
 
     return call
 

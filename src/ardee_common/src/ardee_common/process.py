@@ -1,17 +1,43 @@
 # SPDX-License-Identifier: MIT
-"""Starts and stops child processes, each in a session of its own, and a ROS master among them."""
+"""Starts and stops child processes, each in a session of its own, a ROS master too; ends programs by signals."""
 import os
 import signal
 import subprocess
 from pathlib import Path
-from typing import Any, Dict, Optional, Sequence
+from typing import Any, Dict, List, NoReturn, Optional, Sequence
 
+END_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Signals that end a child, each with the time [s] that it is given to follow.
 _ENDING = ((signal.SIGINT, 20.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
 _MASTER = (
     "import sys, rosmaster.master as m; x = m.Master(int(sys.argv[1])); x.start();"
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
 )
+
+
+class Ended(SystemExit, KeyboardInterrupt):
+    """Ends the program with its code; rospy's wait_for_service lets nothing through but a KeyboardInterrupt."""
+
+
+def end_by_signals(codes: Optional[List[int]] = None) -> None:
+    """Makes Ctrl-C, SIGTERM and SIGHUP raise Ended with code 128 + number, so that the program cleans up.
+
+    The code is also appended to `codes`, because Python drops an exception that a signal raises during a fork.
+    """
+
+    def end(number: int, _frame: Any) -> NoReturn:
+        if codes is not None:
+            codes.append(128 + number)
+        raise Ended(128 + number)
+
+    for number in END_SIGNALS:
+        signal.signal(number, end)
+
+
+def ignore_end_signals() -> None:
+    """Ignores these signals from now on: the program is cleaning up."""
+    for number in END_SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
 
 
 def heed_ctrl_c() -> None:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Makes terrain of a digital elevation model: ESRI ASCII grid (.asc) or GeoTIFF, holes refused or filled."""
 
-import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Dict, Optional
@@ -12,7 +11,7 @@ from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 from scipy.ndimage import binary_dilation
 
 from ardee_common.errors import GeneratorError
-from ardee_models.terrain.grey_image import MAX_SIDE_PX
+from ardee_models.terrain.grey_image import MAX_SIDE_PX, open_image
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.image import Say, fitting_samples, level_at_origin, resample
 
@@ -118,20 +117,8 @@ def _geotiff(image: Image.Image, path: Path) -> Elevation:
 
 def read_geotiff(path: Path) -> Elevation:
     """Reads a GeoTIFF of one band; degrees become metres at the middle latitude."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(path) as image:
-                return _geotiff(image, path)
-    except (
-        OSError,
-        ValueError,
-        SyntaxError,
-        Image.DecompressionBombError,
-        Image.DecompressionBombWarning,
-    ) as error:
-        raise GeneratorError(f"{path}: not a readable GeoTIFF: {error}") from error
+    with open_image(path, "GeoTIFF") as image:
+        return _geotiff(image, path)
 
 
 def fill_holes(heights_m: np.ndarray) -> np.ndarray:

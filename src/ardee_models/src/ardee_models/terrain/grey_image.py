@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Reads grey images of any depth; other files are refused with a plain message."""
 
+import contextlib
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Iterator
 
 import numpy as np
 from PIL import Image
@@ -33,14 +35,15 @@ def _grey(image: Image.Image, path: Path) -> GreyImage:
     return GreyImage(np.asarray(image.convert("L")).astype(np.int64), 255)
 
 
-def read_grey(path: Path) -> GreyImage:
-    """Reads a grey image; colours become their luminance."""
+@contextlib.contextmanager
+def open_image(path: Path, kind: str) -> Iterator[Image.Image]:
+    """Opens an image; raises GeneratorError if it is missing, too large, or no readable file of this kind."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             warnings.simplefilter("error", Image.DecompressionBombWarning)
             with Image.open(path) as image:
-                grey = _grey(image, path)
+                yield image
     except FileNotFoundError as error:
         raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
     except (
@@ -50,7 +53,13 @@ def read_grey(path: Path) -> GreyImage:
         Image.DecompressionBombError,
         Image.DecompressionBombWarning,
     ) as error:
-        raise GeneratorError(f"{path}: not a readable image: {error}") from error
+        raise GeneratorError(f"{path}: not a readable {kind}: {error}") from error
+
+
+def read_grey(path: Path) -> GreyImage:
+    """Reads a grey image; colours become their luminance."""
+    with open_image(path, "image") as image:
+        grey = _grey(image, path)
     if grey.pixels.min() < 0 or grey.pixels.max() > grey.white:
         raise GeneratorError(
             f"{path}: found values {grey.pixels.min()} to {grey.pixels.max()}, expected 0 to {grey.white}"

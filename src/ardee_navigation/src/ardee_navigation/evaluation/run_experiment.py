@@ -2,16 +2,16 @@
 """Command `run_experiment`: runs of a scenario, headless, in lockstep or with hardware in the loop, and a report."""
 import argparse
 import shutil
-import signal
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any, List, NoReturn, Optional
+from typing import Any, List, Optional
 
 from tqdm import tqdm
 
 from ardee_common.cli import Parser, whole_in
 from ardee_common.errors import GeneratorError
+from ardee_common.process import end_by_signals
 from ardee_navigation.evaluation.record import Record
 from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
 from ardee_navigation.evaluation.scenarios import known_scenarios, prepare
@@ -135,14 +135,6 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     print(report)
 
 
-class _Stopped(SystemExit, KeyboardInterrupt):
-    """Ends the program with its code; rospy's wait_for_service lets nothing through but a KeyboardInterrupt."""
-
-
-def _stop_here(number: int, _frame: Any) -> NoReturn:
-    raise _Stopped(128 + number)
-
-
 def main() -> int:
     """Runs the command; returns the exit code: 0 all runs were driven, 1 the simulator failed, 2 bad input."""
     try:
@@ -152,8 +144,7 @@ def main() -> int:
         return 2
     from ardee_navigation.evaluation.simulation import SimulationError
 
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, _stop_here)
+    end_by_signals()
     work = Path(tempfile.mkdtemp(prefix="ardee_experiment_"))
     command = " ".join(["rosrun ardee_navigation run_experiment", *sys.argv[1:]])
     try:
