@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests that scenarios, parameters, launch file and rviz configuration are whole and agree."""
+import dataclasses
 import math
 import os
 import subprocess
@@ -13,9 +14,11 @@ import yaml
 
 from ardee_common.config import from_values
 from ardee_common.errors import GeneratorError
+from ardee_navigation.evaluation import run_experiment
 from ardee_navigation.evaluation.scenario_files import Start, read_parameters, read_scenarios
 from ardee_navigation.evaluation.scenarios import START_SD_M, START_SD_RAD, start_near
 from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.nodes import hil_row_follower, row_follower_node
 from ardee_navigation.nodes.row_follower_node import Settings
 
 PACKAGE = Path(__file__).resolve().parents[1]
@@ -157,3 +160,16 @@ def test_start_poses_scatter_as_said_and_repeat() -> None:
         assert abs(values.mean()) < 3.9 * sd / np.sqrt(2000)
         assert abs(values.var() / sd**2 - 1.0) < 3.9 * np.sqrt(2.0 / 2000)
     assert start_near(start, 5) == start_near(start, 5)
+
+
+def test_a_file_of_parameters_leaves_the_others_as_the_scenario_has_them(tmp_path: Path) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text("kp: 30\n")
+    wanted = dataclasses.replace(SCENARIOS["tobacco"].parameters, kp=30.0)
+    assert wanted.lane_width_m == 1.0 and Parameters().lane_width_m == 0.762
+    words = ["--scenario", "tobacco", "--parameters", str(path)]
+    assert run_experiment._scenario(run_experiment._arguments(words)).parameters == wanted
+    settings = Settings(scenario="tobacco", parameters=str(path))
+    assert row_follower_node._parameters(settings) == wanted
+    words += ["--scenarios", str(PACKAGE / "config" / "scenarios.yaml")]
+    assert hil_row_follower._parameters(hil_row_follower._arguments(words)) == wanted

@@ -5,6 +5,7 @@ import shutil
 import signal
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, List, NoReturn, Optional
 
@@ -52,7 +53,9 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
     )
     parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
     parser.add_argument(
-        "--parameters", type=Path, help="YAML file of the row follower's parameters"
+        "--parameters",
+        type=Path,
+        help="YAML file of the row follower's parameters that differ from the scenario's",
     )
     parser.add_argument(
         "--bot-model", default="tsv1_default.urdf.xacro", help="robot model file [%(default)s]"
@@ -97,6 +100,14 @@ def _one_run(
             return drive(simulation, trial, scenario.parameters, judge, progress)
 
 
+def _scenario(args: argparse.Namespace) -> Scenario:
+    """Returns the named scenario, with the parameters of the file over its own."""
+    scenario = known_scenarios()[args.scenario]
+    if not args.parameters:
+        return scenario
+    return replace(scenario, parameters=read_parameters(args.parameters, scenario.parameters))
+
+
 def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     from ardee_navigation.evaluation.experiment_report import (
         in_short,
@@ -106,9 +117,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     )
     from ardee_navigation.evaluation.simulation import Master, robot_urdf
 
-    scenario = known_scenarios()[args.scenario]
-    if args.parameters:
-        scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
+    scenario = _scenario(args)
     output = args.output or Path("experiment_output") / args.scenario
     _make_folder(output)
     master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
