@@ -22,6 +22,12 @@ class LevelGround:
         return np.zeros(np.broadcast(x_m, y_m).shape)
 
 
+def is_ground(model: Path) -> bool:
+    """Tells whether a model's directory holds ground: a heightmap, mesh or plane that it collides with."""
+    geometries = sdf_root(model).iterfind(".//collision/geometry/*")
+    return any(geometry.tag in ("heightmap", "mesh", "plane") for geometry in geometries)
+
+
 def ground_model(name: str, folders: Sequence[Path]) -> Ground:
     """The first heightmap, mesh or plane that the model collides with."""
     model = find_model(name, folders)
