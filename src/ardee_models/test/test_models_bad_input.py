@@ -8,7 +8,7 @@ import yaml
 
 from ardee_common.errors import GeneratorError
 from ardee_models.config_dir import config_dir
-from ardee_models.lookup import crop_model, terrain_model
+from ardee_models.lookup import crop_model, find_model, search_path, terrain_model
 from ardee_models.plant import generate_crop
 from ardee_models.plant.crops import make_crop
 
@@ -106,6 +106,20 @@ def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsy
     assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "mine")
     assert crop_model("mine", [tmp_path]).label == 1
+
+
+def test_default_output_is_no_folder_that_a_build_makes(tmp_path, monkeypatch, capsys):
+    built = tmp_path / "devel" / "share" / "ardee_models" / "models"
+    built.mkdir(parents=True)
+    (tmp_path / "devel" / ".catkin").write_text("/src")
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(built))
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    own = tmp_path / "home" / ".gazebo" / "models"
+    for _ in range(2):  # the folder is made once
+        assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+        assert capsys.readouterr().out.strip() == str(own / "mine")
+    assert not list(built.iterdir())
+    assert crop_model("mine", search_path()).label == 1
 
 
 def _model(tmp_path, sdf=None, metrics=None):

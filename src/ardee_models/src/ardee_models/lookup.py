@@ -28,10 +28,15 @@ class CropModel:
     stage: str = ""
 
 
+def own_models() -> Path:
+    """The folder in the user's home where Gazebo and the simulator look for models."""
+    return Path.home() / ".gazebo" / "models"
+
+
 def search_path(extra: Sequence[Path] = ()) -> List[Path]:
-    """Folders of models: `extra`, then GAZEBO_MODEL_PATH."""
+    """Folders of models: `extra`, then GAZEBO_MODEL_PATH, then the one in the user's home."""
     entries = os.environ.get("GAZEBO_MODEL_PATH", "").split(":")
-    return [*extra, *(Path(entry) for entry in entries if entry)]
+    return [*extra, *(Path(entry) for entry in entries if entry), own_models()]
 
 
 def find_model(name: str, folders: Sequence[Path]) -> Path:
@@ -39,8 +44,7 @@ def find_model(name: str, folders: Sequence[Path]) -> Path:
     for folder in folders:
         if (folder / name / "model.config").is_file():
             return folder / name
-    looked = ":".join(map(str, folders)) or "nothing (GAZEBO_MODEL_PATH is empty)"
-    raise GeneratorError(f"model {name!r}: not found, looked in {looked}")
+    raise GeneratorError(f"model {name!r}: not found, looked in {':'.join(map(str, folders))}")
 
 
 def sdf_root(model: Path) -> ElementTree.Element:
