@@ -152,7 +152,15 @@ def test_models_that_do_not_tell_their_height(tmp_path, sdf, metrics, message):
 def test_a_users_model_is_as_tall_as_its_cylinder(tmp_path):
     cylinder = "<cylinder><length>0.5</length><radius>0.0075</radius></cylinder>"
     _model(tmp_path, f"<sdf><collision><geometry>{cylinder}</geometry></collision></sdf>")
-    assert crop_model("m", [tmp_path]).height_m == 0.5
+    found = crop_model("m", [tmp_path])
+    assert found.height_m == 0.5 and found.label == 0  # whatever it is, it is not corn
+
+
+@pytest.mark.parametrize("name", ["..", "../m", "m/", "/m"])
+def test_a_models_name_is_no_path(tmp_path, name):
+    _model(tmp_path)
+    with pytest.raises(GeneratorError, match="expected the name of a folder, not a path"):
+        find_model(name, [tmp_path / "m", tmp_path])
 
 
 def test_unreadable_terrain(tmp_path):

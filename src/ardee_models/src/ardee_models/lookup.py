@@ -41,6 +41,8 @@ def search_path(extra: Sequence[Path] = ()) -> List[Path]:
 
 def find_model(name: str, folders: Sequence[Path]) -> Path:
     """The first folder/name that is a model directory."""
+    if name in (".", "..") or "/" in name:
+        raise GeneratorError(f"model {name!r}: expected the name of a folder, not a path")
     for folder in folders:
         if (folder / name / "model.config").is_file():
             return folder / name
@@ -72,7 +74,7 @@ def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) ->
 
 
 def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
-    """Figures of a crop model from its metrics file, else from the cylinder it collides with."""
+    """Figures of a crop model from its metrics file, else from the cylinder it collides with, and then unlabelled."""
     model = find_model(name, folders)
     path = model / METRICS_FILE
     if not path.is_file():
@@ -85,7 +87,7 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
             _numbers(cylinder, "length", 1, model)[0],
             _numbers(cylinder, "radius", 1, model)[0],
         )
-        data = {"height_m": height, "stalk_radius_m": radius, "label": 1}
+        data = {"height_m": height, "stalk_radius_m": radius, "label": 0}
         species = stage = ""
     else:
         try:
