@@ -4,6 +4,7 @@
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import collada
 import numpy as np
 import pytest
 from PIL import Image, TiffImagePlugin
@@ -160,9 +161,54 @@ def test_a_mesh_is_the_ground_seen_and_felt(command, tmp_path, up):
     assert (tmp_path / "out/g/materials/textures/g.png").is_file()
 
 
+def test_an_obj_stands_as_blender_writes_it_and_one_that_lies_on_its_side_is_refused(
+    command, tmp_path
+):
+    _write_obj(tmp_path / "m.obj", "y")
+    code, error = command("--mesh", tmp_path / "m.obj")
+    assert code == 0 and "m.obj: taken with its y axis upwards" in error
+    _check(tmp_path, 8e-3)
+    _write_obj(tmp_path / "z.obj", "z")
+    for arguments in (("z.obj",), ("m.obj", "--mesh-up", "z"), ("m.obj", "--mesh-up", "x")):
+        code, error = command("--mesh", tmp_path / arguments[0], *arguments[1:])
+        assert code == 2 and "expected ground that lies; --mesh-up says which axis" in error
+    _check(tmp_path, 8e-3)  # the earlier one is still there
+
+
+def test_a_models_mesh_is_the_ground_as_the_simulator_has_it(tmp_path):
+    """No axis is turned up, the file's unit and the model's scale count."""
+    dae = collada.Collada()
+    dae.assetInfo.upaxis = collada.asset.UP_AXIS.Y_UP
+    dae.assetInfo.unitname, dae.assetInfo.unitmeter = "decimetre", 0.1
+    corners = np.array([[0, 0, 1], [10, 0, 1], [0, 10, 3]], float)
+    source = collada.source.FloatSource("v", corners.ravel(), ("X", "Y", "Z"))
+    geometry = collada.geometry.Geometry(dae, "g", "g", [source])
+    inputs = collada.source.InputList()
+    inputs.addInput(0, "VERTEX", "#v")
+    geometry.primitives.append(geometry.createTriangleSet(np.arange(3), inputs, "m"))
+    dae.geometries.append(geometry)
+    dae.scenes.append(
+        collada.scene.Scene(
+            "s", [collada.scene.Node("n", children=[collada.scene.GeometryNode(geometry)])]
+        )
+    )
+    dae.scene = dae.scenes[0]
+    (tmp_path / "m").mkdir()
+    dae.write(str(tmp_path / "m" / "m.dae"))
+    (tmp_path / "m" / "model.config").write_text("<model/>")
+    mesh = "<mesh><uri>model://m/m.dae</uri><scale>1 1 2</scale></mesh>"
+    (tmp_path / "m" / "model.sdf").write_text(
+        f"<sdf><collision><geometry>{mesh}</geometry></collision></sdf>"
+    )
+    ground = ground_model("m", [tmp_path])
+    # corners in metres: (0, 0, 0.2), (1, 0, 0.2), (0, 1, 0.6)
+    np.testing.assert_allclose(ground.height_at(np.array([0.2]), np.array([0.5])), 0.4)
+
+
 def test_scale_of_a_mesh(command, tmp_path):
     _write_obj(tmp_path / "m.obj")
-    assert command("--mesh", tmp_path / "m.obj", "--mesh-scale", "0.01")[0] == 0
+    words = ("--mesh-up", "z", "--mesh-scale", "0.01")
+    assert command("--mesh", tmp_path / "m.obj", *words) == (0, "")
     ground = ground_model("g", [tmp_path / "out"])
     np.testing.assert_allclose(np.ptp(ground.vertices_m[:, :2], axis=0), 0.2, atol=1e-5)
 
@@ -204,8 +250,9 @@ BAD = {
         (("--dem", "huge.asc"), "huge.asc: found 1000000000 x 2 cells"),
         (("--dem", "plain.tif"), "plain.tif: not a readable GeoTIFF"),
         (("--dem", "text.png"), "text.png: not a readable GeoTIFF"),
-        (("--mesh", "bad.dae"), "bad.dae: not a readable mesh"),
-        (("--mesh", "line.obj"), "line.obj: found no area seen from above"),
+        (("--mesh", "bad.dae"), "bad.dae: not a readable COLLADA file"),
+        (("--mesh", "bad.obj"), "bad.obj: cannot be read: "),
+        (("--mesh", "line.obj", "--mesh-up", "z"), "line.obj: found no area seen from above"),
     ],
 )
 def test_bad_files_are_one_message_and_change_nothing(command, tmp_path, hash_of, source, message):
@@ -213,7 +260,7 @@ def test_bad_files_are_one_message_and_change_nothing(command, tmp_path, hash_of
         (tmp_path / name).write_bytes(data)
     assert command()[0] == 0
     before = hash_of(tmp_path / "out")
-    code, error = command(source[0], tmp_path / source[1])
+    code, error = command(source[0], tmp_path / source[1], *source[2:])
     assert code == 2 and message in error and error.count("\n") == 1
     assert hash_of(tmp_path / "out") == before
 

@@ -60,7 +60,8 @@ def sdf_root(model: Path) -> ElementTree.Element:
         raise GeneratorError(f"{path}: not valid XML: {error}") from error
 
 
-def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) -> List[float]:
+def numbers(element: ElementTree.Element, tag: str, count: int, where: Path) -> List[float]:
+    """Finite numbers that the text below a tag of a model's SDF holds."""
     text = element.findtext(tag, "")
     try:
         values = [float(word) for word in text.split()]
@@ -84,8 +85,8 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
                 f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height"
             )
         height, radius = (
-            _numbers(cylinder, "length", 1, model)[0],
-            _numbers(cylinder, "radius", 1, model)[0],
+            numbers(cylinder, "length", 1, model)[0],
+            numbers(cylinder, "radius", 1, model)[0],
         )
         data = {"height_m": height, "stalk_radius_m": radius, "label": 0}
         species = stage = ""
@@ -135,7 +136,7 @@ def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     if heightmap is None:
         raise GeneratorError(f"{model}/model.sdf: no <heightmap> in a collision")
     uri = heightmap.findtext("uri", "").strip()
-    size, pos = _numbers(heightmap, "size", 3, model), _numbers(heightmap, "pos", 3, model)
+    size, pos = numbers(heightmap, "size", 3, model), numbers(heightmap, "pos", 3, model)
     image_path = resource(uri, [model.parent, *folders])
     if size[0] != size[1] or size[0] <= 0 or pos[:2] != [0.0, 0.0]:
         raise GeneratorError(
