@@ -13,7 +13,7 @@ from ardee_common.cli import Parser, run, seed_number
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check
 from ardee_models.mesh_file import UP_RULE, UPS
-from ardee_models.terrain.elevation import dem_terrain
+from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.features import follow
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
 from ardee_models.terrain.image import image_terrain
@@ -87,6 +87,11 @@ def make_parser() -> argparse.ArgumentParser:
         help="height from black to white of the image [m] (default 1)",
     )
     shape.add_argument("--fill-holes", action="store_true", help="fill holes of an elevation model")
+    shape.add_argument(
+        "--dem-unit",
+        choices=tuple(UNITS_M),
+        help="unit of an elevation model's heights (default: as it says, else m)",
+    )
     shape.add_argument(
         "--mesh-scale",
         type=float,
@@ -177,7 +182,7 @@ def make_terrain(args: argparse.Namespace) -> Path:
         about = "Field terrain, heightmap from an image"
     elif args.dem:
         _refuse(args, (*plain, "seed", "size"), "--dem")
-        terrain = dem_terrain(args.dem, args.samples, args.fill_holes, _warn)
+        terrain = dem_terrain(args.dem, args.samples, args.fill_holes, args.dem_unit, _warn)
         about = "Field terrain, heightmap from an elevation model"
     else:
         terrain = _plain_terrain(args)
