@@ -162,6 +162,17 @@ def test_quads_of_blender_keep_their_texture_and_stand(tmp_path, capsys, faces):
     np.testing.assert_allclose(uv[:, 0], (corners[:, 0] - left) / 0.1, atol=1e-4)
 
 
+def test_missing_materials_and_pictures_of_an_obj_are_told(tmp_path, capsys):
+    (tmp_path / "leaf.obj").write_text(OBJ + FACES[0])
+    words = [str(tmp_path / "leaf.obj"), "--name", "leaf", "--output", str(tmp_path / "out")]
+    assert prepare_crop.main(words) == 0
+    assert "leaf.obj: warning: unable to load materials from: leaf.mtl" in capsys.readouterr().err
+    (tmp_path / "leaf.mtl").write_text("newmtl Green\nmap_Kd leaf.png\n")
+    assert prepare_crop.main(words) == 0
+    error = capsys.readouterr().err
+    assert "leaf.obj: warning: failed to load image: " in error and "leaf.png" in error
+
+
 def test_own_models_come_back_as_they_were(share, tmp_path, capsys):
     source = share / "models" / "corn_variant_8"
     mesh = source / "meshes" / "corn_variant_8.dae"

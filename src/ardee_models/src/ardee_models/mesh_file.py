@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Reads mesh files of all formats that trimesh knows, in metres and with z up: the one rule of all commands."""
 
+import contextlib
 import importlib
 import io
+import logging
 import os
 import sys
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Callable, List, Optional
+from typing import Callable, Iterator, List, Optional
 
 import numpy as np
 
@@ -102,6 +104,36 @@ def _triangulated(obj: str) -> str:
     return "\n".join(lines)
 
 
+class _LeftOut(logging.Handler):
+    """Tells of materials and pictures that trimesh leaves out without an error."""
+
+    def __init__(self, path: Path, say: Say) -> None:
+        super().__init__()
+        self._path, self._say = path, say
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Tells of a record that is about one of them."""
+        text = record.getMessage()
+        if "load materials" in text or "load image" in text:
+            error = record.exc_info[1] if record.exc_info else None
+            self._say(f"{self._path}: warning: {text}" + (f": {error}" if error else ""))
+
+
+@contextlib.contextmanager
+def _telling(path: Path, say: Say) -> Iterator[None]:
+    log, handler = logging.getLogger("trimesh"), _LeftOut(path, say)
+    before = log.level, log.propagate
+    log.addHandler(handler)
+    log.setLevel(logging.DEBUG)
+    log.propagate = False
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
+        log.setLevel(before[0])
+        log.propagate = before[1]
+
+
 def _scene(path: Path) -> object:
     trimesh = load_trimesh()
     options = {"force": "scene", "process": False}
@@ -115,7 +147,7 @@ def _scene(path: Path) -> object:
 def read_pieces(path: Path, up: str, scale: Optional[float], say: Say) -> List[Piece]:
     """Reads all geometries with triangles; `up` is one of UPS, `scale` metres a unit if the file is not to say it.
 
-    `say` is told of an axis that was turned up unasked.
+    `say` is told of an axis that was turned up unasked, and of materials and pictures that are missing.
     """
     if path.suffix.lower() not in _FORMATS:
         raise GeneratorError(f"{path}: expected a file of {' '.join(sorted(_FORMATS))}")
@@ -127,7 +159,8 @@ def read_pieces(path: Path, up: str, scale: Optional[float], say: Say) -> List[P
     turn = np.eye(4)
     turn[:3, :3] = unit * _TO_Z_UP[axis]
     try:
-        scene, pieces = _scene(path), []
+        with _telling(path, say):
+            scene, pieces = _scene(path), []
         for node in scene.graph.nodes_geometry:
             matrix, key = scene.graph[node]
             if len(getattr(scene.geometry[key], "faces", ())):
