@@ -3,7 +3,7 @@
 import dataclasses
 import ipaddress
 from dataclasses import MISSING, dataclass
-from typing import Any, Callable, ClassVar, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, ClassVar, List, NamedTuple, Optional, Tuple
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import MAX_PAYLOAD
