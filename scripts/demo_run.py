@@ -151,11 +151,12 @@ class Demo:
         heading("drive")
         factor = self.drive(start.distance_m)
         drive = demo_report.read_drive(self.work / "drive.bag", SCAN)
-        OUTPUT.mkdir(exist_ok=True)
+        output = self.options.output
+        output.mkdir(parents=True, exist_ok=True)
         for name in ("drive.bag", "rviz.png"):
-            os.replace(self.work / name, OUTPUT / name)
+            shutil.move(str(self.work / name), str(output / name))
         heading("summary")
-        print(demo_report.summary(drive, factor, field, OUTPUT), flush=True)
+        print(demo_report.summary(drive, factor, field, output), flush=True)
 
 
 def heading(text: str) -> None:
@@ -168,6 +169,7 @@ def options() -> argparse.Namespace:
     parser = Parser(prog="scripts/demo")
     parser.add_argument("--seed", type=seed_number, default=0)
     parser.add_argument("--speed-m-s", type=number_in(0.05, 2.0), default=0.6)
+    parser.add_argument("--output", type=pathlib.Path, default=OUTPUT)
     return parser.parse_args()
 
 

@@ -11,14 +11,14 @@ from PIL import Image
 from ros_graph import wait_until
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-OUTPUT = ROOT / "demo_output"
 
 
 def start(log: pathlib.Path) -> subprocess.Popen:
     env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "ROS_MASTER_URI")}
+    program = str(ROOT / "scripts" / "demo_run.py")
     with log.open("wb") as output:
         return subprocess.Popen(
-            ["/usr/bin/python3", str(ROOT / "scripts" / "demo_run.py")],
+            ["/usr/bin/python3", program, "--output", str(log.parent / "output")],
             env=dict(env, ARDEE_DEMO_TEST=str(log), PYTHONUNBUFFERED="1"),
             stdout=output,
             stderr=subprocess.STDOUT,
@@ -51,8 +51,8 @@ def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
     assert 7.0 < distance < 11.0  # 50 plants in a row, and the way to it
     assert int(re.search(r"scans published +(\d+)", text).group(1)) > 200
     assert int(re.search(r"plants in the field +(\d+)", text).group(1)) > 150
-    assert Image.open(OUTPUT / "rviz.png").size == (1280, 960)
-    assert (OUTPUT / "drive.bag").stat().st_size > 100_000
+    assert Image.open(tmp_path / "output" / "rviz.png").size == (1280, 960)
+    assert (tmp_path / "output" / "drive.bag").stat().st_size > 100_000
     wait_until(lambda: not ours(log), "the demo's processes gone", 10.0)
 
 

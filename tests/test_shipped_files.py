@@ -3,11 +3,12 @@
 import os
 import pathlib
 import subprocess
-from typing import Dict, Iterator, List
+from typing import Any, Dict, Iterator, List
 
 import probes
 import pytest
 import roslaunch.config
+import roslib.packages
 import yaml
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_graph import RosGraph
@@ -92,13 +93,26 @@ def test_launch_file_loads(name: str) -> None:
     config = roslaunch.config.load_config_default([str(LAUNCH_FILES[name])], None, verbose=False)
     assert config.nodes
     assert not config.config_errors
+    missing = [n for n in config.nodes if not roslib.packages.find_node(n.package, n.type)]
+    assert not missing
+
+
+class Loader(yaml.SafeLoader):
+    """Knows xacro's !degrees and !radians; refuses a key that is there twice, of which YAML's loader drops one."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> Dict[Any, Any]:
+        """Constructs the mapping if its keys differ."""
+        keys = [key.value for key, _ in node.value]
+        assert len(set(keys)) == len(keys), f"{node.start_mark}: a key twice among {keys}"
+        return super().construct_mapping(node, deep)
+
+
+for tag in ("!degrees", "!radians"):
+    Loader.add_constructor(tag, lambda loader, node: float(loader.construct_scalar(node)))
 
 
 @pytest.mark.parametrize("name", YAML_FILES)
-def test_yaml_loads(name: str) -> None:
-    class Loader(yaml.SafeLoader):
-        """YAML loader that knows xacro's !degrees and !radians."""
-
-    for tag in ("!degrees", "!radians"):
-        Loader.add_constructor(tag, lambda loader, node: float(loader.construct_scalar(node)))
-    assert yaml.load(YAML_FILES[name].read_text(), Loader) is not None
+def test_yaml_is_a_mapping_without_a_key_twice(name: str) -> None:
+    found = yaml.load(YAML_FILES[name].read_text(), Loader)
+    assert isinstance(found, dict) and found
+    assert not name.endswith(".rviz") or found["Visualization Manager"]["Displays"]

@@ -1,7 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Tests two robots in one world, the second in a namespace: neither gets the other's commands."""
+from typing import List
+
 import probes
 from ros_graph import RosGraph
+
+
+def models(graph: RosGraph) -> List[str]:
+    """Returns the names of all models in the world."""
+    return graph.call(probes.collect, "/gazebo/model_states", "gazebo_msgs/ModelStates", 1)[0].name
 
 
 def launch_robot(graph: RosGraph, *args: str) -> None:
@@ -11,13 +18,13 @@ def launch_robot(graph: RosGraph, *args: str) -> None:
 def test_each_robot_has_its_own_topics_and_commands(graph: RosGraph) -> None:
     graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
     graph.call(probes.clock_at_least, 0.2)
+    scenery = models(graph)
     launch_robot(graph)
     graph.call(probes.wait_for_topics, ["/odom", "/ardee/hokuyo"], [])
     launch_robot(graph, "ns:=robot2", "y:=-0.76")
     second = ["/robot2/odom", "/robot2/ardee/hokuyo", "/robot2/joint_states"]
     graph.call(probes.wait_for_topics, second, [])
-    states = graph.call(probes.collect, "/gazebo/model_states", "gazebo_msgs/ModelStates", 1)[0]
-    assert sum("base" in name or "erra" in name for name in states.name) == 2
+    assert sorted(models(graph)) == sorted([*scenery, "TerraSentia_0", "TerraSentia_robot2"])
 
     graph.call(probes.clock_at_least, 4.0)
     still = graph.call(probes.collect, "/odom", "nav_msgs/Odometry", 1)[0].pose.pose.position

@@ -52,6 +52,15 @@ def test_a_group_is_kept_here_by_a_socket_on_loopback(package):
         (dict(allowed_clients=["::1"]), "allowed_clients: found"),
         (dict(allowed_clients=["10.0.0.1:99999"]), "allowed_clients: found"),
         (
+            dict(allowed_clients=["127.0.0.1:"]),
+            r"allowed_clients: found \['127.0.0.1:'\], expected",
+        ),
+        (
+            dict(allowed_clients=["192.168.1.135/24"]),
+            "allowed_clients: found '192.168.1.135/24', an address in a network, expected the network"
+            " 192.168.1.0/24, or the address 192.168.1.135 alone",
+        ),
+        (
             dict(peers=[dict(address="10.0.0.1", port=1, data_types=[])]),
             "cannot be reached from bind_address 127.0.0.1",
         ),

@@ -8,7 +8,7 @@ import yaml
 
 from ardee_common.errors import GeneratorError
 from ardee_models.config_dir import config_dir
-from ardee_models.lookup import crop_model, terrain_model
+from ardee_models.lookup import crop_model, find_model, search_path, terrain_model
 from ardee_models.plant import generate_crop
 from ardee_models.plant.crops import make_crop
 
@@ -108,6 +108,20 @@ def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsy
     assert crop_model("mine", [tmp_path]).label == 1
 
 
+def test_default_output_is_no_folder_that_a_build_makes(tmp_path, monkeypatch, capsys):
+    built = tmp_path / "devel" / "share" / "ardee_models" / "models"
+    built.mkdir(parents=True)
+    (tmp_path / "devel" / ".catkin").write_text("/src")
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(built))
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    own = tmp_path / "home" / ".gazebo" / "models"
+    for _ in range(2):  # the folder is made once
+        assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+        assert capsys.readouterr().out.strip() == str(own / "mine")
+    assert not list(built.iterdir())
+    assert crop_model("mine", search_path()).label == 1
+
+
 def _model(tmp_path, sdf=None, metrics=None):
     folder = tmp_path / "m"
     folder.mkdir()
@@ -138,7 +152,15 @@ def test_models_that_do_not_tell_their_height(tmp_path, sdf, metrics, message):
 def test_a_users_model_is_as_tall_as_its_cylinder(tmp_path):
     cylinder = "<cylinder><length>0.5</length><radius>0.0075</radius></cylinder>"
     _model(tmp_path, f"<sdf><collision><geometry>{cylinder}</geometry></collision></sdf>")
-    assert crop_model("m", [tmp_path]).height_m == 0.5
+    found = crop_model("m", [tmp_path])
+    assert found.height_m == 0.5 and found.label == 0  # whatever it is, it is not corn
+
+
+@pytest.mark.parametrize("name", ["..", "../m", "m/", "/m"])
+def test_a_models_name_is_no_path(tmp_path, name):
+    _model(tmp_path)
+    with pytest.raises(GeneratorError, match="expected the name of a folder, not a path"):
+        find_model(name, [tmp_path / "m", tmp_path])
 
 
 def test_unreadable_terrain(tmp_path):

@@ -11,8 +11,8 @@ import pytest
 from PIL import Image
 
 from ardee_models.lookup import crop_model
+from ardee_models.mesh_file import load_trimesh
 from ardee_models.prepare import prepare_crop
-from ardee_models.prepare.read import load_trimesh
 
 trimesh = load_trimesh()
 RADIUS, HEIGHTS = 0.012, (0.6, 0.9, 0.75)
@@ -114,6 +114,65 @@ def test_whole_keeps_one_model_and_units_and_axes_are_obeyed(scene, tmp_path, ca
     assert crop_model("all", [tmp_path / "out"]).height_m == pytest.approx(max(HEIGHTS), abs=1e-4)
 
 
+OBJ = """# Blender 3.6.0
+mtllib leaf.mtl
+o Leaf
+v 0 0 0
+v 0.1 0 0
+v 0.1 1 0
+v 0 1 0
+v 0 2 0.3
+v 0.1 2 0.3
+vt 0 0
+vt 1 0
+vt 1 0.5
+vt 0 0.5
+vt 0 1
+vt 1 1
+usemtl Green
+"""
+# faces as Blender writes them, counted backwards, and over two lines
+FACES = (
+    "f 1/1 2/2 3/3 4/4\nf 4/4 3/3 6/6 5/5\n",
+    "f -6/-6 -5/-5 -4/-4 -3/-3\nf -3/-3 -4/-4 -1/-1 -2/-2\n",
+    "f 1/1 2/2 \\\n3/3 4/4\nf 4/4 3/3 6/6 5/5\n",
+)
+
+
+@pytest.mark.parametrize("faces", FACES)
+def test_quads_of_blender_keep_their_texture_and_stand(tmp_path, capsys, faces):
+    Image.new("RGB", (4, 4), (60, 120, 40)).save(tmp_path / "leaf.png")
+    (tmp_path / "leaf.mtl").write_text("newmtl Green\nKd 1 1 1\nmap_Kd leaf.png\n")
+    (tmp_path / "leaf.obj").write_text(OBJ + faces)
+    arguments = [tmp_path / "leaf.obj", "--name", "leaf", "--output", tmp_path / "out"]
+    assert prepare_crop.main([str(a) for a in arguments]) == 0
+    assert "leaf.obj: taken with its y axis upwards" in capsys.readouterr().err
+    model = tmp_path / "out" / "leaf"
+    (texture,) = (model / "materials/textures").iterdir()
+    with Image.open(texture) as image:
+        assert image.convert("RGB").getpixel((0, 0)) == (60, 120, 40)
+    (node,) = collada.Collada(str(model / "meshes/leaf.dae")).scene.nodes
+    triangles = node.children[0].geometry.primitives[0]
+    corners = triangles.vertex[triangles.vertex_index].reshape(-1, 3)
+    uv = triangles.texcoordset[0][triangles.texcoord_indexset[0]].reshape(-1, 2)
+    assert len(corners) == 4 * 3 and np.ptp(corners, axis=0) == pytest.approx([0.1, 0.3, 2.0])
+    # v runs with the height, u with the width
+    np.testing.assert_allclose(uv[:, 1], corners[:, 2] / 2.0, atol=1e-5)
+    left = corners[:, 0].min()
+    np.testing.assert_allclose(uv[:, 0], (corners[:, 0] - left) / 0.1, atol=1e-4)
+
+
+def test_missing_materials_and_pictures_of_an_obj_are_told(tmp_path, capsys):
+    (tmp_path / "leaf.obj").write_text(OBJ + FACES[0])
+    words = [str(tmp_path / "leaf.obj"), "--name", "leaf", "--output", str(tmp_path / "out")]
+    assert prepare_crop.main(words) == 0
+    assert "leaf.obj: warning: unable to load materials from: leaf.mtl" in capsys.readouterr().err
+    (tmp_path / "leaf.mtl").write_text("newmtl Green\nmap_Kd leaf.png\n")
+    assert prepare_crop.main(words) == 0
+    error = capsys.readouterr().err
+    assert "leaf.obj: warning: failed to load image: " in error and "leaf.png" in error
+
+
 def test_own_models_come_back_as_they_were(share, tmp_path, capsys):
     source = share / "models" / "corn_variant_8"
     mesh = source / "meshes" / "corn_variant_8.dae"
@@ -136,7 +195,7 @@ def test_same_mesh_same_bytes(scene, tmp_path, capsys, hash_of):
 @pytest.mark.parametrize(
     "name, data, arguments, message",
     [
-        ("none.stl", None, [], "no such file"),
+        ("none.stl", None, [], "cannot be read: no such file"),
         ("notes.txt", b"text", [], "expected a file of .3mf .dae"),
         ("broken.dae", b"<COLLADA>", [], "not a readable COLLADA file"),
         ("empty.stl", b"", [], "empty.stl: "),
@@ -154,7 +213,8 @@ def test_bad_meshes_are_refused_in_one_line(tmp_path, capsys, name, data, argume
         (tmp_path / name).write_bytes(data)
     out = tmp_path / "out"
     with pytest.raises(SystemExit) as exit_:
-        prepare_crop.main([str(tmp_path / name), "--name", "x", "--output", str(out), *arguments])
+        words = ["--up", "y", "--name", "x", "--output", str(out), *arguments]
+        prepare_crop.main([str(tmp_path / name), *words])
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not out.exists()

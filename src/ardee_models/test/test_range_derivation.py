@@ -47,8 +47,13 @@ def test_bounds_are_what_the_named_function_gives(metric, row):
     assert row.min < bounds[-1][1] and row.max > bounds[0][0]
 
 
-def test_most_stages_have_a_derived_range():
-    assert sum(bool(_calls(p.values[1])) for p in _rows()) > 70
+def test_what_is_derived_names_its_function_but_leaf_numbers_and_a_few_in_words():
+    rows = [p.values for p in _rows()]
+    assert all(row.mark == "derived" for _, row in rows if _calls(row))
+    in_words = [(m, r.stages[0]) for m, r in rows if r.mark == "derived" and not _calls(r)]
+    heights = {("height_m", s) for s in ("6", "L9", "knee_high", "grand_growth", "button")}
+    others = {("stalk_diameter_m", "6"), ("leaf_area_m2", "6"), ("leaf_area_index", "ripening")}
+    assert {r for r in in_words if r[0] != "leaf_number"} == heights | others
 
 
 @pytest.mark.parametrize("metric, row", _rows())

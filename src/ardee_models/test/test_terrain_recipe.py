@@ -14,6 +14,7 @@ from ardee_models.terrain.recipe import (
     Clods,
     Ditch,
     Headland,
+    Look,
     Recipe,
     Ridges,
     Ruts,
@@ -191,9 +192,16 @@ def test_bad_recipes_are_refused(change):
         (("--mesh", "none.obj"), "none.obj: cannot be read"),
         (("--image", "a.png", "--mesh", "b.obj"), "not allowed with"),
         (("--mesh", "b.obj", "--size", "3"), "found --size with --mesh"),
+        (("--image-name", "../../../evil"), "name '../../../evil': expected letters, digits"),
+        (("--image-name", "a b&c"), "name 'a b&c': expected letters, digits"),
     ],
 )
 def test_bad_arguments_are_one_message(command, tmp_path, arguments, message):
     code, error = command("--name", "g", "--output", tmp_path / "out", *arguments)
     assert code == 2 and message in error and error.count("\n") == 1
-    assert not (tmp_path / "out").exists()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_recipes_texture_is_a_name_not_a_path():
+    with pytest.raises(GeneratorError, match="name '../evil': expected letters, digits"):
+        Recipe(look=Look(textures=("dirt", "../evil"))).validate()

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Tests judging runs, summing them up and reporting them, without a simulator."""
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Callable, List, Optional, Tuple
 
@@ -8,8 +10,15 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import LaserScan
 
+from ardee_common.errors import GeneratorError
 from ardee_models.terrain.ground import LevelGround
-from ardee_navigation.evaluation.experiment_report import in_short, write_report, write_run
+from ardee_navigation.evaluation import run_experiment
+from ardee_navigation.evaluation.experiment_report import (
+    check_folder,
+    in_short,
+    write_report,
+    write_run,
+)
 from ardee_navigation.evaluation.record import COLUMNS, Record
 from ardee_navigation.evaluation.row_truth import Field, Pose, Stalks
 from ardee_navigation.evaluation.run_metrics import summarize
@@ -149,6 +158,31 @@ def test_a_folder_holds_the_runs_of_its_report_alone(tmp_path: Path) -> None:
     write_report(records[:1], "run_experiment ...", tmp_path)
     kept = ["report.md", "run_00.csv", "run_00_errors.png", "run_00_lidar.png", "run_notes.txt"]
     assert sorted(path.name for path in tmp_path.iterdir()) == [*kept, "runs.csv"]
+
+
+def test_a_report_is_erased_by_none_but_the_same_experiment(tmp_path: Path) -> None:
+    check_folder(tmp_path, "test", range(1, 51))  # empty
+    record, _ = run(lambda along: (0.01, 0.0))  # of seed 7
+    write_run(record, tmp_path)
+    write_report([record], "run_experiment ...", tmp_path)
+    check_folder(tmp_path, "test", range(1, 51))  # seed 7 is driven again
+    for scenario, seeds in (("test", range(51, 101)), ("corn", range(1, 51))):
+        with pytest.raises(GeneratorError, match="found the report of an experiment .* erased"):
+            check_folder(tmp_path, scenario, seeds)
+    assert (tmp_path / "run_00.csv").is_file()
+
+
+def test_two_experiments_do_not_write_into_one_folder_at_once(tmp_path: Path) -> None:
+    code = "import sys, pathlib; from ardee_navigation.evaluation import run_experiment as r\n"
+    code += "r._make_folder(pathlib.Path(sys.argv[1])); print('made', flush=True); sys.stdin.read()"
+    command = [sys.executable, "-c", code, str(tmp_path)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, **pipes) as other:
+        assert other.stdout.readline() == "made\n"
+        with pytest.raises(GeneratorError, match="where another run_experiment writes"):
+            run_experiment._make_folder(tmp_path)
+        other.communicate("")
+    run_experiment._make_folder(tmp_path)
 
 
 def test_runs_that_never_came_between_the_rows_are_reported(tmp_path: Path) -> None:

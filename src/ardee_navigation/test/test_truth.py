@@ -80,6 +80,22 @@ def test_projection_on_a_corner() -> None:
     assert line.project(2.3, 1.0) == pytest.approx((3.0, -0.3, math.pi / 2))
 
 
+def test_a_point_that_repeats_the_one_before_changes_nothing() -> None:
+    line = Polyline(np.array([[0.0, 0.0], [0.0, 0.0], [2.0, 0.0], [2.0, 0.0], [2.0, 2.0]]))
+    assert line.project(1.5, 1.2) == pytest.approx((3.2, 0.5, math.pi / 2))
+    assert line.at(1.0) == pytest.approx((1.0, 0.0, 0.0)) and line.length_m == 4.0
+
+
+def test_rows_of_one_plant_are_stalks_but_no_lane(tmp_path: Path) -> None:
+    path = tmp_path / "truth.json"
+    rows = [straight(0.4).tolist(), straight(-0.4).tolist(), [[5.0, 0.1]], [[5.0, 0.1]] * 2]
+    path.write_text(_truth(rows))
+    field = read_field(path)
+    assert len(field.rows) == 2 and len(field.stalks.xy_m) == 1
+    seen = lane_of(field, Pose(-1.0, 0.0, 0.0)).deviation(Pose(4.0, 0.1, 0.0))
+    assert seen.lateral_m == pytest.approx(0.1)
+
+
 def test_stalks_in_the_outline_by_hand() -> None:
     """The robot is at the origin, turned by 90 degrees: its length lies along y."""
     half_length, half_width = LENGTH_M / 2, WIDTH_M / 2
@@ -115,7 +131,7 @@ def test_reads_a_truth_file(tmp_path: Path) -> None:
     assert len(field.rows) == 1 and field.stalks.radius_m.tolist() == [0.015]
 
 
-@pytest.mark.parametrize("text", ["", "[]", "{}", '{"rows": 1}', _truth([[[0.0, 0.0]]])])
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"rows": 1}', _truth([[[0.0]]])])
 def test_a_broken_truth_file_is_named(tmp_path: Path, text: str) -> None:
     path = tmp_path / "truth.json"
     path.write_text(text)

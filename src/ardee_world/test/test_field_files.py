@@ -158,6 +158,7 @@ def test_bad_input_writes_nothing_and_keeps_the_earlier_field(
         "x_m,y_m,plot\n0,0,99999999999999999999\n",
         "x_m,y_m,row\n0,0,9007199254740993\n",
         "x_m,y_m,row\n0,0,-1\n",
+        "x_m,y_m,row\n0,0,0\n1,0,0\n0,0,1\n",
     ],
 )
 def test_bad_plans_name_the_file(generate_field, tmp_path, text):

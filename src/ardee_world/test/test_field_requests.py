@@ -105,6 +105,10 @@ def test_rows_of_a_users_own_plan(generate_field, tmp_path):
         ("centers: [[1, 2], [3]]", "centers: expected a list of 1 to"),
         ("centers: [[1, true]]", "centers: expected a list of 1 to"),
         ("centers: [[99999999999999999999, 0]]", "pairs [x, y] in m, from -100000 to 100000"),
+        (
+            "centers: [[0, 0], [1, 2], [0, 0.00001]]",
+            "centers[2]: found (0, 1e-05), which is the place of field: centers[0] too",
+        ),
         ("centers: [[.nan, 0]]", "centers: expected a list of 1 to"),
         ("doubles: 1" + 400 * "0", "expected 0 to 1"),
         ("world_pose: [1e6, 0, 0]", "world_pose: found [1000000.0, 0, 0], expected -100000 to"),

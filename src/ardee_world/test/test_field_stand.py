@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
+from ardee_world.centres import read_centres
 from ardee_world.field_config import Clutter, FieldConfig, Plots, RowShape, Stand
 from ardee_world.field_layout import generate
 
@@ -199,3 +200,49 @@ def test_noise_follows_bent_rows(pool):
 def test_an_empty_clutter_costs_no_model(pool):
     config = dataclasses.replace(FieldConfig(), clutter=Clutter(weed_density_per_m2=0.0))
     assert generate(config, pool, 1).clutter == ()
+
+
+def _own_rows(tmp_path, direction, plants=2000):
+    """A plan of two rows that the file interleaves, in a direction of their own."""
+    along, left = np.array(direction), np.array([-direction[1], direction[0]])
+    lines = ["x_m,y_m,row"]
+    for place in range(plants):
+        for row in range(2):
+            x, y = 0.2 * place * along + 0.8 * row * left
+            lines.append(f"{x:.4f},{y:.4f},{row}")
+    path = tmp_path / "own.csv"
+    path.write_text("\n".join(lines) + "\n")
+    return read_centres(path)
+
+
+def test_gaps_of_interleaved_rows_are_whole_and_within_one_row(pool, tmp_path):
+    plan = _own_rows(tmp_path, (0.0, -1.0), plants=50)
+    config = FieldConfig(stand=Stand(gaps=4, gap_length_m=0.5), **CERTAIN)
+    layout = generate(config, pool, 1, centres=plan)
+    missing = np.setdiff1d(np.arange(100), layout.index)
+    by_row = [plan.place[missing[plan.row[missing] == row]] for row in range(2)]
+    runs = [
+        run
+        for places in by_row
+        for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1)
+    ]
+    # 0.5 m at the planned spacing of 0.166 m are 3 plants
+    assert [len(run) for run in runs if len(run)] == [3, 3, 3, 3] and len(layout.gaps) == 4
+    assert sorted(i for gap in layout.gaps for i in gap.places) == missing.tolist()
+
+
+@pytest.mark.parametrize("direction", [(1.0, 0.0), (0.6, -0.8)])
+def test_doubles_and_placement_noise_of_own_rows_turn_with_them(pool, tmp_path, direction):
+    plan = _own_rows(tmp_path, direction)
+    stand = Stand(doubles=0.5, double_spacing_m=0.03)
+    noise = {"noise_covariance_m2": (1e-4, 0.0, 9e-4)}  # across, and three times as far along
+    layout = generate(FieldConfig(stand=stand, **noise, **CERTAIN), pool, 1, centres=plan)
+    twins = layout.number >= 4000
+    beside = layout.position_m[twins] - layout.position_m[layout.number[twins] - 4000]
+    expected = 0.03 * np.array([*direction, 0.0])
+    np.testing.assert_allclose(beside, np.tile(expected, (twins.sum(), 1)), atol=1e-12)
+    offsets = layout.position_m[~twins, :2] - plan.centres_m
+    along = offsets @ direction
+    across = offsets @ (-direction[1], direction[0])
+    assert stats.kstest(along / 0.03, "norm").pvalue > RISK
+    assert stats.kstest(across / 0.01, "norm").pvalue > RISK

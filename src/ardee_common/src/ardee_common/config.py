@@ -110,6 +110,8 @@ def value_of(cls: type, field: dataclasses.Field, mapping: Mapping, key: str) ->
         except ValueError:
             expected = field.metadata["expected"]
             raise mapping.error(key, f"{key}: found {value!r}, expected {expected}") from None
+        except GeneratorError as error:  # which says itself what was expected
+            raise mapping.error(key, f"{key}: {error}") from None
     expected = problem(cls, field, value)
     if expected:
         raise mapping.error(key, f"{key}: found {value!r}, expected {expected}")

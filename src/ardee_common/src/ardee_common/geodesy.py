@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Local metres to latitude and longitude and back, by the radii of curvature of WGS-84; good to mm within 1 km."""
+"""Local metres to latitude and longitude and back, by the radii of curvature of WGS-84.
+
+This is the flat projection of the simulator's GPS, with which truth agrees; 1 km off it is within about 0.3 m.
+"""
 
 from typing import Tuple
 

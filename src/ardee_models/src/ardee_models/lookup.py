@@ -28,19 +28,25 @@ class CropModel:
     stage: str = ""
 
 
+def own_models() -> Path:
+    """The folder in the user's home where Gazebo and the simulator look for models."""
+    return Path.home() / ".gazebo" / "models"
+
+
 def search_path(extra: Sequence[Path] = ()) -> List[Path]:
-    """Folders of models: `extra`, then GAZEBO_MODEL_PATH."""
+    """Folders of models: `extra`, then GAZEBO_MODEL_PATH, then the one in the user's home."""
     entries = os.environ.get("GAZEBO_MODEL_PATH", "").split(":")
-    return [*extra, *(Path(entry) for entry in entries if entry)]
+    return [*extra, *(Path(entry) for entry in entries if entry), own_models()]
 
 
 def find_model(name: str, folders: Sequence[Path]) -> Path:
     """The first folder/name that is a model directory."""
+    if name in (".", "..") or "/" in name:
+        raise GeneratorError(f"model {name!r}: expected the name of a folder, not a path")
     for folder in folders:
         if (folder / name / "model.config").is_file():
             return folder / name
-    looked = ":".join(map(str, folders)) or "nothing (GAZEBO_MODEL_PATH is empty)"
-    raise GeneratorError(f"model {name!r}: not found, looked in {looked}")
+    raise GeneratorError(f"model {name!r}: not found, looked in {':'.join(map(str, folders))}")
 
 
 def sdf_root(model: Path) -> ElementTree.Element:
@@ -54,7 +60,8 @@ def sdf_root(model: Path) -> ElementTree.Element:
         raise GeneratorError(f"{path}: not valid XML: {error}") from error
 
 
-def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) -> List[float]:
+def numbers(element: ElementTree.Element, tag: str, count: int, where: Path) -> List[float]:
+    """Finite numbers that the text below a tag of a model's SDF holds."""
     text = element.findtext(tag, "")
     try:
         values = [float(word) for word in text.split()]
@@ -68,7 +75,7 @@ def _numbers(element: ElementTree.Element, tag: str, count: int, where: Path) ->
 
 
 def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
-    """Figures of a crop model from its metrics file, else from the cylinder it collides with."""
+    """Figures of a crop model from its metrics file, else from the cylinder it collides with, and then unlabelled."""
     model = find_model(name, folders)
     path = model / METRICS_FILE
     if not path.is_file():
@@ -78,10 +85,10 @@ def crop_model(name: str, folders: Sequence[Path]) -> CropModel:
                 f"{model}: found neither {METRICS_FILE} nor a collision cylinder to tell its height"
             )
         height, radius = (
-            _numbers(cylinder, "length", 1, model)[0],
-            _numbers(cylinder, "radius", 1, model)[0],
+            numbers(cylinder, "length", 1, model)[0],
+            numbers(cylinder, "radius", 1, model)[0],
         )
-        data = {"height_m": height, "stalk_radius_m": radius, "label": 1}
+        data = {"height_m": height, "stalk_radius_m": radius, "label": 0}
         species = stage = ""
     else:
         try:
@@ -129,7 +136,7 @@ def terrain_model(name: str, folders: Sequence[Path]) -> Terrain:
     if heightmap is None:
         raise GeneratorError(f"{model}/model.sdf: no <heightmap> in a collision")
     uri = heightmap.findtext("uri", "").strip()
-    size, pos = _numbers(heightmap, "size", 3, model), _numbers(heightmap, "pos", 3, model)
+    size, pos = numbers(heightmap, "size", 3, model), numbers(heightmap, "pos", 3, model)
     image_path = resource(uri, [model.parent, *folders])
     if size[0] != size[1] or size[0] <= 0 or pos[:2] != [0.0, 0.0]:
         raise GeneratorError(

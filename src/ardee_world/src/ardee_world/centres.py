@@ -9,6 +9,7 @@ import numpy as np
 
 from ardee_common.errors import GeneratorError
 from ardee_world.field_config import FAR_M, MAX_PLANTS
+from ardee_world.field_layout import DECIMALS
 from ardee_world.plots import Plan, Row
 
 _MAX_PLOT = 100_000  # limit of plot and row numbers
@@ -18,15 +19,37 @@ _COLUMNS = (
 )
 
 
+def _directions(points_m: np.ndarray) -> np.ndarray:
+    """Returns the unit vectors of a row at its points, from each one's neighbours; -y for a row of one point."""
+    if len(points_m) == 1:
+        return np.array([[0.0, -1.0]])
+    tangents = np.gradient(points_m, axis=0)
+    return tangents / np.linalg.norm(tangents, axis=1)[:, None]
+
+
+def _check_distinct(points_m: np.ndarray, places: Sequence[str]) -> None:
+    """Raises GeneratorError for the first stalk that stands where an earlier one does, to 0.1 mm as in the files."""
+    rounded = np.round(points_m, DECIMALS)
+    _, first, inverse = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
+    again = np.flatnonzero(first[inverse.ravel()] != np.arange(len(points_m)))
+    if len(again):
+        x, y = points_m[again[0]]
+        raise GeneratorError(
+            f"{places[again[0]]}: found ({x:g}, {y:g}), which is the place of"
+            f" {places[first[inverse.ravel()[again[0]]]]} too, expected each stalk once"
+        )
+
+
 def plan_of(points_m: np.ndarray, plot: np.ndarray, row: np.ndarray) -> Plan:
     """Plan of centres in the field's frame. Plants of one plot and row form a row, in the order given."""
     place = np.zeros(len(points_m), dtype=int)
-    along = np.tile([0.0, -1.0], (len(points_m), 1))
+    along = np.empty_like(points_m)
     pairs = np.column_stack((plot, row))
     _, inverse, counts = np.unique(pairs, axis=0, return_inverse=True, return_counts=True)
     rows = []
     for members in np.split(np.argsort(inverse.ravel(), kind="stable"), np.cumsum(counts)[:-1]):
         place[members] = np.arange(len(members))
+        along[members] = _directions(points_m[members])
         rows.append(Row(int(plot[members[0]]), int(row[members[0]]), points_m[members]))
     return Plan(points_m, plot, row, place, along, tuple(rows))
 
@@ -48,7 +71,7 @@ def _line(path: Path, number: int, entry: dict) -> tuple:
 
 def read_centres(path: Path) -> Plan:
     """Reads columns x_m and y_m, in the field's frame; without columns plot and row, all stalks form one row."""
-    lines = []
+    lines, places = [], []
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
@@ -60,6 +83,7 @@ def read_centres(path: Path) -> Plan:
                 )
             for entry in reader:
                 lines.append(_line(path, reader.line_num, entry))
+                places.append(f"{path}: line {reader.line_num}")
                 if len(lines) > MAX_PLANTS:
                     break
     except OSError as error:
@@ -71,7 +95,9 @@ def read_centres(path: Path) -> Plan:
             f"{path}: found {len(lines)} stalk centres, expected 1 to {MAX_PLANTS}"
         )
     x, y, plot, row = zip(*lines)
-    return plan_of(np.column_stack((x, y)), np.array(plot), np.array(row))
+    points = np.column_stack((x, y))
+    _check_distinct(points, places)
+    return plan_of(points, np.array(plot), np.array(row))
 
 
 def listed_centres(points: Sequence, where: str) -> Plan:
@@ -87,5 +113,6 @@ def listed_centres(points: Sequence, where: str) -> Plan:
         raise GeneratorError(
             f"{where}: centers: expected a list of 1 to {MAX_PLANTS} pairs [x, y] in m, from -{FAR_M:g} to {FAR_M:g}"
         )
-    zeros = np.zeros(len(points), dtype=int)
-    return plan_of(np.array(points, dtype=float), zeros, zeros)
+    zeros, centres = np.zeros(len(points), dtype=int), np.array(points, dtype=float)
+    _check_distinct(centres, [f"{where}: centers[{number}]" for number in range(len(points))])
+    return plan_of(centres, zeros, zeros)

@@ -150,7 +150,7 @@ def generate(
     gaps = draw_gaps(plan, stand, config.plots.stalk_spacing_m, streams.of("gaps"))
     sown = np.ones(total, bool)
     for gap in gaps:
-        sown[gap.places()] = False
+        sown[gap.places] = False
     draws = [_draw_plants(config, pool, sown, centre, streams)]
     if stand.doubles > 0.0:
         twice = sown & (streams.of("doubles").random(total) < stand.doubles)

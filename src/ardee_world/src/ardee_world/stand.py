@@ -15,14 +15,9 @@ from ardee_world.streams import Streams
 
 @dataclass(frozen=True)
 class Gap:
-    """Consecutive places of a row where nothing was sown; `first` indexes the plan."""
+    """Consecutive places of a row where nothing was sown, as indices into the plan."""
 
-    first: int
-    count: int
-
-    def places(self) -> slice:
-        """Slice of the plan's places that the gap covers."""
-        return slice(self.first, self.first + self.count)
+    places: np.ndarray
 
 
 def draw_gaps(plan: Plan, stand: Stand, stalk_spacing_m: float, rng: np.random.Generator) -> tuple:
@@ -31,22 +26,23 @@ def draw_gaps(plan: Plan, stand: Stand, stalk_spacing_m: float, rng: np.random.G
         return ()
     count = max(int(round(stand.gap_length_m / stalk_spacing_m)), 1)
     total = len(plan.centres_m)
-    new_row = (np.diff(plan.row) != 0) | (np.diff(plan.plot) != 0)
+    order = np.lexsort((plan.place, plan.row, plan.plot))  # a user's rows may be interleaved
+    new_row = (np.diff(plan.row[order]) != 0) | (np.diff(plan.plot[order]) != 0)
     starts = np.concatenate(([0], np.flatnonzero(new_row) + 1))
     ends = np.append(starts[1:], total)
     row_of = np.repeat(np.arange(len(starts)), ends - starts)
     place = np.arange(total)
     candidates = place[(place > starts[row_of]) & (place + count < ends[row_of])]
     taken = np.zeros(total, bool)
-    gaps = []
+    firsts = []
     for first in rng.permutation(candidates).tolist():
         if not taken[first - 1 : first + count + 1].any():
             taken[first : first + count] = True
-            gaps.append(Gap(first, count))
-            if len(gaps) == stand.gaps:
-                return tuple(sorted(gaps, key=lambda gap: gap.first))
+            firsts.append(first)
+            if len(firsts) == stand.gaps:
+                return tuple(Gap(order[first : first + count]) for first in sorted(firsts))
     raise GeneratorError(
-        f"gaps: found {stand.gaps} of {count} plants each, expected at most about {len(gaps)} in these rows"
+        f"gaps: found {stand.gaps} of {count} plants each, expected at most about {len(firsts)} in these rows"
     )
 
 

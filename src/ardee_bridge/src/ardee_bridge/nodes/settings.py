@@ -3,7 +3,7 @@
 import dataclasses
 import ipaddress
 from dataclasses import MISSING, dataclass
-from typing import Any, Callable, ClassVar, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, ClassVar, List, NamedTuple, Optional, Tuple
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import MAX_PAYLOAD
@@ -47,15 +47,21 @@ def _address(value: Any) -> str:
     return str(ipaddress.IPv4Address(_text(value)))
 
 
-def _port(text: str) -> Optional[int]:
-    if text and not 1 <= int(text) <= 65535:
+def _peer(text: str) -> Tuple[ipaddress.IPv4Network, Optional[int]]:
+    host, colon, port = text.partition(":")
+    if colon and not 1 <= int(port) <= 65535:
         raise ValueError(text)
-    return int(text) if text else None
+    network = ipaddress.IPv4Network(host, strict=False)
+    if str(network.network_address) != host.partition("/")[0]:
+        raise GeneratorError(
+            f"found {text!r}, an address in a network, expected the network {network},"
+            f" or the address {host.partition('/')[0]} alone"
+        )
+    return network, int(port) if colon else None
 
 
 def _peers(values: Any) -> Peers:
-    parts = [value.partition(":") for value in _all_texts(values)]
-    return Peers(tuple((ipaddress.IPv4Network(host), _port(port)) for host, _, port in parts))
+    return Peers(tuple(map(_peer, _all_texts(values))))
 
 
 def _type_mask(values: Any) -> int:

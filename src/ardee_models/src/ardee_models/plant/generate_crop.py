@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Optional, Sequence
 
 from ardee_common.cli import Parser, run, seed_number
-from ardee_models.lookup import search_path
+from ardee_models.lookup import own_models, search_path
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import known_species, load_species
 from ardee_models.plant.stages import describe_stages
@@ -23,11 +23,15 @@ def stages_help() -> str:
 
 
 def default_output() -> Path:
-    """The first writable folder of GAZEBO_MODEL_PATH, where the model is found at once; else the current folder."""
+    """The first writable folder of GAZEBO_MODEL_PATH that no build made, else the one in the user's home.
+
+    Models are found in both at once. A catkin space, marked by its file .catkin, goes when it is built anew.
+    """
     for folder in search_path():
-        if folder.is_dir() and os.access(folder, os.W_OK):
+        is_built = any((parent / ".catkin").exists() for parent in folder.resolve().parents)
+        if folder.is_dir() and os.access(folder, os.W_OK) and not is_built:
             return folder
-    return Path.cwd()
+    return own_models()
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -52,7 +56,7 @@ def _parser() -> argparse.ArgumentParser:
         "--output",
         type=Path,
         help="folder of models to write it in (default: the first of GAZEBO_MODEL_PATH that can be"
-        " written, else the current folder)",
+        " written and that no build made, else ~/.gazebo/models)",
     )
     return parser
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import List, Optional, Sequence
 
 from ardee_common.cli import Parser, positive_number, run, whole_in
+from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.plant.generate_crop import default_output
 from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.plant.species import known_species, load_species
@@ -22,7 +23,7 @@ def prepare(args: argparse.Namespace) -> List[Path]:
     label = args.label
     if label is None:
         label = load_species(args.species)[0].label if args.species in known_species() else 0
-    parts = read_mesh(args.mesh, args.up, args.scale)
+    parts = read_mesh(args.mesh, args.up, args.scale, _say)
     plants = [parts] if args.whole else split_plants(parts, args.gap)
     facts = {
         "species": args.species,
@@ -34,15 +35,18 @@ def prepare(args: argparse.Namespace) -> List[Path]:
     return write_plants(plants, args.name, args.output or default_output(), args.stem, facts)
 
 
+def _say(text: str) -> None:
+    print(f"prepare_crop: {text}", file=sys.stderr)
+
+
 def warn_if_lying(model: Path, given: str) -> None:
     """Warns of a plant much wider than high, which has most likely been read with the wrong axis up."""
     metrics = json.loads((model / METRICS_FILE).read_text(encoding="utf-8"))
     height_m, extent_m = metrics["height_m"], metrics["lateral_extent_m"]
     if extent_m > _FLAT * height_m:
-        print(
-            f"prepare_crop: warning: {model.name} is {height_m:g} m high and reaches {extent_m:g} m to the side;"
-            f" if it lies, turn it by another --up than {given}",
-            file=sys.stderr,
+        _say(
+            f"warning: {model.name} is {height_m:g} m high and reaches {extent_m:g} m to the side;"
+            f" if it lies, turn it by another --up than {given}"
         )
 
 
@@ -59,9 +63,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--output", type=Path, help="folder of models, as for generate_crop")
     parser.add_argument(
         "--up",
-        choices=("auto", "x", "y", "z"),
+        choices=UPS,
         default="auto",
-        help="the file's up axis (default auto: as a .dae says, y for .obj and .gltf, else z)",
+        help=f"the file's up axis (default auto: {UP_RULE})",
     )
     parser.add_argument(
         "--scale",

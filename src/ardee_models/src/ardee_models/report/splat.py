@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import List, Tuple
 
-import collada
 import numpy as np
-from PIL import Image
 
-from ardee_common.errors import GeneratorError
+from ardee_models.prepare.read import read_mesh
 
 _SAMPLES_PER_PIXEL = 2.2  # mean number of points on a pixel of a triangle seen from the front
 # steps of a sequence that fills the unit square evenly: 1/g and 1/g^2 with g^3 = g + 1
@@ -29,29 +27,15 @@ class Part:
     texture: np.ndarray
 
 
-def _texture(primitive: object, folder: Path) -> np.ndarray:
-    diffuse = getattr(primitive.material.effect, "diffuse", None)
-    if not isinstance(diffuse, collada.material.Map):
-        colour = diffuse if isinstance(diffuse, tuple) else (0.8, 0.8, 0.8)
-        return np.full((1, 1, 3), np.array(colour[:3]) * 255.0)
-    with Image.open(folder / diffuse.sampler.surface.image.path) as image:
-        return np.asarray(image.convert("RGB"), dtype=float)
-
-
 def read_dae(dae: Path) -> List[Part]:
-    """Triangles and textures of a COLLADA file."""
+    """Triangles and textures of a mesh file."""
     parts = []
-    try:
-        for bound in collada.Collada(str(dae)).scene.objects("geometry"):
-            for primitive in bound.primitives():
-                corners = primitive.vertex[primitive.vertex_index]
-                texcoords = np.zeros((*corners.shape[:2], 2))
-                if primitive.texcoordset:
-                    texcoords = primitive.texcoordset[0][primitive.texcoord_indexset[0]]
-                texture = _texture(primitive, dae.parent)
-                parts.append(Part(bound.original.name, corners, texcoords, texture))
-    except (OSError, collada.common.DaeError) as error:
-        raise GeneratorError(f"{dae}: cannot be drawn: {error}") from error
+    for part in read_mesh(dae, "auto", None, lambda text: None):
+        corners = part.mesh.vertices[part.mesh.triangles]
+        texture = np.full((1, 1, 3), 255.0 * np.array(part.colour))
+        if part.image is not None:
+            texture = np.asarray(part.image.convert("RGB"), dtype=float)
+        parts.append(Part(part.name, corners, part.mesh.texcoords[part.mesh.triangles], texture))
     return parts
 
 

@@ -1,25 +1,38 @@
 # SPDX-License-Identifier: MIT
 """Makes terrain of a digital elevation model: ESRI ASCII grid (.asc) or GeoTIFF, holes refused or filled."""
 
+import logging
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Optional
+from typing import Optional, Tuple
 
 import numpy as np
-from PIL import Image
-from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
-from scipy.ndimage import binary_dilation
+import pyproj
+import rasterio
+from rasterio.errors import NotGeoreferencedWarning, RasterioError
+from rasterio.fill import fillnodata
+from scipy.ndimage import map_coordinates
 
 from ardee_common.errors import GeneratorError
-from ardee_models.terrain.grey_image import MAX_SIDE_PX, open_image
+from ardee_models.terrain.grey_image import MAX_SIDE_PX
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.image import Say, fitting_samples, level_at_origin, resample
 
 _LARGEST_M = 9000.0  # ground beyond this height or depth points to a mistaken unit or NODATA value
-_HEADER = ("ncols", "nrows", "cellsize")
-_PIXEL_SCALE, _NODATA, _GEO_KEYS = 33550, 42113, 34735  # GeoTIFF 1.1, tags; GDAL's NODATA tag
-_MODEL_TYPE_KEY, _GEOGRAPHIC = 1024, 2
-_METRES_A_DEGREE = 111_320.0  # degree of latitude, or of longitude at the equator
+_LARGEST_DEGREES = (
+    0.5  # of a model in degrees: cells of a larger one differ by more than 1 % in width
+)
+_US_FOOT_M = 1200.0 / 3937.0
+# length of a unit of heights [m], by GDAL's names of units and those of the command
+UNITS_M = {"m": 1.0, "ft": 0.3048, "us-ft": _US_FOOT_M}
+_NAMES = {
+    **UNITS_M,
+    **dict.fromkeys(("metre", "meter", "metres", "meters"), 1.0),
+    **dict.fromkeys(("foot", "feet", "international foot"), 0.3048),
+    **dict.fromkeys(("us survey foot", "us survey feet", "ussft", "foot_us"), _US_FOOT_M),
+}
+logging.getLogger("rasterio").addHandler(logging.NullHandler())  # its errors are raised, too
 
 
 @dataclass(frozen=True)
@@ -31,112 +44,108 @@ class Elevation:
     cell_y_m: float
 
 
-def _read_asc_header(lines: list, path: Path) -> Dict[str, float]:
-    header: Dict[str, float] = {}
-    for number, line in enumerate(lines[:6], 1):
-        words = line.split()
-        if not words or not words[0][0].isalpha():
-            break
-        try:
-            key, value = words
-            header[key.lower()] = float(value)
-        except ValueError as error:
-            raise GeneratorError(
-                f"{path}:{number}: found {line.strip()!r}, expected a key and a number"
-            ) from error
-    missing = [key for key in _HEADER if key not in header]
-    if missing:
-        raise GeneratorError(
-            f"{path}: found no {missing[0]!r} in the header, expected an ESRI ASCII grid"
-        )
-    return header
-
-
-def read_asc(path: Path) -> Elevation:
-    """Reads an ESRI ASCII grid."""
+def _check_words(path: Path) -> None:
+    """Raises GeneratorError for a word of an ESRI ASCII grid that is no number: GDAL reads it as 0."""
     try:
         lines = path.read_text(encoding="ascii").splitlines()
-    except OSError as error:
-        raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
+    except (OSError, UnicodeDecodeError) as error:
         raise GeneratorError(f"{path}: cannot be read as text: {error}") from error
-    header = _read_asc_header(lines, path)
-    columns, rows, cell = int(header["ncols"]), int(header["nrows"]), header["cellsize"]
-    if not (2 <= columns <= MAX_SIDE_PX and 2 <= rows <= MAX_SIDE_PX and 0.0 < cell < 1e5):
-        raise GeneratorError(
-            f"{path}: found {columns} x {rows} cells of {cell}, expected 2 to {MAX_SIDE_PX} a side"
-        )
-    body = lines[len(header) :]
-    if len(body) < rows:
-        raise GeneratorError(f"{path}: found {len(body)} rows, expected {rows}")
-    heights = np.empty((rows, columns))
-    for row in range(rows):
+    for number, line in enumerate(lines, 1):
+        words, kind = line.split(), float
+        if number <= 7 and words and words[0][0].isalpha():  # a key of the header
+            kind = int if words[0].lower() in ("ncols", "nrows") else float
+            words = words[1:] or [""]
         try:
-            values = np.array(body[row].split(), dtype=float)
-        except ValueError:
-            values = np.empty(0)
-        if len(values) != columns:
+            for word in words:
+                kind(word)
+        except ValueError as error:
             raise GeneratorError(
-                f"{path}:{len(header) + row + 1}: expected {columns} numbers, found {body[row][:60]!r}"
+                f"{path}:{number}: found {line.strip()[:60]!r}, expected numbers"
+            ) from error
+
+
+def _ground_cells_m(data: rasterio.DatasetReader, path: Path, say: Say) -> Tuple[float, float]:
+    """Distances of cell centres in metres, by the file's coordinate reference system."""
+    cell_x, cell_y = data.res
+    if data.crs is None:
+        say(f"{path}: has no coordinate reference system, so its cells are taken for metres")
+        return cell_x, cell_y
+    if not data.crs.is_geographic:
+        unit_m = data.crs.linear_units_factor[1]
+        return cell_x * unit_m, cell_y * unit_m
+    if max(data.width * cell_x, data.height * cell_y) > _LARGEST_DEGREES:
+        raise GeneratorError(
+            f"{path}: found {data.width * cell_x:g} x {data.height * cell_y:g} degrees, expected at most"
+            f" {_LARGEST_DEGREES:g}, or a projected coordinate reference system"
+        )
+    longitude, latitude = data.xy(0.5 * (data.height - 1), 0.5 * (data.width - 1))
+    ellipsoid = pyproj.CRS.from_user_input(data.crs).get_geod()
+    _, _, x_m = ellipsoid.inv(
+        longitude - 0.5 * cell_x, latitude, longitude + 0.5 * cell_x, latitude
+    )
+    _, _, y_m = ellipsoid.inv(
+        longitude, latitude - 0.5 * cell_y, longitude, latitude + 0.5 * cell_y
+    )
+    say(f"{path}: is in degrees; its cells are {x_m:.6g} x {y_m:.6g} m at its middle")
+    return x_m, y_m
+
+
+def _height_unit_m(data: rasterio.DatasetReader, path: Path, given: Optional[str]) -> float:
+    """Length of the unit of heights: as given, as the band says or the vertical reference, else metres."""
+    if given is not None:
+        return UNITS_M[given]
+    name = (data.units[0] or "").strip()
+    if name:
+        if name.lower() not in _NAMES:
+            raise GeneratorError(
+                f"{path}: found heights in {name!r}, expected metres or feet; --dem-unit says their unit"
             )
-        heights[row] = values
-    heights[heights == header.get("nodata_value", -9999.0)] = np.nan
-    return Elevation(heights, cell, cell)
-
-
-def _is_geographic(keys: tuple) -> bool:
-    entries = [keys[i : i + 4] for i in range(4, len(keys) - 3, 4)]
-    return any(key == _MODEL_TYPE_KEY and value == _GEOGRAPHIC for key, _, _, value in entries)
-
-
-def _geotiff(image: Image.Image, path: Path) -> Elevation:
-    tags = getattr(image, "tag_v2", None)
-    if tags is None or _PIXEL_SCALE not in tags:
+        return _NAMES[name.lower()]
+    axes = pyproj.CRS.from_user_input(data.crs).axis_info if data.crs else []
+    if len(axes) == 3:
+        return float(axes[2].unit_conversion_factor)
+    if axes and data.crs.is_projected and data.crs.linear_units_factor[1] != 1.0:
         raise GeneratorError(
-            f"{path}: found no pixel scale (tag {_PIXEL_SCALE}), expected a GeoTIFF"
+            f"{path}: found cells in {axes[0].unit_name} and heights without a unit,"
+            f" expected --dem-unit {', '.join(UNITS_M)}"
         )
-    if len(image.getbands()) != 1 or max(image.size) > MAX_SIDE_PX or min(image.size) < 2:
+    return 1.0
+
+
+def _read(data: rasterio.DatasetReader, path: Path, unit: Optional[str], say: Say) -> Elevation:
+    if data.count != 1 or max(data.shape) > MAX_SIDE_PX or min(data.shape) < 2:
         raise GeneratorError(
-            f"{path}: found {image.width} x {image.height} pixels of {len(image.getbands())} bands, expected one band"
+            f"{path}: found {data.width} x {data.height} cells of {data.count} bands,"
+            f" expected one band of 2 to {MAX_SIDE_PX} a side"
         )
-    heights = np.array(image).astype(float)
+    across = data.transform
+    if across.is_identity or across.b or across.d or across.a <= 0.0:
+        raise GeneratorError(
+            f"{path}: found the transform {tuple(across)[:6]}, expected columns to the east and rows to"
+            " the north or south"
+        )
+    cell_x_m, cell_y_m = _ground_cells_m(data, path, say)
+    unit_m = _height_unit_m(data, path, unit)
+    heights = data.read(1, masked=True).astype(float).filled(np.nan)
+    heights = (heights * data.scales[0] + data.offsets[0]) * unit_m
+    return Elevation(heights if across.e < 0.0 else heights[::-1], cell_x_m, cell_y_m)
+
+
+def read_elevation(path: Path, unit: Optional[str], say: Say) -> Elevation:
+    """Reads an ESRI ASCII grid or a GeoTIFF of one band; `unit` is that of heights, if the file is not to say it."""
+    is_text = path.suffix.lower() in (".asc", ".txt", ".agr")
+    if not path.is_file():
+        raise GeneratorError(f"{path}: cannot be read: no such file")
+    if is_text:
+        _check_words(path)
+    driver = "AAIGrid" if is_text else "GTiff"
     try:
-        nodata = float(str(tags.get(_NODATA, "nan")).strip("\0 "))
-        scale = [float(v) for v in tags[_PIXEL_SCALE][:2]]
-    except (ValueError, TypeError) as error:
-        raise GeneratorError(
-            f"{path}: found a NODATA value or pixel scale that is not a number"
-        ) from error
-    heights[heights == nodata] = np.nan
-    if _is_geographic(tuple(tags.get(_GEO_KEYS, ()))):
-        tie = tags.get(33922, (0, 0, 0, 0, 0, 0))
-        latitude = np.radians(float(tie[4]) - 0.5 * scale[1] * image.height)
-        scale = [scale[0] * _METRES_A_DEGREE * float(np.cos(latitude)), scale[1] * _METRES_A_DEGREE]
-    return Elevation(heights, scale[0], scale[1])
-
-
-def read_geotiff(path: Path) -> Elevation:
-    """Reads a GeoTIFF of one band; degrees become metres at the middle latitude."""
-    with open_image(path, "GeoTIFF") as image:
-        return _geotiff(image, path)
-
-
-def fill_holes(heights_m: np.ndarray) -> np.ndarray:
-    """Fills holes linearly from their rims, and at the edge of the model by the nearest height."""
-    holes = np.isnan(heights_m)
-    if not holes.any():
-        return heights_m
-    rim = binary_dilation(holes, np.ones((3, 3))) & ~holes
-    known, wanted = np.argwhere(rim), np.argwhere(holes)
-    filled = heights_m.copy()
-    values = np.full(len(wanted), np.nan)
-    if len(known) >= 4 and np.ptp(known, axis=0).min() > 0:
-        values = LinearNDInterpolator(known, heights_m[rim])(wanted)
-    left = np.isnan(values)
-    if left.any():
-        values[left] = NearestNDInterpolator(known, heights_m[rim])(wanted[left])
-    filled[holes] = values
-    return filled
+        with rasterio.Env(), warnings.catch_warnings():
+            warnings.simplefilter("ignore", NotGeoreferencedWarning)
+            with rasterio.open(path.resolve(), driver=driver) as data:
+                return _read(data, path, unit, say)
+    except (RasterioError, OSError, pyproj.exceptions.CRSError, ValueError) as error:
+        raise GeneratorError(f"{path}: not a readable elevation model: {error}") from error
 
 
 def _middle_square(elevation: Elevation) -> Elevation:
@@ -153,18 +162,20 @@ def _middle_square(elevation: Elevation) -> Elevation:
         top, left = (rows - count) // 2, (columns - count) // 2
         return Elevation(heights[top : top + count, left : left + count], cell, cell)
     at = np.linspace(-0.5, 0.5, count) * side
-    row = np.clip(0.5 * (rows - 1) + at / elevation.cell_y_m, 0, rows - 1)
-    column = np.clip(0.5 * (columns - 1) + at / elevation.cell_x_m, 0, columns - 1)
-    r, c = np.minimum(row.astype(int), rows - 2), np.minimum(column.astype(int), columns - 2)
-    fr, fc = (row - r)[:, None], (column - c)[None, :]
-    upper = heights[np.ix_(r, c)] * (1 - fc) + heights[np.ix_(r, c + 1)] * fc
-    lower = heights[np.ix_(r + 1, c)] * (1 - fc) + heights[np.ix_(r + 1, c + 1)] * fc
-    return Elevation(upper * (1 - fr) + lower * fr, side / (count - 1), side / (count - 1))
+    place = np.meshgrid(
+        0.5 * (rows - 1) + at / elevation.cell_y_m,
+        0.5 * (columns - 1) + at / elevation.cell_x_m,
+        indexing="ij",
+    )
+    step = side / (count - 1)
+    return Elevation(map_coordinates(heights, place, order=1, mode="nearest"), step, step)
 
 
-def dem_terrain(path: Path, samples: Optional[int], fill: bool, say: Say) -> Terrain:
+def dem_terrain(
+    path: Path, samples: Optional[int], fill: bool, unit: Optional[str], say: Say
+) -> Terrain:
     """The middle square of an elevation model, the ground at its middle being zero."""
-    raw = read_asc(path) if path.suffix.lower() in (".asc", ".txt", ".agr") else read_geotiff(path)
+    raw = read_elevation(path, unit, say)
     heights = np.where(np.isfinite(raw.heights_m), raw.heights_m, np.nan)
     holes = np.isnan(heights)
     if holes.all():
@@ -175,7 +186,7 @@ def dem_terrain(path: Path, samples: Optional[int], fill: bool, say: Say) -> Ter
         if not fill:
             raise GeneratorError(f"{path}: found {text}, expected none; --fill-holes fills them")
         say(f"{path}: filled {text}")
-        heights = fill_holes(heights)
+        heights = fillnodata(np.where(holes, 0.0, heights), ~holes, float(max(holes.shape)))
     if np.abs(heights).max() > _LARGEST_M:
         worst = heights.ravel()[np.abs(heights).argmax()]
         raise GeneratorError(

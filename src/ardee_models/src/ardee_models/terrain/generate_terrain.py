@@ -12,11 +12,12 @@ import numpy as np
 from ardee_common.cli import Parser, run, seed_number
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check
-from ardee_models.terrain.elevation import dem_terrain
+from ardee_models.mesh_file import UP_RULE, UPS
+from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.features import follow
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
 from ardee_models.terrain.image import image_terrain
-from ardee_models.terrain.mesh_terrain import UPS, MeshOptions, read_mesh
+from ardee_models.terrain.mesh_terrain import centred, check_lies, read_mesh
 from ardee_models.terrain.recipe import Look, Surface, read_recipe
 from ardee_models.terrain.terrain_model import write_terrain
 from ardee_models.terrain.terrain_obj import write_mesh_terrain
@@ -29,8 +30,12 @@ _PLAIN = (
 )
 
 
+def _say(text: str) -> None:
+    print(f"generate_terrain: {text}", file=sys.stderr)
+
+
 def _warn(text: str) -> None:
-    print(f"generate_terrain: warning: {text}", file=sys.stderr)
+    _say(f"warning: {text}")
 
 
 def _source_arguments(parser: argparse.ArgumentParser) -> None:
@@ -83,14 +88,21 @@ def make_parser() -> argparse.ArgumentParser:
     )
     shape.add_argument("--fill-holes", action="store_true", help="fill holes of an elevation model")
     shape.add_argument(
-        "--mesh-scale",
-        type=float,
-        default=1.0,
-        metavar="X",
-        help="length of the mesh's unit [m] (default 1)",
+        "--dem-unit",
+        choices=tuple(UNITS_M),
+        help="unit of an elevation model's heights (default: as it says, else m)",
     )
     shape.add_argument(
-        "--mesh-up", choices=UPS, default="auto", help="axis of the mesh that points up"
+        "--mesh-scale",
+        type=float,
+        metavar="X",
+        help="length of the mesh's unit [m] (default: as a .dae says, else 1)",
+    )
+    shape.add_argument(
+        "--mesh-up",
+        choices=UPS,
+        default="auto",
+        help=f"axis of the mesh that points up (default auto: {UP_RULE})",
     )
     surface = parser.add_argument_group("surface")
     for flag, name, text in (
@@ -154,8 +166,9 @@ def make_terrain(args: argparse.Namespace) -> Path:
     surface, look = Surface(), Look()
     if args.mesh:
         _refuse(args, (*plain, "size", "samples", "seed"), "--mesh")
-        ground = read_mesh(args.mesh, MeshOptions(args.mesh_scale, args.mesh_up))
-        return write_mesh_terrain(ground, _surface(args, surface), args.name, args.output)
+        ground = read_mesh(args.mesh, args.mesh_up, args.mesh_scale, _say)
+        check_lies(ground, args.mesh)
+        return write_mesh_terrain(centred(ground), _surface(args, surface), args.name, args.output)
     about: Any = "Field terrain, procedural heightmap"
     if args.recipe:
         _refuse(args, plain, "a recipe")
@@ -169,7 +182,7 @@ def make_terrain(args: argparse.Namespace) -> Path:
         about = "Field terrain, heightmap from an image"
     elif args.dem:
         _refuse(args, (*plain, "seed", "size"), "--dem")
-        terrain = dem_terrain(args.dem, args.samples, args.fill_holes, _warn)
+        terrain = dem_terrain(args.dem, args.samples, args.fill_holes, args.dem_unit, _warn)
         about = "Field terrain, heightmap from an elevation model"
     else:
         terrain = _plain_terrain(args)

@@ -1,79 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""A 3D mesh as terrain (thesis Figure 4.11): read by assimp, as the simulator reads it, turned z upwards, in metres."""
+"""A 3D mesh as terrain (thesis Figure 4.11)."""
 
-import shutil
-import subprocess
-import tempfile
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Optional
 
 import numpy as np
 
 from ardee_common.errors import GeneratorError
+from ardee_models.mesh_file import Say, read_pieces
 from ardee_models.terrain.surface import MeshGround
 
-UPS = ("auto", "y", "z")
-_TIMEOUT_S = 300
-_MAX_BYTES = 1 << 30
 _MAX_TRIANGLES = 5_000_000
-_STL_HEADER_BYTES = 84
-_STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-# formats that assimp turns to y upwards when it reads them
-_Y_UP_FORMATS = (".dae", ".gltf", ".glb")
 
 
-@dataclass(frozen=True)
-class MeshOptions:
-    """Options by which a mesh becomes ground."""
-
-    scale: float = 1.0  # length of the file's unit [m], if the file does not give it
-    up: str = "auto"
-    center: bool = True  # move the middle of its bounds to the origin, and the ground there to zero
-
-
-def _to_stl(path: Path, folder: Path) -> np.ndarray:
-    """Corners (n, 3, 3) of all triangles in the scene, read by a separate process because files may be hostile."""
-    tool = shutil.which("assimp")
-    if tool is None:
+def read_mesh(path: Path, up: str, scale: Optional[float], say: Say) -> MeshGround:
+    """Reads the mesh, with its `up` axis upwards and `scale` metres a unit, and joins equal corners."""
+    if scale is not None and not 1e-6 <= scale <= 1e6:
+        raise GeneratorError(f"mesh scale: found {scale}, expected 1e-6 to 1e6")
+    pieces = read_pieces(path, up, scale, say)
+    corners = np.concatenate([p.vertices_m()[np.asarray(p.geometry.faces)] for p in pieces])
+    if len(corners) > _MAX_TRIANGLES:
         raise GeneratorError(
-            "found no program 'assimp', expected the one of Debian's package assimp-utils"
+            f"{path}: found {len(corners)} triangles, expected at most {_MAX_TRIANGLES}"
         )
-    made = folder / "mesh.stl"
-    command = [tool, "export", str(path.resolve()), str(made), "-fstlb", "-tri", "-ptv"]
-    try:
-        result = subprocess.run(command, capture_output=True, text=True, timeout=_TIMEOUT_S)
-    except subprocess.TimeoutExpired as error:
-        raise GeneratorError(f"{path}: could not be read in {_TIMEOUT_S} s") from error
-    if not made.is_file():
-        lines = [line for line in result.stdout.splitlines() if line.startswith("ERROR")]
-        raise GeneratorError(
-            f"{path}: not a readable mesh: {lines[0] if lines else 'assimp failed'}"
-        )
-    return np.fromfile(made, dtype=_STL, offset=_STL_HEADER_BYTES)["corners"].astype(float)
-
-
-def read_mesh(path: Path, options: MeshOptions) -> MeshGround:
-    """Reads the mesh and joins equal corners."""
-    if not (np.isfinite(options.scale) and 1e-6 <= options.scale <= 1e6):
-        raise GeneratorError(f"mesh scale: found {options.scale}, expected 1e-6 to 1e6")
-    if options.up not in UPS:
-        raise GeneratorError(f"mesh up: found {options.up!r}, expected one of {', '.join(UPS)}")
-    if not path.is_file():
-        raise GeneratorError(f"{path}: cannot be read: no such file")
-    if path.stat().st_size > _MAX_BYTES:
-        raise GeneratorError(f"{path}: found more than {_MAX_BYTES} bytes, expected fewer")
-    with tempfile.TemporaryDirectory() as folder:
-        corners = _to_stl(path, Path(folder))
-    if not 1 <= len(corners) <= _MAX_TRIANGLES or not np.isfinite(corners).all():
-        raise GeneratorError(
-            f"{path}: found {len(corners)} triangles, expected 1 to {_MAX_TRIANGLES} with finite corners"
-        )
-    up = options.up
-    if up == "auto":
-        up = "y" if path.suffix.lower() in _Y_UP_FORMATS else "z"
-    if up == "y":
-        corners = np.stack((corners[..., 0], -corners[..., 2], corners[..., 1]), axis=-1)
-    corners = corners * options.scale
     vertices, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     triangles = index.reshape(-1, 3)
     a, b, c = (triangles[:, k] for k in range(3))
@@ -82,10 +31,22 @@ def read_mesh(path: Path, options: MeshOptions) -> MeshGround:
         raise GeneratorError(
             f"{path}: found no area seen from above, expected a surface that spans x and y"
         )
-    return _centred(ground) if options.center else ground
+    return ground
 
 
-def _centred(ground: MeshGround) -> MeshGround:
+def check_lies(ground: MeshGround, path: Path) -> None:
+    """Raises GeneratorError for ground of which more is seen from a side than from above: it stands on its edge."""
+    a, b, c = (ground.vertices_m[ground.triangles[:, k]] for k in range(3))
+    areas_m2 = 0.5 * np.abs(np.cross(b - a, c - a)).sum(axis=0)
+    if 2.0 * areas_m2[2] < areas_m2.max():
+        raise GeneratorError(
+            f"{path}: found {areas_m2[2]:.3g} m^2 seen from above and {areas_m2.max():.3g} m^2 from a side,"
+            " expected ground that lies; --mesh-up says which axis of the file points up"
+        )
+
+
+def centred(ground: MeshGround) -> MeshGround:
+    """The ground with the middle of its bounds at the origin, and with height zero there."""
     low, high = ground.vertices_m.min(axis=0), ground.vertices_m.max(axis=0)
     middle = 0.5 * (low + high)
     here = float(ground.height_at(middle[:1], middle[1:2])[0])

@@ -9,6 +9,7 @@ from typing import Any, Tuple
 from ardee_common.config import build, read_yaml_lines
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check, option
+from ardee_common.output import check_name
 
 _ANGLE = (-360.0, 360.0)
 _FAR = (-10_000.0, 10_000.0)
@@ -148,6 +149,8 @@ class Recipe:
                 f"terrain look: found {len(self.look.textures)} textures and {len(self.look.blends)} blends, "
                 "expected 1 to 5 textures and a blend between each two"
             )
+        for texture in self.look.textures:
+            check_name(texture)
 
 
 def read_recipe(path: Path) -> Recipe:

@@ -7,7 +7,7 @@ from typing import Optional
 import numpy as np
 from PIL import Image
 
-from ardee_common.output import model_directory
+from ardee_common.output import check_name, model_directory
 from ardee_models.metadata import model_config
 from ardee_models.terrain.height_map import Terrain
 from ardee_models.terrain.recipe import Look, Surface
@@ -97,7 +97,7 @@ def write_terrain(
 ) -> Path:
     """Writes parent/name, replacing an earlier model of that name; returns its path. `surface` overrides friction."""
     pixels, size_z, pos_z = quantise(terrain)
-    relative = f"meshes/heightmaps/{image_stem}.png"
+    relative = f"meshes/heightmaps/{check_name(image_stem)}.png"
     felt = surface or Surface(mu=friction_mu, mu2=friction_mu)
     blends = look.blends[: len(look.textures) - 1]
     sdf = _MODEL.format(

@@ -4,7 +4,9 @@ import re
 from pathlib import Path
 from typing import Callable, List, Sequence, Tuple
 
+from ardee_common.errors import GeneratorError
 from ardee_navigation.evaluation import figures
+from ardee_navigation.evaluation.comparison import read_runs
 from ardee_navigation.evaluation.record import Record, write_csv
 from ardee_navigation.evaluation.run_metrics import Summary, summarize
 
@@ -42,6 +44,10 @@ that a stalk comes within 1 cm of the robot's outline; a plant counts as knocked
 inside it. Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal
 row lines.
 """
+
+
+def _title(scenario: str) -> str:
+    return f"# Row following: {scenario}"
 
 
 def _line(cells: Sequence[str]) -> str:
@@ -131,6 +137,20 @@ def write_run(record: Record, folder: Path) -> None:
     figures.errors(record, folder / f"{stem}_errors.png")
 
 
+def check_folder(folder: Path, scenario: str, seeds: Sequence[int]) -> None:
+    """Raises GeneratorError if a folder holds a report that an experiment over these seeds would erase."""
+    report = folder / "report.md"
+    if not report.is_file():
+        return
+    title, others = report.read_text().split("\n")[0], set(read_runs(folder)) - set(seeds)
+    if title != _title(scenario) or others:
+        what = f"of seed {min(others)}" if others else f"called {title!r}"
+        raise GeneratorError(
+            f"{folder}: found the report of an experiment {what}, which would be erased;"
+            " expected an empty folder, or a report of the same scenario and no other seeds"
+        )
+
+
 def _drop_other_runs(records: Sequence[Record], folder: Path) -> None:
     """Removes runs that an earlier experiment left in the same folder."""
     stems = {_stem(record) for record in records}
@@ -149,7 +169,7 @@ def write_report(records: Sequence[Record], command: str, folder: Path) -> Path:
         pictures += f"\n![Run {record.number}: lidar and perceived distances]({stem}_lidar.png)\n"
         pictures += f"\n![Run {record.number}: errors]({stem}_errors.png)\n"
     _summary_csv(records, folder / "runs.csv")
-    text = f"# Row following: {records[0].scenario}\n\n`{command}`\n\n{_NOTES}\n{table(records)}"
+    text = f"{_title(records[0].scenario)}\n\n`{command}`\n\n{_NOTES}\n{table(records)}"
     text += _latency(records) + _interventions(records) + "\n## Runs\n" + pictures
     path = folder / "report.md"
     path.write_text(text)

@@ -53,9 +53,16 @@ def read_field(path: Path) -> Field:
         raise GeneratorError(f"{path}: cannot be read: {error.strerror}") from error
     except (ValueError, KeyError, TypeError) as error:
         raise GeneratorError(f"{path}: not a field's truth file: {error!r}") from error
-    if any(row.ndim != 2 or row.shape[1] != 2 or len(row) < 2 for row in rows):
-        raise GeneratorError(f"{path}: rows: found one without two points, expected polylines")
-    return Field(rows, Stalks(xy, radius))
+    if any(row.ndim != 2 or row.shape[1] != 2 or not np.isfinite(row).all() for row in rows):
+        raise GeneratorError(f"{path}: rows: found one that is no polyline, expected lists of x, y")
+    # a row of a single plant has no direction: its stalk stays, but no lane runs along it
+    return Field(tuple(row for row in rows if len(distinct(row)) > 1), Stalks(xy, radius))
+
+
+def distinct(line_m: np.ndarray) -> np.ndarray:
+    """Returns the points of a line without those that repeat the one before: they have no direction."""
+    is_new = np.concatenate(([True], np.diff(line_m, axis=0).any(axis=1)))
+    return line_m[is_new]
 
 
 def _arc_m(line_m: np.ndarray) -> np.ndarray:
@@ -79,6 +86,7 @@ class Polyline:
     """A line of straight pieces; its first and last piece go on beyond its ends."""
 
     def __init__(self, points_m: np.ndarray) -> None:
+        points_m = distinct(points_m)
         self.points_m = points_m
         self._step = np.diff(points_m, axis=0)
         self._length_m = np.hypot(*self._step.T)

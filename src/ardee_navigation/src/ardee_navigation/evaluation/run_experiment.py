@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Command `run_experiment`: runs of a scenario, headless, in lockstep or with hardware in the loop, and a report."""
 import argparse
+import fcntl
+import os
 import shutil
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, List, Optional
 
@@ -20,11 +23,19 @@ LARGEST_SEED = 2**31 - 1
 
 
 def _make_folder(output: Path) -> None:
+    """Makes the folder, and locks it until the program ends."""
     try:
         output.mkdir(parents=True, exist_ok=True)
+        handle = os.open(output, os.O_RDONLY)
     except OSError as error:
         raise GeneratorError(
             f"--output: found {str(output)!r}, expected a folder to write in: {error.strerror}"
+        ) from None
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise GeneratorError(
+            f"--output: found {str(output)!r}, where another run_experiment writes, expected a folder of its own"
         ) from None
 
 
@@ -50,9 +61,15 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
         default=1,
         help="seed of the first run [%(default)s]",
     )
-    parser.add_argument("--output", type=Path, help="folder of the report [experiment_output/NAME]")
     parser.add_argument(
-        "--parameters", type=Path, help="YAML file of the row follower's parameters"
+        "--output",
+        type=Path,
+        help="folder of the report [experiment_output/NAME_seeds_FIRST_to_LAST]",
+    )
+    parser.add_argument(
+        "--parameters",
+        type=Path,
+        help="YAML file of the row follower's parameters that differ from the scenario's",
     )
     parser.add_argument(
         "--bot-model", default="tsv1_default.urdf.xacro", help="robot model file [%(default)s]"
@@ -97,8 +114,17 @@ def _one_run(
             return drive(simulation, trial, scenario.parameters, judge, progress)
 
 
+def _scenario(args: argparse.Namespace) -> Scenario:
+    """Returns the named scenario, with the parameters of the file over its own."""
+    scenario = known_scenarios()[args.scenario]
+    if not args.parameters:
+        return scenario
+    return replace(scenario, parameters=read_parameters(args.parameters, scenario.parameters))
+
+
 def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     from ardee_navigation.evaluation.experiment_report import (
+        check_folder,
         in_short,
         table,
         write_report,
@@ -106,11 +132,12 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     )
     from ardee_navigation.evaluation.simulation import Master, robot_urdf
 
-    scenario = known_scenarios()[args.scenario]
-    if args.parameters:
-        scenario = Scenario(scenario.world, scenario.plan, read_parameters(args.parameters))
-    output = args.output or Path("experiment_output") / args.scenario
+    scenario = _scenario(args)
+    seeds = range(args.seed, args.seed + args.runs)
+    usual = f"{args.scenario}_seeds_{seeds[0]}_to_{seeds[-1]}"
+    output = args.output or Path("experiment_output") / usual
     _make_folder(output)
+    check_folder(output, args.scenario, seeds)
     master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
     try:
         urdf = robot_urdf(args.bot_model)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Files of scenarios, start poses and parameters, read without ROS: a target computer reads them too."""
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Dict, Optional
 
@@ -36,6 +36,9 @@ def read_scenarios(path: Path) -> Dict[str, Scenario]:
     return {name: build_group(Scenario, mapping, name) for name in mapping}
 
 
-def read_parameters(path: Path) -> Parameters:
-    """Reads the row follower's parameters from a YAML file with any of their names as keys."""
-    return build(Parameters, read_yaml_lines(path))
+def read_parameters(path: Path, usual: Parameters = Parameters()) -> Parameters:
+    """Reads a YAML file with any names of the row follower's parameters as keys; the others are the usual ones."""
+    mapping = read_yaml_lines(path)
+    for name, value in asdict(usual).items():
+        mapping.setdefault(name, value)
+    return build(Parameters, mapping)

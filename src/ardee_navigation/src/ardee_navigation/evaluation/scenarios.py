@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Scenarios by name, and the parts of a run in one: a fresh field, its truth, a start pose, the ground."""
+import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List
+from typing import Dict, List, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -11,7 +12,7 @@ import rospkg
 from ardee_common.config import build, read_yaml_lines
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import find_model, search_path
-from ardee_models.terrain.ground import ground_model
+from ardee_models.terrain.ground import ground_model, is_ground
 from ardee_navigation.evaluation.row_truth import Field, Pose, read_field
 from ardee_navigation.evaluation.scenario_files import STAND_M, Scenario, Start, read_scenarios
 from ardee_world.generate_field import make_configured
@@ -51,9 +52,30 @@ class Trial:
         return float(np.max(self.ground.height_at(x, y))) + STAND_M
 
 
-def _included_models(world: Path) -> List[str]:
-    uris = (node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri"))
-    return [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+def _included_models(world: Path, folders: List[Path]) -> Dict[str, Path]:
+    """Returns the folders of the models that a world includes, by name; a light of Gazebo's database has none."""
+    try:
+        uris = [node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri")]
+    except ElementTree.ParseError as error:
+        raise GeneratorError(f"{world}: not valid XML: {error}") from error
+    names = [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+    found = {}
+    for name in names:
+        with contextlib.suppress(GeneratorError):
+            found[name] = find_model(name, folders)
+    return found
+
+
+def field_and_terrain(world: Path, folders: List[Path]) -> Tuple[Path, str]:
+    """Returns the folder of the field that a world includes, and the name of the terrain."""
+    models = _included_models(world, folders)
+    fields = [name for name, model in models.items() if (model / "truth.json").is_file()]
+    terrains = [name for name in models if name not in fields and is_ground(models[name])]
+    for what, names in (("fields with truth.json", fields), ("terrains", terrains)):
+        if len(names) != 1:
+            which = f" ({', '.join(names)})" if names else ""
+            raise GeneratorError(f"{world}: found {len(names)} {what}{which}, expected one include")
+    return models[fields[0]], terrains[0]
 
 
 def _sow(plan: Path, seed: int, folder: Path) -> None:
@@ -81,8 +103,8 @@ def prepare(scenario: Scenario, seed: int, folder: Path) -> Trial:
         folder.mkdir(parents=True, exist_ok=True)
         _sow(share / "fields" / scenario.plan, seed, folder)
     folders = search_path([folder] if scenario.plan else [])
-    terrain, field = _included_models(world)
-    truth = read_field(find_model(field, folders) / "truth.json")
+    field, terrain = field_and_terrain(world, folders)
+    truth = read_field(field / "truth.json")
     start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))
     ground = ground_model(terrain, folders)
     models = [folder] if scenario.plan else []

@@ -182,7 +182,11 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
         type=_address,
         help="own address; port 0: any [127.0.0.1:0 if both others are on this computer, else 0.0.0.0:0]",
     )
-    parser.add_argument("--parameters", default="", help="YAML file of the technique's parameters")
+    parser.add_argument(
+        "--parameters",
+        default="",
+        help="YAML file of parameters that differ from the scenario's, or the defaults",
+    )
     parser.add_argument("--scenarios", type=Path, help="scenarios.yaml, for --scenario")
     parser.add_argument("--scenario", help="take the parameters of this scenario")
     parser.add_argument("--log", help="file for a line of JSON a scan; -: standard output")
@@ -192,18 +196,18 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
 
 
 def _parameters(args: argparse.Namespace) -> Parameters:
-    if args.parameters:
-        return read_parameters(Path(args.parameters))
-    if not args.scenario:
-        return Parameters()
-    if not args.scenarios:
-        raise GeneratorError("--scenario: found no --scenarios, expected the file it is in")
-    known = read_scenarios(args.scenarios)
-    if args.scenario not in known:
-        raise GeneratorError(
-            f"--scenario: found {args.scenario!r}, expected one of {', '.join(known)}"
-        )
-    return known[args.scenario].parameters
+    """Returns those of the file, over those of the scenario, over the defaults."""
+    usual = Parameters()
+    if args.scenario:
+        if not args.scenarios:
+            raise GeneratorError("--scenario: found no --scenarios, expected the file it is in")
+        known = read_scenarios(args.scenarios)
+        if args.scenario not in known:
+            raise GeneratorError(
+                f"--scenario: found {args.scenario!r}, expected one of {', '.join(known)}"
+            )
+        usual = known[args.scenario].parameters
+    return read_parameters(Path(args.parameters), usual) if args.parameters else usual
 
 
 def _stop_here(_number: int, _frame: Any) -> NoReturn:

@@ -4,7 +4,7 @@
 Parameters:
   _scan:=ardee/hokuyo, _odom:=odom, _cmd:=cmd_vel   topics
   _scenario:=NAME     the technique's parameters are those of this scenario
-  _parameters:=FILE   they are those of this YAML file instead
+  _parameters:=FILE   those in this YAML file differ from the scenario's
   _drive:=true        false: send no commands, only show
 """
 import threading
@@ -162,15 +162,14 @@ class Node:
 
 
 def _parameters(settings: Settings) -> Parameters:
-    """Returns the parameters of the file, else those of the scenario, else the defaults."""
-    if settings.parameters:
-        return read_parameters(FilePath(settings.parameters))
-    if not settings.scenario:
-        return Parameters()
-    known, name = known_scenarios(), settings.scenario
-    if name not in known:
-        raise GeneratorError(f"scenario: found {name!r}, expected one of {', '.join(known)}")
-    return known[name].parameters
+    """Returns the parameters of the file, over those of the scenario, over the defaults."""
+    usual, name = Parameters(), settings.scenario
+    if name:
+        known = known_scenarios()
+        if name not in known:
+            raise GeneratorError(f"scenario: found {name!r}, expected one of {', '.join(known)}")
+        usual = known[name].parameters
+    return read_parameters(FilePath(settings.parameters), usual) if settings.parameters else usual
 
 
 def _make() -> Callable[[float], None]:

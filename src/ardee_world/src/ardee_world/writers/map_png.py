@@ -96,7 +96,7 @@ def draw_map(layout: Layout) -> Image.Image:
         canvas.dots(items.xy_m, 0.03, _CLUTTER[items.kind])
     canvas.dots(plan, 0.02, _PLANNED)
     for gap in layout.gaps:
-        canvas.dots(plan[gap.places()], 0.03, _GAP)
+        canvas.dots(plan[gap.places], 0.03, _GAP)
     fallen = layout.lean.tilt_rad > 0.0
     xy = layout.position_m[:, :2]
     canvas.dots(xy[~fallen], 0.035, _PLANT)

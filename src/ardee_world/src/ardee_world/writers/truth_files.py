@@ -122,10 +122,10 @@ def _gaps(layout: Layout) -> List[dict]:
     plan = layout.planned
     return [
         {
-            "plot": int(plan.plot[gap.first]),
-            "row": int(plan.row[gap.first]),
-            "first_place": int(plan.place[gap.first]),
-            "places": gap.count,
+            "plot": int(plan.plot[gap.places[0]]),
+            "row": int(plan.row[gap.places[0]]),
+            "first_place": int(plan.place[gap.places[0]]),
+            "places": len(gap.places),
         }
         for gap in layout.gaps
     ]
