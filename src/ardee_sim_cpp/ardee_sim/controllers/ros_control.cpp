@@ -54,11 +54,6 @@ RosControl::Params read(Parameters& parameters, devices::DeviceContext& context)
   return params;
 }
 
-bool has_one_position(const Joint& joint) {
-  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous ||
-         joint.type == JointType::kPrismatic;
-}
-
 JointInterface read_interface(const Transmission& transmission) {
   static const std::map<std::string, JointInterface> known{
       {"EffortJointInterface", JointInterface::kEffort},
@@ -116,7 +111,7 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
   const std::size_t index = robot_.joint_index(transmission.joint, transmission.source);
   const Joint& joint = robot_.model().joints[index];
   const JointInterface interface = read_interface(transmission);
-  if (!has_one_position(joint)) {
+  if (!has_one_axis(joint.type)) {
     context.log.error(Error(transmission.source,
                             "transmission '" + transmission.name + "': found joint '" + joint.name +
                                 "', which is held or has no one position; it is "
@@ -142,7 +137,7 @@ void RosControl::add_steer_bot(devices::DeviceContext& context) {
     JointHandle& handle = add_handle(name, interface);
     for (std::size_t index = 0; index < joints.size(); ++index) {
       if (joints[index].name != name) continue;
-      if (!has_one_position(joints[index])) {
+      if (!has_one_axis(joints[index].type)) {
         throw Error(joints[index].source, std::string(SteerBot::kType) + ": found joint '" + name +
                                               "', which is held or has no one position");
       }

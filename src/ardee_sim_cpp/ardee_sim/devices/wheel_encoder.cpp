@@ -48,8 +48,7 @@ void WheelEncoder::reset(TimeNs now_ns) { counts_ = {{now_ns, pulses()}}; }
 std::size_t turning_joint(const DeviceContext& context, const std::string& name,
                           const Source& source) {
   const std::size_t joint = context.joint_index(name, source);
-  const JointType type = context.robot.model().joints[joint].type;
-  if (type != JointType::kRevolute && type != JointType::kContinuous) {
+  if (!turns(context.robot.model().joints[joint].type)) {
     throw Error(source, "found joint '" + name +
                             "', which does not turn, expected a continuous or revolute one");
   }
