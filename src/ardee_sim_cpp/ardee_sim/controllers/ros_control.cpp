@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -25,8 +26,8 @@ bool is_steer_bot(Parameters& parameters, Log& log) {
 
 /// Period in ns; 0: each step.
 TimeNs read_period(Parameters& parameters, const devices::DeviceContext& context) {
-  constexpr double kLongest_s = 1e6;
-  const TimeNs period_ns = nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, kLongest_s));
+  const TimeNs period_ns =
+      nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, limits::kLongestTime_s));
   if (period_ns > 0 && period_ns < context.step_ns) {
     context.log.error(parameters
                           .error("controlPeriod",
