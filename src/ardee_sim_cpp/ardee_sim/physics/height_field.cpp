@@ -4,30 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardee_sim/core/error.h"
-
 namespace ardee::physics {
 namespace {
 
 /// Twice the signed area of the plan of (a, b, p), positive if p lies to the left of a -> b.
 double side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double y) {
   return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
-}
-
-void check(const HeightGrid& grid) {
-  const auto expected =
-      static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-  if (grid.columns < 2 || grid.rows < 2 || grid.heights_m.size() != expected) {
-    throw Error("heightmap: found " + std::to_string(grid.heights_m.size()) + " heights for " +
-                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
-                ", expected one for each of at least 2 x 2");
-  }
-  if (!(grid.size_m.minCoeff() > 0.0) || !grid.size_m.allFinite()) {
-    throw Error("heightmap: found a size that is not positive");
-  }
-  for (const float height : grid.heights_m) {
-    if (!std::isfinite(height)) throw Error("heightmap: found a height that is not finite");
-  }
 }
 
 int clamp_cell(double cell, int cells) {
@@ -48,8 +30,6 @@ double FieldTriangle::height(double x, double y) const {
 }
 
 HeightField::HeightField(std::shared_ptr<const HeightGrid> grid) : grid_(std::move(grid)) {
-  if (!grid_) throw Error("heightmap: found no heights");
-  check(*grid_);
   origin_ = -0.5 * grid_->size_m;
   cell_ = {grid_->size_m.x() / (grid_->columns - 1), grid_->size_m.y() / (grid_->rows - 1)};
   const auto [low, high] = std::minmax_element(grid_->heights_m.begin(), grid_->heights_m.end());
