@@ -129,8 +129,8 @@ class BodyCompiler {
 
   void add(const Heightmap& map) {
     const auto terrain = static_cast<std::uint32_t>(body_->terrains.size());
-    body_->terrains.push_back({HeightSurface(map.grid, map.position_m), X_BS_.q.toRotationMatrix(),
-                               X_BS_.p, add_surface()});
+    body_->terrains.push_back({HeightSurface(map.grid), X_BS_.q.toRotationMatrix(),
+                               X_BS_ * map.position_m, add_surface()});
     const Terrain& made = body_->terrains.back();
     for (const HeightPatch& patch : made.heights.patches()) {
       const auto index = static_cast<std::uint32_t>(body_->patches.size());
