@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "ardee_sim/core/limits.h"
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/element_file.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee::devices {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/description/parameters.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee {
 namespace {
