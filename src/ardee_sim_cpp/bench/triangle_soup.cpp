@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/description/height_mesh.h"
 
 namespace ardee::bench {
 
@@ -46,25 +47,21 @@ void TriangleSoup::add_mesh(const Mesh& mesh, const Pose& X, double scale) {
 
 void TriangleSoup::add_heightmap(const Heightmap& map, const Pose& X, const Eigen::Vector2d& center,
                                  double radius_m) {
-  const HeightGrid& grid = *map.grid;
-  const Eigen::Vector2d cell_m(grid.size_m.x() / (grid.columns - 1),
-                               grid.size_m.y() / (grid.rows - 1));
-  const Eigen::Vector2d corner = (X.p + map.position_m).head<2>() - grid.size_m / 2.0;
+  const HeightMesh mesh(map.grid);
+  const Eigen::Vector2d middle = mesh.place(center - (X.p + map.position_m).head<2>());
   const auto range = [&](int axis, int count) {
-    const double middle = (center[axis] - corner[axis]) / cell_m[axis];
-    const double reach = radius_m / cell_m[axis];
-    return std::pair<int, int>{std::max(0, static_cast<int>(std::floor(middle - reach))),
-                               std::min(count - 1, static_cast<int>(std::ceil(middle + reach)))};
+    const double reach = radius_m / mesh.cell_size_m()[axis];
+    return std::pair<int, int>{
+        std::max(0, static_cast<int>(std::floor(middle[axis] - reach))),
+        std::min(count - 1, static_cast<int>(std::ceil(middle[axis] + reach)))};
   };
-  const auto [column_0, column_1] = range(0, grid.columns);
-  const auto [row_0, row_1] = range(1, grid.rows);
+  const auto [column_0, column_1] = range(0, mesh.grid().columns);
+  const auto [row_0, row_1] = range(1, mesh.grid().rows);
   const auto base = static_cast<std::uint32_t>(vertices.size());
   const int width = column_1 - column_0 + 1;
   for (int row = row_0; row <= row_1; ++row) {
     for (int column = column_0; column <= column_1; ++column) {
-      const Eigen::Vector3d p(column * cell_m.x() - grid.size_m.x() / 2.0,
-                              row * cell_m.y() - grid.size_m.y() / 2.0, grid.at(column, row));
-      vertices.push_back((X * (map.position_m + p)).cast<float>());
+      vertices.push_back((X * (map.position_m + mesh.vertex(column, row))).cast<float>());
     }
   }
   const auto at = [&](int column, int row) {
@@ -72,8 +69,10 @@ void TriangleSoup::add_heightmap(const Heightmap& map, const Pose& X, const Eige
   };
   for (int row = row_0; row < row_1; ++row) {
     for (int column = column_0; column < column_1; ++column) {
-      triangles.push_back({at(column, row), at(column + 1, row), at(column + 1, row + 1)});
-      triangles.push_back({at(column, row), at(column + 1, row + 1), at(column, row + 1)});
+      for (const auto& cut : HeightMesh::kCut) {
+        const auto corner = [&](int k) { return at(column + cut[k].column, row + cut[k].row); };
+        triangles.push_back({corner(0), corner(1), corner(2)});
+      }
     }
   }
 }

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/ardee_sim)
-install(TARGETS ardee_sim ardee_options ardee_image ${ardee_modules} EXPORT ardee_sim
+install(TARGETS ardee_sim ardee_options ${ardee_modules} EXPORT ardee_sim
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/ardee_sim DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <map>
 
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/readers/heightmap_reader.h"
-#include "ardee_sim/readers/image.h"
 #include "ardee_sim/readers/instance_table.h"
 #include "ardee_sim/readers/material_script.h"
 #include "ardee_sim/readers/mesh_reader.h"

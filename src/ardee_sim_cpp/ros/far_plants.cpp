@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/readers/mesh_reader.h"
 #include "ardee_sim/render/texture.h"
 #include "ros/conversions.h"

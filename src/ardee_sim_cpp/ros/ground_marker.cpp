@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/description/height_mesh.h"
 #include "ros/conversions.h"
 
 namespace ardee::node {
@@ -15,27 +16,29 @@ constexpr double kFinestCell_m = 0.1;
 class ThinGrid {
  public:
   explicit ThinGrid(const Heightmap& heightmap)
-      : grid_(*heightmap.grid), position_m_(heightmap.position_m) {
-    cell_x_m_ = grid_.size_m.x() / std::max(1, grid_.columns - 1);
-    cell_y_m_ = grid_.size_m.y() / std::max(1, grid_.rows - 1);
-    stride_ = std::max(1, static_cast<int>(std::ceil(kFinestCell_m / std::max(cell_x_m_, 1e-6))));
-    const auto [low, high] = std::minmax_element(grid_.heights_m.begin(), grid_.heights_m.end());
+      : mesh_(heightmap.grid), position_m_(heightmap.position_m) {
+    const double cell_m = std::max(mesh_.cell_size_m().x(), 1e-6);
+    stride_ = std::max(1, static_cast<int>(std::ceil(kFinestCell_m / cell_m)));
+    const std::vector<float>& heights_m = mesh_.grid().heights_m;
+    const auto [low, high] = std::minmax_element(heights_m.begin(), heights_m.end());
     low_m_ = *low;
     range_m_ = std::max(1e-6f, *high - *low);
   }
 
-  int columns() const { return (grid_.columns - 2) / stride_ + 2; }
-  int rows() const { return (grid_.rows - 2) / stride_ + 2; }
-  int column_of(double x_m) const {
-    return index(x_m, position_m_.x(), grid_.size_m.x(), cell_x_m_);
+  int columns() const { return (mesh_.grid().columns - 2) / stride_ + 2; }
+  int rows() const { return (mesh_.grid().rows - 2) / stride_ + 2; }
+  /// The cell at a point; beyond the grid if the point is.
+  HeightMesh::Cell cell_of(const Eigen::Vector2d& point_m) const {
+    const Eigen::Vector2d place = mesh_.place(point_m - position_m_.head<2>()) / stride_;
+    const auto index = [](double at) {
+      return static_cast<int>(std::clamp(std::floor(at), -1.0, 1e6));
+    };
+    return {index(place.x()), index(place.y())};
   }
-  int row_of(double y_m) const { return index(y_m, position_m_.y(), grid_.size_m.y(), cell_y_m_); }
 
   Eigen::Vector3d corner(int column, int row) const {
-    const int c = std::min(column * stride_, grid_.columns - 1);
-    const int r = std::min(row * stride_, grid_.rows - 1);
-    return position_m_ + Eigen::Vector3d(c * cell_x_m_ - grid_.size_m.x() / 2.0,
-                                         r * cell_y_m_ - grid_.size_m.y() / 2.0, grid_.at(c, r));
+    return position_m_ + mesh_.vertex(std::min(column * stride_, mesh_.grid().columns - 1),
+                                      std::min(row * stride_, mesh_.grid().rows - 1));
   }
   /// 0 at the lowest corner of the whole map, 1 at the highest.
   double height_fraction(const Eigen::Vector3d& corner) const {
@@ -43,15 +46,8 @@ class ThinGrid {
   }
 
  private:
-  int index(double at_m, double center_m, double size_m, double cell_m) const {
-    const double cells = (at_m - center_m + size_m / 2.0) / std::max(cell_m, 1e-6) / stride_;
-    return static_cast<int>(std::clamp(std::floor(cells), -1.0, 1e6));
-  }
-
-  const HeightGrid& grid_;
+  HeightMesh mesh_;
   Eigen::Vector3d position_m_;
-  double cell_x_m_ = 0.0;
-  double cell_y_m_ = 0.0;
   int stride_ = 1;
   float low_m_ = 0.0f;
   float range_m_ = 1.0f;
@@ -89,10 +85,11 @@ void append_ground(const Heightmap& heightmap, const Pose& X_WV, double scale,
   const double radius = radius_m / scale;
   Eigen::AlignedBox3d near;
   for (const Eigen::Vector3d& eye : eyes) near.extend(eye);
-  const int first_column = std::max(0, grid.column_of(near.min().x() - radius));
-  const int first_row = std::max(0, grid.row_of(near.min().y() - radius));
-  const int last_column = std::min(grid.columns() - 2, grid.column_of(near.max().x() + radius));
-  const int last_row = std::min(grid.rows() - 2, grid.row_of(near.max().y() + radius));
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius);
+  const HeightMesh::Cell first = grid.cell_of(near.min().head<2>() - reach);
+  const HeightMesh::Cell last = grid.cell_of(near.max().head<2>() + reach);
+  const int last_column = std::min(grid.columns() - 2, last.column);
+  const int last_row = std::min(grid.rows() - 2, last.row);
 
   const auto add = [&](const std::array<Eigen::Vector3d, 3>& corners) {
     const Eigen::Vector3d normal =
@@ -102,15 +99,15 @@ void append_ground(const Heightmap& heightmap, const Pose& X_WV, double scale,
       marker.colors.push_back(earth(normal, grid.height_fraction(corner)));
     }
   };
-  for (int row = first_row; row <= last_row; ++row) {
-    for (int column = first_column; column <= last_column; ++column) {
-      const Eigen::Vector3d a = grid.corner(column, row);
-      if (!is_near(a, eyes, radius)) continue;
-      const Eigen::Vector3d b = grid.corner(column + 1, row);
-      const Eigen::Vector3d c = grid.corner(column + 1, row + 1);
-      const Eigen::Vector3d d = grid.corner(column, row + 1);
-      add({a, b, c});
-      add({a, c, d});
+  for (int row = std::max(0, first.row); row <= last_row; ++row) {
+    for (int column = std::max(0, first.column); column <= last_column; ++column) {
+      if (!is_near(grid.corner(column, row), eyes, radius)) continue;
+      for (const auto& cut : HeightMesh::kCut) {
+        const auto corner = [&](int k) {
+          return grid.corner(column + cut[k].column, row + cut[k].row);
+        };
+        add({corner(0), corner(1), corner(2)});
+      }
     }
   }
 }

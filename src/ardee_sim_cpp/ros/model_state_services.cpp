@@ -3,13 +3,12 @@
 #include <gazebo_msgs/SetModelConfiguration.h>
 #include <gazebo_msgs/SetModelState.h>
 
+#include "ardee_sim/core/limits.h"
 #include "ros/conversions.h"
 #include "ros/services.h"
 
 namespace ardee::node {
 namespace {
-
-constexpr double kMostPosition = 1e6;  // rad or m: beyond any joint of a field robot
 
 std::string get_state(ServiceContext& context, const gazebo_msgs::GetModelStateRequest& request,
                       gazebo_msgs::GetModelStateResponse& response) {
@@ -67,8 +66,8 @@ std::string set_joints(ServiceContext& context,
       throw Error("joint '" + request.joint_names[i] +
                   "' has no axis, expected one that moves along one");
     }
-    checked("joint '" + request.joint_names[i] + "'", request.joint_positions[i], -kMostPosition,
-            kMostPosition);
+    checked("joint '" + request.joint_names[i] + "'", request.joint_positions[i],
+            -limits::kMostTravel, limits::kMostTravel);
     joints.push_back(ref.joint);
   }
   move_joints(entity.robot->dynamics(), joints, request.joint_positions);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
+
 namespace ardee::control {
 namespace {
 
@@ -40,7 +42,6 @@ AxleCommand FourWheelGeometry::axle_for_steering(double angle_rad, double turn_p
                                                  double speed_m_per_s) const {
   constexpr double kPole_m = 0.001;   // a turn's centre nearer to a wheel's axis gives no angle
   constexpr double kParallel = 0.01;  // a smaller difference of the wheels' tangents: no turn
-  constexpr double kFastest = 1e6;    // rad/s: bounds the rate of a sideways axle
   AxleCommand axle;
   const double across = std::tan(angle_rad);  // per metre along
   const double turn_over_track = turn_per_m * steering_track_m() / 2.0;
@@ -54,7 +55,7 @@ AxleCommand FourWheelGeometry::axle_for_steering(double angle_rad, double turn_p
   for (std::size_t i = 0; i < kSides.size(); ++i) {
     const double way = std::hypot(1.0 + kSides[i] * turn_over_track, turns ? across : 0.0) +
                        kSides[i] * turn_per_m * steering_offset_m;
-    axle.speeds[i] = std::clamp(speed_m_per_s * way / radius_m, -kFastest, kFastest);
+    axle.speeds[i] = limits::wheel_command(speed_m_per_s * way / radius_m);
   }
   return axle;
 }

@@ -8,7 +8,7 @@ namespace ardee::control {
 /// Angle wrapped to [-pi, pi].
 double shortest_turn(double angle_rad);
 
-/// Position clamped to the limits of a revolute or prismatic joint.
+/// Position clamped to the joint's limits, if its type has limits.
 double within_limits(const JointHandle& joint, double position);
 
 /// Error of a joint's position: the shortest turn of a continuous joint, the shortest turn within

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -25,8 +26,8 @@ bool is_steer_bot(Parameters& parameters, Log& log) {
 
 /// Period in ns; 0: each step.
 TimeNs read_period(Parameters& parameters, const devices::DeviceContext& context) {
-  constexpr double kLongest_s = 1e6;
-  const TimeNs period_ns = nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, kLongest_s));
+  const TimeNs period_ns =
+      nanoseconds(parameters.number("controlPeriod", 0.0, 0.0, limits::kLongestTime_s));
   if (period_ns > 0 && period_ns < context.step_ns) {
     context.log.error(parameters
                           .error("controlPeriod",
@@ -52,11 +53,6 @@ RosControl::Params read(Parameters& parameters, devices::DeviceContext& context)
   params.has_legacy_gains = parameters.boolean("legacyModeNS", false);
   parameters.ignore({"robotParam"});  // the description is already known
   return params;
-}
-
-bool has_one_position(const Joint& joint) {
-  return joint.type == JointType::kRevolute || joint.type == JointType::kContinuous ||
-         joint.type == JointType::kPrismatic;
 }
 
 JointInterface read_interface(const Transmission& transmission) {
@@ -116,7 +112,7 @@ void RosControl::add_joint(const Transmission& transmission, const std::string& 
   const std::size_t index = robot_.joint_index(transmission.joint, transmission.source);
   const Joint& joint = robot_.model().joints[index];
   const JointInterface interface = read_interface(transmission);
-  if (!has_one_position(joint)) {
+  if (!has_one_axis(joint.type)) {
     context.log.error(Error(transmission.source,
                             "transmission '" + transmission.name + "': found joint '" + joint.name +
                                 "', which is held or has no one position; it is "
@@ -142,7 +138,7 @@ void RosControl::add_steer_bot(devices::DeviceContext& context) {
     JointHandle& handle = add_handle(name, interface);
     for (std::size_t index = 0; index < joints.size(); ++index) {
       if (joints[index].name != name) continue;
-      if (!has_one_position(joints[index])) {
+      if (!has_one_axis(joints[index].type)) {
         throw Error(joints[index].source, std::string(SteerBot::kType) + ": found joint '" + name +
                                               "', which is held or has no one position");
       }

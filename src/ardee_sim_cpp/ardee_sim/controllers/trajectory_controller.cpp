@@ -31,7 +31,7 @@ void override_tolerance(const devices::JointTolerance& given, StateTolerance& to
 
 double position_difference(const JointHandle& joint, double desired) {
   const double difference = desired - joint.position;
-  return joint.type == JointType::kPrismatic ? difference : shortest_turn(difference);
+  return turns(joint.type) ? shortest_turn(difference) : difference;
 }
 
 void append(const JointMotion& motion, bool has_acceleration,
@@ -225,7 +225,7 @@ void TrajectoryController::follow(const devices::JointTrajectory& trajectory,
       waypoints.push_back({start_s + point->time_from_start_s, waypoint(*point, *found[i])});
     }
     joint.path = spliced_path(joint.path, next_s, start_s, std::move(waypoints),
-                              joint.handle.type == JointType::kContinuous, goal, tolerances[i]);
+                              !has_limits(joint.handle.type), goal, tolerances[i]);
   }
 }
 

@@ -13,7 +13,38 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
   return found == items.end() ? nullptr : &*found;
 }
 
+struct JointMotion {
+  std::size_t axes;
+  bool turns;
+  bool has_limits;
+};
+
+JointMotion motion_of(JointType type) {
+  switch (type) {
+    case JointType::kRevolute:
+      return {1, true, true};
+    case JointType::kContinuous:
+      return {1, true, false};
+    case JointType::kPrismatic:
+    case JointType::kScrew:
+      return {1, false, true};
+    case JointType::kUniversal:
+    case JointType::kRevolute2:
+      return {2, false, true};
+    case JointType::kFixed:
+    case JointType::kBall:
+      break;
+  }
+  return {0, false, false};
+}
+
 }  // namespace
+
+std::size_t axis_count(JointType type) { return motion_of(type).axes; }
+
+bool turns(JointType type) { return motion_of(type).turns; }
+
+bool has_limits(JointType type) { return motion_of(type).has_limits; }
 
 const Link* Model::find_link(const std::string& link_name) const {
   return find_named(links, link_name);

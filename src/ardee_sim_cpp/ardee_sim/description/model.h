@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -119,6 +120,14 @@ enum class JointType {
   kRevolute2,
   kScrew
 };
+
+/// Number of axes: 0, 1 or 2.
+std::size_t axis_count(JointType type);
+/// Whether the joint's only motion is a turn about its first axis.
+bool turns(JointType type);
+/// Whether the position along the first axis has limits.
+bool has_limits(JointType type);
+inline bool has_one_axis(JointType type) { return axis_count(type) == 1; }
 
 /// One axis of a joint, with the limits and forces that act along it. SI units: rad or m, N m or N.
 struct JointAxis {

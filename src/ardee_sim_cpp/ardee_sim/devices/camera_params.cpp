@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/camera_formats.h"
 #include "ardee_sim/devices/names.h"
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int kLongestSide_px = 8192;
 constexpr double kMostPixels = 1 << 24;
-constexpr double kFarthest_m = 1e6;
 constexpr double kLeastFov_rad = 1e-3;
 constexpr double kMostFov_rad = M_PI - 1e-3;
 
@@ -36,8 +36,8 @@ void read_image(const Element& image, CameraParams& camera, Log& log) {
 
 void read_clip(const Element& clip, CameraParams& camera) {
   Parameters parameters(clip);
-  camera.near_m = parameters.number("near", 0.1, 0.0, kFarthest_m);
-  camera.far_m = parameters.number("far", 100.0, 0.0, kFarthest_m);
+  camera.near_m = parameters.number("near", 0.1, 0.0, limits::kFarthest_m);
+  camera.far_m = parameters.number("far", 100.0, 0.0, limits::kFarthest_m);
   if (!(camera.far_m > camera.near_m)) throw parameters.error("far", "expected more than <near>");
 }
 
@@ -79,7 +79,7 @@ CameraParams read_camera_block(const Element& block, SdfLens& of_sdf, Log& log) 
 
 std::optional<float> read_exposure(Parameters& parameters) {
   if (parameters.text("exposure", "auto") == "auto") return std::nullopt;
-  const double factor = parameters.number("exposure", 1.0, 0.0, 1e6);
+  const double factor = parameters.number("exposure", 1.0, 0.0, limits::kMostFactor);
   if (factor == 0.0) throw parameters.error("exposure", "expected auto or a number above 0");
   return static_cast<float>(factor);
 }
@@ -90,9 +90,10 @@ DepthParams read_depth(Parameters& parameters, const CameraParams& camera, Camer
   depth.noise_constant_m = parameters.number("depthNoiseConstant", 0.0, 0.0, kMost);
   depth.noise_linear = parameters.number("depthNoiseLinear", 0.0, 0.0, kMost);
   depth.noise_quadratic_per_m = parameters.number("depthNoiseQuadratic", 0.0, 0.0, kMost);
-  const double nearest_m = parameters.number("pointCloudCutoff", 0.4, 0.0, kFarthest_m);
+  const double nearest_m = parameters.number("pointCloudCutoff", 0.4, 0.0, limits::kFarthest_m);
   const double farthest_m = parameters.number(
-      "pointCloudCutoffMax", kind == CameraKind::kOpenni ? 5.0 : kFarthest_m, 0.0, kFarthest_m);
+      "pointCloudCutoffMax", kind == CameraKind::kOpenni ? 5.0 : limits::kFarthest_m, 0.0,
+      limits::kFarthest_m);
   if (!(farthest_m > nearest_m)) {
     throw parameters.error("pointCloudCutoffMax", "expected more than <pointCloudCutoff>");
   }

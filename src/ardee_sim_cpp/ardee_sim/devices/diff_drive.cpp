@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 #include "ardee_sim/devices/wheel_encoder.h"
@@ -12,7 +13,6 @@ namespace ardee::devices {
 namespace {
 
 constexpr WithoutPrefix kBelowNamespace = WithoutPrefix::kNamespace;
-constexpr double kFastest = 1e6;  // m/s: bound of a wheel's command
 
 bool read_legacy_mode(Parameters& parameters, Log& log) {
   if (!parameters.has("legacyMode")) {
@@ -42,13 +42,12 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
 }
 
 DiffDrive::Params read(Parameters& parameters, DeviceContext& context) {
-  constexpr double kSmallest = 1e-6;
   const std::string space = plugin_namespace(parameters, context);
   DiffDrive::Params params;
   params.joints = {plugin_turning_joint(parameters, context, "leftJoint", "left_joint"),
                    plugin_turning_joint(parameters, context, "rightJoint", "right_joint")};
-  params.wheel_separation_m = parameters.number("wheelSeparation", 0.34, kSmallest);
-  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, kSmallest);
+  params.wheel_separation_m = parameters.number("wheelSeparation", 0.34, limits::kSmallestWheel_m);
+  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.wheel_acceleration_m_per_s2 = parameters.number("wheelAcceleration", 0.0, 0.0);
   params.torque_n_m = parameters.number("wheelTorque", 5.0, 0.0);
   params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
@@ -86,8 +85,8 @@ DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot
 std::array<double, DiffDrive::kWheelCount> DiffDrive::wanted_speeds(const Twist& command) const {
   const double turn = command.angular.z() * params_.wheel_separation_m / 2.0;
   const double swapped = params_.legacy_mode ? -turn : turn;
-  return {std::clamp(command.linear.x() - swapped, -kFastest, kFastest),
-          std::clamp(command.linear.x() + swapped, -kFastest, kFastest)};
+  return {limits::wheel_command(command.linear.x() - swapped),
+          limits::wheel_command(command.linear.x() + swapped)};
 }
 
 void DiffDrive::before_step(TimeNs now_ns) {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/force_torque.h"
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
 
 std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
                                                 Parameters& parameters, DeviceContext& context) {
-  constexpr double kMostHz = 1e6;
   const std::string space = plugin_namespace(parameters, context);
   const std::string joint = parameters.required_text("jointName");
   Params params{{context.robot, 0, {}, 0.0, context.seed}};
   params.joint = context.joint_index(joint, parameters.block("jointName")->source);
   const std::string& child = context.robot.model().joints[params.joint].child;
   params.mount.link = context.robot.link_index(child, parameters.source());
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
+  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   params.frame = resolve_frame(child, space, context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/gazebo_imu.h"
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
@@ -8,8 +9,6 @@ namespace ardee::devices {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kMostHz = 1e6;
 
 Pose read_mounting(Parameters& parameters) {
   return Pose::from_xyz_rpy(parameters.vector3("xyzOffset", Vector3d::Zero()),
@@ -24,7 +23,7 @@ std::unique_ptr<Device> GazeboImu::make_on_model(const PluginDescription& plugin
   const std::string body = parameters.required_text("bodyName");
   Params params{{context.robot, plugin_link(parameters, context), read_mounting(parameters), 0.0,
                  context.seed}};
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
+  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.feels_gravity = parameters.boolean("gravity", false);
   params.topic = resolve_topic(parameters.text("topicName", "/default_imu"), space);
@@ -40,7 +39,7 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
                                                   DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
-  const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, kMostHz);
+  const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, limits::kMostRate_hz);
   params.mount.rate_hz = slower_rate_hz(sensor.update_rate_hz, rate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);
   params.noisy_orientation = true;

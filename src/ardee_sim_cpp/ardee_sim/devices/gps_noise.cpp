@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/gps_regions.h"
 
 namespace ardee::devices {
@@ -18,7 +19,7 @@ GpsNoise combined(const GpsNoise& one, const GpsNoise& other) {
 }
 
 void NoiseBands::add(const Element& element, Log& log) {
-  constexpr double kMostFactor = 1e6, kFarthest_m = 1e4, kLongest_s = 1e6;
+  constexpr double kMostStd_m = 1e4;
   Parameters parameters(element);
   for (const char* key : {"r1", "r2", "mean", "variance"}) parameters.required_text(key);
   Band band;
@@ -26,11 +27,13 @@ void NoiseBands::add(const Element& element, Log& log) {
   band.high = parameters.number("r2", 0.0);
   if (band.high == -1.0) band.high = std::numeric_limits<double>::infinity();
   if (band.high <= band.low) throw parameters.error("r2", "expected more than <r1>, or -1");
-  band.noise.mean_factor = parameters.number("mean", 1.0, -kMostFactor, kMostFactor);
-  band.noise.variance_factor = parameters.number("variance", 1.0, 0.0, kMostFactor);
-  band.noise.correlated_std_m = parameters.number("correlated_std", 0.0, 0.0, kFarthest_m);
-  band.noise.loss_rate_hz = parameters.number("fix_loss_rate", 0.0, 0.0, kMostFactor);
-  band.noise.loss_duration_s = parameters.number("fix_loss_duration", 0.0, 0.0, kLongest_s);
+  band.noise.mean_factor =
+      parameters.number("mean", 1.0, -limits::kMostFactor, limits::kMostFactor);
+  band.noise.variance_factor = parameters.number("variance", 1.0, 0.0, limits::kMostFactor);
+  band.noise.correlated_std_m = parameters.number("correlated_std", 0.0, 0.0, kMostStd_m);
+  band.noise.loss_rate_hz = parameters.number("fix_loss_rate", 0.0, 0.0, limits::kMostRate_hz);
+  band.noise.loss_duration_s =
+      parameters.number("fix_loss_duration", 0.0, 0.0, limits::kLongestTime_s);
   if (band.noise.loss_rate_hz > 0.0 && band.noise.loss_duration_s <= 0.0) {
     throw parameters.error("fix_loss_duration", "expected more than 0 s with a <fix_loss_rate>");
   }

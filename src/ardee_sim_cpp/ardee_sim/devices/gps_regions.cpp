@@ -7,13 +7,13 @@
 #include <set>
 #include <sstream>
 
+#include "ardee_sim/core/limits.h"
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/element_file.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee::devices {
 namespace {
 
-constexpr double kFarthest_m = 1e6;
 constexpr double kBelowGround_m = 2.0;  // greatest depth of ground in a plot below its centre
 
 constexpr const char* kBands = "field_gps_noise_characteristics";
@@ -30,7 +30,7 @@ double required(Parameters& parameters, const char* key, double low, double high
 }
 
 double side(Parameters& parameters, const char* key) {
-  const double length_m = required(parameters, key, 0.0, kFarthest_m);
+  const double length_m = required(parameters, key, 0.0, limits::kFarthest_m);
   if (length_m == 0.0) throw parameters.error(key, "expected more than 0 m");
   return length_m;
 }
@@ -77,7 +77,7 @@ struct GpsRegions::Parts {
     plot.region.name = "plot " + parameters.required_text("plot_id");
     plot.source = element.source;
     const auto place = [&](const char* key) {
-      return required(parameters, key, -kFarthest_m, kFarthest_m);
+      return required(parameters, key, -limits::kFarthest_m, limits::kFarthest_m);
     };
     const Eigen::Vector3d middle{place("x"), place("y"), place("z")};
     const double turn_rad = place("rotation");
@@ -97,10 +97,9 @@ struct GpsRegions::Parts {
   }
 
   void add_box(const Element& element, Log& log) {
-    constexpr double kMost = 1e9;
     Parameters parameters(element);
     const auto place = [&](const char* key) {
-      return required(parameters, key, -kFarthest_m, kFarthest_m);
+      return required(parameters, key, -limits::kFarthest_m, limits::kFarthest_m);
     };
     GpsRegion box;
     box.name = "box " + std::to_string(boxes.size());
@@ -111,11 +110,11 @@ struct GpsRegions::Parts {
       box.size_m[axis] = side(parameters, kSides[axis]);
     }
     PeriodicNoise noise;
-    noise.period_s = required(parameters, "nps", 1e-3, kMost);
-    noise.mean_mean = required(parameters, "nmpm", -kMost, kMost);
-    noise.mean_variance = required(parameters, "nmpv", 0.0, kMost);
-    noise.variance_mean = required(parameters, "nvpm", 0.0, kMost);
-    noise.variance_variance = required(parameters, "nvpv", 0.0, kMost);
+    noise.period_s = required(parameters, "nps", 1e-3, limits::kAbsurd);
+    noise.mean_mean = required(parameters, "nmpm", -limits::kAbsurd, limits::kAbsurd);
+    noise.mean_variance = required(parameters, "nmpv", 0.0, limits::kAbsurd);
+    noise.variance_mean = required(parameters, "nvpm", 0.0, limits::kAbsurd);
+    noise.variance_variance = required(parameters, "nvpv", 0.0, limits::kAbsurd);
     parameters.finish(log);
     box.periodic = noise;
     boxes.push_back(box);

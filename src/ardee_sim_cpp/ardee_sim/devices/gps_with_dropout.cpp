@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -41,10 +42,10 @@ std::array<float, 4> colour_of(const GpsRegion& region) {
 
 std::unique_ptr<Device> GpsWithDropout::make(const PluginDescription& plugin,
                                              Parameters& parameters, DeviceContext& context) {
-  constexpr double kShortest_s = 1e-3, kLongest_s = 1e6;
+  constexpr double kShortest_s = 1e-3;
   Params params{read_gps_params(parameters, context), plugin.element};
-  params.correlation_time_s =
-      parameters.number("correlationTime", params.correlation_time_s, kShortest_s, kLongest_s);
+  params.correlation_time_s = parameters.number("correlationTime", params.correlation_time_s,
+                                                kShortest_s, limits::kLongestTime_s);
   const std::string space = plugin_namespace(parameters, context);
   const auto topic = [&](const char* key, const char* name) {
     return parameters.has(key) ? resolve_topic(parameters.text(key, ""), space)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/ground_truth.h"
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -9,11 +10,10 @@ using Eigen::Vector3d;
 
 std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, Parameters& parameters,
                                           DeviceContext& context) {
-  constexpr double kMostHz = 1e6;
   const std::string space = plugin_namespace(parameters, context);
   const std::string body = parameters.required_text("bodyName");
   Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
-  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, kMostHz);
+  params.mount.rate_hz = parameters.number("updateRate", 0.0, 0.0, limits::kMostRate_hz);
   params.topic = resolve_topic(parameters.required_text("topicName"), space);
   const std::string frame = parameters.text("frameName", "world");
   const bool is_world = frame == "world" || frame == "/world" || frame == "map" || frame == "/map";

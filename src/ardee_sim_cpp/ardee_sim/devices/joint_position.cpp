@@ -23,8 +23,7 @@ JointPosition::Params read(Parameters& parameters, DeviceContext& context) {
   JointPosition::Params params;
   params.joint = context.joint_index(name, source);
   const Joint& joint = context.robot.model().joints[params.joint];
-  if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous &&
-      joint.type != JointType::kPrismatic) {
+  if (!has_one_axis(joint.type)) {
     throw Error(source, "found joint '" + name +
                             "', which has no one position, expected a revolute, continuous or "
                             "prismatic one");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/rng.h"
 
 namespace ardee::devices {
@@ -37,8 +38,10 @@ LidarOptics read_lidar_optics(Parameters& parameters) {
   LidarOptics optics;
   optics.intensity = choose(parameters, "intensityModel", "plain", LidarOptics::Intensity::kPlain,
                             "lambert", LidarOptics::Intensity::kLambert);
-  optics.intensity_scale = parameters.number("intensityScale", optics.intensity_scale, 0.0, 1e6);
-  optics.reflectivity_range_m = parameters.number("reflectivityRange", 0.0, 0.0, 1e6);
+  optics.intensity_scale =
+      parameters.number("intensityScale", optics.intensity_scale, 0.0, limits::kMostFactor);
+  optics.reflectivity_range_m =
+      parameters.number("reflectivityRange", 0.0, 0.0, limits::kFarthest_m);
   optics.divergence_rad = parameters.number("beamDivergence", 0.0, 0.0, kWidest_rad);
   optics.sub_rays = parameters.integer("subRays", 1, 1, kMostSubRays);
   optics.sub_rays_at = choose(parameters, "subRaysAt", "mixing", LidarOptics::SubRaysAt::kMixing,

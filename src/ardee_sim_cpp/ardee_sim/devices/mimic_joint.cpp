@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/mimic_joint.h"
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
 namespace {
-
-constexpr double kMost = 1e6;  // multiplier, or rad or m
 
 Coupling read(Parameters& parameters, DeviceContext& context) {
   plugin_namespace(parameters, context);
@@ -19,8 +18,9 @@ Coupling read(Parameters& parameters, DeviceContext& context) {
   Coupling coupling;
   coupling.leader = joint("joint");
   coupling.follower = joint("mimicJoint");
-  coupling.multiplier = parameters.number("multiplier", 1.0, -kMost, kMost);
-  coupling.offset = parameters.number("offset", 0.0, -kMost, kMost);
+  coupling.multiplier =
+      parameters.number("multiplier", 1.0, -limits::kMostFactor, limits::kMostFactor);
+  coupling.offset = parameters.number("offset", 0.0, -limits::kMostTravel, limits::kMostTravel);
   coupling.source = parameters.source();
   // Without a PID the plugin sets the position, with unlimited effort.
   const double max_effort = parameters.number("maxEffort", 1.0, 0.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/sdf_noise.h"
 
 namespace ardee::devices {
@@ -28,7 +29,8 @@ int read_samples(Parameters& direction, int fallback, Log& log) {
                                        std::to_string(static_cast<int>(samples)))
                  .what());
   }
-  const double rays = std::round(samples * direction.number("resolution", 1.0, 1e-6, 1e6));
+  const double rays =
+      std::round(samples * direction.number("resolution", 1.0, 1e-6, limits::kMostFactor));
   if (rays > kMostRays) {
     throw direction.error("resolution", "expected up to " + std::to_string(kMostRays) +
                                             " rays with that many samples");
@@ -59,13 +61,13 @@ void read_scan(const Element& scan, RayBlock& block, Log& log) {
 
 void read_range(const Element& range, RayBlock& block) {
   Parameters parameters(range);
-  block.range_min_m = parameters.number("min", 0.0, 0.0, 1e6);
-  block.range_max_m = parameters.number("max", 0.0, 0.0, 1e6);
+  block.range_min_m = parameters.number("min", 0.0, 0.0, limits::kFarthest_m);
+  block.range_max_m = parameters.number("max", 0.0, 0.0, limits::kFarthest_m);
   if (block.range_max_m <= block.range_min_m) {
     throw parameters.error("max", "expected more than <min>");
   }
   // The precision is only checked: Gazebo does not quantise ranges either.
-  parameters.number("resolution", 0.0, 0.0, 1e6);
+  parameters.number("resolution", 0.0, 0.0, limits::kFarthest_m);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -68,11 +69,11 @@ raycast::SceneKind scene_of(const SensorDescription& sensor) {
 }
 
 double read_rate_hz(const SensorDescription& sensor, Parameters& plugin, double fallback_hz) {
-  constexpr double kMost_hz = 1e6;
   const Element* given = plugin.block("updateRate");
   // Gazebo reads an empty value as 0: no limit.
   const bool is_empty = given != nullptr && given->text.empty();
-  const double own_hz = plugin.number("updateRate", is_empty ? 0.0 : fallback_hz, 0.0, kMost_hz);
+  const double own_hz =
+      plugin.number("updateRate", is_empty ? 0.0 : fallback_hz, 0.0, limits::kMostRate_hz);
   return slower_rate_hz(own_hz, sensor.update_rate_hz);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ardee_sim/core/limits.h"
+
 namespace ardee::devices {
 
 Sensor::Sensor(const std::string& name, const Mount& mount)
@@ -42,11 +44,11 @@ double slower_rate_hz(double one_hz, double other_hz) {
 }
 
 void read_update_times(Parameters& parameters, double default_rate_hz, Sensor::Mount& mount) {
-  constexpr double kMostHz = 1e6, kLongest_s = 1e6;
-  mount.rate_hz = parameters.number("updateRate", default_rate_hz, 0.0, kMostHz);
-  const double period_s = parameters.number("updatePeriod", 0.0, 0.0, kLongest_s);
+  mount.rate_hz = parameters.number("updateRate", default_rate_hz, 0.0, limits::kMostRate_hz);
+  const double period_s = parameters.number("updatePeriod", 0.0, 0.0, limits::kLongestTime_s);
   if (period_s > 0.0) mount.rate_hz = 1.0 / period_s;
-  mount.offset_ns = nanoseconds(parameters.number("updateOffset", 0.0, 0.0, kLongest_s));
+  mount.offset_ns =
+      nanoseconds(parameters.number("updateOffset", 0.0, 0.0, limits::kLongestTime_s));
 }
 
 }  // namespace ardee::devices

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/devices/skid_steer_drive.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
 namespace {
 
-constexpr double kFastest = 1e6;           // rad/s: bound of a wheel's command
 constexpr double kUnknownVariance = 1e12;  // of z, roll and pitch, as in the stock plugin
 
 std::array<std::size_t, SkidSteerDrive::kWheelCount> read_joints(Parameters& parameters,
@@ -74,12 +73,11 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
 }
 
 SkidSteerDrive::Params read(Parameters& parameters, bool with_encoders, DeviceContext& context) {
-  constexpr double kSmallest = 1e-6;
   const std::string space = plugin_namespace(parameters, context);
   SkidSteerDrive::Params params;
   params.joints = read_joints(parameters, context);
-  params.wheel_separation_m = parameters.number("wheelSeparation", 0.4, kSmallest);
-  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, kSmallest);
+  params.wheel_separation_m = parameters.number("wheelSeparation", 0.4, limits::kSmallestWheel_m);
+  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.torque_n_m = parameters.number("torque", 5.0, 0.0);
   params.update_rate_hz = parameters.number("updateRate", 100.0, 0.0);
   params.command_timeout_s = parameters.number("commandTimeout", 0.0, 0.0);
@@ -134,7 +132,7 @@ void SkidSteerDrive::before_step(TimeNs now_ns) {
   for (std::size_t wheel = 0; wheel < kWheelCount; ++wheel) {
     const bool left = wheel == kLeftFront || wheel == kLeftRear;
     const double speed = side_speed(params_, command, left);
-    dynamics.set_joint_motor(params_.joints[wheel], std::clamp(speed, -kFastest, kFastest),
+    dynamics.set_joint_motor(params_.joints[wheel], limits::wheel_command(speed),
                              params_.torque_n_m);
   }
 }

@@ -39,9 +39,7 @@ std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
                                               Parameters& parameters, DeviceContext& context) {
   const Params params = read(parameters, context);
   const std::size_t joint = context.joint_index(params.joint, plugin.element.source);
-  const JointType type = context.robot.model().joints[joint].type;
-  if (type != JointType::kRevolute && type != JointType::kContinuous &&
-      type != JointType::kPrismatic) {
+  if (!has_one_axis(context.robot.model().joints[joint].type)) {
     throw Error(plugin.element.source,
                 "joint '" + params.joint +
                     "' cannot carry a spring, expected a revolute, continuous or prismatic one");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/parameters.h"
 #include "ardee_sim/devices/names.h"
 #include "ardee_sim/devices/wheel_encoder.h"
@@ -11,16 +12,15 @@
 namespace ardee::devices {
 namespace {
 
-constexpr double kFastest = 1e6;  // m/s, rad/s: bound of a wheel's command
-
 OdometryPublisher::Params read_odometry(Parameters& parameters, const std::string& space,
                                         const TricycleDrive::Params& drive,
                                         const DeviceContext& context) {
-  constexpr double kSmallest = 1e-6;
   OdometryPublisher::Params params = read_odometry_params(parameters, space, context, "base_link");
   params.rate_hz = drive.update_rate_hz;
-  const double diameter_m = parameters.number("encoderWheelDiameter", 0.15, kSmallest);
-  const double separation_m = parameters.number("encoderWheelSeparation", 0.5, kSmallest);
+  const double diameter_m =
+      parameters.number("encoderWheelDiameter", 0.15, limits::kSmallestWheel_m);
+  const double separation_m =
+      parameters.number("encoderWheelSeparation", 0.5, limits::kSmallestWheel_m);
   if (reads_wheels(parameters)) {
     params.wheels = WheelOdometry::Params{{drive.joints[TricycleDrive::kEncoderLeft]},
                                           {drive.joints[TricycleDrive::kEncoderRight]},
@@ -31,7 +31,6 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
 }
 
 TricycleDrive::Params read(Parameters& parameters, DeviceContext& context) {
-  constexpr double kSmallest = 1e-6;
   const std::string space = plugin_namespace(parameters, context);
   TricycleDrive::Params params;
   params.joints = {
@@ -40,7 +39,8 @@ TricycleDrive::Params read(Parameters& parameters, DeviceContext& context) {
       plugin_turning_joint(parameters, context, "encoderWheelLeftJoint", "left_rear_wheel_joint"),
       plugin_turning_joint(parameters, context, "encoderWheelRightJoint",
                            "right_rear_wheel_joint")};
-  params.actuated_diameter_m = parameters.number("actuatedWheelDiameter", 0.15, kSmallest);
+  params.actuated_diameter_m =
+      parameters.number("actuatedWheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.torque_n_m = parameters.number("wheelTorque", 5.0, 0.0);
   params.acceleration_m_per_s2 = parameters.number("wheelAcceleration", 0.0, 0.0);
   params.deceleration_m_per_s2 =
@@ -91,7 +91,7 @@ void TricycleDrive::drive(double wanted_m_per_s, double elapsed_s) {
 void TricycleDrive::steer(double wanted_rad, double elapsed_s) {
   const std::size_t joint = params_.joints[kSteering];
   const double missing = wanted_rad - robot_.dynamics().joint_position(joint);
-  double speed = std::clamp(missing / elapsed_s, -kFastest, kFastest);
+  double speed = limits::wheel_command(missing / elapsed_s);
   if (const double most = params_.steering_speed_rad_per_s; most > 0.0) {
     const bool is_there = std::abs(missing) < params_.steering_tolerance_rad;
     speed = is_there ? 0.0 : std::clamp(speed, -most, most);
@@ -105,7 +105,7 @@ void TricycleDrive::before_step(TimeNs now_ns) {
   const double elapsed_s = seconds(now_ns - last_command_ns_);
   last_command_ns_ = now_ns;
   if (elapsed_s <= 0.0) return;
-  drive(std::clamp(command.linear.x(), -kFastest, kFastest), elapsed_s);
+  drive(limits::wheel_command(command.linear.x()), elapsed_s);
   steer(std::clamp(command.angular.z(), -M_PI / 2.0, M_PI / 2.0), elapsed_s);
 }
 

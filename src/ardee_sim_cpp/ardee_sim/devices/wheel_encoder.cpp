@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "ardee_sim/core/limits.h"
+
 namespace ardee::devices {
 namespace {
 
@@ -48,8 +50,7 @@ void WheelEncoder::reset(TimeNs now_ns) { counts_ = {{now_ns, pulses()}}; }
 std::size_t turning_joint(const DeviceContext& context, const std::string& name,
                           const Source& source) {
   const std::size_t joint = context.joint_index(name, source);
-  const JointType type = context.robot.model().joints[joint].type;
-  if (type != JointType::kRevolute && type != JointType::kContinuous) {
+  if (!turns(context.robot.model().joints[joint].type)) {
     throw Error(source, "found joint '" + name +
                             "', which does not turn, expected a continuous or revolute one");
   }
@@ -64,11 +65,10 @@ std::size_t plugin_turning_joint(Parameters& parameters, const DeviceContext& co
 }
 
 WheelEncoder::Params read_encoder_params(Parameters& parameters) {
-  constexpr double kSmallest_m = 1e-6;
   constexpr double kMostPulses = 1e7;
   constexpr double kLongest_s = 10.0;
   WheelEncoder::Params params;
-  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, kSmallest_m);
+  params.wheel_diameter_m = parameters.number("wheelDiameter", 0.15, limits::kSmallestWheel_m);
   params.pulses_per_turn = parameters.number("pulsesPR", 150.0, 1.0, kMostPulses);
   params.speed_window_s = parameters.number("speedWindow", params.speed_window_s, 0.0, kLongest_s);
   params.ideal = parameters.boolean("ideal", false);

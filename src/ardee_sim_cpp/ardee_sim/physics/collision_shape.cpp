@@ -1,49 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/physics/collision_shape.h"
 
-#include <cmath>
 #include <limits>
 
 #include "ardee_sim/core/error.h"
 #include "ardee_sim/description/bounds.h"
+#include "ardee_sim/description/shape_fault.h"
 
 namespace ardee::physics {
 namespace {
-
-bool is_size(double value) { return std::isfinite(value) && value > 0.0; }
-
-bool is_size(const Eigen::Vector3d& value) {
-  return is_size(value.x()) && is_size(value.y()) && is_size(value.z());
-}
-
-/// Fault of a geometry; empty if there is none.
-struct Fault {
-  std::string operator()(const Box& box) const {
-    return is_size(box.size_m) ? "" : "found a box whose size is not positive";
-  }
-  std::string operator()(const Sphere& sphere) const {
-    return is_size(sphere.radius_m) ? "" : "found a sphere whose radius is not positive";
-  }
-  std::string operator()(const Cylinder& cylinder) const {
-    return is_size(cylinder.radius_m) && is_size(cylinder.length_m)
-               ? ""
-               : "found a cylinder whose radius or length is not positive";
-  }
-  std::string operator()(const Plane& plane) const {
-    return plane.normal.allFinite() && plane.normal.norm() > 1e-9
-               ? ""
-               : "found a plane without a normal";
-  }
-  std::string operator()(const Mesh& mesh) const {
-    if (!mesh.file) return "found mesh '" + mesh.uri + "' without data";
-    return mesh.scale.allFinite() && mesh.scale.cwiseAbs().minCoeff() > 0.0
-               ? ""
-               : "found mesh '" + mesh.uri + "' with a scale of zero";
-  }
-  std::string operator()(const Heightmap& heightmap) const {
-    return heightmap.grid ? "" : "found heightmap '" + heightmap.uri + "' without data";
-  }
-};
 
 bool is_valid(const Surface& surface) {
   return bounds::kFriction.holds(surface.mu) && bounds::kFriction.holds(surface.mu2) &&
@@ -108,7 +73,8 @@ void place(dGeomID geom, const Pose& X_WS) {
 }  // namespace
 
 void check_collision(const Model& model, const Link& link, const Collision& collision) {
-  std::string fault = std::visit(Fault{}, collision.geometry);
+  const auto wrong_shape = find_fault(collision.geometry);
+  std::string fault = wrong_shape ? wrong_shape->message() : "";
   if (!collision.X_LC.is_finite()) fault = "found a pose that is not finite";
   if (!is_valid(collision.surface)) fault = "found a number of its surface that is out of bounds";
   if (fault.empty()) return;

@@ -29,8 +29,7 @@ struct CollisionShape {
   bool has_sensor = false;  // its link has a sensor, which may ask for contacts at any time
 };
 
-/// Checks that sizes are positive and that meshes and heights exist. Throws Error naming model,
-/// link and collision otherwise.
+/// Throws Error naming model, link and collision if the shape, its pose or its surface is invalid.
 void check_collision(const Model& model, const Link& link, const Collision& collision);
 
 /// Bounds of a shape whose frame is at X_WS; infinite for a plane.

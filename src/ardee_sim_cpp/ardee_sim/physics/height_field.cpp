@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardee_sim/core/error.h"
-
 namespace ardee::physics {
 namespace {
 
 /// Twice the signed area of the plan of (a, b, p), positive if p lies to the left of a -> b.
 double side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double y) {
   return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
-}
-
-void check(const HeightGrid& grid) {
-  const auto expected =
-      static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-  if (grid.columns < 2 || grid.rows < 2 || grid.heights_m.size() != expected) {
-    throw Error("heightmap: found " + std::to_string(grid.heights_m.size()) + " heights for " +
-                std::to_string(grid.columns) + " x " + std::to_string(grid.rows) +
-                ", expected one for each of at least 2 x 2");
-  }
-  if (!(grid.size_m.minCoeff() > 0.0) || !grid.size_m.allFinite()) {
-    throw Error("heightmap: found a size that is not positive");
-  }
-  for (const float height : grid.heights_m) {
-    if (!std::isfinite(height)) throw Error("heightmap: found a height that is not finite");
-  }
-}
-
-int clamp_cell(double cell, int cells) {
-  return static_cast<int>(std::clamp(std::floor(cell), 0.0, static_cast<double>(cells - 1)));
 }
 
 }  // namespace
@@ -47,14 +25,12 @@ double FieldTriangle::height(double x, double y) const {
   return a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z();
 }
 
-HeightField::HeightField(std::shared_ptr<const HeightGrid> grid) : grid_(std::move(grid)) {
-  if (!grid_) throw Error("heightmap: found no heights");
-  check(*grid_);
-  origin_ = -0.5 * grid_->size_m;
-  cell_ = {grid_->size_m.x() / (grid_->columns - 1), grid_->size_m.y() / (grid_->rows - 1)};
-  const auto [low, high] = std::minmax_element(grid_->heights_m.begin(), grid_->heights_m.end());
-  bounds_.extend(Eigen::Vector3d(origin_.x(), origin_.y(), *low));
-  bounds_.extend(Eigen::Vector3d(-origin_.x(), -origin_.y(), *high));
+HeightField::HeightField(std::shared_ptr<const HeightGrid> height_grid)
+    : HeightMesh(std::move(height_grid)) {
+  const auto [low, high] = std::minmax_element(grid().heights_m.begin(), grid().heights_m.end());
+  const Eigen::Vector2d reach = 0.5 * grid().size_m;
+  bounds_.extend(Eigen::Vector3d(-reach.x(), -reach.y(), *low));
+  bounds_.extend(Eigen::Vector3d(reach.x(), reach.y(), *high));
 }
 
 CellRange HeightField::cells(double min_x, double min_y, double max_x, double max_y) const {
@@ -62,45 +38,28 @@ CellRange HeightField::cells(double min_x, double min_y, double max_x, double ma
       min_y > bounds_.max().y()) {
     return {};
   }
-  CellRange range;
-  range.first_column = clamp_cell((min_x - origin_.x()) / cell_.x(), grid_->columns - 1);
-  range.last_column = clamp_cell((max_x - origin_.x()) / cell_.x(), grid_->columns - 1);
-  range.first_row = clamp_cell((min_y - origin_.y()) / cell_.y(), grid_->rows - 1);
-  range.last_row = clamp_cell((max_y - origin_.y()) / cell_.y(), grid_->rows - 1);
-  return range;
-}
-
-Eigen::Vector3d HeightField::vertex(int column, int row) const {
-  return {origin_.x() + column * cell_.x(), origin_.y() + row * cell_.y(),
-          static_cast<double>(grid_->at(column, row))};
+  const Cell first = cell_at(place({min_x, min_y}));
+  const Cell last = cell_at(place({max_x, max_y}));
+  return {first.column, last.column, first.row, last.row};
 }
 
 FieldTriangle HeightField::triangle(int column, int row, int half) const {
-  const Eigen::Vector3d low = vertex(column, row);
-  const Eigen::Vector3d high = vertex(column + 1, row + 1);
-  FieldTriangle result{low, high, high, {0, 0, 1}};
-  if (half == 0) {
-    result.b = vertex(column + 1, row);
-  } else {
-    result.c = vertex(column, row + 1);
-  }
-  result.normal = (result.b - result.a).cross(result.c - result.a).normalized();
-  return result;
+  const auto [a, b, c] = corners(column, row, half);
+  return {a, b, c, (b - a).cross(c - a).normalized()};
 }
 
 std::optional<FieldTriangle> HeightField::triangle_at(double x, double y) const {
-  const CellRange range = cells(x, y, x, y);
-  if (range.empty()) return std::nullopt;
-  const double u = (x - origin_.x()) / cell_.x() - range.first_column;
-  const double v = (y - origin_.y()) / cell_.y() - range.first_row;
-  return triangle(range.first_column, range.first_row, u >= v ? 0 : 1);
+  if (cells(x, y, x, y).empty()) return std::nullopt;
+  const Eigen::Vector2d at = place({x, y});
+  const Cell cell = cell_at(at);
+  return triangle(cell.column, cell.row, at.x() - cell.column >= at.y() - cell.row ? 0 : 1);
 }
 
 double HeightField::highest(const CellRange& range) const {
-  float highest = grid_->at(range.first_column, range.first_row);
+  float highest = grid().at(range.first_column, range.first_row);
   for (int row = range.first_row; row <= range.last_row + 1; ++row) {
     for (int column = range.first_column; column <= range.last_column + 1; ++column) {
-      highest = std::max(highest, grid_->at(column, row));
+      highest = std::max(highest, grid().at(column, row));
     }
   }
   return static_cast<double>(highest);

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "ardee_sim/core/pose.h"
-#include "ardee_sim/description/geometry.h"
+#include "ardee_sim/description/height_mesh.h"
 
 namespace ardee::physics {
 
@@ -31,28 +31,20 @@ struct CellRange {
   bool empty() const { return last_column < first_column || last_row < first_row; }
 };
 
-/// A height grid as terrain, in the grid's own frame F and unscaled metres. Each cell is split
-/// along the diagonal from its corner at (-x, -y) to that at (+x, +y). It reads the shared grid and
-/// copies nothing.
-class HeightField {
+/// A height grid as terrain that bodies touch.
+class HeightField : public HeightMesh {
  public:
-  explicit HeightField(std::shared_ptr<const HeightGrid> grid);
+  explicit HeightField(std::shared_ptr<const HeightGrid> height_grid);
 
   CellRange cells(double min_x, double min_y, double max_x, double max_y) const;
-  /// The lower right (half 0) or upper left (half 1) triangle of a cell.
   FieldTriangle triangle(int column, int row, int half) const;
   /// The triangle under (x, y); none outside the field.
   std::optional<FieldTriangle> triangle_at(double x, double y) const;
-  Eigen::Vector3d vertex(int column, int row) const;
   /// Height of the highest corner of a range of cells.
   double highest(const CellRange& range) const;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
-  const Eigen::Vector2d& cell_size() const { return cell_; }
 
  private:
-  std::shared_ptr<const HeightGrid> grid_;
-  Eigen::Vector2d origin_{0, 0};
-  Eigen::Vector2d cell_{1, 1};
   Eigen::AlignedBox3d bounds_;
 };
 

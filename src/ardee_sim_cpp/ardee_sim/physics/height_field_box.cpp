@@ -25,7 +25,7 @@ void touch_edge(const HeightField& field, const Vector3d& start, const Vector3d&
   const double start_below_m = depth_below(field, start, normal);
   const double end_below_m = depth_below(field, end, normal);
   if (!std::isfinite(start_below_m) || !std::isfinite(end_below_m)) return;
-  const double wanted = std::ceil(2.0 * (end - start).norm() / field.cell_size().minCoeff());
+  const double wanted = std::ceil(2.0 * (end - start).norm() / field.cell_size_m().minCoeff());
   const int pieces = static_cast<int>(std::min(wanted, static_cast<double>(kMaxEdgePoints)));
   for (int i = 1; i < pieces; ++i) {
     const double t = static_cast<double>(i) / pieces;

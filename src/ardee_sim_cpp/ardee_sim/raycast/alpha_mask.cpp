@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 
 namespace ardee::raycast {
 namespace {

@@ -23,9 +23,10 @@ struct SurfaceInteraction {
   bool two_sided = false;
   Eigen::Vector3d normal_W{0, 0, 0};         // unit, towards the ray's origin
   Eigen::Vector3d smooth_normal_W{0, 0, 0};  // between vertex normals, if there are any
-  Eigen::Vector3d point_S{0, 0, 0};          // in the shape's axes; for a mesh, the body's
-  Eigen::Vector2d uv{0, 0};                  // v upwards from the texture's lower edge
-  double uv_per_m = 0.0;                     // density of (u, v); 0: there are none
+  // In the shape's axes; for a mesh, the body's; for a heightmap, those of its grid.
+  Eigen::Vector3d point_S{0, 0, 0};
+  Eigen::Vector2d uv{0, 0};  // v upwards from the texture's lower edge
+  double uv_per_m = 0.0;     // density of (u, v); 0: there are none
 
   bool met() const { return entity != kNoEntity; }
 };

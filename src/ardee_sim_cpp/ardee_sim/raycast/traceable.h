@@ -49,6 +49,7 @@ struct AnalyticSolid {
   std::uint32_t surface = 0;
 };
 
+/// A heightmap; its frame S is the height grid's own.
 struct Terrain {
   HeightSurface heights;
   Eigen::Matrix3d R_BS;

@@ -2,9 +2,9 @@
 #include "ardee_sim/raycast/traceable_compiler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <variant>
 
+#include "ardee_sim/description/shape_fault.h"
 #include "ardee_sim/raycast/clustering.h"
 #include "ardee_sim/raycast/ray_query.h"
 
@@ -64,6 +64,7 @@ class BodyCompiler {
     surface_.material = material;
     next_primitive_ = 0;
     if (!X_BS.is_finite()) throw error("its pose is not finite");
+    if (const auto fault = find_fault(geometry)) throw error(fault->message());
     X_BS_ = X_BS;
     std::visit([this](const auto& shape) { add(shape); }, geometry);
   }
@@ -92,9 +93,6 @@ class BodyCompiler {
   }
 
   void add_solid(AnalyticSolid::Kind kind, const Eigen::Vector3d& half_m) {
-    if (!half_m.allFinite() || half_m.minCoeff() < 0.0) {
-      throw error("its size must be finite and not negative");
-    }
     AnalyticSolid solid;
     solid.kind = kind;
     solid.R_BS = X_BS_.q.toRotationMatrix();
@@ -123,38 +121,16 @@ class BodyCompiler {
   }
 
   void add(const Plane& plane) {
-    if (!plane.normal.allFinite() || plane.normal.norm() == 0.0) {
-      throw error("the plane's normal must be finite and not zero");
-    }
     X_BS_.q = X_BS_.q * Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), plane.normal);
     const bool infinite = kind_ == SceneKind::kCollision;
     add_solid(infinite ? AnalyticSolid::Kind::kGround : AnalyticSolid::Kind::kRectangle,
               {0.5 * plane.size_m.x(), 0.5 * plane.size_m.y(), 0.0});
   }
 
-  void check_grid(const HeightGrid* grid) const {
-    if (grid == nullptr || grid->columns < 2 || grid->rows < 2) {
-      throw error("the heightmap needs at least 2 x 2 heights");
-    }
-    const auto count =
-        static_cast<std::size_t>(grid->columns) * static_cast<std::size_t>(grid->rows);
-    if (grid->heights_m.size() != count) {
-      throw error("the heightmap has " + std::to_string(grid->heights_m.size()) +
-                  " heights instead of " + std::to_string(count));
-    }
-    if (!(grid->size_m.minCoeff() > 0.0) || !grid->size_m.allFinite()) {
-      throw error("the heightmap's size must be finite and above 0");
-    }
-    for (const float height : grid->heights_m) {
-      if (!std::isfinite(height)) throw error("a height of the heightmap is not finite");
-    }
-  }
-
   void add(const Heightmap& map) {
-    check_grid(map.grid.get());
     const auto terrain = static_cast<std::uint32_t>(body_->terrains.size());
-    body_->terrains.push_back({HeightSurface(map.grid, map.position_m), X_BS_.q.toRotationMatrix(),
-                               X_BS_.p, add_surface()});
+    body_->terrains.push_back({HeightSurface(map.grid), X_BS_.q.toRotationMatrix(),
+                               X_BS_ * map.position_m, add_surface()});
     const Terrain& made = body_->terrains.back();
     for (const HeightPatch& patch : made.heights.patches()) {
       const auto index = static_cast<std::uint32_t>(body_->patches.size());
@@ -185,7 +161,6 @@ class BodyCompiler {
 };
 
 void BodyCompiler::add(const Mesh& mesh) {
-  if (mesh.file == nullptr) throw error("mesh '" + mesh.uri + "' is not loaded");
   std::vector<const SubMesh*> parts;
   for (const SubMesh& part : mesh.file->parts) {
     if (mesh.submesh.empty() || part.name == mesh.submesh) parts.push_back(&part);

@@ -137,15 +137,15 @@ void TriangleScene::add_patch(const TraceableInstance& placed, const TerrainPatc
       part.vertices.push_back({(R_WB * (terrain.R_BS * normal_S)).cast<float>(), {0, 0}});
     }
   }
-  const auto columns = static_cast<std::uint32_t>(cells.columns);
-  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(cells.rows); ++row) {
-    for (std::uint32_t column = 0; column < columns; ++column) {
-      const std::uint32_t v00 = first + row * (columns + 1) + column;
-      const std::uint32_t v01 = v00 + columns + 1;
-      for (const auto& corners :
-           {std::array{v00, v00 + 1, v01 + 1}, std::array{v00, v01 + 1, v01}}) {
+  const int stride = cells.columns + 1;
+  for (int row = 0; row < cells.rows; ++row) {
+    for (int column = 0; column < cells.columns; ++column) {
+      for (const auto& cut : HeightMesh::kCut) {
         Triangle triangle{};
-        std::copy(corners.begin(), corners.end(), triangle.corners);
+        std::transform(std::begin(cut), std::end(cut), triangle.corners, [&](const auto& corner) {
+          const int vertex = (row + corner.row) * stride + column + corner.column;
+          return first + static_cast<std::uint32_t>(vertex);
+        });
         triangle.surface = surface;
         measure(part, triangle);
         part.triangles.push_back(triangle);

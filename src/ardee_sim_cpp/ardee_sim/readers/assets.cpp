@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <sstream>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/heightmap_reader.h"
 #include "ardee_sim/readers/mesh_reader.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee {
 namespace fs = std::filesystem;

@@ -13,7 +13,7 @@
 #include <limits>
 #include <memory>
 
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 
 namespace ardee {
 namespace {

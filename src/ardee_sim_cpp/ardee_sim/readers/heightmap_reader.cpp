@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/readers/elevation.h"
-#include "ardee_sim/readers/image.h"
 
 namespace ardee {
 namespace {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/readers/limits.h"
 
 namespace ardee {
@@ -75,7 +76,9 @@ class RowReader {
     return fields_[column];
   }
 
-  double length(std::size_t column) const { return number(column, -kAbsurd, kAbsurd); }
+  double length(std::size_t column) const {
+    return number(column, -limits::kAbsurd, limits::kAbsurd);
+  }
 
   double number(std::size_t column, double low, double high) const {
     const std::string_view field = fields_[column];

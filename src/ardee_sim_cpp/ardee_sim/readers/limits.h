@@ -5,8 +5,6 @@
 
 namespace ardee {
 
-/// Lengths, masses and the like above this are taken for mistakes (metres, kilograms, ...).
-constexpr double kAbsurd = 1e9;
 /// Limit for one instance of a model.
 constexpr double kMaxScale = 1e6;
 constexpr int kMaxLabel = 65535;

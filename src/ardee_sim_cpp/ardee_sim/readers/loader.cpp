@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/readers/loader.h"
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/assets.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/sdf_reader.h"
-#include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/urdf_reader.h"
 
 #ifdef __GLIBC__

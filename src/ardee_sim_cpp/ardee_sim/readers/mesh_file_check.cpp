@@ -9,8 +9,8 @@
 #include <set>
 #include <string_view>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/collada_check.h"
-#include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
 namespace ardee {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <set>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/fuel_cache.h"
 #include "ardee_sim/readers/package_index.h"
 #include "ardee_sim/readers/sdf_version.h"
-#include "ardee_sim/readers/text_file.h"
 #include "ardee_sim/readers/xml.h"
 
 namespace ardee {

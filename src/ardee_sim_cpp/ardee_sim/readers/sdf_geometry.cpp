@@ -3,46 +3,37 @@
 
 #include <algorithm>
 
+#include "ardee_sim/description/shape_fault.h"
 #include "ardee_sim/readers/mesh_reader.h"
 
 namespace ardee {
 namespace {
 
-double positive(const Node& shape, const char* name) {
-  const Node size = shape.required(name);
-  const double value = size.to_number();
-  if (!(value > 0.0)) throw size.error("found '" + size.text() + "', expected a positive number");
-  return value;
+/// Throws Error at the element that makes the shape meaningless.
+void check(const Node& shape, const Geometry& made) {
+  const auto fault = find_fault(made);
+  if (!fault) return;
+  const Node place = shape.child(fault->field).value_or(shape);
+  throw place.error("found '" + place.text() + "', expected " + fault->expected);
 }
 
-Box read_box(const Node& shape) {
-  const Node size = shape.required("size");
-  Box box{size.to_vector3()};
-  if (!(box.size_m.minCoeff() > 0.0)) {
-    throw size.error("found '" + size.text() + "', expected three positive numbers");
-  }
-  return box;
-}
+double number(const Node& shape, const char* name) { return shape.required(name).to_number(); }
 
 /// A colliding plane is infinite, for any size.
 Plane read_plane(const Node& shape, bool collides, Log& log) {
   Plane plane;
   plane.normal = shape.vector3("normal", plane.normal);
-  if (!(plane.normal.norm() > 1e-9)) {
-    throw shape.error("found a normal of length zero, expected a direction");
-  }
-  plane.normal.normalize();
   if (const auto size = shape.child("size")) {
     const Eigen::Vector2d size_m = size->to_vector2();
-    if (size_m.minCoeff() > 0.0) {
+    if (!collides || size_m.minCoeff() > 0.0) {
       plane.size_m = size_m;
-    } else if (collides) {
+    } else {
       log.warn(size->source(), "found '" + size->text() +
                                    "', expected two positive numbers; sensors see 1 m x 1 m of it");
-    } else {
-      throw size->error("found '" + size->text() + "', expected two positive numbers");
     }
   }
+  check(shape, plane);
+  plane.normal.normalize();
   return plane;
 }
 
@@ -59,16 +50,17 @@ Heightmap read_heightmap(const Node& shape, Assets& assets) {
   Heightmap map;
   const Node uri = shape.required("uri");
   const Eigen::Vector3d size_m = shape.vector3("size", Eigen::Vector3d::Ones());
-  if (!(size_m.head<2>().minCoeff() > 0.0)) {
-    throw shape.required("size").error("found '" + shape.text("size", "") +
-                                       "', expected positive x and y");
-  }
   map.uri = uri.required_text();
   map.grid = assets.heights(map.uri, size_m, uri.source());
   map.position_m = shape.vector3("pos", Eigen::Vector3d::Zero());
   shape.each("texture", [&](const Node& texture) {
     GroundTexture made;
-    made.size_m = texture.child("size") ? positive(texture, "size") : made.size_m;
+    if (const auto size = texture.child("size")) {
+      made.size_m = size->to_number();
+      if (!(made.size_m > 0.0)) {
+        throw size->error("found '" + size->text() + "', expected a positive number");
+      }
+    }
     if (const auto diffuse = texture.child("diffuse")) {
       made.diffuse_path = assets.texture(diffuse->required_text(), diffuse->source());
     }
@@ -84,9 +76,6 @@ Heightmap read_heightmap(const Node& shape, Assets& assets) {
 
 Mesh make_mesh(const std::string& uri, const std::string& submesh, bool center,
                const Eigen::Vector3d& scale, const Source& source, Assets& assets) {
-  if (!(scale.cwiseAbs().minCoeff() > 0.0)) {
-    throw Error(source, "found a mesh scale of zero, expected another number");
-  }
   Mesh mesh;
   mesh.file = assets.mesh(uri, source);
   mesh.uri = uri;
@@ -103,6 +92,22 @@ Mesh make_mesh(const std::string& uri, const std::string& submesh, bool center,
   return mesh;
 }
 
+namespace {
+
+std::optional<Geometry> read_shape(const Node& shape, bool collides, Assets& assets) {
+  const std::string_view name = shape.name();
+  if (name == "box") return Box{shape.required("size").to_vector3()};
+  if (name == "sphere") return Sphere{number(shape, "radius")};
+  if (name == "cylinder") return Cylinder{number(shape, "radius"), number(shape, "length")};
+  if (name == "plane") return read_plane(shape, collides, assets.log());
+  std::optional<Geometry> made;
+  if (name == "mesh") assets.has_files([&] { made = read_mesh(shape, assets); });
+  if (name == "heightmap") assets.has_files([&] { made = read_heightmap(shape, assets); });
+  return made;
+}
+
+}  // namespace
+
 std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
   std::optional<Node> shape;
   if (const auto geometry = owner.child("geometry")) {
@@ -114,16 +119,8 @@ std::optional<Geometry> read_sdf_geometry(const Node& owner, Assets& assets) {
     assets.log().warn(owner.source(), "found no shape in it, expected a <geometry>; left out");
     return std::nullopt;
   }
-  const std::string_view name = shape->name();
-  if (name == "box") return read_box(*shape);
-  if (name == "sphere") return Sphere{positive(*shape, "radius")};
-  if (name == "cylinder") {
-    return Cylinder{positive(*shape, "radius"), positive(*shape, "length")};
-  }
-  if (name == "plane") return read_plane(*shape, owner.name() == "collision", assets.log());
-  std::optional<Geometry> made;
-  if (name == "mesh") assets.has_files([&] { made = read_mesh(*shape, assets); });
-  if (name == "heightmap") assets.has_files([&] { made = read_heightmap(*shape, assets); });
+  auto made = read_shape(*shape, owner.name() == "collision", assets);
+  if (made) check(*shape, *made);
   return made;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/schema.h"
 #include "ardee_sim/readers/sdf_link.h"
 #include "ardee_sim/readers/sdf_reader.h"
 #include "ardee_sim/readers/sdf_scene.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee {
 namespace {

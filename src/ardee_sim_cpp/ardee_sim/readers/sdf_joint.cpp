@@ -124,8 +124,8 @@ Joint read_sdf_joint(const Node& node, const JointScope& scope, Log& log) {
   const std::string parent = without_own_scope(node.required("parent").required_text(), scope);
   joint.parent = link_of(parent, scope);
   joint.child = link_of(child, scope);
-  const bool free = joint.type == JointType::kFixed || joint.type == JointType::kBall;
-  const bool two = joint.type == JointType::kUniversal || joint.type == JointType::kRevolute2;
+  const bool free = axis_count(joint.type) == 0;
+  const bool two = axis_count(joint.type) == 2;
   const auto axis = node.child("axis");
   if (!free && axis) joint.axis = read_axis(*axis);
   if (!free && !axis) log.warn(node.source(), "found no <axis>, expected one; it is 0 0 1");
@@ -165,7 +165,7 @@ struct HeldBy {
 HeldBy find_joint(const std::string& link, const std::string& reference,
                   const Eigen::Vector3d& axis_M, const JointScope& scope, const Model& model) {
   for (const Joint& joint : model.joints) {
-    if (joint.type != JointType::kRevolute && joint.type != JointType::kContinuous) continue;
+    if (!turns(joint.type)) continue;
     const bool holds = joint.child == link && joint.parent == reference;
     if (!holds && !(joint.child == reference && joint.parent == link)) continue;
     const Eigen::Quaterniond q_MJ = scope.X_ML.at(joint.child).q * joint.X_CJ.q;

@@ -5,13 +5,13 @@
 #include <map>
 #include <utility>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/description/bounds.h"
 #include "ardee_sim/readers/urdf_link.h"
 
 namespace ardee {
 namespace {
 
-constexpr double kMostTurns = 1e6;  // multiplier, or rad
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Type of a joint; none if nothing holds the child.
@@ -119,8 +119,10 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
     made.mimic.emplace();
     made.mimic->leader = mimic->required_attribute("joint");
     made.mimic->follower = made.joint.name;
-    made.mimic->multiplier = mimic->attribute_number("multiplier", 1.0, -kMostTurns, kMostTurns);
-    made.mimic->offset = mimic->attribute_number("offset", 0.0, -kMostTurns, kMostTurns);
+    made.mimic->multiplier =
+        mimic->attribute_number("multiplier", 1.0, -limits::kMostFactor, limits::kMostFactor);
+    made.mimic->offset =
+        mimic->attribute_number("offset", 0.0, -limits::kMostTravel, limits::kMostTravel);
     made.mimic->source = mimic->source();
   }
   return made;

@@ -4,31 +4,27 @@
 #include <cmath>
 
 #include "ardee_sim/description/parameters.h"
+#include "ardee_sim/description/shape_fault.h"
 #include "ardee_sim/readers/sdf_geometry.h"
 
 namespace ardee {
 namespace {
 
-double positive(const Node& shape, const char* name) {
+double number(const Node& shape, const char* name) {
   shape.required_attribute(name);
-  const double value = shape.attribute_number(name, 0.0);
-  if (value > 0.0) return value;
-  throw shape.error("found " + std::string(name) + "='" + shape.attribute(name) +
-                    "', expected a positive number");
+  return shape.attribute_number(name, 0.0);
 }
 
 Box read_box(const Node& shape) {
   shape.required_attribute("size");
-  const Box box{shape.attribute_vector3("size", {})};
-  if (box.size_m.minCoeff() > 0.0) return box;
-  throw shape.error("found size='" + shape.attribute("size") + "', expected positive numbers");
+  return {shape.attribute_vector3("size", {})};
 }
 
 Geometry read_shape(const Node& shape, Assets& assets) {
   const std::string_view kind = shape.name();
   if (kind == "box") return read_box(shape);
-  if (kind == "sphere") return Sphere{positive(shape, "radius")};
-  if (kind == "cylinder") return Cylinder{positive(shape, "radius"), positive(shape, "length")};
+  if (kind == "sphere") return Sphere{number(shape, "radius")};
+  if (kind == "cylinder") return Cylinder{number(shape, "radius"), number(shape, "length")};
   if (kind == "mesh") {
     const Eigen::Vector3d scale = shape.attribute_vector3("scale", Eigen::Vector3d::Ones());
     return make_mesh(shape.required_attribute("filename"), "", false, scale, shape.source(),
@@ -46,6 +42,10 @@ std::optional<Geometry> read_geometry(const Node& body, Assets& assets) {
       if (found) throw shape.error("found a second shape in a <geometry>, expected one");
       found = true;
       assets.has_files([&] { made = read_shape(shape, assets); });
+      const auto fault = made ? find_fault(*made) : std::nullopt;
+      if (!fault) return;
+      throw shape.error("found " + std::string(fault->field) + "='" +
+                        shape.attribute(fault->field) + "', expected " + fault->expected);
     });
   }
   if (!found) {

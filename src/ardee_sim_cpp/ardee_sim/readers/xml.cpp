@@ -5,8 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/description/parameters.h"
-#include "ardee_sim/readers/text_file.h"
 
 namespace ardee {
 namespace {
@@ -156,8 +156,8 @@ std::vector<double> Node::to_numbers(std::size_t least, std::size_t most, const 
   }
   for (const double value : *numbers) {
     if (!std::isfinite(value)) throw error("found " + in_quotes(all) + ", expected " + what);
-    if (std::abs(value) > kAbsurd) {
-      throw error("found " + in_quotes(all) + ", " + bounds(-kAbsurd, kAbsurd));
+    if (std::abs(value) > limits::kAbsurd) {
+      throw error("found " + in_quotes(all) + ", " + bounds(-limits::kAbsurd, limits::kAbsurd));
     }
   }
   return *numbers;

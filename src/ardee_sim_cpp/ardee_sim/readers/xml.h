@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/element.h"
 #include "ardee_sim/description/material.h"
-#include "ardee_sim/readers/limits.h"
 
 namespace ardee {
 
@@ -60,16 +60,17 @@ class Node {
   std::string required_attribute(const char* name) const;
   /// From `least` to `most` numbers of an attribute; none if it is absent or empty.
   std::vector<double> attribute_numbers(const char* name, std::size_t least, std::size_t most,
-                                        double low = -kAbsurd, double high = kAbsurd) const;
-  double attribute_number(const char* name, double fallback, double low = -kAbsurd,
-                          double high = kAbsurd) const;
+                                        double low = -limits::kAbsurd,
+                                        double high = limits::kAbsurd) const;
+  double attribute_number(const char* name, double fallback, double low = -limits::kAbsurd,
+                          double high = limits::kAbsurd) const;
   Eigen::Vector3d attribute_vector3(const char* name, const Eigen::Vector3d& fallback) const;
 
   /// All text directly inside, trimmed; for an empty element its attribute "value".
   std::string text() const;
   std::string required_text() const;
   /// A number, infinite only if the bounds are.
-  double to_number(double low = -kAbsurd, double high = kAbsurd) const;
+  double to_number(double low = -limits::kAbsurd, double high = limits::kAbsurd) const;
   /// A number that may be infinite; magnitudes from 1e15 on count as infinite.
   double to_limit() const;
   int to_integer(int low, int high) const;
@@ -83,8 +84,8 @@ class Node {
   // The values above for a child (or the element at a path "a/b"), with a default if it is absent
   // or empty.
   std::string text(std::string_view path, const std::string& fallback) const;
-  double number(std::string_view path, double fallback, double low = -kAbsurd,
-                double high = kAbsurd) const;
+  double number(std::string_view path, double fallback, double low = -limits::kAbsurd,
+                double high = limits::kAbsurd) const;
   double limit(std::string_view path, double fallback) const;
   int integer(std::string_view path, int fallback, int low, int high) const;
   bool boolean(std::string_view path, bool fallback) const;
@@ -98,7 +99,8 @@ class Node {
   Element to_element() const;
 
  private:
-  /// From `least` to `most` numbers of magnitude up to kAbsurd; `what` describes them in messages.
+  /// From `least` to `most` numbers of magnitude up to limits::kAbsurd; `what` describes them in
+  /// messages.
   std::vector<double> to_numbers(std::size_t least, std::size_t most, const char* what) const;
   /// The element at the end of a path, if it has text.
   std::optional<Node> find_filled(std::string_view path) const;

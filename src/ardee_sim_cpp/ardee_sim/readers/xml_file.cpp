@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/core/text_file.h"
+#include "ardee_sim/readers/limits.h"
 #include "ardee_sim/readers/xml.h"
 #include "ardee_sim/readers/xml_text.h"
 

@@ -62,8 +62,8 @@ Color MaterialLibrary::ground(const Heightmap& map, const raycast::SurfaceIntera
     memo.layers = found == of_ground_.end() ? nullptr : &found->second;
   }
   if (memo.layers == nullptr) return kBareSoil;
-  const double height_m = point.point_S.z() - map.position_m.z();
-  const Eigen::Vector2d place = (point.point_S - map.position_m).head<2>();
+  const double height_m = point.point_S.z();
+  const Eigen::Vector2d place = point.point_S.head<2>();
   Color color = kBareSoil;
   for (std::size_t k = 0; k < memo.layers->size(); ++k) {
     double share = 1.0;

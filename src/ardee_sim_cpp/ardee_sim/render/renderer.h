@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/raycast/picture_tracer.h"
-#include "ardee_sim/readers/image.h"
 #include "ardee_sim/render/camera.h"
 #include "ardee_sim/render/frame.h"
 #include "ardee_sim/render/material_library.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ardee_sim/description/material.h"
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 
 namespace ardee::render {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/render/adaptive_tile.h"
 
 namespace ardee::render {

@@ -158,9 +158,8 @@ TEST(PhysicsWorld, FailedModelLeavesNothingBehind) {
             std::string::npos);
   rover = rover_model();
   rover->links.back().collisions[0].geometry = Sphere{-1.0};
-  EXPECT_NE(
-      error_of([&] { world.add_model(rover, at(0, 0, 0.05)); }).find("radius is not positive"),
-      std::string::npos);
+  EXPECT_NE(error_of([&] { world.add_model(rover, at(0, 0, 0.05)); }).find("an invalid radius"),
+            std::string::npos);
   auto screw = jointed_model(JointType::kScrew, wheel_inertial(1, 1), axis_along({0, 0, 1}));
   EXPECT_NE(error_of([&] { world.add_model(screw, Pose{}); }).find("screw"), std::string::npos);
   auto empty = std::make_shared<Model>();

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "ardee_sim/core/text_file.h"
+#include "ardee_sim/image/image.h"
 #include "ardee_sim/readers/heightmap_reader.h"
-#include "ardee_sim/readers/image.h"
-#include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
 
 namespace ardee {

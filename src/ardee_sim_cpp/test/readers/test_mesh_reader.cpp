@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <ctime>
 
+#include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/mesh_reader.h"
-#include "ardee_sim/readers/text_file.h"
 #include "fixture.h"
 
 // Assimp leaks some memory when it refuses a broken file; the leak check is for our own code.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/core/text_file.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ardee_sim/readers/image.h"
+#include "ardee_sim/image/image.h"
 
 #include <Magick++.h>
 #include <png.h>
@@ -12,7 +12,7 @@
 #include <mutex>
 #include <optional>
 
-#include "ardee_sim/readers/text_file.h"
+#include "ardee_sim/core/text_file.h"
 
 namespace ardee {
 namespace {
