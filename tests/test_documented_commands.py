@@ -14,6 +14,7 @@ answer of a person stands in blocks of other kinds (`sh`, `text`).
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import time
 from typing import Dict, Iterator, List, NamedTuple
@@ -62,7 +63,7 @@ def pages() -> List[str]:
 
 def says(printed: List[str], output: str) -> bool:
     """Are these lines among those of the output, in this order?"""
-    plain = re.sub(r"\x1b\[[0-9;]*m", "", output).splitlines()
+    plain = re.sub(r"\x1b(\[[0-9;]*m|\][^\a]*\a)", "", output).splitlines()
     found = iter(line.rstrip() for line in plain)
     wanted = (line.rstrip() for line in printed if line.strip() != "...")
     patterns = (".*".join(map(re.escape, line.split("..."))) for line in wanted)
@@ -116,14 +117,29 @@ class Shell:
         expected = "\n".join(command.printed)
         assert told(), f"$ {command.text}\nexpected:\n{expected}\nfound:\n{output[-3000:]}"
 
+    def _processes(self) -> List[int]:
+        """The processes of this shell's session, itself too."""
+        found = []
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                session = (folder / "stat").read_text().rpartition(")")[2].split()[3]
+            except OSError:
+                continue  # gone meanwhile
+            if int(session) == self._bash.pid:
+                found.append(int(folder.name))
+        return found
+
     def close(self) -> None:
-        """Ends what the page has left running, as by Ctrl-C, the newest first, and the shell."""
-        self._type('for job in $(jobs -p | tac); do kill -INT -- "-$job" 2>/dev/null; wait "$job"; done; exit')
+        """Ends the shell and what the page has left running, as by Ctrl-C."""
+        self._type("exit")
+        for pid in self._processes():
+            if pid != self._bash.pid:
+                os.kill(pid, signal.SIGINT)
         try:
-            self._bash.wait(60.0)
-        except subprocess.TimeoutExpired:
+            wait_until(lambda: self._bash.poll() is not None and not self._processes(), "all ended", 60.0)
+        finally:
             self._bash.kill()
-            raise
+            self._bash.wait()
 
 
 @pytest.fixture(scope="module")
