@@ -21,13 +21,17 @@ autodoc_preserve_defaults = True
 nitpicky = False
 
 
-def _as_restructured_text(_app: Any, _what: str, _name: str, _object: Any, _options: Any, lines: List[str]) -> None:
+def _as_restructured_text(
+    _app: Any, _what: str, _name: str, _object: Any, _options: Any, lines: List[str]
+) -> None:
     """Keeps the plain text of a docstring what it is: `name` is code, and *, | and _ mean nothing."""
     for number, line in enumerate(lines):
         parts = re.split(r"(`+[^`]+`+)", line)
         for place, part in enumerate(parts):
             code = re.fullmatch(r"`+([^`]+)`+", part)
-            parts[place] = f"``{code[1]}``" if code else re.sub(r"([\\*|`]|_(?=\W|$))", r"\\\1", part)
+            parts[place] = (
+                f"``{code[1]}``" if code else re.sub(r"([\\*|`]|_(?=\W|$))", r"\\\1", part)
+            )
         lines[number] = "".join(parts)
 
 

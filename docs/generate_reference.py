@@ -29,9 +29,14 @@ from ardee_world.start import Start
 ROOT = Path(__file__).resolve().parents[1]
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
 # Files of the tree that are pages of the site, beside docs/ and the READMEs of packages.
-PAGES = {"src/ardee_bridge/docs/wire_format.md": "reference/wire_format.md", "README.md": "index.md"}
+PAGES = {
+    "src/ardee_bridge/docs/wire_format.md": "reference/wire_format.md",
+    "README.md": "index.md",
+}
 CPP_COMMANDS = ("simulator", "spawn_model", "render_world")  # others: scripts/ of packages
-FOR_BUILDING = ("generate_wire_files",)  # commands that write files of the tree and take no argument
+FOR_BUILDING = (
+    "generate_wire_files",
+)  # commands that write files of the tree and take no argument
 HELP_SECONDS = 60
 API = {
     "ardee_common": "src/ardee_common/src/ardee_common",
@@ -59,7 +64,9 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     """Returns a Markdown table."""
     lines = [list(head)] + [list(row) for row in rows]
     lines.insert(1, ["---"] * len(lines[0]))
-    cells = (" | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) for row in lines)
+    cells = (
+        " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) for row in lines
+    )
     return "\n".join(f"| {row} |" for row in cells) + "\n"
 
 
@@ -74,7 +81,11 @@ def page_of(file: Path) -> str:
     if name.startswith("docs/"):
         return name[len("docs/") :]
     if re.fullmatch(r"(src|compat)/.*README\.md", name):
-        return "reference/packages/" + name[: -len("/README.md")].split("/", 1)[1].replace("/", "_") + ".md"
+        return (
+            "reference/packages/"
+            + name[: -len("/README.md")].split("/", 1)[1].replace("/", "_")
+            + ".md"
+        )
     return PAGES.get(name, "")
 
 
@@ -96,8 +107,14 @@ def relinked(text: str, file: Path) -> str:
 
 def documents() -> Iterator[Tuple[str, str]]:
     """Pages that are files of the tree: page, text."""
-    readmes = sorted(ROOT.glob("src/ardee_*/**/README.md")) + sorted(ROOT.glob("src/terrasentia_*/README.md"))
-    for file in [*readmes, *sorted(ROOT.glob("compat/*/README.md")), ROOT / "src/ardee_bridge/docs/wire_format.md"]:
+    readmes = sorted(ROOT.glob("src/ardee_*/**/README.md")) + sorted(
+        ROOT.glob("src/terrasentia_*/README.md")
+    )
+    for file in [
+        *readmes,
+        *sorted(ROOT.glob("compat/*/README.md")),
+        ROOT / "src/ardee_bridge/docs/wire_format.md",
+    ]:
         yield page_of(file), relinked(file.read_text(), file)
 
 
@@ -105,10 +122,18 @@ def launch_files() -> str:
     """The page of launch files and their arguments."""
     parts = ["# Launch files\n\n`roslaunch PACKAGE FILE NAME:=VALUE ...`\n"]
     for file in sorted([*ROOT.glob("src/*/launch/*.launch"), *ROOT.glob("launch/*.launch")]):
-        given = [arg for arg in xml.parse(file).getroot().iter("arg") if arg.get("doc") and not arg.get("value")]
+        given = [
+            arg
+            for arg in xml.parse(file).getroot().iter("arg")
+            if arg.get("doc") and not arg.get("value")
+        ]
         package = file.relative_to(ROOT / "src").parts[0] if ROOT / "src" in file.parents else ""
-        start = f"roslaunch {package} {file.name}" if package else f"roslaunch {file.relative_to(ROOT)}"
-        rows = ((code(arg.get("name")), code(arg.get("default", "")), arg.get("doc")) for arg in given)
+        start = (
+            f"roslaunch {package} {file.name}" if package else f"roslaunch {file.relative_to(ROOT)}"
+        )
+        rows = (
+            (code(arg.get("name")), code(arg.get("default", "")), arg.get("doc")) for arg in given
+        )
         parts.append(f"## {package or 'the workspace'}: {file.name}\n\n`{start}`\n\n")
         parts.append(table(("argument", "default", "meaning"), rows) + "\n")
     return "".join(parts)
@@ -120,10 +145,19 @@ def commands() -> Dict[str, List[str]]:
     for package in sorted(path.parent for path in ROOT.glob("src/*/scripts")):
         if not package.is_symlink():
             for script in sorted((package / "scripts").iterdir()):
-                if os.access(script, os.X_OK) and script.is_file() and "." not in script.name and script.name not in FOR_BUILDING:
+                if (
+                    os.access(script, os.X_OK)
+                    and script.is_file()
+                    and "." not in script.name
+                    and script.name not in FOR_BUILDING
+                ):
                     found[f"rosrun {package.name} {script.name}"] = ["-h"]
     found.update({f"rosrun ardee_sim_cpp {name}": ["-h"] for name in CPP_COMMANDS})
-    scripts = (path for path in sorted((ROOT / "scripts").iterdir()) if path.is_file() and "." not in path.name)
+    scripts = (
+        path
+        for path in sorted((ROOT / "scripts").iterdir())
+        if path.is_file() and "." not in path.name
+    )
     found.update({f"scripts/{script.name}": ["-h"] for script in scripts})
     return found
 
@@ -132,17 +166,29 @@ def help_of(command: str) -> str:
     """What a command prints with -h."""
     environment = dict(os.environ, COLUMNS="100")
     words = [*command.split(), "-h"]
-    run = subprocess.run(words, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                         stdin=subprocess.DEVNULL, timeout=HELP_SECONDS, check=False)
+    run = subprocess.run(
+        words,
+        cwd=ROOT,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        timeout=HELP_SECONDS,
+        check=False,
+    )
     text = run.stdout.decode().strip("\n").replace(str(ROOT) + "/", "")
     if run.returncode != 0 or not text:
-        raise SystemExit(f"{' '.join(words)}: found exit code {run.returncode}, expected help:\n{text}")
+        raise SystemExit(
+            f"{' '.join(words)}: found exit code {run.returncode}, expected help:\n{text}"
+        )
     return text
 
 
 def command_page() -> str:
     """The page of commands with their help."""
-    parts = ["# Commands\n\nWhat each command prints with `-h`. Exit code 0: done; 2: a bad argument or file, in one line.\n"]
+    parts = [
+        "# Commands\n\nWhat each command prints with `-h`. Exit code 0: done; 2: a bad argument or file, in one line.\n"
+    ]
     names = list(commands())
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, text in zip(names, pool.map(help_of, names)):
@@ -152,8 +198,13 @@ def command_page() -> str:
 
 def messages() -> str:
     """The page of messages and services of ARDEE's own."""
-    parts = ["# Messages and services\n\nThose of ARDEE's own, package `ardee_msgs`; all others are ROS's standard ones.\n"]
-    for file in [*sorted(ROOT.glob("src/ardee_msgs/msg/*")), *sorted(ROOT.glob("src/ardee_msgs/srv/*"))]:
+    parts = [
+        "# Messages and services\n\nThose of ARDEE's own, package `ardee_msgs`; all others are ROS's standard ones.\n"
+    ]
+    for file in [
+        *sorted(ROOT.glob("src/ardee_msgs/msg/*")),
+        *sorted(ROOT.glob("src/ardee_msgs/srv/*")),
+    ]:
         parts.append(f"\n## ardee_msgs/{file.stem}\n\n```text\n{file.read_text().strip()}\n```\n")
     return "".join(parts)
 
@@ -169,7 +220,9 @@ def kind_text(kind: Any) -> str:
     plain = {str: "text", float: "number", int: "whole number", bool: "true or false", Any: "any"}
     if typing.get_origin(kind) is tuple:
         items = typing.get_args(kind)
-        return "list of " + kind_text(items[0]) + ("" if items[-1] is Ellipsis else f", {len(items)}")
+        return (
+            "list of " + kind_text(items[0]) + ("" if items[-1] is Ellipsis else f", {len(items)}")
+        )
     return plain.get(kind, getattr(kind, "__name__", str(kind)))
 
 
@@ -179,10 +232,14 @@ def rows_of(cls: type, prefix: str = "") -> Iterator[Tuple[str, str, str, str, s
         kind = kind_of(cls, field)
         nested = kind if dataclasses.is_dataclass(kind) else field.metadata.get("group")
         if inspect.isclass(nested):
-            yield from rows_of(nested, f"{prefix}{field.name}{'[].' if nested is not kind else '.'}")
+            yield from rows_of(
+                nested, f"{prefix}{field.name}{'[].' if nested is not kind else '.'}"
+            )
             continue
         missing = field.default is dataclasses.MISSING
-        default = "" if missing or field.default in (None, ()) else code(str(field.default).strip("()"))
+        default = (
+            "" if missing or field.default in (None, ()) else code(str(field.default).strip("()"))
+        )
         limits, choices = field.metadata.get("limits"), field.metadata.get("choices")
         values = field.metadata.get("expected") or kind_text(kind)
         if limits:
@@ -196,10 +253,12 @@ def rows_of(cls: type, prefix: str = "") -> Iterator[Tuple[str, str, str, str, s
 def yaml_keys() -> str:
     """The page of keys of YAML files."""
     head = ("key", "default", "values", "unit", "meaning")
-    parts = ["# Keys of YAML files\n\nAn unknown key or a value out of its limits is refused with file and line. ",
-             "`a.b` is the key `b` of the mapping `a`; `a[].b` that of each entry of the list `a`. ",
-             "A key without a default has to be given, or is off.\n\n## Field\n\n",
-             "A file of `rosrun ardee_world generate_field FIELD.yaml`.\n\n"]
+    parts = [
+        "# Keys of YAML files\n\nAn unknown key or a value out of its limits is refused with file and line. ",
+        "`a.b` is the key `b` of the mapping `a`; `a[].b` that of each entry of the list `a`. ",
+        "A key without a default has to be given, or is off.\n\n## Field\n\n",
+        "A file of `rosrun ardee_world generate_field FIELD.yaml`.\n\n",
+    ]
     fields = [field for cls in groups().values() for field in rows_of(cls)]
     shown = {row[0]: row for row in fields if "." not in row[0]}
     parts.append(table(head, shown.values()))
@@ -217,9 +276,13 @@ def labels() -> str:
     for name, model in clutter_models.MODELS.items():
         found.setdefault(model.label, name.split("_")[0])
     rows = [(str(label), name) for label, name in sorted(found.items())]
-    text = ("# Labels\n\nThe class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`, "
-            "`clutter.csv`, and `<ardee:label>` of worlds.\n\n")
-    return text + table(("label", "is"), [*rows, (f"{max(found) + 1} to 65535", "free for your own models")])
+    text = (
+        "# Labels\n\nThe class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`, "
+        "`clutter.csv`, and `<ardee:label>` of worlds.\n\n"
+    )
+    return text + table(
+        ("label", "is"), [*rows, (f"{max(found) + 1} to 65535", "free for your own models")]
+    )
 
 
 def python_api() -> Iterator[Tuple[str, str]]:
@@ -239,14 +302,19 @@ def python_api() -> Iterator[Tuple[str, str]]:
 
 def cpp_library() -> str:
     """The page of the C++ library's headers."""
-    parts = ["# C++ library\n\n`find_package(ardee_sim)`, link `ardee_sim::ardee_sim`; no ROS in it. The first sentence of each header "
-             "says what it holds; the header is the reference.\n"]
+    parts = [
+        "# C++ library\n\n`find_package(ardee_sim)`, link `ardee_sim::ardee_sim`; no ROS in it. The first sentence of each header "
+        "says what it holds; the header is the reference.\n"
+    ]
     base = ROOT / "src/ardee_sim_cpp/ardee_sim"
     for module in sorted(path for path in base.iterdir() if path.is_dir()):
         rows = []
         for header in sorted(module.rglob("*.h")):
-            said = re.search(r"^((?:///.*\n)+)(?:template.*\n)?(?:class|struct|enum|inline|\[\[|[\w:<>]+ \w)",
-                             header.read_text(), re.MULTILINE)
+            said = re.search(
+                r"^((?:///.*\n)+)(?:template.*\n)?(?:class|struct|enum|inline|\[\[|[\w:<>]+ \w)",
+                header.read_text(),
+                re.MULTILINE,
+            )
             text = " ".join(line.strip("/ ") for line in said[1].splitlines()) if said else ""
             text = re.split(r"(?<=\.)\s", text)[0].replace("<", "\\<")
             rows.append((code(f"ardee_sim/{header.relative_to(base)}"), text))
@@ -258,16 +326,32 @@ def cpp_library() -> str:
 def main() -> int:
     """Runs the command; returns its exit code."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder to write, replaced if it is there")
+    parser.add_argument(
+        "folder", type=Path, metavar="FOLDER", help="folder to write, replaced if it is there"
+    )
     folder = parser.parse_args().folder
     shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(ROOT / "docs", folder, ignore=shutil.ignore_patterns("*.py", "__pycache__"))
+    shutil.copytree(
+        ROOT / "docs",
+        folder,
+        ignore=shutil.ignore_patterns("conf.py", Path(__file__).name, "__pycache__"),
+    )
     for page in sorted(folder.rglob("*.md")):
         source = ROOT / "docs" / page.relative_to(folder)
         page.write_text(relinked(source.read_text(), source))
-    made = {"launch_files": launch_files(), "commands": command_page(), "messages": messages(),
-            "yaml_keys": yaml_keys(), "labels": labels(), "cpp_library": cpp_library()}
-    for page, text in [*((f"reference/{name}.md", text) for name, text in made.items()), *documents(), *python_api()]:
+    made = {
+        "launch_files": launch_files(),
+        "commands": command_page(),
+        "messages": messages(),
+        "yaml_keys": yaml_keys(),
+        "labels": labels(),
+        "cpp_library": cpp_library(),
+    }
+    for page, text in [
+        *((f"reference/{name}.md", text) for name, text in made.items()),
+        *documents(),
+        *python_api(),
+    ]:
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
         (folder / page).write_text(NOTE + text)
     return 0

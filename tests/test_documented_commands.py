@@ -113,7 +113,9 @@ class Shell:
         output = log.read_text(errors="replace")
         print(output[-3000:])
         assert ended(), f"still running: $ {command.text}"
-        assert code.read_text().strip() == "0", f"exit code {code.read_text()}$ {command.text}\n{output[-3000:]}"
+        assert (
+            code.read_text().strip() == "0"
+        ), f"exit code {code.read_text()}$ {command.text}\n{output[-3000:]}"
         expected = "\n".join(command.printed)
         assert told(), f"$ {command.text}\nexpected:\n{expected}\nfound:\n{output[-3000:]}"
 
@@ -136,7 +138,9 @@ class Shell:
             if pid != self._bash.pid:
                 os.kill(pid, signal.SIGINT)
         try:
-            wait_until(lambda: self._bash.poll() is not None and not self._processes(), "all ended", 60.0)
+            wait_until(
+                lambda: self._bash.poll() is not None and not self._processes(), "all ended", 60.0
+            )
         finally:
             self._bash.kill()
             self._bash.wait()
@@ -160,8 +164,14 @@ def display() -> Iterator[str]:
 def test_a_page_does_what_it_says(page: str, graph: RosGraph, display: str) -> None:
     home = graph.folder / "home"
     home.mkdir()
-    env = {name: value for name, value in graph.env.items() if name.startswith("ROS_") and "PACKAGE" not in name}
-    env.update(HOME=str(home), PATH="/usr/bin:/bin:/usr/sbin:/sbin", LANG="C.UTF-8", DISPLAY=display)
+    env = {
+        name: value
+        for name, value in graph.env.items()
+        if name.startswith("ROS_") and "PACKAGE" not in name
+    }
+    env.update(
+        HOME=str(home), PATH="/usr/bin:/bin:/usr/sbin:/sbin", LANG="C.UTF-8", DISPLAY=display
+    )
     env.update(ROS_MASTER_URI=graph.uri, PYTHONUNBUFFERED="1")
     shell = Shell(env, graph.folder)
     started = time.monotonic()

@@ -9,7 +9,9 @@ HALF_LANE_M = 0.38
 GAIN_RAD_S_M = 2.0  # turn rate for each metre that the middle lies to the left
 
 
-def command(ranges_m: Sequence[float], angle_min_rad: float, step_rad: float) -> Tuple[float, float]:
+def command(
+    ranges_m: Sequence[float], angle_min_rad: float, step_rad: float
+) -> Tuple[float, float]:
     """Returns speed [m/s] and turn rate [rad/s] for a scan; both 0 where no row is in sight."""
     left, right = [], []
     for number, range_m in enumerate(ranges_m):

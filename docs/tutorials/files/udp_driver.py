@@ -4,9 +4,10 @@
 import socket
 import time
 
+from keep_middle import command
+
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
-from keep_middle import command
 
 CONTROLS = ("127.0.0.1", 35555)
 pairer, is_driving = Pairer(), False
