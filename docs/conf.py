@@ -6,19 +6,22 @@ from typing import Any, List
 project = "ARDEE"
 author = "the authors of ARDEE"
 html_title = "ARDEE"
-extensions = ["myst_parser", "sphinx.ext.autodoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_copybutton"]
 html_theme = "furo"
 html_show_sphinx = False
+html_show_copyright = False
+html_static_path = ["static"]
+html_css_files = ["wide.css"]
+copybutton_prompt_text = "$ "  # a block's commands are copied, not what they print
+copybutton_line_continuation_character = "\\"
 html_copy_source = False
 html_last_updated_fmt = None
-exclude_patterns = ["conf.py", "generate_reference.py"]
 myst_enable_extensions = ["deflist"]
 myst_heading_anchors = 4
 autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
 autodoc_preserve_defaults = True
-nitpicky = False
 
 
 def _as_restructured_text(

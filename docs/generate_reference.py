@@ -2,29 +2,21 @@
 # SPDX-License-Identifier: MIT
 """Write the source of the documentation site: the pages of docs/ and reference pages made from the code."""
 import argparse
-import dataclasses
-import inspect
 import os
 import re
 import shutil
 import subprocess
 import sys
-import typing
 import xml.etree.ElementTree as xml
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, Dict, Iterable, Iterator, List, Tuple
+from typing import Iterator, List, Tuple
 
-from ardee_bridge.nodes import settings
-from ardee_common.options import kind_of, range_text, unit_of
+import yaml_keys
+from markdown_text import code, table
+
 from ardee_models.config_dir import config_dir
-from ardee_models.plant.species import SpeciesFile
-from ardee_models.terrain.recipe import Recipe
-from ardee_navigation.evaluation.scenario_files import Scenario
-from ardee_navigation.lbirnt import Parameters
 from ardee_world import clutter_models
-from ardee_world.request import groups
-from ardee_world.start import Start
 
 ROOT = Path(__file__).resolve().parents[1]
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#\s]+)(#[^)\s]*)?\)")
@@ -34,9 +26,7 @@ PAGES = {
     "README.md": "index.md",
 }
 CPP_COMMANDS = ("simulator", "spawn_model", "render_world")  # others: scripts/ of packages
-FOR_BUILDING = (
-    "generate_wire_files",
-)  # commands that write files of the tree and take no argument
+FOR_BUILDING = ("generate_wire_files",)  # takes no argument
 HELP_SECONDS = 60
 API = {
     "ardee_common": "src/ardee_common/src/ardee_common",
@@ -44,35 +34,23 @@ API = {
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",
 }
-# Title, what the keys are of, and the dataclass that reads them.
-FILES = (
-    ("Start of a robot", "`<field>.start.yaml` and `<world>.start.yaml`", Start),
-    ("Terrain", "a recipe of `rosrun ardee_models generate_terrain RECIPE.yaml`", Recipe),
-    ("Species", "`config/species/*.yaml` of ardee_models, with the numbers' sources", SpeciesFile),
-    ("Row follower", "`parameters:=FILE`, `--parameters FILE`", Parameters),
-    ("Scenario", "an entry of `config/scenarios.yaml` of ardee_navigation", Scenario),
-    ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
-    ("Sensor server: a GPS among its sources", "", settings.GpsSource),
-    ("Sensor server: a camera among its sources", "", settings.ImageSource),
-    ("Sensor server: a cloud among its sources", "", settings.CloudSource),
-    ("Controls client", "`config/controls_client.yaml` of ardee_bridge", settings.ControlSettings),
+NOT_PAGES = ("conf.py", "generate_reference.py", "yaml_keys.py", "markdown_text.py", "__pycache__")
+LABELS = """# Labels
+
+The class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`,
+`clutter.csv`, and `<ardee:label>` of worlds.
+
+"""
+CPP_LIBRARY = """# C++ library
+
+`find_package(ardee_sim)`, link `ardee_sim::ardee_sim`; no ROS in it. The first sentence of each header says what it
+holds; the header is the reference.
+"""
+# The comment above the first type or function of a header.
+CPP_COMMENT = re.compile(
+    r"^((?:///.*\n)+)(?:template.*\n)?(?:class|struct|enum|inline|\[\[|[\w:<>]+ \w)", re.MULTILINE
 )
 NOTE = "<!-- Made by docs/generate_reference.py. -->\n\n"
-
-
-def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Returns a Markdown table."""
-    lines = [list(head)] + [list(row) for row in rows]
-    lines.insert(1, ["---"] * len(lines[0]))
-    cells = (
-        " | ".join(cell.replace("|", "\\|").replace("\n", " ") for cell in row) for row in lines
-    )
-    return "\n".join(f"| {row} |" for row in cells) + "\n"
-
-
-def code(text: Any) -> str:
-    """Returns a text as code within a line, or nothing."""
-    return f"`{text}`" if str(text) else ""
 
 
 def page_of(file: Path) -> str:
@@ -81,11 +59,8 @@ def page_of(file: Path) -> str:
     if name.startswith("docs/"):
         return name[len("docs/") :]
     if re.fullmatch(r"(src|compat)/.*README\.md", name):
-        return (
-            "reference/packages/"
-            + name[: -len("/README.md")].split("/", 1)[1].replace("/", "_")
-            + ".md"
-        )
+        folder = name.split("/", 1)[1].rpartition("/")[0]
+        return f"reference/packages/{folder.replace('/', '_')}.md"
     return PAGES.get(name, "")
 
 
@@ -107,14 +82,9 @@ def relinked(text: str, file: Path) -> str:
 
 def documents() -> Iterator[Tuple[str, str]]:
     """Pages that are files of the tree: page, text."""
-    readmes = sorted(ROOT.glob("src/ardee_*/**/README.md")) + sorted(
-        ROOT.glob("src/terrasentia_*/README.md")
-    )
-    for file in [
-        *readmes,
-        *sorted(ROOT.glob("compat/*/README.md")),
-        ROOT / "src/ardee_bridge/docs/wire_format.md",
-    ]:
+    patterns = ("src/ardee_*/**/README.md", "src/terrasentia_*/README.md", "compat/*/README.md")
+    found = [file for pattern in patterns for file in sorted(ROOT.glob(pattern))]
+    for file in [*found, ROOT / "src/ardee_bridge/docs/wire_format.md"]:
         yield page_of(file), relinked(file.read_text(), file)
 
 
@@ -122,74 +92,49 @@ def launch_files() -> str:
     """The page of launch files and their arguments."""
     parts = ["# Launch files\n\n`roslaunch PACKAGE FILE NAME:=VALUE ...`\n"]
     for file in sorted([*ROOT.glob("src/*/launch/*.launch"), *ROOT.glob("launch/*.launch")]):
-        given = [
-            arg
-            for arg in xml.parse(file).getroot().iter("arg")
-            if arg.get("doc") and not arg.get("value")
-        ]
-        package = file.relative_to(ROOT / "src").parts[0] if ROOT / "src" in file.parents else ""
-        start = (
-            f"roslaunch {package} {file.name}" if package else f"roslaunch {file.relative_to(ROOT)}"
-        )
-        rows = (
-            (code(arg.get("name")), code(arg.get("default", "")), arg.get("doc")) for arg in given
-        )
-        parts.append(f"## {package or 'the workspace'}: {file.name}\n\n`{start}`\n\n")
-        parts.append(table(("argument", "default", "meaning"), rows) + "\n")
+        place = file.relative_to(ROOT)
+        start = f"{place.parts[1]} {file.name}" if place.parts[0] == "src" else str(place)
+        rows = []
+        for arg in xml.parse(file).getroot().iter("arg"):
+            if arg.get("doc") and not arg.get("value"):
+                rows.append((code(arg.get("name")), arg.get("doc"), code(arg.get("default", ""))))
+        parts.append(f"\n## {start}\n\n{table(('argument', 'meaning', 'default'), rows)}")
     return "".join(parts)
 
 
-def commands() -> Dict[str, List[str]]:
-    """Commands of packages and of the workspace, by what a person types."""
-    found = {}
-    for package in sorted(path.parent for path in ROOT.glob("src/*/scripts")):
-        if not package.is_symlink():
-            for script in sorted((package / "scripts").iterdir()):
-                if (
-                    os.access(script, os.X_OK)
-                    and script.is_file()
-                    and "." not in script.name
-                    and script.name not in FOR_BUILDING
-                ):
-                    found[f"rosrun {package.name} {script.name}"] = ["-h"]
-    found.update({f"rosrun ardee_sim_cpp {name}": ["-h"] for name in CPP_COMMANDS})
-    scripts = (
-        path
-        for path in sorted((ROOT / "scripts").iterdir())
-        if path.is_file() and "." not in path.name
-    )
-    found.update({f"scripts/{script.name}": ["-h"] for script in scripts})
-    return found
+def is_command(file: Path) -> bool:
+    """Is this a program that a person calls by name?"""
+    is_named = "." not in file.name and file.name not in FOR_BUILDING
+    return is_named and file.is_file() and os.access(file, os.X_OK)
+
+
+def commands() -> List[str]:
+    """Commands of packages and of the workspace, as a person types them."""
+    scripts = [file for file in sorted(ROOT.glob("src/*/scripts/*")) if is_command(file)]
+    ours = [file for file in scripts if not file.parents[1].is_symlink()]
+    found = [f"rosrun {file.parents[1].name} {file.name}" for file in ours]
+    found += [f"rosrun ardee_sim_cpp {name}" for name in CPP_COMMANDS]
+    return found + [f"scripts/{f.name}" for f in sorted(ROOT.glob("scripts/*")) if is_command(f)]
 
 
 def help_of(command: str) -> str:
     """What a command prints with -h."""
-    environment = dict(os.environ, COLUMNS="100")
-    words = [*command.split(), "-h"]
+    words, env = [*command.split(), "-h"], dict(os.environ, COLUMNS="100")
+    out, err, none = subprocess.PIPE, subprocess.STDOUT, subprocess.DEVNULL
     run = subprocess.run(
-        words,
-        cwd=ROOT,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        stdin=subprocess.DEVNULL,
-        timeout=HELP_SECONDS,
-        check=False,
+        words, cwd=ROOT, env=env, stdout=out, stderr=err, stdin=none, timeout=HELP_SECONDS
     )
-    text = run.stdout.decode().strip("\n").replace(str(ROOT) + "/", "")
+    text = run.stdout.decode().strip("\n").replace(f"{ROOT}/", "")
     if run.returncode != 0 or not text:
-        raise SystemExit(
-            f"{' '.join(words)}: found exit code {run.returncode}, expected help:\n{text}"
-        )
+        raise SystemExit(f"{command} -h: found exit code {run.returncode}, expected help: {text}")
     return text
 
 
 def command_page() -> str:
     """The page of commands with their help."""
-    parts = [
-        "# Commands\n\nWhat each command prints with `-h`. Exit code 0: done; 2: a bad argument or file, in one line.\n"
-    ]
-    names = list(commands())
+    parts = ["# Commands\n\nWhat each command prints with `-h`. Exit code 0: it is done; 2: a bad "]
+    parts.append("argument or file, in one line.\n")
+    names = commands()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, text in zip(names, pool.map(help_of, names)):
             parts.append(f"\n## {name}\n\n```text\n{text}\n```\n")
@@ -199,72 +144,11 @@ def command_page() -> str:
 def messages() -> str:
     """The page of messages and services of ARDEE's own."""
     parts = [
-        "# Messages and services\n\nThose of ARDEE's own, package `ardee_msgs`; all others are ROS's standard ones.\n"
+        "# Messages and services\n\nThose of ARDEE's own, package `ardee_msgs`; all others are "
     ]
-    for file in [
-        *sorted(ROOT.glob("src/ardee_msgs/msg/*")),
-        *sorted(ROOT.glob("src/ardee_msgs/srv/*")),
-    ]:
+    parts.append("ROS's standard ones.\n")
+    for file in sorted([*ROOT.glob("src/ardee_msgs/msg/*"), *ROOT.glob("src/ardee_msgs/srv/*")]):
         parts.append(f"\n## ardee_msgs/{file.stem}\n\n```text\n{file.read_text().strip()}\n```\n")
-    return "".join(parts)
-
-
-def comment_of(cls: type, name: str) -> str:
-    """Returns the comment behind a field in the class's source."""
-    found = re.search(rf"^    {name}:.*?#\s*(.*)$", inspect.getsource(cls), re.MULTILINE)
-    return found[1] if found else ""
-
-
-def kind_text(kind: Any) -> str:
-    """Returns the name of a field's type."""
-    plain = {str: "text", float: "number", int: "whole number", bool: "true or false", Any: "any"}
-    if typing.get_origin(kind) is tuple:
-        items = typing.get_args(kind)
-        return (
-            "list of " + kind_text(items[0]) + ("" if items[-1] is Ellipsis else f", {len(items)}")
-        )
-    return plain.get(kind, getattr(kind, "__name__", str(kind)))
-
-
-def rows_of(cls: type, prefix: str = "") -> Iterator[Tuple[str, str, str, str, str]]:
-    """Rows of keys: name, default, values, unit, meaning; nested groups follow with their prefix."""
-    for field in dataclasses.fields(cls):
-        kind = kind_of(cls, field)
-        nested = kind if dataclasses.is_dataclass(kind) else field.metadata.get("group")
-        if inspect.isclass(nested):
-            yield from rows_of(
-                nested, f"{prefix}{field.name}{'[].' if nested is not kind else '.'}"
-            )
-            continue
-        missing = field.default is dataclasses.MISSING
-        default = (
-            "" if missing or field.default in (None, ()) else code(str(field.default).strip("()"))
-        )
-        limits, choices = field.metadata.get("limits"), field.metadata.get("choices")
-        values = field.metadata.get("expected") or kind_text(kind)
-        if limits:
-            values += ", " + range_text(limits, "")
-        if choices:
-            values = ", ".join(choices)
-        text = field.metadata.get("text") or comment_of(cls, field.name)
-        yield code(prefix + field.name), default, values, unit_of(field.name), text
-
-
-def yaml_keys() -> str:
-    """The page of keys of YAML files."""
-    head = ("key", "default", "values", "unit", "meaning")
-    parts = [
-        "# Keys of YAML files\n\nAn unknown key or a value out of its limits is refused with file and line. ",
-        "`a.b` is the key `b` of the mapping `a`; `a[].b` that of each entry of the list `a`. ",
-        "A key without a default has to be given, or is off.\n\n## Field\n\n",
-        "A file of `rosrun ardee_world generate_field FIELD.yaml`.\n\n",
-    ]
-    fields = [field for cls in groups().values() for field in rows_of(cls)]
-    shown = {row[0]: row for row in fields if "." not in row[0]}
-    parts.append(table(head, shown.values()))
-    for title, what, cls in FILES:
-        about = f"Keys of {what}. " if what else ""
-        parts.append(f"\n## {title}\n\n{about}{inspect.getdoc(cls)}\n\n{table(head, rows_of(cls))}")
     return "".join(parts)
 
 
@@ -276,13 +160,8 @@ def labels() -> str:
     for name, model in clutter_models.MODELS.items():
         found.setdefault(model.label, name.split("_")[0])
     rows = [(str(label), name) for label, name in sorted(found.items())]
-    text = (
-        "# Labels\n\nThe class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`, "
-        "`clutter.csv`, and `<ardee:label>` of worlds.\n\n"
-    )
-    return text + table(
-        ("label", "is"), [*rows, (f"{max(found) + 1} to 65535", "free for your own models")]
-    )
+    rows.append((f"{max(found) + 1} to 65535", "free for your own models"))
+    return LABELS + table(("label", "is"), rows)
 
 
 def python_api() -> Iterator[Tuple[str, str]]:
@@ -302,19 +181,11 @@ def python_api() -> Iterator[Tuple[str, str]]:
 
 def cpp_library() -> str:
     """The page of the C++ library's headers."""
-    parts = [
-        "# C++ library\n\n`find_package(ardee_sim)`, link `ardee_sim::ardee_sim`; no ROS in it. The first sentence of each header "
-        "says what it holds; the header is the reference.\n"
-    ]
-    base = ROOT / "src/ardee_sim_cpp/ardee_sim"
+    parts, base = [CPP_LIBRARY], ROOT / "src/ardee_sim_cpp/ardee_sim"
     for module in sorted(path for path in base.iterdir() if path.is_dir()):
         rows = []
         for header in sorted(module.rglob("*.h")):
-            said = re.search(
-                r"^((?:///.*\n)+)(?:template.*\n)?(?:class|struct|enum|inline|\[\[|[\w:<>]+ \w)",
-                header.read_text(),
-                re.MULTILINE,
-            )
+            said = CPP_COMMENT.search(header.read_text())
             text = " ".join(line.strip("/ ") for line in said[1].splitlines()) if said else ""
             text = re.split(r"(?<=\.)\s", text)[0].replace("<", "\\<")
             rows.append((code(f"ardee_sim/{header.relative_to(base)}"), text))
@@ -331,27 +202,19 @@ def main() -> int:
     )
     folder = parser.parse_args().folder
     shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(
-        ROOT / "docs",
-        folder,
-        ignore=shutil.ignore_patterns("conf.py", Path(__file__).name, "__pycache__"),
-    )
+    shutil.copytree(ROOT / "docs", folder, ignore=shutil.ignore_patterns(*NOT_PAGES))
     for page in sorted(folder.rglob("*.md")):
         source = ROOT / "docs" / page.relative_to(folder)
         page.write_text(relinked(source.read_text(), source))
     made = {
-        "launch_files": launch_files(),
-        "commands": command_page(),
-        "messages": messages(),
-        "yaml_keys": yaml_keys(),
-        "labels": labels(),
-        "cpp_library": cpp_library(),
+        "reference/launch_files.md": launch_files(),
+        "reference/commands.md": command_page(),
+        "reference/messages.md": messages(),
+        "reference/yaml_keys.md": yaml_keys.page(),
+        "reference/labels.md": labels(),
+        "reference/cpp_library.md": cpp_library(),
     }
-    for page, text in [
-        *((f"reference/{name}.md", text) for name, text in made.items()),
-        *documents(),
-        *python_api(),
-    ]:
+    for page, text in [*made.items(), *documents(), *python_api()]:
         (folder / page).parent.mkdir(parents=True, exist_ok=True)
         (folder / page).write_text(NOTE + text)
     return 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The documentation site is built without a warning; the messages of its troubleshooting page are printed by something."""
+"""The documentation site is built without a warning, and its troubleshooting page quotes messages that exist."""
 import pathlib
 import re
 import subprocess
