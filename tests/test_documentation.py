@@ -11,6 +11,7 @@ OF_OTHERS = (
     "RLException",
     "[rospack]",
     "command not found",
+    "Failed to contact master",
     "Unable to communicate with master",
     "Unable to register with master",
     "Unable to contact my own server",
