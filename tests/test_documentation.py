@@ -6,11 +6,12 @@ import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SITE = ROOT / "build" / "docs"
-# Messages of ROS, Qt and the system, by words of theirs.
+# Messages of ROS, Qt, argparse and the system, by words of theirs.
 OF_OTHERS = (
     "RLException",
     "[rospack]",
     "command not found",
+    "invalid choice",
     "Failed to contact master",
     "Unable to communicate with master",
     "Unable to register with master",
