@@ -7,18 +7,24 @@ from typing import Callable, Dict
 
 from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError
+from ardee_models.prepare.read import read_mesh
+from ardee_models.terrain.elevation import dem_terrain
 from ardee_models.terrain.recipe import read_recipe
 
 _FOLDER = tempfile.TemporaryDirectory(prefix="ardee_fuzz_")
-_FILE = Path(_FOLDER.name) / "input.yaml"
 
 
-def _read(reader: Callable[[Path], object], data: bytes) -> None:
-    _FILE.write_bytes(data)
+def _read(reader: Callable[[Path], object], data: bytes, ending: str = "yaml") -> None:
+    file = Path(_FOLDER.name) / f"input.{ending}"
+    file.write_bytes(data)
     try:
-        reader(_FILE)
+        reader(file)
     except GeneratorError:
         pass
+
+
+def _say(_: str) -> None:
+    """Says nothing."""
 
 
 def yaml_lines(data: bytes) -> None:
@@ -31,4 +37,19 @@ def recipe(data: bytes) -> None:
     _read(read_recipe, data)
 
 
-TARGETS: Dict[str, Callable[[bytes], None]] = {"yaml": yaml_lines, "recipe": recipe}
+def obj(data: bytes) -> None:
+    """Reads an OBJ file as parts of plants."""
+    _read(lambda path: read_mesh(path, "auto", None, _say), data, "obj")
+
+
+def elevation(data: bytes) -> None:
+    """Reads an ESRI ASCII grid as terrain, its holes filled."""
+    _read(lambda path: dem_terrain(path, None, True, None, _say), data, "asc")
+
+
+TARGETS: Dict[str, Callable[[bytes], None]] = {
+    "yaml": yaml_lines,
+    "recipe": recipe,
+    "obj": obj,
+    "elevation": elevation,
+}

@@ -131,11 +131,12 @@ vt 0 1
 vt 1 1
 usemtl Green
 """
-# faces as Blender writes them, counted backwards, and over two lines
+# faces as Blender writes them, counted backwards, over two lines, and with tabs behind a vertex that no face has
 FACES = (
     "f 1/1 2/2 3/3 4/4\nf 4/4 3/3 6/6 5/5\n",
     "f -6/-6 -5/-5 -4/-4 -3/-3\nf -3/-3 -4/-4 -1/-1 -2/-2\n",
     "f 1/1 2/2 \\\n3/3 4/4\nf 4/4 3/3 6/6 5/5\n",
+    "v\t9 9 9\nf\t1/1\t2/2\t3/3\t4/4\nf 4/4 3/3 -2/6 5/5\n",
 )
 
 

@@ -274,6 +274,9 @@ BAD = {
     "float.asc": b"ncols 2.5\nnrows 2\n" + CELLS + b"1 2\n",
     "plain.tif": b"II*\0\x08\0\0\0",
     "bad.obj": b"v 0 0 0\nf 1 2 3\n",
+    "flat.obj": b"v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n",
+    "zero.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
+    "back.obj": b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -4 -2 -1\n",
     "bad.dae": b"<COLLADA>",
     "line.obj": b"v 0 0 0\nv 1 0 0\nv 2 0 1\nf 1 2 3\n",
 }
@@ -295,6 +298,9 @@ BAD = {
         (("--dem", "text.png"), "text.png: not a readable elevation model"),
         (("--mesh", "bad.dae"), "bad.dae: not a readable COLLADA file"),
         (("--mesh", "bad.obj"), "bad.obj: cannot be read: "),
+        (("--mesh", "flat.obj"), "flat.obj: flat.obj: found vertices of 2 numbers, expected x, y"),
+        (("--mesh", "zero.obj"), "found a face of index 0, expected 1 to 3 or -3 to -1"),
+        (("--mesh", "back.obj"), "found a face of index -4, expected 1 to 3 or -3 to -1"),
         (("--mesh", "line.obj", "--mesh-up", "z"), "line.obj: found no area seen from above"),
     ],
 )

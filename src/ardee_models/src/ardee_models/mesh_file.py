@@ -88,18 +88,24 @@ def _triangulated(obj: str) -> str:
     """
     counts, lines = {"v": 0, "vt": 0, "vn": 0}, []
 
-    def absolute(reference: str) -> str:
-        indices = zip(reference.split("/"), counts.values())
-        return "/".join(str(int(i) + 1 + count) if i.startswith("-") else i for i, count in indices)
+    def absolute(text: str, count: int) -> str:
+        index = int(text or 1)
+        index += count + 1 if index < 0 else 0
+        if index < 1:
+            raise ValueError(
+                f"found a face of index {text}, expected 1 to {count} or -{count} to -1"
+            )
+        return str(index) if text else ""
 
     for line in obj.replace("\r\n", "\n").replace("\\\n", " ").split("\n"):
-        word, _, rest = line.strip().partition(" ")
+        word, *rest = line.split() or [""]
         if word in counts:
             counts[word] += 1
+            line = " ".join((word, *rest))  # trimesh wants a blank where a tab may stand
         if word != "f":
             lines.append(line)
             continue
-        corners = [absolute(reference) for reference in rest.split()]
+        corners = ["/".join(map(absolute, text.split("/"), counts.values())) for text in rest]
         lines += [f"f {corners[0]} {a} {b}" for a, b in zip(corners[1:], corners[2:])]
     return "\n".join(lines)
 
@@ -174,6 +180,11 @@ def read_pieces(path: Path, up: str, scale: Optional[float], say: Say) -> List[P
     if not pieces:
         raise GeneratorError(f"{path}: found no triangles")
     for piece in pieces:
+        shape = np.shape(piece.geometry.vertices)
+        if shape[1:] != (3,):
+            raise GeneratorError(
+                f"{path}: {piece.name}: found vertices of {shape[-1]} numbers, expected x, y, z"
+            )
         if not np.isfinite(piece.vertices_m()).all():
             raise GeneratorError(f"{path}: {piece.name}: found a vertex that is not finite")
     if up == "auto" and axis != "z":
