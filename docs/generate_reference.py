@@ -103,7 +103,7 @@ def launch_files() -> str:
 
 
 def is_command(file: Path) -> bool:
-    """Is this a program that a person calls by name?"""
+    """Returns whether a file is a program that a person calls by name."""
     is_named = "." not in file.name and file.name not in FOR_BUILDING
     return is_named and file.is_file() and os.access(file, os.X_OK)
 
@@ -118,7 +118,7 @@ def commands() -> List[str]:
 
 
 def help_of(command: str) -> str:
-    """What a command prints with -h."""
+    """Returns what a command prints with -h."""
     words, env = [*command.split(), "-h"], dict(os.environ, COLUMNS="100")
     out, err, none = subprocess.PIPE, subprocess.STDOUT, subprocess.DEVNULL
     run = subprocess.run(

@@ -35,12 +35,25 @@ class StateArchive {
   void operator()(Values&... values) {
     (transfer(values), ...);
   }
-
- private:
-  [[noreturn]] static void throw_mismatch() {
+  /// Saves the size of a container, or gives it the saved size.
+  template <typename Container>
+  void size_of(Container& elements) {
+    std::size_t size = elements.size();
+    transfer(size);
+    if (!is_restoring_) return;
+    if (size > bytes_.size()) refuse();
+    resize(elements, size);
+  }
+  /// Throws Error unless all that was saved has been restored.
+  void finish() const {
+    if (is_restoring_ && next_ != bytes_.size()) refuse();
+  }
+  /// Throws the Error of a state that does not fit these objects.
+  [[noreturn]] static void refuse() {
     throw Error("found a saved state that does not fit, expected one of this world");
   }
 
+ private:
   template <typename T, typename = void>
   struct HasSerialize : std::false_type {};
   template <typename T>
@@ -54,20 +67,14 @@ class StateArchive {
       bytes_.append(address, size);
       return;
     }
-    if (size > bytes_.size() - next_) throw_mismatch();
+    if (size > bytes_.size() - next_) refuse();
     std::memcpy(address, bytes_.data() + next_, size);
     next_ += size;
   }
 
-  /// The size of a container, resized when it is restored.
   template <typename Container>
   void transfer_elements(Container& elements) {
-    std::size_t size = elements.size();
-    transfer(size);
-    if (is_restoring_) {
-      if (size > bytes_.size()) throw_mismatch();
-      resize(elements, size);
-    }
+    size_of(elements);
     for (auto& each : elements) transfer(each);
   }
 
@@ -77,7 +84,7 @@ class StateArchive {
     if constexpr (std::is_default_constructible_v<typename Container::value_type>) {
       elements.resize(size);
     } else if (size != elements.size()) {
-      throw_mismatch();
+      refuse();
     }
   }
 
@@ -136,7 +143,7 @@ class StateArchive {
   template <std::size_t kIndex, typename... Alternatives>
   static void emplace(std::variant<Alternatives...>& value, std::size_t index) {
     if constexpr (kIndex == sizeof...(Alternatives)) {
-      throw_mismatch();
+      refuse();
     } else if (index == kIndex) {
       value.template emplace<kIndex>();
     } else {

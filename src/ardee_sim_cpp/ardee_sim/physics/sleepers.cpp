@@ -2,6 +2,7 @@
 #include "ardee_sim/physics/sleepers.h"
 
 #include <algorithm>
+#include <map>
 
 #include "ardee_sim/physics/contact_joints.h"
 
@@ -108,15 +109,15 @@ void Sleepers::wake_all() {
 
 void Sleepers::serialize(StateArchive& state,
                          const std::vector<std::unique_ptr<DynamicModel>>& models) {
-  std::size_t count = sleepers_.size();
-  state(rests_, widest_m_, count);
-  if (state.is_restoring()) sleepers_.assign(count, {});
+  std::map<const DynamicModel*, std::size_t> places;
+  for (const auto& model : models) places.emplace(model.get(), places.size());
+  state(rests_, widest_m_);
+  state.size_of(sleepers_);
   for (Sleeper& each : sleepers_) {
-    const auto is_it = [&each](const auto& model) { return model.get() == each.model; };
-    auto index = static_cast<std::size_t>(std::find_if(models.begin(), models.end(), is_it) -
-                                          models.begin());
+    std::size_t index = state.is_restoring() ? 0 : places.at(each.model);
     state(each.bounds.min(), each.bounds.max(), index);
-    each.model = models.at(index).get();
+    if (index >= models.size()) StateArchive::refuse();
+    each.model = models[index].get();
   }
 }
 

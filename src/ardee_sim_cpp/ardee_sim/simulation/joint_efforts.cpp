@@ -34,9 +34,7 @@ void JointEfforts::apply(TimeNs now_ns) {
 
 void JointEfforts::serialize(StateArchive& state,
                              const std::function<devices::Robot*(std::uint32_t)>& robot_of) {
-  std::size_t count = efforts_.size();
-  state(count);
-  efforts_.resize(count);
+  state.size_of(efforts_);
   for (JointEffort& each : efforts_) {
     std::uint32_t robot = each.robot != nullptr ? each.robot->entity() : 0;
     state(robot, each.joint, each.effort, each.start_ns, each.duration_ns);

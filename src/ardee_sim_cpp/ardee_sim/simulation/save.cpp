@@ -8,12 +8,12 @@ namespace ardee {
 namespace {
 
 bool is_same(const Entity& entity, const SimulationState::EntityState& saved) {
-  return entity.name() == saved.instance.name && entity.instance.model == saved.instance.model &&
-         entity.robot->entity() == saved.number;
+  return entity.instance.model == saved.instance.model && entity.robot->entity() == saved.number;
 }
 
 void serialize_devices(StateArchive& archive, const Entity& entity) {
   for (const auto& device : entity.devices) archive(*device);
+  archive.finish();
 }
 
 }  // namespace
@@ -45,18 +45,25 @@ void Simulation::serialize_commands(StateArchive& archive) {
     const auto found = std::find_if(entities_.begin(), entities_.end(), [number](const auto& each) {
       return each->robot->entity() == number;
     });
+    if (found == entities_.end()) StateArchive::refuse();
     return (*found)->robot.get();
   };
   wrenches_.serialize(archive, robot);
   joint_efforts_.serialize(archive, robot);
+  archive.finish();
 }
 
 void Simulation::keep_only(const std::vector<SimulationState::EntityState>& wanted) {
+  std::map<std::string, std::size_t> place;  // in `wanted`
+  for (const SimulationState::EntityState& each : wanted) {
+    place.emplace(each.instance.name, place.size());
+  }
   std::vector<std::string> others;
   for (const auto& entity : entities_) {
-    const bool is_kept = std::any_of(wanted.begin(), wanted.end(),
-                                     [&](const auto& each) { return is_same(*entity, each); });
-    if (!is_kept) others.push_back(entity->name());
+    const auto found = place.find(entity->name());
+    if (found == place.end() || !is_same(*entity, wanted[found->second])) {
+      others.push_back(entity->name());
+    }
   }
   for (const std::string& name : others) remove(name);
   for (const SimulationState::EntityState& each : wanted) {
@@ -67,10 +74,6 @@ void Simulation::keep_only(const std::vector<SimulationState::EntityState>& want
     entity->joint_positions = each.joint_positions;
     next_entity_ = each.number;
     add(std::move(entity));
-  }
-  std::map<std::string, std::size_t> place;
-  for (const SimulationState::EntityState& each : wanted) {
-    place.emplace(each.instance.name, place.size());
   }
   std::sort(entities_.begin(), entities_.end(), [&place](const auto& one, const auto& other) {
     return place.at(one->name()) < place.at(other->name());
@@ -87,6 +90,7 @@ void Simulation::restore(const SimulationState& state) {
   reset_entities();
   StateArchive dynamics(state.dynamics), commands(state.commands);
   dynamics(physics_);
+  dynamics.finish();
   for (std::size_t i = 0; i < entities_.size(); ++i) {
     const SimulationState::EntityState& saved = state.entities[i];
     if (entities_[i]->is_static()) place_static(*entities_[i], saved.X_WM);

@@ -59,9 +59,7 @@ void Wrenches::apply(TimeNs now_ns) {
 
 void Wrenches::serialize(StateArchive& state,
                          const std::function<devices::Robot*(std::uint32_t)>& robot_of) {
-  std::size_t count = wrenches_.size();
-  state(count);
-  wrenches_.resize(count);
+  state.size_of(wrenches_);
   for (Wrench& each : wrenches_) {
     std::uint32_t robot = each.robot != nullptr ? each.robot->entity() : 0;
     state(robot, each.link, each.force_W, each.torque_W, each.point_L, each.start_ns,

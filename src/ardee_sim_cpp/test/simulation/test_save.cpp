@@ -203,9 +203,19 @@ TEST(Save, HoldsWhichControllersAreLoadedAndRun) {
 TEST(Save, OfAnotherWorldIsRefused) {
   TestWorld world(kScene, 0.005);
   world.spawn(rover_with(drive_devices()), "rover", kOnWheels);
-  SimulationState state = world->save();
-  state.entities.back().devices.resize(3);
-  EXPECT_THROW(world->restore(state), Error);
+  const SimulationState state = world->save();
+  const auto expect_refused = [&](const std::function<void(SimulationState&)>& change) {
+    SimulationState changed = state;
+    change(changed);
+    EXPECT_THROW(world->restore(changed), Error);
+  };
+  expect_refused([](SimulationState& other) { other.entities.back().devices.resize(3); });
+  expect_refused([](SimulationState& other) { other.entities.back().devices += "more"; });
+  expect_refused([](SimulationState& other) { other.dynamics.resize(30); });
+  expect_refused([](SimulationState& other) { other.dynamics += "more"; });
+  expect_refused([](SimulationState& other) { other.commands[0] = 1; });
+  world->restore(state);
+  EXPECT_EQ(world->save().dynamics, state.dynamics);
 }
 
 TEST(Simulations, ShareAWorld) {
