@@ -1,11 +1,22 @@
 # SPDX-License-Identifier: MIT
 """Tests that commands answer bad input in one line and exit with 2."""
 from argparse import Namespace
+from pathlib import Path
 from typing import Optional
 
 import pytest
 
-from ardee_common.cli import Parser, number_in, positive_number, run, seed_number, whole_in
+from ardee_common.cli import (
+    Parser,
+    add_model_path,
+    add_seed,
+    number_in,
+    positive_number,
+    run,
+    seed_number,
+    steps,
+    whole_in,
+)
 from ardee_common.errors import GeneratorError
 
 
@@ -61,3 +72,41 @@ def test_types_of_arguments(kind, good, bad) -> None:
     for text in bad:
         with pytest.raises(Exception, match=f"found '{text}', expected "):
             kind(text)
+
+
+@pytest.mark.parametrize("words", [("--length", "2"), ("--length=2",)])
+def test_an_old_name_is_understood_with_a_note(words, capsys: pytest.CaptureFixture) -> None:
+    parser = Parser(prog="cut", old_names={"--length": "--row-length-m"})
+    parser.add_argument("--row-length-m", type=float)
+    assert parser.parse_args(words).row_length_m == 2.0
+    assert capsys.readouterr().err == "cut: note: --length is now --row-length-m\n"
+
+
+def test_help_ends_with_the_default_unless_it_says_it() -> None:
+    parser = Parser(prog="cut")
+    parser.add_argument("--speed-m-s", type=float, default=0.5, help="speed")
+    parser.add_argument("--name", help="name")
+    parser.add_argument("--dry", action="store_true", help="cut nothing")
+    add_seed(parser)
+    text = parser.format_help()
+    assert "speed (default 0.5)" in text and "random numbers (default 0)\n" in text
+    assert text.count("default") == 2
+
+
+def test_model_path_may_be_given_again() -> None:
+    parser = Parser(prog="find")
+    parser.add_argument("models", nargs="*")
+    add_model_path(parser)
+    args = parser.parse_args(["--model-path", "a", "--model-path", "b", "corn"])
+    assert args.model_path == [Path("a"), Path("b")] and args.models == ["corn"]
+
+
+def test_long_work_says_every_few_seconds_where_it_is(capsys: pytest.CaptureFixture) -> None:
+    times = iter([0.0, 1.0, 2.0, 3.5, 4.0])  # of the start, then of each item
+    assert list(steps("draw", ["a", "b", "c", "d"], lambda: next(times))) == ["a", "b", "c", "d"]
+    assert capsys.readouterr().err == "draw: 3 of 4: c\n"
+
+
+def test_short_work_is_silent(capsys: pytest.CaptureFixture) -> None:
+    assert list(steps("draw", range(3))) == [0, 1, 2]
+    assert capsys.readouterr().err == ""

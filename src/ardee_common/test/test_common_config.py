@@ -88,7 +88,7 @@ def test_values_that_stand_in_no_file() -> None:
         ({"topic": "a b"}, "topic: found 'a b', expected a ROS name such as ardee/gps"),
         (
             {"topic": "a", "ditches": [{}, {"cuont": 1}]},
-            "ditches[1]: unknown key 'cuont', known: depth_m, count; did you mean 'count'?",
+            "ditches[1]: unknown key 'cuont', known: count, depth_m; did you mean 'count'?",
         ),
         ({"topic": "a", "ditches": {}}, "ditches: found {}, expected a list"),
     ],

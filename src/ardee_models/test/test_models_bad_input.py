@@ -85,7 +85,7 @@ def test_bad_parameter_files_name_file_and_key(tmp_path, change, message):
     [
         (
             ["--species", "wheat", "--stage", "V8"],
-            "unknown species 'wheat', known: corn, sorghum, tobacco",
+            "unknown species 'wheat', known: sorghum, tobacco, corn",
         ),
         (["--stage", "V99"], "unknown stage 'V99', known: V1 to V18 (collared leaves); VT R1"),
         (["--stage", "V8", "--params", "nowhere.yaml"], "nowhere.yaml: cannot be read"),

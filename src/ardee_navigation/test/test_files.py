@@ -108,7 +108,7 @@ def test_bad_parameters_are_named_with_their_line(tmp_path: Path, text: str, mes
     "text, message",
     [
         ("rice:\n  wrold: rice.world\n", r"s.yaml:2: unknown key 'wrold', known: world, plan, par"),
-        ("rice:\n  parameters:\n    kq: 1\n", r"s.yaml:3: unknown key 'kq', known: lidar_ahead_m"),
+        ("rice:\n  parameters:\n    kq: 1\n", r"s.yaml:3: unknown key 'kq', nearest of .*: kp, "),
         ("rice:\n  parameters:\n    kp: -1\n", r"s.yaml:3: kp: found -1, expected 0 to 10000"),
         ("rice:\n  parameters:\n    lane_width_m: 2.9\n", r"s.yaml:3: beside_min_m, "),
         ("rice: 5\n", r"s.yaml:1: rice: found 5, expected a mapping"),
@@ -124,7 +124,7 @@ def test_bad_scenarios_are_named_with_their_line(tmp_path: Path, text: str, mess
 @pytest.mark.parametrize(
     "values, message",
     [
-        ({"scna": "/scan"}, "^unknown key 'scna', known: scan, odom, cmd, .* did you mean 'scan'"),
+        ({"scna": "/scan"}, "^unknown key 'scna', .*: scan, .* did you mean 'scan'"),
         ({"drive": "no"}, "^drive: found 'no', expected true or false"),
         ({"drive": 1}, "^drive: found 1, expected true or false"),
         ({"parameters": 7}, "^parameters: found 7, expected a text"),

@@ -5,7 +5,7 @@ import re
 from typing import Any, Dict, List, NamedTuple
 
 from ardee_common.config import read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 
 
 def _package_folder() -> pathlib.Path:
@@ -43,7 +43,7 @@ def devices() -> List[str]:
 def device_file(device: str, folder: pathlib.Path = CONFIG) -> pathlib.Path:
     """Path of the device's file; for an unknown device, a GeneratorError names the known ones."""
     if device not in devices():
-        raise GeneratorError(f"unknown sensor '{device}'; expected one of: {', '.join(devices())}")
+        raise GeneratorError(f"unknown sensor {device!r}, {known_names(device, devices())}")
     return folder / f"{device}.yaml"
 
 

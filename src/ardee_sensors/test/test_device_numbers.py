@@ -96,6 +96,6 @@ def test_a_line_that_is_no_number_is_named(tmp_path: pathlib.Path):
 
 def test_an_unknown_device_is_refused_with_the_known_ones():
     with pytest.raises(
-        GeneratorError, match="unknown sensor 'hokuyo'; expected one of: .*hokuyo_ust10lx"
+        GeneratorError, match=r"unknown sensor 'hokuyo', nearest of \d+: .*hokuyo_ust10lx"
     ):
         load("hokuyo")

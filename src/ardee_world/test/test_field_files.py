@@ -119,7 +119,7 @@ def test_many_plants(generate_field, tmp_path):
     "arguments, message",
     [
         (("--rows", "-1"), "rows per plot: found -1"),
-        (("--models", "corn_z"), "model 'corn_z': not found, looked in"),
+        (("--models", "corn_z"), "model 'corn_z': not found, known: corn_a, corn_b"),
         (("--models", "ground"), "neither metrics.json nor a collision cylinder"),
         (("--terrain", "moon"), "model 'moon': not found"),
         (("--terrain", "corn_a"), "no <heightmap>"),

@@ -4,14 +4,55 @@
 import argparse
 import math
 import re
-from typing import Any, Callable, NoReturn, Optional, Sequence
+import sys
+import time
+from pathlib import Path
+from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
 
 from ardee_common.errors import GeneratorError
 from ardee_common.options import range_text
 
+PROGRESS_S = 3.0  # longest time that a command works without a word
+
+
+class Help(argparse.HelpFormatter):
+    """Help that ends the phrase of every argument with its default, unless the phrase speaks of it."""
+
+    def _get_help_string(self, action: argparse.Action) -> Optional[str]:
+        has_default = action.option_strings or action.nargs in ("?", "*")
+        no_value = (None, False, argparse.SUPPRESS, "", [], ())
+        if not has_default or action.default in no_value or "default" in (action.help or ""):
+            return action.help
+        return f"{action.help or ''} (default %(default)s)".strip()
+
+
+class RawHelp(Help, argparse.RawDescriptionHelpFormatter):
+    """Help that leaves the lines of the description as they are."""
+
 
 class Parser(argparse.ArgumentParser):
-    """Argument parser that reports an error in one line, without the usage."""
+    """Argument parser that reports an error in one line, without the usage, and understands old names of arguments."""
+
+    def __init__(
+        self, *args: Any, old_names: Optional[Dict[str, str]] = None, **kwargs: Any
+    ) -> None:
+        kwargs.setdefault("formatter_class", Help)
+        super().__init__(*args, **kwargs)
+        self._old_names = old_names or {}
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parses the arguments by their present names, with a note for each old name."""
+        words = list(sys.argv[1:] if args is None else args)
+        return super().parse_known_args([self._present(word) for word in words], namespace)
+
+    def _present(self, word: str) -> str:
+        """Returns an argument with its present name in the place of an old one."""
+        flag, is_joined, value = word.partition("=")
+        if flag not in self._old_names:
+            return word
+        name = self._old_names[flag]
+        say(self.prog, f"note: {flag} is now {name}")
+        return name + is_joined + value
 
     def error(self, message: str) -> NoReturn:
         """Prints the error and exits with code 2."""
@@ -47,6 +88,43 @@ def _number(is_good: Callable[[float], bool], expected: str) -> Callable[[str], 
         return value
 
     return read
+
+
+def say(prog: str, text: str) -> None:
+    """Prints a line for the user beside the output, which another program may read."""
+    print(f"{prog}: {text}", file=sys.stderr, flush=True)
+
+
+def steps(
+    prog: str, items: Sequence[Any], clock: Callable[[], float] = time.monotonic
+) -> Iterator[Any]:
+    """Yields the items of some long work, and says every few seconds at which it is."""
+    said = clock()
+    for number, item in enumerate(items, 1):
+        now = clock()
+        if now - said >= PROGRESS_S:
+            say(prog, f"{number} of {len(items)}: {item}")
+            said = now
+        yield item
+
+
+def add_seed(parser: Any, default: int = 0, text: str = "root of all random numbers") -> None:
+    """Adds --seed, a whole number from 0."""
+    parser.add_argument(
+        "--seed", type=seed_number, metavar="N", default=default, help=f"{text} (default {default})"
+    )
+
+
+def add_model_path(parser: Any) -> None:
+    """Adds --model-path, which may be given more than once."""
+    parser.add_argument(
+        "--model-path",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="folder of models to search before GAZEBO_MODEL_PATH; may be given again",
+    )
 
 
 seed_number = whole_in(0)

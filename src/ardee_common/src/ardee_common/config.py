@@ -2,14 +2,13 @@
 """YAML to data that remembers its lines, and to dataclasses: an unknown key is an error with file and line."""
 
 import dataclasses
-import difflib
 import re
 from pathlib import Path
 from typing import Any, Dict, Iterable, Union
 
 import yaml
 
-from ardee_common.errors import GeneratorError, not_yaml
+from ardee_common.errors import GeneratorError, known_names, not_yaml
 from ardee_common.options import kind_of, problem
 
 # libyaml's safe loader where PyYAML was built with it: ten times as fast, the same data
@@ -96,9 +95,7 @@ def read_yaml_lines(path: Path) -> Mapping:
 
 def unknown_key(mapping: Mapping, key: str, known: Iterable[str]) -> GeneratorError:
     """Returns the error for a key that is not one of the known ones, with the nearest of them."""
-    near = difflib.get_close_matches(key, known, 1)
-    guess = f"; did you mean {near[0]!r}?" if near else ""
-    return mapping.error(key, f"unknown key {key!r}, known: {', '.join(known)}{guess}")
+    return mapping.error(key, f"unknown key {key!r}, {known_names(key, known)}")
 
 
 def value_of(cls: type, field: dataclasses.Field, mapping: Mapping, key: str) -> Any:

@@ -1,11 +1,32 @@
 # SPDX-License-Identifier: MIT
 """The one error the generators raise for bad input."""
 
+import difflib
 from pathlib import Path
+from typing import Iterable
+
+_NAMES_SHOWN = 6
 
 
 class GeneratorError(Exception):
     """Bad input: says where, what was found and what was expected."""
+
+
+def known_names(name: str, known: Iterable[str]) -> str:
+    """Returns for a message the names that there are, those nearest to a wrong one first, of many only these."""
+    names = list(known)
+    if not names:
+        return "known: none"
+
+    def likeness(other: str) -> float:
+        is_part = name.lower() in other.lower() or other.lower() in name.lower()
+        is_begin = bool(name) and other.lower().startswith(name.lower())
+        return is_part + is_begin + difflib.SequenceMatcher(None, name, other).ratio()
+
+    near = sorted(names, key=likeness, reverse=True)[:_NAMES_SHOWN]
+    which = "known" if len(near) == len(names) else f"nearest of {len(names)}"
+    guess = f"; did you mean {near[0]!r}?" if likeness(near[0]) >= 0.6 else ""
+    return f"{which}: {', '.join(near)}{guess}"
 
 
 def not_yaml(path: Path, error: Exception) -> GeneratorError:

@@ -11,7 +11,7 @@ from typing import List, Sequence
 import numpy as np
 from PIL import Image
 
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_models.plant.crop_files import METRICS_FILE
 from ardee_models.terrain.height_map import Terrain
 
@@ -46,7 +46,11 @@ def find_model(name: str, folders: Sequence[Path]) -> Path:
     for folder in folders:
         if (folder / name / "model.config").is_file():
             return folder / name
-    raise GeneratorError(f"model {name!r}: not found, looked in {':'.join(map(str, folders))}")
+    there = {path.parent.name for folder in folders for path in folder.glob("*/model.config")}
+    raise GeneratorError(
+        f"model {name!r}: not found, {known_names(name, sorted(there))}"
+        f" (looked in {':'.join(map(str, folders))})"
+    )
 
 
 def sdf_root(model: Path) -> ElementTree.Element:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
 from ardee_common.cli import Parser, run
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_common.output import model_directory, write_file
 from ardee_models.lookup import find_model, search_path
 from ardee_models.metadata import model_config
@@ -39,8 +39,16 @@ def find_file(name: str, folders: Sequence[Path], what: str) -> Path:
     for path in (Path(name), *(folder / name for folder in folders)):
         if path.is_file():
             return path
+    ending = "".join(Path(name).suffixes)
+    beside = {
+        str(path.relative_to(folder))
+        for folder in folders
+        for path in (folder / name).parent.glob(f"*{ending}")
+    }
     looked = ", ".join(map(str, (Path.cwd(), *folders)))
-    raise GeneratorError(f"{what} {name!r}: no such file, looked in {looked}")
+    raise GeneratorError(
+        f"{what} {name!r}: no such file, {known_names(name, sorted(beside))} (looked in {looked})"
+    )
 
 
 def find_field(name: str, folders: Sequence[Path], models: Sequence[Path]) -> Path:

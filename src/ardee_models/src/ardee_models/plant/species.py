@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Optional, Tuple
 
 from ardee_common.config import build, read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import bounded
 from ardee_models.config_dir import config_dir
 from ardee_models.plant.organ_params import (
@@ -135,9 +135,8 @@ def load_species(species: str, path: Optional[Path] = None) -> tuple:
     """Parameter file of `species`, from `path` or the package's own: content and path."""
     if path is None:
         if species not in known_species():
-            raise GeneratorError(
-                f"unknown species {species!r}, known: {', '.join(known_species())}"
-            )
+            known = known_names(species, known_species())
+            raise GeneratorError(f"unknown species {species!r}, {known}")
         path = config_dir() / "species" / f"{species}.yaml"
     data = build(SpeciesFile, read_yaml_lines(path))
     if data.architecture.leaves.venation not in ("parallel", "pinnate"):

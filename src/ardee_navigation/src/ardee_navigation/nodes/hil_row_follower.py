@@ -20,7 +20,7 @@ import numpy as np
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Message, Pairer
 from ardee_common.cli import Parser
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_navigation.evaluation.scenario_files import read_parameters, read_scenarios
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 
@@ -204,7 +204,7 @@ def _parameters(args: argparse.Namespace) -> Parameters:
         known = read_scenarios(args.scenarios)
         if args.scenario not in known:
             raise GeneratorError(
-                f"--scenario: found {args.scenario!r}, expected one of {', '.join(known)}"
+                f"--scenario: found {args.scenario!r}, {known_names(args.scenario, known)}"
             )
         usual = known[args.scenario].parameters
     return read_parameters(Path(args.parameters), usual) if args.parameters else usual

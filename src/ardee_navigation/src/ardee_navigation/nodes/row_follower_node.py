@@ -22,7 +22,7 @@ from std_msgs.msg import ColorRGBA, Header, String
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ardee_common import ros_node
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option, ros_name
 from ardee_navigation.evaluation.scenario_files import read_parameters
 from ardee_navigation.evaluation.scenarios import known_scenarios
@@ -167,7 +167,7 @@ def _parameters(settings: Settings) -> Parameters:
     if name:
         known = known_scenarios()
         if name not in known:
-            raise GeneratorError(f"scenario: found {name!r}, expected one of {', '.join(known)}")
+            raise GeneratorError(f"scenario: found {name!r}, {known_names(name, known)}")
         usual = known[name].parameters
     return read_parameters(FilePath(settings.parameters), usual) if settings.parameters else usual
 
