@@ -62,7 +62,7 @@ def test_the_calls_of_the_listing_make_a_robot(tmp_path: pathlib.Path):
     wanted = {f"{end}_{what}" for end in ends for what in ("leg_joint", "wheel_rev")}
     assert wanted | {"lid_joint", "hokuyo_joint", "battery_joint"} <= set(robot.joints)
     assert len(robot.plugins("libTorsionalSpringPlugin.so")) == 4
-    mass = robot.links["base_footprint"].find("inertial/mass").get("value")
+    mass = robot.links["base_footprint_mass_link"].find("inertial/mass").get("value")
     assert 2 < float(mass) < 3  # rest of the configuration's mass, for the chassis
 
 
@@ -79,4 +79,4 @@ def test_the_chassis_of_listing_a_10_and_of_the_third_generation(tmp_path: pathl
             f'{include}urdf/links_v{number}.urdf.xacro" />'
             f'{include}config/tsv{number}_config.urdf.xacro" />{call}</robot>'
         )
-        assert "body" in Robot(expand(file)).bodies
+        assert "body_mass_link" in Robot(expand(file)).bodies

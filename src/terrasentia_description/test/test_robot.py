@@ -19,12 +19,18 @@ WHEEL_JOINTS = [f"{place}_wheel_rev" for place in PLACES]
 
 def test_links_and_joints_have_the_names_of_the_thesis(robot: Robot, generation: Generation):
     sensors = generation.sensors | {f"encoder_{place}" for place in ("fr", "fl", "rr", "rl")}
-    links = {"base_footprint", "lid_link"} | {f"{sensor}_link" for sensor in sensors}
+    links = {"base_footprint", "base_footprint_mass_link", "lid_link"} | {
+        f"{sensor}_link" for sensor in sensors
+    }
     links |= {f"{place}_{part}_link" for place in PLACES for part in ("leg", "wheel")}
     assert {link for link in robot.links if not link.endswith("_optical_frame")} == links
     joints = set(LEG_JOINTS) | set(WHEEL_JOINTS) | {f"{sensor}_joint" for sensor in sensors}
-    assert {j for j in robot.joints if "optical" not in j} == joints | {"lid_joint"}
+    assert {j for j in robot.joints if "optical" not in j} == joints | {
+        "lid_joint",
+        "base_footprint_mass_joint",
+    }
     assert set(robot.links) - set(robot.joint_of) == {"base_footprint"}
+    assert robot.mass("base_footprint") == 0  # KDL warns of a root with an inertia
     assert {j.get("type") for n, j in robot.joints.items() if n in LEG_JOINTS} == {"revolute"}
     assert {j.get("type") for n, j in robot.joints.items() if n in WHEEL_JOINTS} == {"continuous"}
 
