@@ -35,6 +35,19 @@ API = {
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",
 }
 NOT_PAGES = ("conf.py", "generate_reference.py", "yaml_keys.py", "markdown_text.py", "__pycache__")
+COMMANDS = """# Commands
+
+What each command prints with `-h`. The commands speak one language: an argument ends in its unit (`--row-spacing-m`, `--speed-m-s`),
+and where a YAML file can give it too, the key is the same with underscores (`row_spacing_m`). `--output` is the file or folder to write,
+`--seed` the root of all random numbers, `--model-path` a folder of models before those of `GAZEBO_MODEL_PATH`. What a command made, or
+its path, is on standard output; progress, warnings and what to do next are on standard error.
+
+| exit code | means |
+|---|---|
+| 0 | it is done |
+| 1 | the arguments were good, but what was to be measured or run was not: a value outside its range, a robot that does not answer |
+| 2 | an argument or a file is not usable; one line says where, what was found and what was expected, and nothing is written |
+"""
 LABELS = """# Labels
 
 The class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`,
@@ -132,8 +145,7 @@ def help_of(command: str) -> str:
 
 def command_page() -> str:
     """The page of commands with their help."""
-    parts = ["# Commands\n\nWhat each command prints with `-h`. Exit code 0: it is done; 2: a bad "]
-    parts.append("argument or file, in one line.\n")
+    parts = [COMMANDS]
     names = commands()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, text in zip(names, pool.map(help_of, names)):

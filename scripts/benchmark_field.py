@@ -80,12 +80,19 @@ def generate(plants: int, folder: pathlib.Path, farm_world: pathlib.Path, seed: 
     env = dict(os.environ)
     env["GAZEBO_MODEL_PATH"] = f"{folder}:{env.get('GAZEBO_MODEL_PATH', '')}"
     output = ["--output", str(folder), "--seed", str(seed)]
-    size = ["--samples", str(samples), "--size", str((samples - 1) * GROUND_STEP_M)]
+    size = ["--samples", str(samples), "--size-m", str((samples - 1) * GROUND_STEP_M)]
     _generate(env, "ardee_models", "generate_terrain", "--name", "benchmark_ground", *size, *output)
     # Rows run along -y of the field's frame, so along -x of the world: the field's middle lies on the origin.
     pose = [length_m / 2 + HEADLAND_M, 0.0, -math.pi / 2]
-    plan = ["--rows", str(rows), "--stalks-per-row", str(stalks), "--headland", str(HEADLAND_M)]
-    plan += ["--row-spacing", str(ROW_SPACING_M), "--stalk-spacing", str(STALK_SPACING_M)]
+    plan = [
+        "--rows-per-plot",
+        str(rows),
+        "--stalks-per-row",
+        str(stalks),
+        "--headland-m",
+        str(HEADLAND_M),
+    ]
+    plan += ["--row-spacing-m", str(ROW_SPACING_M), "--stalk-spacing-m", str(STALK_SPACING_M)]
     plan += ["--emergence-min", "1", "--emergence-max", "1", "--terrain", "benchmark_ground"]
     plan += ["--world-pose", *(str(value) for value in pose)]
     models = sorted(

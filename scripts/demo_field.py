@@ -50,7 +50,14 @@ def generate(
     folder.mkdir()
     models = young_corn()
     command = ["rosrun", "ardee_world", "generate_field", "--name", MODEL, "--seed", str(seed)]
-    command += ["--rows", str(ROWS), "--stalks-per-row", str(STALKS_PER_ROW), "--terrain", TERRAIN]
+    command += [
+        "--rows-per-plot",
+        str(ROWS),
+        "--stalks-per-row",
+        str(STALKS_PER_ROW),
+        "--terrain",
+        TERRAIN,
+    ]
     say(" ".join(command) + " ...")
     graph.run(*command, "--output", str(folder), "--models", *models)
     truth = json.loads((folder / MODEL / "truth.json").read_text())

@@ -159,7 +159,7 @@ class Bench:
 
     def control(self, code: str) -> None:
         """Sends a control code; fails unless it is answered."""
-        assert "ack" in finish(self.python_client("--control", code, "--seconds", "0.5"))
+        assert "ack" in finish(self.python_client("--control", code, "--duration-s", "0.5"))
 
     def _ask(self, name: str) -> Any:
         self._questions.send(name)

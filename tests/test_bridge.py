@@ -45,7 +45,7 @@ def test_the_c_client_gets_every_sensor(fed: Bench) -> None:
 
 
 def test_the_python_client_gets_every_sensor(fed: Bench) -> None:
-    found = finish_once_heard(lambda seconds: fed.python_client("--seconds", seconds), SENSORS)
+    found = finish_once_heard(lambda seconds: fed.python_client("--duration-s", seconds), SENSORS)
     assert "accel.z=9.81" in found["imu 0"][1]
     assert "position=-2.5" in found["encoder 1"][1]
     assert found["image 3"][1] == "DEPTH_32F_M width 640 height 480 bytes 1228800"
@@ -70,7 +70,7 @@ def test_the_c_client_drives_the_robot(bench: Bench) -> None:
 
 def test_the_python_client_turns_the_robot(bench: Bench) -> None:
     before = bench.state().turn
-    turning = bench.python_client("--yaw-rate", "0.3", "--seconds", "120")
+    turning = bench.python_client("--yaw-rate", "0.3", "--duration-s", "120")
     # Skidding wheels turn it less than commanded.
     least = 0.3 * 0.3 * codec.MAX_YAW_RATE_RAD_S
     wait_until(lambda: bench.state().yaw_rate_rad_s > least, "it turns", 60.0)
@@ -136,7 +136,7 @@ def test_both_die_and_the_client_comes_back_first(bench: Bench) -> None:
     first.kill()
     first.communicate()
     bench.kill_simulator()
-    client = bench.python_client("--speed", "-0.3", "--seconds", "180")
+    client = bench.python_client("--speed", "-0.3", "--duration-s", "180")
     bench.start_simulator()
     bench.spawn_robot()
     drives(bench, client)

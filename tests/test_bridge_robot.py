@@ -166,7 +166,7 @@ def test_a_target_that_only_listens_gets_every_small_sensor(robots: Robots) -> N
 
 
 def test_the_robot_in_a_namespace_has_a_bridge_of_its_own(robots: Robots) -> None:
-    found = finish(ask_in_python(robots.v1, "--seconds", "6"))
+    found = finish(ask_in_python(robots.v1, "--duration-s", "6"))
     assert SMALL | {"time 0"} <= set(found)
     assert_stands(robots, "/robot2", found)
     assert [numbers(found[f"encoder {wheel}"][1])["id"] for wheel in range(4)] == [0, 1, 2, 3]
@@ -184,7 +184,7 @@ def test_each_is_driven_alone_and_says_how_fast_it_is(
     speed_m_s = SPEED * 1.2
     if space:
         speed_m_s = -speed_m_s
-        client = ask_in_python(ports, "--speed", f"{-SPEED}", "--seconds", "120")
+        client = ask_in_python(ports, "--speed", f"{-SPEED}", "--duration-s", "120")
     else:
         client = listen_in_c(robots, ports, "-v", f"{SPEED}", "-t", "120")
     direction = math.copysign(1, speed_m_s)
@@ -210,7 +210,7 @@ def test_a_gps_without_fix_says_so(robots: Robots) -> None:
     robots.graph.call(reconfigure, "/ardee/gps/status", {"STATUS_FIX": False})
     try:
         in_c = finish(listen_in_c(robots, robots.v3, "-t", "4"))
-        in_python = finish(ask_in_python(robots.v3, "--seconds", "6"))
+        in_python = finish(ask_in_python(robots.v3, "--duration-s", "6"))
     finally:
         robots.graph.call(reconfigure, "/ardee/gps/status", {"STATUS_FIX": True})
     assert in_c["gps 0"][1] == "no fix"
@@ -262,7 +262,7 @@ def test_all_clients_that_ask_get_pictures(robots: Robots) -> None:
     command = [robots.program, "-p", 0, "-a", robots.v3.sensors, "-c", robots.v3.controls]
     starts = (
         (lambda seconds: start_client([*command, "-t", seconds]), 3),
-        (lambda seconds: ask_in_python(robots.v1, "--seconds", seconds), 2),
+        (lambda seconds: ask_in_python(robots.v1, "--duration-s", seconds), 2),
     )
     for start, cameras in starts:
         wanted = SMALL | {"time 0"} | {f"image {number}" for number in range(cameras)}

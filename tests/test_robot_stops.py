@@ -142,7 +142,7 @@ def test_measure_motion_leaves_the_robot_at_rest_when_ended(
     assert robots.call(speed_of, "TerraSentia_robot2") < 0.01
 
 
-@pytest.mark.parametrize("option", ["--speed-m-s", "--turn-rad-s", "--seconds"])
+@pytest.mark.parametrize("option", ["--speed-m-s", "--turn-rad-s", "--duration-s"])
 @pytest.mark.parametrize("text", ["nan", "inf", "0"])
 def test_measure_motion_refuses_what_is_no_motion(robots: RosGraph, option: str, text: str) -> None:
     refused = robots.spawn("rosrun", "terrasentia_description", "measure_motion", option, text)

@@ -81,7 +81,16 @@ def test_a_field_of_ones_own_stands_where_plots_truth_and_start_say(
     graph: RosGraph, tmp_path: pathlib.Path
 ) -> None:
     """Follows the README's sequence: the robot looks into a lane, and the GPS's plot is around the plants."""
-    words = ["--models", "corn_variant_8", "--rows", "4", "--row-length", "5", "--seed", "1"]
+    words = [
+        "--models",
+        "corn_variant_8",
+        "--rows-per-plot",
+        "4",
+        "--row-length-m",
+        "5",
+        "--seed",
+        "1",
+    ]
     words += ["--terrain", "heightmap_ground", "--name", "my_field", "--output", str(tmp_path)]
     graph.run("rosrun", "ardee_world", "generate_field", *words)
     recipe = SCRIPTS.parent / "src" / "ardee_world" / "terrains" / "heightmap_rough.yaml"
@@ -118,8 +127,17 @@ def test_a_field_stands_where_the_user_says_with_its_origin_on_the_earth(
     graph: RosGraph, tmp_path: pathlib.Path
 ) -> None:
     x, y, turn = 5.0, 2.0, 0.5
-    words = ["--models", "corn_variant_8", "--rows", "2", "--row-length", "3", "--seed", "1"]
-    words += ["--gps-origin", "52", "6", "--name", "my_field", "--output", str(tmp_path)]
+    words = [
+        "--models",
+        "corn_variant_8",
+        "--rows-per-plot",
+        "2",
+        "--row-length-m",
+        "3",
+        "--seed",
+        "1",
+    ]
+    words += ["--gps-origin-deg", "52", "6", "--name", "my_field", "--output", str(tmp_path)]
     graph.run("rosrun", "ardee_world", "generate_field", *words)
     kept, field = tmp_path / "kept", str(tmp_path / "my_field/my_field.urdf.xacro")
     words = ["-y", "-o", str(kept), "-p", str(x), str(y), str(turn), field]

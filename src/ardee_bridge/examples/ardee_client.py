@@ -49,10 +49,20 @@ def options() -> argparse.Namespace:
     parser.add_argument(
         "--controls", type=int, default=35555, help="UDP port of the controls client"
     )
-    parser.add_argument("--speed", type=share, help="-1...1 of the robot's limit")
-    parser.add_argument("--yaw-rate", type=share, help="-1...1 of the robot's limit")
-    parser.add_argument("--control", choices=[code.name for code in codec.ControlCode])
-    parser.add_argument("--seconds", type=float, default=5.0)
+    parser.add_argument(
+        "--speed", type=share, help="speed to drive at, -1...1 of the robot's limit"
+    )
+    parser.add_argument(
+        "--yaw-rate", type=share, help="rate to turn at, -1...1 of the robot's limit"
+    )
+    parser.add_argument(
+        "--control",
+        choices=[code.name for code in codec.ControlCode],
+        help="control of the simulation to send once",
+    )
+    parser.add_argument(
+        "--duration-s", type=float, default=5.0, help="time until it ends (default %(default)s)"
+    )
     return parser.parse_args()
 
 
@@ -158,7 +168,7 @@ def main() -> int:
         client = Client(opened)
         if found.control:
             client.send(codec.encode_control(codec.ControlCode[found.control]), controls)
-        end_s = time.monotonic() + found.seconds
+        end_s = time.monotonic() + found.duration_s
         has_to_end = []  # type: List[int]
         signal.signal(signal.SIGINT, lambda number, frame: has_to_end.append(number))
         command_s = ask_s = 0.0

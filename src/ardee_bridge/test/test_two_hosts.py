@@ -84,7 +84,7 @@ def clients(package, tmp_path_factory):
     python = (sys.executable, package / "examples" / "ardee_client.py")
     return {
         "C": (compiled, "-t", "1", "-i", SIMULATOR, "-g"),
-        "Python": (*python, "--seconds", "1", "--simulator", SIMULATOR, "--group"),
+        "Python": (*python, "--duration-s", "1", "--simulator", SIMULATOR, "--group"),
     }
 
 

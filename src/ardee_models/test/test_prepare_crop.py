@@ -67,7 +67,7 @@ def test_stalks_become_models_of_their_own(scene, tmp_path, capsys, kind):
     mesh = _save(scene, tmp_path / f"field.{kind}", kind)
     out = tmp_path / "out"
     code, written = _run(
-        capsys, mesh, "--up", "z", "--name", "mine", "--output", out, "--species", "tobacco"
+        capsys, mesh, "--mesh-up", "z", "--name", "mine", "--output", out, "--species", "tobacco"
     )
     assert code == 0 and [p.rsplit("/", 1)[1] for p in written] == ["mine_1", "mine_2", "mine_3"]
     for name, height in zip(("mine_1", "mine_2", "mine_3"), HEIGHTS):
@@ -86,7 +86,7 @@ def test_stalks_become_models_of_their_own(scene, tmp_path, capsys, kind):
 
 def test_model_is_drawn_from_both_sides_with_its_textures(scene, tmp_path, capsys):
     mesh = _save(scene, tmp_path / "field.glb", "glb")
-    _run(capsys, mesh, "--up", "z", "--name", "mine", "--output", tmp_path / "out")
+    _run(capsys, mesh, "--mesh-up", "z", "--name", "mine", "--output", tmp_path / "out")
     model = tmp_path / "out" / "mine_2"
     script = (model / "materials/scripts/mine_2.material").read_text()
     assert script.count("cull_hardware none") == script.count("cull_software none") == 2
@@ -108,7 +108,7 @@ def test_whole_keeps_one_model_and_units_and_axes_are_obeyed(scene, tmp_path, ca
     lying.apply_transform(trimesh.transformations.rotation_matrix(-np.pi / 2, [1, 0, 0]))
     lying.apply_scale(100.0)  # centimetres, y up
     mesh = _save(lying, tmp_path / "field.stl", "stl")
-    arguments = (mesh, "--whole", "--up", "y", "--scale", "0.01", "--name", "all")
+    arguments = (mesh, "--whole", "--mesh-up", "y", "--mesh-scale", "0.01", "--name", "all")
     _, written = _run(capsys, *arguments, "--output", tmp_path / "out")
     assert [p.rsplit("/", 1)[1] for p in written] == ["all"]
     assert crop_model("all", [tmp_path / "out"]).height_m == pytest.approx(max(HEIGHTS), abs=1e-4)
@@ -189,7 +189,7 @@ def test_own_models_come_back_as_they_were(share, tmp_path, capsys):
 def test_same_mesh_same_bytes(scene, tmp_path, capsys, hash_of):
     mesh = _save(scene, tmp_path / "field.glb", "glb")
     for place in ("a", "b"):
-        _run(capsys, mesh, "--up", "z", "--name", "mine", "--output", tmp_path / place)
+        _run(capsys, mesh, "--mesh-up", "z", "--name", "mine", "--output", tmp_path / place)
     assert hash_of(tmp_path / "a") == hash_of(tmp_path / "b")
 
 
@@ -202,7 +202,7 @@ def test_same_mesh_same_bytes(scene, tmp_path, capsys, hash_of):
         ("empty.stl", b"", [], "empty.stl: "),
         ("broken.glb", b"glTF\x02\0\0\0garbage", [], "broken.glb: cannot be read"),
         ("flat.obj", b"v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", [], "found a height of 0 m"),
-        ("huge.obj", b"v 0 0 0\nv 1 900 0\nv 0 0 1\nf 1 2 3\n", [], "give --scale"),
+        ("huge.obj", b"v 0 0 0\nv 1 900 0\nv 0 0 1\nf 1 2 3\n", [], "give --mesh-scale"),
         ("nan.obj", b"v 0 0 nan\nv 1 1 0\nv 0 0 1\nf 1 2 3\n", [], "not finite"),
         ("ok.obj", b"v 0 0 0\nv 0.1 1 0\nv 0 0 0.1\nf 1 2 3\n", ["--stem", "Stem"], "no such part"),
         ("ok.obj", b"v 0 0 0\nv 0.1 1 0\nv 0 0 0.1\nf 1 2 3\n", ["--label", "-1"], "0 to 65535"),
@@ -214,7 +214,7 @@ def test_bad_meshes_are_refused_in_one_line(tmp_path, capsys, name, data, argume
         (tmp_path / name).write_bytes(data)
     out = tmp_path / "out"
     with pytest.raises(SystemExit) as exit_:
-        words = ["--up", "y", "--name", "x", "--output", str(out), *arguments]
+        words = ["--mesh-up", "y", "--name", "x", "--output", str(out), *arguments]
         prepare_crop.main([str(tmp_path / name), *words])
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
@@ -227,6 +227,6 @@ def test_an_error_in_the_last_model_leaves_none(scene, tmp_path, capsys):
     (out / "mine_3").mkdir(parents=True)  # not a model: must not be overwritten
     (out / "mine_3" / "notes.txt").write_text("mine")
     with pytest.raises(SystemExit) as exit_:
-        prepare_crop.main([str(mesh), "--up", "z", "--name", "mine", "--output", str(out)])
+        prepare_crop.main([str(mesh), "--mesh-up", "z", "--name", "mine", "--output", str(out)])
     assert exit_.value.code == 2 and "not a model directory" in capsys.readouterr().err
     assert [p.name for p in out.iterdir()] == ["mine_3"]

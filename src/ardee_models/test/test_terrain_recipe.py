@@ -136,7 +136,7 @@ def test_surface_and_look_reach_the_model(command, tmp_path, hash_of):
             "g",
             "--output",
             tmp_path / place,
-            "--friction-across",
+            "--mu2",
             "0.3",
         )
         assert code == (0, "")
@@ -151,7 +151,7 @@ def test_surface_and_look_reach_the_model(command, tmp_path, hash_of):
 @pytest.mark.parametrize(
     "line, message",
     [
-        ("slop: {}", "r.yaml:12: unknown key 'slop', known: size_m"),
+        ("slop: {}", "r.yaml:12: unknown key 'slop', nearest of 11: slope, "),
         ("ditches: [{depht_m: 1}]", "r.yaml:12: unknown key 'depht_m'"),
         ("ditches: [{depth_m: deep}]", "r.yaml:12: depth_m: found 'deep', expected 0 to 10 m"),
         ("ditches: {depth_m: 1}", "r.yaml:12: ditches: found"),
@@ -182,16 +182,16 @@ def test_bad_recipes_are_refused(change):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (("--size", "-3"), "terrain size: found -3.0"),
+        (("--size-m", "-3"), "terrain size: found -3.0"),
         (("--samples", "100"), "terrain samples: found 100"),
-        (("--friction", "0"), "terrain surface mu: found 0.0"),
-        (("--contact-stiffness", "nan"), "terrain surface kp: found nan"),
+        (("--mu", "0"), "terrain surface mu: found 0.0"),
+        (("--kp", "nan"), "terrain surface kp: found nan"),
         (("none.yaml",), "none.yaml: cannot be read"),
         (("--image", "none.png"), "none.png: cannot be read"),
         (("--dem", "none.asc"), "none.asc: cannot be read"),
         (("--mesh", "none.obj"), "none.obj: cannot be read"),
         (("--image", "a.png", "--mesh", "b.obj"), "not allowed with"),
-        (("--mesh", "b.obj", "--size", "3"), "found --size with --mesh"),
+        (("--mesh", "b.obj", "--size-m", "3"), "found --size-m with --mesh"),
         (("--image-name", "../../../evil"), "name '../../../evil': expected letters, digits"),
         (("--image-name", "a b&c"), "name 'a b&c': expected letters, digits"),
     ],

@@ -49,7 +49,7 @@ def test_an_image_is_the_ground_and_eight_bits_are_told(command, tmp_path, dtype
     share = (heights - heights.min()) / np.ptp(heights)
     Image.fromarray(np.rint(share * np.iinfo(dtype).max).astype(dtype)).save(tmp_path / "i.png")
     code, error = command(
-        "--image", tmp_path / "i.png", "--size", "20", "--image-height", np.ptp(heights)
+        "--image", tmp_path / "i.png", "--size-m", "20", "--image-height-m", np.ptp(heights)
     )
     assert code == 0
     step_mm = 1000 * np.ptp(heights) / 255
@@ -193,7 +193,7 @@ def _write_obj(path, up="z"):
 @pytest.mark.parametrize("up", ["z", "y"])
 def test_a_mesh_is_the_ground_seen_and_felt(command, tmp_path, up):
     _write_obj(tmp_path / "m.obj", up)
-    assert command("--mesh", tmp_path / "m.obj", "--mesh-up", up, "--friction", "0.6") == (0, "")
+    assert command("--mesh", tmp_path / "m.obj", "--mesh-up", up, "--mu", "0.6") == (0, "")
     _check(tmp_path, 8e-3)
     root = ElementTree.parse(tmp_path / "out/g/model.sdf").getroot()
     seen, felt = root.findtext(".//visual//uri"), root.findtext(".//collision//uri")

@@ -11,6 +11,7 @@ from typing import List, Tuple
 from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
 from PIL import Image, ImageDraw
 
+from ardee_common.cli import steps
 from ardee_common.errors import GeneratorError
 
 POST_HEIGHT_M = 0.6
@@ -183,7 +184,7 @@ def make_writable(folder: pathlib.Path) -> None:
 def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
     """Writes the pictures, a sheet of all of them and index.html into the folder; returns the page's path."""
     make_writable(folder)
-    for device in shown:
+    for device in steps("sensor_report", shown):
         take_picture(device, work, work / f"{device}.png")
     text = page(shown)
     for device in shown:

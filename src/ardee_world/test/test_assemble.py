@@ -119,7 +119,7 @@ def world_places(folder):
 def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned_or_moved_to(
     put_together, generate_field, tmp_path, models, form, pose, moved_to
 ):
-    words = ("--models", "corn_a", "--name", "turned", "--rows", "2", "--format", form)
+    words = ("--models", "corn_a", "--name", "turned", "--rows-per-plot", "2", "--format", form)
     words += ("--world-pose", *map(str, pose)) if pose else ()
     assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
     more = ("ground", "pkg/my.geofence", "--pose", *map(str, moved_to)) if moved_to else ()
@@ -161,7 +161,7 @@ def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned_or_move
 def test_the_worlds_origin_is_the_one_that_the_field_was_planned_with(
     put_together, generate_field, tmp_path, pose
 ):
-    words = ("--models", "corn_a", "--name", "placed", "--gps-origin", "40.1", "-88.2")
+    words = ("--models", "corn_a", "--name", "placed", "--gps-origin-deg", "40.1", "-88.2")
     assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
     more = ("ground", "pkg/my.geofence", "--pose", *pose) if pose else ()
     assert put_together("models/placed/placed.urdf.xacro", *more) == (0, "")

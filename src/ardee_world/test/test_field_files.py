@@ -23,7 +23,7 @@ def _truth(folder):
 
 
 def test_no_plant_is_lost_between_sdf_truth_and_plan(generate_field, tmp_path):
-    heights = ("--stalk-height-min", "0.5", "--stalk-height-max", "0.9")
+    heights = ("--stalk-height-min-m", "0.5", "--stalk-height-max-m", "0.9")
     code, error = generate_field(
         *BASE, *heights, "--terrain", "ground", "--seed", "5", "--output", tmp_path
     )
@@ -66,7 +66,7 @@ def test_scale_is_left_out_where_it_is_one(generate_field, tmp_path):
 
 def test_truth_tells_rows_and_world_positions(generate_field, tmp_path):
     pose = ("--world-pose", "0", "0", str(-np.pi / 2))
-    generate_field(*BASE, *pose, "--gps-origin", "40.1", "-88.2", "--output", tmp_path)
+    generate_field(*BASE, *pose, "--gps-origin-deg", "40.1", "-88.2", "--output", tmp_path)
     folder = tmp_path / "field"
     data = json.loads((folder / "truth.json").read_text())
     assert [row["start_m"] for row in data["rows"]] == [
@@ -96,7 +96,7 @@ def test_same_seed_same_bytes_other_seed_other_bytes(generate_field, tmp_path):
 def test_a_plan_of_the_users_own(generate_field, tmp_path):
     plan = tmp_path / "plan.csv"
     plan.write_text("x_m,y_m\n1,2\n3,4\n")
-    certain = ("--noise-covariance", "0", "0", "--emergence-min", "1", "--emergence-max", "1")
+    certain = ("--noise-covariance-m2", "0", "0", "--emergence-min", "1", "--emergence-max", "1")
     assert generate_field(*BASE, *certain, "--centers", plan, "--output", tmp_path)[0] == 0
     positions = [(float(row["x_m"]), float(row["y_m"])) for row in _truth(tmp_path / "field")]
     assert positions == [(1.0, 2.0), (3.0, 4.0)]
@@ -118,18 +118,18 @@ def test_many_plants(generate_field, tmp_path):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (("--rows", "-1"), "rows per plot: found -1"),
+        (("--rows-per-plot", "-1"), "rows per plot: found -1"),
         (("--models", "corn_z"), "model 'corn_z': not found, known: corn_a, corn_b"),
         (("--models", "ground"), "neither metrics.json nor a collision cylinder"),
         (("--terrain", "moon"), "model 'moon': not found"),
         (("--terrain", "corn_a"), "no <heightmap>"),
         (("--emergence-max", "1.01"), "emergence max: found 1.01, expected 0 to 1"),
-        (("--noise-covariance", "1", "2", "1"), "positive definite"),
-        (("--noise-covariance", "1"), "found 1 numbers"),
+        (("--noise-covariance-m2", "1", "2", "1"), "positive definite"),
+        (("--noise-covariance-m2", "1"), "found 1 numbers"),
         (("--stalks-per-row", "0"), "stalks per row: found 0"),
         (("--seed", "-3"), "--seed: found '-3', expected a whole number from 0"),
         (("--emergence-min", "0", "--emergence-max", "0"), "found no plant that emerged of"),
-        (("--rows", "four"), "--rows: invalid int value"),
+        (("--rows-per-plot", "four"), "--rows-per-plot: invalid int value"),
         (("--centers", "nowhere.csv"), "nowhere.csv: cannot be read"),
         (("--name", "../field"), "name '../field'"),
     ],
@@ -173,7 +173,7 @@ def test_a_plan_of_the_largest_numbers_is_drawn_and_one_of_a_spreadsheet_read(
 ):
     plan = tmp_path / "plan.csv"
     plan.write_text("\ufeffx_m,y_m,plot,row\n0,0,0,0\n100000,-100000,100000,100000\n")
-    certain = ("--noise-covariance", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
+    certain = ("--noise-covariance-m2", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
     assert generate_field(*BASE, *certain, "--centers", plan, "--output", tmp_path)[0] == 0
     truth = json.loads((tmp_path / "field" / "truth.json").read_text())
     assert truth["plants"]["row"] == [0, 100_000] and truth["plants"]["y_m"] == [0.0, -1e5]

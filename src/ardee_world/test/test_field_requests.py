@@ -7,6 +7,9 @@ import json
 import pytest
 from PIL import Image
 
+from ardee_world.generate_field import main, make_parser
+from ardee_world.request import all_fields
+
 BASE = ("--models", "corn_a", "corn_b", "--name", "field")
 
 
@@ -40,9 +43,9 @@ def test_yaml_and_arguments_make_the_same_field(generate_field, tmp_path, plan):
     arguments = (
         "--seed",
         5,
-        "--rows",
+        "--rows-per-plot",
         6,
-        "--noise-covariance",
+        "--noise-covariance-m2",
         "1e-4",
         "4e-4",
         "--stalks-per-row",
@@ -56,7 +59,7 @@ def test_yaml_and_arguments_make_the_same_field(generate_field, tmp_path, plan):
 
 def test_arguments_win_over_the_file(generate_field, tmp_path, plan):
     path = plan("seed: 5", "rows_per_plot: 6", "stalks_per_row: 30")
-    assert generate_field(path, "--rows", 2, "--row-length", "1.66")[0] == 0
+    assert generate_field(path, "--rows-per-plot", 2, "--row-length-m", "1.66")[0] == 0
     truth = json.loads((tmp_path / "out" / "field" / "truth.json").read_text())
     assert truth["planned"] == 2 * 11 and truth["seed"] == 5
 
@@ -79,7 +82,7 @@ def test_centres_listed_in_the_file(generate_field, tmp_path, plan):
 def test_rows_of_a_users_own_plan(generate_field, tmp_path):
     path = tmp_path / "plan.csv"
     path.write_text("x_m,y_m,row,plot\n0,0,0,0\n1,0,1,0\n0,-1,0,0\n1,-1,1,0\n")
-    certain = ("--noise-covariance", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
+    certain = ("--noise-covariance-m2", 0, 0, "--emergence-min", 1, "--emergence-max", 1)
     assert generate_field(*BASE, *certain, "--centers", path, "--output", tmp_path)[0] == 0
     truth = json.loads((tmp_path / "field" / "truth.json").read_text())
     assert [row["line_m"] for row in truth["rows"]] == [[[0, 0], [0, -1]], [[1, 0], [1, -1]]]
@@ -89,7 +92,7 @@ def test_rows_of_a_users_own_plan(generate_field, tmp_path):
 @pytest.mark.parametrize(
     "line, message",
     [
-        ("row_spaceing_m: 1", "field.yaml:4: unknown key 'row_spaceing_m', known: "),
+        ("row_spaceing_m: 1", "field.yaml:4: unknown key 'row_spaceing_m', nearest of "),
         (
             "row_spacing_m: wide",
             "field.yaml:4: row_spacing_m: found 'wide', expected 0.01 to 100000 m",
@@ -138,31 +141,55 @@ def bad_files(tmp_path):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        (("--stalk-spacing", "0"), "stalk spacing: found 0.0, expected 0.01 to 100000 m"),
-        (("--stalk-spacing", "nan"), "stalk spacing: found nan"),
-        (("--row-spacing", "-1"), "row spacing: found -1.0"),
+        (("--stalk-spacing-m", "0"), "stalk spacing: found 0.0, expected 0.01 to 100000 m"),
+        (("--stalk-spacing-m", "nan"), "stalk spacing: found nan"),
+        (("--row-spacing-m", "-1"), "row spacing: found -1.0"),
         (("--emergence-min", "-0.1"), "emergence min: found -0.1, expected 0 to 1"),
         (("--lodging", "2"), "lodging: found 2.0, expected 0 to 1"),
         (("--doubles", "-1"), "doubles: found -1.0"),
-        (("--rows", "0"), "rows per plot: found 0"),
+        (("--rows-per-plot", "0"), "rows per plot: found 0"),
         (("--gaps", "5000"), "gaps: found 5000"),
         (("--centers", "{dir}/broken.csv"), "broken.csv: line 4: found"),
         (
-            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/not.png"),
+            (
+                "--weed-density-per-m2",
+                "1",
+                "--weed-models",
+                "corn_a",
+                "--weed-image",
+                "{dir}/not.png",
+            ),
             "not.png: not a readable image",
         ),
         (
-            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/black.png"),
+            (
+                "--weed-density-per-m2",
+                "1",
+                "--weed-models",
+                "corn_a",
+                "--weed-image",
+                "{dir}/black.png",
+            ),
             "found a black image",
         ),
         (
-            ("--weed-density", "1", "--weed-models", "corn_a", "--weed-image", "{dir}/none.png"),
+            (
+                "--weed-density-per-m2",
+                "1",
+                "--weed-models",
+                "corn_a",
+                "--weed-image",
+                "{dir}/none.png",
+            ),
             "none.png: cannot be read",
         ),
-        (("--weed-density", "1", "--weed-models", "weed_z"), "model 'weed_z': not found"),
-        (("--weed-density", "-1"), "weed density per m2: found -1.0|weed density: found -1.0"),
+        (("--weed-density-per-m2", "1", "--weed-models", "weed_z"), "model 'weed_z': not found"),
+        (
+            ("--weed-density-per-m2", "-1"),
+            "weed density per m2: found -1.0|weed density: found -1.0",
+        ),
         (("--output", "{dir}/file"), "file: cannot be written"),
-        (("--row-length", "5", "--stalks-per-row", "7"), "expected one of them"),
+        (("--row-length-m", "5", "--stalks-per-row", "7"), "expected one of them"),
         (("--row-shape", "expression", "--row-expression", "open('x')"), "row expression"),
         (("--unknown", "1"), "unrecognized arguments: --unknown"),
     ],
@@ -180,17 +207,40 @@ def test_bad_arguments_are_one_message_and_change_nothing(
     assert _bytes(out) == before
 
 
-def test_help_gives_units(capsys):
-    from ardee_world.generate_field import make_parser
+def test_each_flag_is_the_key_of_a_yaml_file():
+    flags = set(make_parser()._option_string_actions) - {"-h", "--help"}
+    keys = {"--" + key.replace("_", "-") for key in all_fields()}
+    assert keys - flags == {
+        "--origin-latitude-deg",
+        "--origin-longitude-deg",
+    }  # of --gps-origin-deg
+    assert flags <= keys
 
+
+def test_it_says_what_to_do_next_and_how_arguments_are_called_now(
+    models, tmp_path, monkeypatch, capsys
+):
+    words = ["generate_field", "--models", "corn_a", "--name", "mine", "--rows", "2"]
+    words += ["--output", str(tmp_path), "--model-path", str(models)]
+    monkeypatch.setattr("sys.argv", words)
+    assert main() == 0
+    field = tmp_path / "mine" / "mine.urdf.xacro"
+    assert field.is_file()
+    assert capsys.readouterr().err.splitlines() == [
+        "generate_field: note: --rows is now --rows-per-plot",
+        f"generate_field: to drive in it: scripts/run_custom_world {field} [TERRAIN]",
+    ]
+
+
+def test_help_gives_units(capsys):
     text = make_parser().format_help()
     for words in (
-        "--row-spacing M",
+        "--row-spacing-m M",
         "[m]",
-        "--lodging-direction DEG",
+        "--lodging-direction-deg DEG",
         "[deg]",
         "[1/m^2]",
         "[m^2]",
-        "--gps-origin LAT LON",
+        "--gps-origin-deg LAT LON",
     ):
         assert words in text

@@ -17,7 +17,7 @@ from ardee_world.writers.instances import HEADER
 EXTENSION = "{urn:ardee:sdf}"
 BASE = ("--models", "corn_a", "corn_b", "--name", "field")
 VARIED = (
-    *("--stalk-height-min", "0.5", "--stalk-height-max", "0.9", "--lodging", "0.2"),
+    *("--stalk-height-min-m", "0.5", "--stalk-height-max-m", "0.9", "--lodging", "0.2"),
     *("--doubles", "0.1", "--terrain", "ground"),
 )
 

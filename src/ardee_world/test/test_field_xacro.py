@@ -44,7 +44,7 @@ def test_plots_have_the_listings_elements_and_the_fields_numbers(generate_field,
         2,
         "--plots-y",
         3,
-        "--row-length",
+        "--row-length-m",
         5,
         "--world-pose",
         2,
@@ -76,7 +76,16 @@ def test_plots_have_the_listings_elements_and_the_fields_numbers(generate_field,
 
 
 def test_a_plot_of_single_plants_is_as_long_as_they_stand_apart(generate_field, tmp_path):
-    shape = ("--rows", 2, "--stalks-per-row", 1, "--stalk-spacing", 0.2, "--terrain", "ground")
+    shape = (
+        "--rows-per-plot",
+        2,
+        "--stalks-per-row",
+        1,
+        "--stalk-spacing-m",
+        0.2,
+        "--terrain",
+        "ground",
+    )
     assert generate_field(*BASE, *shape, "--output", tmp_path)[0] == 0
     plot = ElementTree.parse(tmp_path / "field" / "plots.xacro").getroot().find("plot")
     value = {e.tag: float(e.text) for e in plot}
@@ -89,7 +98,14 @@ def test_a_plot_of_single_plants_is_as_long_as_they_stand_apart(generate_field, 
 def test_clutter_reaches_model_and_truth(generate_field, models, tmp_path):
     for name in MODELS:
         write_clutter_model(name, tmp_path / "clutter")
-    densities = ("--weed-density", 2, "--stone-density", 1, "--litter-density", 1)
+    densities = (
+        "--weed-density-per-m2",
+        2,
+        "--stone-density-per-m2",
+        1,
+        "--litter-density-per-m2",
+        1,
+    )
     path = ("--model-path", tmp_path / "clutter", "--terrain", "ground")
     assert generate_field(*BASE, *densities, *path, "--output", tmp_path)[0] == 0
     folder = tmp_path / "field"

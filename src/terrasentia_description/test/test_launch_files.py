@@ -56,9 +56,10 @@ def nodes(file: str, *arguments: str, display: str = "") -> list:
 
 @pytest.mark.parametrize("file", FILES)
 def test_without_a_display_rviz_is_left_out(file: str):
-    assert nodes(file) == ["/robot_state_publisher", "/spawn_terrasentia"]
-    assert "/rviz" in nodes(file, display=":0")
+    assert nodes(file) == ["/no_window", "/robot_state_publisher", "/spawn_terrasentia"]
+    assert "/rviz" in nodes(file, display=":0") and "/no_window" not in nodes(file, display=":0")
     assert "/rviz" not in nodes(file, "use_rviz:=false", display=":0")
+    assert "/no_window" not in nodes(file, "use_rviz:=false")
 
 
 def test_a_namespace_takes_everything_along():

@@ -108,9 +108,11 @@ def steps(
         yield item
 
 
-def add_seed(parser: Any, default: int = 0, text: str = "root of all random numbers") -> None:
-    """Adds --seed, a whole number from 0."""
-    parser.add_argument(
+def add_seed(
+    parser: Any, default: int = 0, text: str = "root of all random numbers"
+) -> argparse.Action:
+    """Adds --seed, a whole number from 0; returns its action."""
+    return parser.add_argument(
         "--seed", type=seed_number, metavar="N", default=default, help=f"{text} (default {default})"
     )
 

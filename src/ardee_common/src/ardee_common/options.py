@@ -30,10 +30,9 @@ def option(
     text: str = "",
     limits: Optional[Tuple[float, float]] = None,
     choices: Tuple[str, ...] = (),
-    flag: str = "",
 ) -> Any:
-    """Dataclass field with its help text, inclusive limits or choices, and the command's flag where it differs."""
-    metadata = {"text": text, "limits": limits, "choices": choices, "flag": flag}
+    """Dataclass field with its help text, inclusive limits or choices."""
+    metadata = {"text": text, "limits": limits, "choices": choices}
     return dataclasses.field(default=default, metadata=metadata)
 
 

@@ -15,6 +15,8 @@ from ardee_common.errors import GeneratorError, known_names
 from ardee_models.plant.crop_files import METRICS_FILE
 from ardee_models.terrain.height_map import Terrain
 
+DEFAULT_OUTPUT = "the first of GAZEBO_MODEL_PATH that can be written and that no build made, else ~/.gazebo/models"
+
 
 @dataclass(frozen=True)
 class CropModel:
@@ -37,6 +39,18 @@ def search_path(extra: Sequence[Path] = ()) -> List[Path]:
     """Folders of models: `extra`, then GAZEBO_MODEL_PATH, then the one in the user's home."""
     entries = os.environ.get("GAZEBO_MODEL_PATH", "").split(":")
     return [*extra, *(Path(entry) for entry in entries if entry), own_models()]
+
+
+def default_output() -> Path:
+    """The first writable folder of GAZEBO_MODEL_PATH that no build made, else the one in the user's home.
+
+    Models are found in both at once. A catkin space, marked by its file .catkin, goes when it is built anew.
+    """
+    for folder in search_path():
+        is_built = any((parent / ".catkin").exists() for parent in folder.resolve().parents)
+        if folder.is_dir() and os.access(folder, os.W_OK) and not is_built:
+            return folder
+    return own_models()
 
 
 def find_model(name: str, folders: Sequence[Path]) -> Path:

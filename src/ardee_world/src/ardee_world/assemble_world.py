@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_common.cli import Parser, run
+from ardee_common.cli import Parser, add_model_path, run
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.output import model_directory, write_file
 from ardee_models.lookup import find_model, search_path
@@ -169,13 +169,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--search", type=Path, nargs="*", default=[], help="folders to which paths may be relative"
     )
-    parser.add_argument(
-        "--model-path",
-        type=Path,
-        nargs="*",
-        default=[],
-        help="folders of models, searched before GAZEBO_MODEL_PATH",
-    )
+    add_model_path(parser)
     parser.add_argument(
         "--pose",
         type=_place,

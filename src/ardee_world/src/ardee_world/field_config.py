@@ -21,7 +21,7 @@ _COUNT = (1, 100_000)
 class Plots:
     """The plan of a field. Rows run along the row direction; plots are counted along x (across) and y (along)."""
 
-    rows_per_plot: int = option(4, "rows per plot", _COUNT, flag="rows")
+    rows_per_plot: int = option(4, "rows per plot", _COUNT)
     plots_x: int = option(1, "number of plots side by side", _COUNT)
     plots_y: int = option(1, "number of plots one behind the other", _COUNT)
     row_length_m: float = option(8.134, "length of rows (50 plants)", _LENGTH)

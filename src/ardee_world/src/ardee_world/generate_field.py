@@ -7,10 +7,10 @@ import typing
 from pathlib import Path
 from typing import Any, Dict, Optional
 
-from ardee_common.cli import Parser, run, seed_number
+from ardee_common.cli import Parser, add_seed, run, say
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of, plain_name, scalar_fields, unit_of
-from ardee_models.lookup import crop_model, search_path
+from ardee_models.lookup import crop_model, default_output, search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.centres import listed_centres, read_centres
 from ardee_world.clutter import KINDS
@@ -47,6 +47,17 @@ def _default_text(value: Any) -> str:
     return f" (default {value:g})" if isinstance(value, float) else f" (default {value})"
 
 
+def _flag(key: str) -> str:
+    return "--" + key.replace("_", "-")
+
+
+def _old_names() -> Dict[str, str]:
+    """Names without units, and that of the thesis for the number of rows (Figure 4.4: n_rows)."""
+    keys = {field.name for cls in groups().values() for field in scalar_fields(cls)}
+    old = {_flag(plain_name(key)): _flag(key) for key in keys if plain_name(key) != key}
+    return {**old, "--rows": "--rows-per-plot"}
+
+
 def _add_option(group: Any, cls: type, field: dataclasses.Field) -> None:
     kind, unit, meta = kind_of(cls, field), unit_of(field.name), field.metadata
     arguments: Dict[str, Any] = {"dest": field.name, "default": argparse.SUPPRESS}
@@ -62,14 +73,15 @@ def _add_option(group: Any, cls: type, field: dataclasses.Field) -> None:
         arguments["metavar"] = _UNIT_METAVARS.get(unit, _METAVARS[kind])
     unit_text = f" [{unit}]" if unit else ""
     arguments["help"] = meta["text"] + unit_text + _default_text(field.default).replace("%", "%%")
-    flag = meta["flag"] or plain_name(field.name).replace("_", "-")
-    group.add_argument(f"--{flag}", **arguments)
+    if field.name == "model_path":
+        arguments["action"] = "extend"
+    group.add_argument(_flag(field.name), **arguments)
 
 
 def _add_special(group: Any) -> None:
     usual, none = FieldConfig(), argparse.SUPPRESS
     group.add_argument(
-        "--noise-covariance",
+        "--noise-covariance-m2",
         dest="noise_covariance_m2",
         type=float,
         nargs="+",
@@ -87,7 +99,7 @@ def _add_special(group: Any) -> None:
         " as farm.world does)",
     )
     group.add_argument(
-        "--gps-origin",
+        "--gps-origin-deg",
         dest="gps_origin_deg",
         type=float,
         nargs=2,
@@ -95,9 +107,7 @@ def _add_special(group: Any) -> None:
         metavar=("LAT", "LON"),
         help="latitude and longitude of the world's origin [deg]",
     )
-    group.add_argument(
-        "--seed", type=seed_number, default=none, help="root of all random numbers (default 0)"
-    )
+    add_seed(group).default = none
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -105,8 +115,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="generate_field",
         description="Write a random crop field as a Gazebo model directory with its ground truth.",
-        epilog="A YAML file has the same options as keys with their unit: row_spacing_m, emergence_min, ...; "
+        epilog="A YAML file has the same names with underscores as keys: row_spacing_m, emergence_min, ...; "
         "arguments override it.",
+        old_names=_old_names(),
     )
     parser.add_argument(
         "yaml", nargs="?", type=Path, metavar="FIELD.yaml", help="YAML file of options"
@@ -124,7 +135,7 @@ def make_parser() -> argparse.ArgumentParser:
                 type=int,
                 default=argparse.SUPPRESS,
                 metavar="N",
-                help="number of stalks in a row, instead of --row-length",
+                help="number of stalks in a row, instead of --row-length-m",
             )
         if name == "field":
             _add_special(group)
@@ -144,11 +155,14 @@ def make_field(args: argparse.Namespace) -> Path:
     given: Values = vars(args)
     file = given.pop("yaml", None)
     if "row_length_m" in given and "stalks_per_row" in given:
-        raise GeneratorError("found --row-length and --stalks-per-row, expected one of them")
+        raise GeneratorError("found --row-length-m and --stalks-per-row, expected one of them")
     values = yaml_values(file) if file else {}
     if "row_length_m" in given:
         values.pop("stalks_per_row", None)
-    return make_configured({**values, **given})
+    path = make_configured({**values, **given})
+    field = f"{path}/{path.name}.urdf.xacro"
+    say("generate_field", f"to drive in it: scripts/run_custom_world {field} [TERRAIN]")
+    return path
 
 
 def make_configured(values: Values) -> Path:
@@ -167,7 +181,9 @@ def make_configured(values: Values) -> Path:
         raise GeneratorError(
             f"emergence: found no plant that emerged of {len(layout.planned.centres_m)} planned, expected some"
         )
-    return write_field(layout, sources.name, Path(sources.output), sources.format, terrain)
+    return write_field(
+        layout, sources.name, Path(sources.output or default_output()), sources.format, terrain
+    )
 
 
 def main() -> int:

@@ -9,6 +9,7 @@ from typing import Any, Dict, Optional, Tuple
 from ardee_common.config import Mapping, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of, option, scalar_fields
+from ardee_models.lookup import DEFAULT_OUTPUT
 from ardee_world.field_config import GROUPS, FieldConfig
 
 # number of plants and clutter items above which a field is by default written as a stream
@@ -23,7 +24,9 @@ class Sources:
 
     models: Tuple[str, ...] = option((), "pool of crop models to draw from")
     name: Optional[str] = option(None, "name of the field's model")
-    output: Optional[str] = option(None, "folder of models to write it in")
+    output: Optional[str] = option(
+        None, f"folder of models to write it in (default: {DEFAULT_OUTPUT})"
+    )
     model_path: Tuple[str, ...] = option((), "folders of models, searched before GAZEBO_MODEL_PATH")
     terrain: Optional[str] = option(
         None, "terrain model at the world's origin that the field stands on (default: level ground)"
@@ -138,7 +141,7 @@ def configure(values: Values) -> Tuple[Sources, FieldConfig]:
     own = {f.name for f in scalar_fields(FieldConfig)}
     config = FieldConfig(**made, **{k: v for k, v in values.items() if k in own})
     config.validate()
-    for key in ("name", "output", "models"):
+    for key in ("name", "models"):
         if not getattr(sources, key):
             raise GeneratorError(
                 f"{key}: found none, expected --{key} or the key {key} of a YAML file"

@@ -2,12 +2,11 @@
 """The command `generate_crop`."""
 
 import argparse
-import os
 from pathlib import Path
 from typing import Optional, Sequence
 
-from ardee_common.cli import Parser, run, seed_number
-from ardee_models.lookup import own_models, search_path
+from ardee_common.cli import Parser, RawHelp, add_seed, run, say
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import known_species, load_species
 from ardee_models.plant.stages import describe_stages
@@ -22,16 +21,14 @@ def stages_help() -> str:
     return "\n".join(lines)
 
 
-def default_output() -> Path:
-    """The first writable folder of GAZEBO_MODEL_PATH that no build made, else the one in the user's home.
-
-    Models are found in both at once. A catkin space, marked by its file .catkin, goes when it is built anew.
-    """
-    for folder in search_path():
-        is_built = any((parent / ".catkin").exists() for parent in folder.resolve().parents)
-        if folder.is_dir() and os.access(folder, os.W_OK) and not is_built:
-            return folder
-    return own_models()
+def say_how_to_plant(prog: str, models: Sequence[Path]) -> None:
+    """Says how to plant a field of the crop models that a command has written."""
+    names = " ".join(path.name for path in models)
+    say(
+        prog,
+        f"to plant a field: rosrun ardee_world generate_field --models {names}"
+        f" --model-path {models[0].parent} --name my_field",
+    )
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -39,7 +36,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="generate_crop",
         description="Write a crop plant as a Gazebo model directory.",
         epilog=stages_help(),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=RawHelp,
     )
     parser.add_argument(
         "--species", default="corn", help=f"one of {', '.join(known_species())} (default corn)"
@@ -48,22 +45,21 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--params", type=Path, help="species' parameter file (default: the package's own)"
     )
-    parser.add_argument(
-        "--seed", type=seed_number, default=0, help="root of all random numbers (default 0)"
-    )
+    add_seed(parser)
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
         "--output",
         type=Path,
-        help="folder of models to write it in (default: the first of GAZEBO_MODEL_PATH that can be"
-        " written and that no build made, else ~/.gazebo/models)",
+        help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
     return parser
 
 
 def _make(args: argparse.Namespace) -> Path:
     output = args.output or default_output()
-    return make_crop(args.species, args.stage, args.seed, args.name, output, args.params)
+    path = make_crop(args.species, args.stage, args.seed, args.name, output, args.params)
+    say_how_to_plant("generate_crop", [path])
+    return path
 
 
 def generate_crop_main(arguments: Optional[Sequence[str]] = None) -> int:

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import List, Optional, Sequence
 
 from ardee_common.cli import Parser, positive_number, run, whole_in
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output
 from ardee_models.mesh_file import UP_RULE, UPS
-from ardee_models.plant.generate_crop import default_output
+from ardee_models.plant.generate_crop import say_how_to_plant
 from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.plant.species import known_species, load_species
 from ardee_models.prepare.read import read_mesh
@@ -23,8 +24,8 @@ def prepare(args: argparse.Namespace) -> List[Path]:
     label = args.label
     if label is None:
         label = load_species(args.species)[0].label if args.species in known_species() else 0
-    parts = read_mesh(args.mesh, args.up, args.scale, _say)
-    plants = [parts] if args.whole else split_plants(parts, args.gap)
+    parts = read_mesh(args.mesh, args.mesh_up, args.mesh_scale, _say)
+    plants = [parts] if args.whole else split_plants(parts, args.gap_m)
     facts = {
         "species": args.species,
         "stage": args.stage,
@@ -46,7 +47,7 @@ def warn_if_lying(model: Path, given: str) -> None:
     if extent_m > _FLAT * height_m:
         _say(
             f"warning: {model.name} is {height_m:g} m high and reaches {extent_m:g} m to the side;"
-            f" if it lies, turn it by another --up than {given}"
+            f" if it lies, turn it by another --mesh-up than {given}"
         )
 
 
@@ -60,20 +61,22 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--name", required=True, help="name of the model; several stalks become NAME_1, NAME_2, ..."
     )
-    parser.add_argument("--output", type=Path, help="folder of models, as for generate_crop")
     parser.add_argument(
-        "--up",
+        "--output", type=Path, help=f"folder of models to write in (default: {DEFAULT_OUTPUT})"
+    )
+    parser.add_argument(
+        "--mesh-up",
         choices=UPS,
         default="auto",
         help=f"the file's up axis (default auto: {UP_RULE})",
     )
     parser.add_argument(
-        "--scale",
+        "--mesh-scale",
         type=positive_number,
         help="length of the mesh's unit [m] (default: as a .dae says, else 1)",
     )
     parser.add_argument(
-        "--gap",
+        "--gap-m",
         type=positive_number,
         default=0.06,
         help="stalks whose feet are nearer than this are one plant [m] (default 0.06)",
@@ -93,9 +96,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _prepare_all(args: argparse.Namespace) -> None:
-    for path in prepare(args):
+    paths = prepare(args)
+    for path in paths:
         print(path)
-        warn_if_lying(path, args.up)
+        warn_if_lying(path, args.mesh_up)
+    say_how_to_plant("prepare_crop", paths)
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:

@@ -62,6 +62,6 @@ def read_mesh(path: Path, up: str, scale: Optional[float], say: Say) -> List[Use
     if not 0.005 < np.ptp(heights) < 50.0:
         raise GeneratorError(
             f"{path}: found a height of {np.ptp(heights):g} m, expected 0.005 to 50 m;"
-            " give --scale (metres a unit) or --up"
+            " give --mesh-scale (metres a unit) or --mesh-up"
         )
     return list(parts.values())

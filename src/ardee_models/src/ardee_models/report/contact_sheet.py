@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ardee_common.cli import Parser
+from ardee_common.cli import Parser, steps
 from ardee_common.errors import GeneratorError
 from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.report.splat import Part, draw, read_dae
@@ -94,7 +94,7 @@ def draw_contact_sheet(
     rows = -(-len(models) // columns)
     width, height = _CELL[0] + 4, _CELL[1] + _CAPTION + 4
     sheet = Image.new("RGB", (columns * width, rows * height), (255, 255, 255))
-    for i, model in enumerate(models):
+    for i, model in enumerate(steps("contact sheet", models)):
         sheet.paste(_cell(model, suffix), (i % columns * width + 2, i // columns * height + 2))
     try:
         sheet.save(output)

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_common.cli import Parser
+from ardee_common.cli import Parser, add_model_path
 from ardee_common.errors import GeneratorError
 from ardee_common.output import write_file
 from ardee_models.lookup import find_model, search_path
@@ -145,13 +145,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Returns 0 if every metric lies in its range, 1 if one does not, 2 for bad input."""
     parser = Parser(prog="crop_report", description=__doc__)
     parser.add_argument("--output", type=Path, required=True, help="folder to write the report in")
-    parser.add_argument(
-        "--model-path",
-        type=Path,
-        action="append",
-        default=[],
-        help="folder of models to look in before GAZEBO_MODEL_PATH",
-    )
+    add_model_path(parser)
     parser.add_argument(
         "models", nargs="*", help="models by name (default: all that the build makes)"
     )

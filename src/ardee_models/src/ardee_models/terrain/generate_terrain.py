@@ -3,15 +3,15 @@
 
 import argparse
 import dataclasses
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ardee_common.cli import Parser, run, seed_number
+from ardee_common.cli import Parser, add_seed, run, say
 from ardee_common.errors import GeneratorError
 from ardee_common.options import check
+from ardee_models.lookup import DEFAULT_OUTPUT, default_output
 from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.terrain.elevation import UNITS_M, dem_terrain
 from ardee_models.terrain.features import follow
@@ -23,15 +23,15 @@ from ardee_models.terrain.terrain_model import write_terrain
 from ardee_models.terrain.terrain_obj import write_mesh_terrain
 
 _PLAIN = (
-    ("--row-spacing", "row_spacing_m", "distance between ridges [m]"),
-    ("--ridge-height", "ridge_height_m", "height of the ridge along each row [m], 0 for none"),
-    ("--bump-sd", "bump_sd_m", "standard deviation of bumps [m], 0 for none"),
-    ("--bump-length", "bump_length_m", "size of bumps [m]"),
+    ("--row-spacing-m", "row_spacing_m", "distance between ridges [m]"),
+    ("--ridge-height-m", "ridge_height_m", "height of the ridge along each row [m], 0 for none"),
+    ("--bump-sd-m", "bump_sd_m", "standard deviation of bumps [m], 0 for none"),
+    ("--bump-length-m", "bump_length_m", "size of bumps [m]"),
 )
 
 
 def _say(text: str) -> None:
-    print(f"generate_terrain: {text}", file=sys.stderr)
+    say("generate_terrain", text)
 
 
 def _warn(text: str) -> None:
@@ -71,7 +71,10 @@ def make_parser() -> argparse.ArgumentParser:
     _source_arguments(parser)
     shape = parser.add_argument_group("size")
     shape.add_argument(
-        "--size", type=float, metavar="M", help=f"side of the square [m] (default {usual.size_m:g})"
+        "--size-m",
+        type=float,
+        metavar="M",
+        help=f"side of the square [m] (default {usual.size_m:g})",
     )
     shape.add_argument(
         "--samples",
@@ -80,7 +83,7 @@ def make_parser() -> argparse.ArgumentParser:
         help="pixels a side, 2^n + 1 (default: enough for the source)",
     )
     shape.add_argument(
-        "--image-height",
+        "--image-height-m",
         type=float,
         default=1.0,
         metavar="M",
@@ -106,24 +109,27 @@ def make_parser() -> argparse.ArgumentParser:
     )
     surface = parser.add_argument_group("surface")
     for flag, name, text in (
-        ("--friction", "mu", "friction coefficient"),
+        ("--mu", "mu", "friction coefficient"),
         (
-            "--friction-across",
+            "--mu2",
             "mu2",
-            "friction coefficient in the second direction (default: that of --friction)",
+            "friction coefficient in the second direction (default: that of --mu)",
         ),
-        ("--contact-stiffness", "kp", "stiffness of ground contacts [N/m]"),
-        ("--contact-damping", "kd", "damping of ground contacts [N s/m]"),
+        ("--kp", "kp", "stiffness of ground contacts [N/m]"),
+        ("--kd", "kd", "damping of ground contacts [N s/m]"),
     ):
         value = "" if name == "mu2" else f" (default {getattr(felt, name):g})"
         surface.add_argument(flag, dest=name, type=float, metavar="X", help=text + value)
-    parser.add_argument("--seed", type=seed_number, help="root of all random numbers (default 0)")
+    add_seed(parser).default = None  # to know whether it was given
     parser.add_argument(
         "--image-name", default="terrain", help="stem of the written image's file name"
     )
     parser.add_argument("--name", required=True, help="name of the model")
     parser.add_argument(
-        "--output", type=Path, required=True, help="folder of models to write it in"
+        "--output",
+        type=Path,
+        default=default_output(),
+        help=f"folder of models to write it in (default: {DEFAULT_OUTPUT})",
     )
     return parser
 
@@ -131,10 +137,8 @@ def make_parser() -> argparse.ArgumentParser:
 def _refuse(args: argparse.Namespace, names: tuple, source: str) -> None:
     for name in names:
         if getattr(args, name) is not None:
-            flag = name[:-2] if name.endswith("_m") else name
-            raise GeneratorError(
-                f"found --{flag.replace('_', '-')} with {source}, expected it alone"
-            )
+            flag = "--" + name.replace("_", "-")
+            raise GeneratorError(f"found {flag} with {source}, expected it alone")
 
 
 def _surface(args: argparse.Namespace, usual: Surface) -> Surface:
@@ -147,7 +151,7 @@ def _surface(args: argparse.Namespace, usual: Surface) -> Surface:
 
 
 def _size(args: argparse.Namespace) -> float:
-    size = TerrainParams().size_m if args.size is None else args.size
+    size = TerrainParams().size_m if args.size_m is None else args.size_m
     if not (np.isfinite(size) and 1.0 <= size <= 2000.0):
         raise GeneratorError(f"terrain size: found {size}, expected 1 to 2000 m")
     return size
@@ -165,7 +169,7 @@ def make_terrain(args: argparse.Namespace) -> Path:
     plain = tuple(name for _, name, _ in _PLAIN)
     surface, look = Surface(), Look()
     if args.mesh:
-        _refuse(args, (*plain, "size", "samples", "seed"), "--mesh")
+        _refuse(args, (*plain, "size_m", "samples", "seed"), "--mesh")
         ground = read_mesh(args.mesh, args.mesh_up, args.mesh_scale, _say)
         check_lies(ground, args.mesh)
         return write_mesh_terrain(centred(ground), _surface(args, surface), args.name, args.output)
@@ -173,15 +177,15 @@ def make_terrain(args: argparse.Namespace) -> Path:
     if args.recipe:
         _refuse(args, plain, "a recipe")
         recipe = read_recipe(args.recipe)
-        given = {"size_m": args.size, "samples": args.samples, "seed": args.seed}
+        given = {"size_m": args.size_m, "samples": args.samples, "seed": args.seed}
         recipe = dataclasses.replace(recipe, **{k: v for k, v in given.items() if v is not None})
         surface, look, terrain = recipe.surface, recipe.look, follow(recipe)
     elif args.image:
         _refuse(args, (*plain, "seed"), "--image")
-        terrain = image_terrain(args.image, _size(args), args.image_height, args.samples, _warn)
+        terrain = image_terrain(args.image, _size(args), args.image_height_m, args.samples, _warn)
         about = "Field terrain, heightmap from an image"
     elif args.dem:
-        _refuse(args, (*plain, "seed", "size"), "--dem")
+        _refuse(args, (*plain, "seed", "size_m"), "--dem")
         terrain = dem_terrain(args.dem, args.samples, args.fill_holes, args.dem_unit, _warn)
         about = "Field terrain, heightmap from an elevation model"
     else:
@@ -192,9 +196,15 @@ def make_terrain(args: argparse.Namespace) -> Path:
     )
 
 
+def _make(args: argparse.Namespace) -> Path:
+    path = make_terrain(args)
+    _say(f"to drive on it: scripts/run_custom_world FIELD {path}")
+    return path
+
+
 def main() -> int:
     """Runs `generate_terrain RECIPE.yaml --name my_ground --output DIR`."""
-    return run(make_parser(), make_terrain)
+    return run(make_parser(), _make)
 
 
 if __name__ == "__main__":

@@ -52,28 +52,24 @@ def _arguments(argv: List[str]) -> argparse.Namespace:
         metavar="NAME",
         help="name of the scenario: " + ", ".join(names),
     )
-    parser.add_argument(
-        "--runs", type=whole_in(1, 10_000), default=10, help="number of runs [%(default)s]"
-    )
+    parser.add_argument("--runs", type=whole_in(1, 10_000), default=10, help="number of runs")
     parser.add_argument(
         "--seed",
         type=whole_in(0, LARGEST_SEED),
         default=1,
-        help="seed of the first run [%(default)s]",
+        help="seed of the first run",
     )
     parser.add_argument(
         "--output",
         type=Path,
-        help="folder of the report [experiment_output/NAME_seeds_FIRST_to_LAST]",
+        help="folder of the report (default: experiment_output/NAME_seeds_FIRST_to_LAST)",
     )
     parser.add_argument(
         "--parameters",
         type=Path,
         help="YAML file of the row follower's parameters that differ from the scenario's",
     )
-    parser.add_argument(
-        "--bot-model", default="tsv1_default.urdf.xacro", help="robot model file [%(default)s]"
-    )
+    parser.add_argument("--bot-model", default="tsv1_default.urdf.xacro", help="robot model file")
     parser.add_argument(
         "--hil",
         action="store_true",

@@ -175,12 +175,19 @@ def _own_address(*others: Address) -> Address:
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
     parser = Parser(prog="hil_row_follower", description=__doc__.splitlines()[0])
-    parser.add_argument("--sensors", type=_peer, default="127.0.0.1:30001", help="[%(default)s]")
-    parser.add_argument("--controls", type=_peer, default="127.0.0.1:35555", help="[%(default)s]")
+    parser.add_argument(
+        "--sensors", type=_peer, default="127.0.0.1:30001", help="ADDRESS:PORT of the sensor server"
+    )
+    parser.add_argument(
+        "--controls",
+        type=_peer,
+        default="127.0.0.1:35555",
+        help="ADDRESS:PORT of the controls client",
+    )
     parser.add_argument(
         "--bind",
         type=_address,
-        help="own address; port 0: any [127.0.0.1:0 if both others are on this computer, else 0.0.0.0:0]",
+        help="own ADDRESS:PORT; port 0: any (default: 127.0.0.1:0 if both others are on this computer, else 0.0.0.0:0)",
     )
     parser.add_argument(
         "--parameters",
