@@ -135,7 +135,8 @@ class Demo:
         """Takes a picture of rviz with the robot launch file's configuration."""
         say("rviz draws a picture, off-screen")
         script = ROOT / "scripts" / "rviz_picture"
-        return self.graph.spawn(str(script), str(ROOT / RVIZ_CONFIG), str(self.work / "rviz.png"))
+        picture = ["--output", str(self.work / "rviz.png")]
+        return self.graph.spawn(str(script), str(ROOT / RVIZ_CONFIG), *picture)
 
     def run(self) -> None:
         """Runs all stages in order."""

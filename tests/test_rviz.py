@@ -24,6 +24,7 @@ def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
     graph.run(
         str(PICTURE),
         str(config),
+        "--output",
         str(picture),
         "--status",
         str(status),
@@ -66,7 +67,7 @@ def test_world_alone(graph: RosGraph) -> None:
 def test_without_a_master_it_ends_in_time(graph: RosGraph) -> None:
     uri = f"http://127.0.0.1:{free_port()}"
     picture, started_s = graph.folder / "none.png", time.monotonic()
-    command = (str(PICTURE), str(WORLD_VIEW), str(picture), "--timeout-s", "1")
+    command = (str(PICTURE), str(WORLD_VIEW), "--output", str(picture), "--timeout-s", "1")
     process = graph.spawn(*command, ROS_MASTER_URI=uri)
     assert process.wait(60.0) == 1 and time.monotonic() - started_s > 1.0
     assert process.output() == f"rviz_picture: found no ROS master at {uri} within 1 s\n"

@@ -53,7 +53,7 @@ def test_plants_plots_truth_and_start_agree(
     words = [str(SHARE / f"ardee_world/urdf/{name}.urdf.xacro"), "ardee_models/heightmap_flat"]
     words += ["ardee_geofence/default_gps_behavior.geofence", "--output", str(tmp_path)]
     words += ["--search", str(SHARE), str(SHARE.parents[1] / "src")]
-    words += ["--pose", *map(str, pose)] if pose else []
+    words += ["--world-pose", *map(str, pose)] if pose else []
     assemble(make_parser().parse_args(words))
     folder = tmp_path / "models" / "custom_field"
     plants, stands = plants_of(folder)

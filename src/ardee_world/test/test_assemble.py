@@ -122,7 +122,7 @@ def test_plants_plots_truth_and_start_agree_wherever_a_field_was_planned_or_move
     words = ("--models", "corn_a", "--name", "turned", "--rows-per-plot", "2", "--format", form)
     words += ("--world-pose", *map(str, pose)) if pose else ()
     assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
-    more = ("ground", "pkg/my.geofence", "--pose", *map(str, moved_to)) if moved_to else ()
+    more = ("ground", "pkg/my.geofence", "--world-pose", *map(str, moved_to)) if moved_to else ()
     pose = moved_to or pose
     assert put_together("models/turned/turned.urdf.xacro", *more) == (0, "")
     places = world_places(tmp_path / "out")
@@ -163,7 +163,7 @@ def test_the_worlds_origin_is_the_one_that_the_field_was_planned_with(
 ):
     words = ("--models", "corn_a", "--name", "placed", "--gps-origin-deg", "40.1", "-88.2")
     assert generate_field(*words, "--output", tmp_path / "models")[0] == 0
-    more = ("ground", "pkg/my.geofence", "--pose", *pose) if pose else ()
+    more = ("ground", "pkg/my.geofence", "--world-pose", *pose) if pose else ()
     assert put_together("models/placed/placed.urdf.xacro", *more) == (0, "")
     world = ElementTree.parse(tmp_path / "out/worlds/custom.world").getroot().find("world")
     origin = world.find("spherical_coordinates")
@@ -182,16 +182,16 @@ def test_the_worlds_origin_is_the_one_that_the_field_was_planned_with(
 def test_a_field_of_somebody_elses_is_not_moved(put_together, tmp_path):
     other = "<sdf><model name='m'><include><uri>x</uri><pose>1 2 3 0 0 0</pose></include></model></sdf>\n"
     (tmp_path / "other.urdf.xacro").write_text(f"{other}{SEPARATOR}\n<robot/>\n")
-    words = ("ground", "pkg/my.geofence", "--pose", "1", "2", "3")
+    words = ("ground", "pkg/my.geofence", "--world-pose", "1", "2", "3")
     code, error = put_together("other.urdf.xacro", *words)
     assert code == 2 and "not made by generate_field, so it cannot be moved" in error
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "1e6", "north"])
 def test_a_pose_that_no_world_holds_is_refused(put_together, number):
-    words = ("ground", "pkg/my.geofence", "--pose", number, "0", "0")
+    words = ("ground", "pkg/my.geofence", "--world-pose", number, "0", "0")
     code, error = put_together("models/field/field.urdf.xacro", *words)
-    assert code == 2 and "argument --pose: " in error and number in error
+    assert code == 2 and "argument --world-pose: " in error and number in error
 
 
 def test_a_field_that_says_no_start_gets_the_usual_one(put_together, tmp_path):

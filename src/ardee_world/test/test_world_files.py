@@ -111,14 +111,20 @@ def test_launch_takes_an_absolute_path_and_a_factor(package):
 
 
 @pytest.mark.parametrize(
-    "arguments, opens",
-    [((), False), (("gui:=true",), True), (("gui:=true", "headless:=true"), False)],
+    "arguments, display, more",
+    [
+        ((), ":0", []),
+        (("gui:=true",), ":0", ["/world_rviz"]),
+        (("gui:=true",), "", ["/world_no_window"]),
+        (("gui:=true", "headless:=true"), ":0", []),
+    ],
 )
-def test_rviz_opens_only_when_asked(package, arguments, opens):
+def test_rviz_opens_only_when_asked_and_possible(package, arguments, display, more):
     environment = dict(os.environ, ROS_PACKAGE_PATH=str(package.parent), PATH="/usr/bin:/bin")
+    environment["DISPLAY"] = display
     command = ["roslaunch", "--nodes", str(package / "launch" / "custom_world.launch"), *arguments]
     result = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    assert result.stdout.split() == ["/gazebo"] + ["/world_rviz"] * opens
+    assert result.stdout.split() == ["/gazebo"] + more
 
 
 def test_rviz_configuration_shows_the_scenery_in_the_world(package):

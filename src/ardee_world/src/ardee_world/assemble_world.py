@@ -124,12 +124,14 @@ def assemble(args: argparse.Namespace) -> Path:
     model, plots = split_field(field)
     check_xml(geofence.read_text(encoding="utf-8", errors="replace"), geofence)
     start, truth = read_start(start_file(field)), _truth(field, models)
-    if args.pose:
+    if args.world_pose:
         if not is_generated(model):
             raise GeneratorError(f"{field}: not made by generate_field, so it cannot be moved")
         pose = own_pose(model)
-        plots, start = move_plots(plots, pose, args.pose), move_start(start, pose, args.pose)
-        model = move_model(model, args.pose)
+        plots, start = move_plots(plots, pose, args.world_pose), move_start(
+            start, pose, args.world_pose
+        )
+        model = move_model(model, args.world_pose)
     ground = ground_model(terrain.name, [terrain.parent, *models])
     seated = is_generated(model) and not args.keep_heights
     table = _table(field, model, ground if seated else None)
@@ -171,7 +173,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     add_model_path(parser)
     parser.add_argument(
-        "--pose",
+        "--world-pose",
         type=_place,
         nargs=3,
         metavar=("X", "Y", "YAW"),
