@@ -31,3 +31,4 @@ def test_of_many_names_only_some_are_listed() -> None:
 
 def test_nothing_is_guessed_of_a_name_unlike_all() -> None:
     assert "did you mean" not in known_names("qqq", ["width", "depth"])
+    assert "did you mean" not in known_names("x", ["axis_camera", "xtion_pro"])

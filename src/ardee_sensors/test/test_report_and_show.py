@@ -198,7 +198,7 @@ def test_the_launch_file_has_no_argument_that_nobody_can_give():
 
 
 @pytest.mark.parametrize(
-    "sensor, code, said", [("kinect", 0, "/ardee/sensor/depth/points"), ("x", 2, "kinect")]
+    "sensor, code, said", [("kinect", 0, "/ardee/sensor/depth/points"), ("kinekt", 2, "kinect")]
 )
 def test_watch_sensor_names_the_topics(sensor: str, code: int, said: str):
     command = ["/usr/bin/python3", str(PACKAGE / "scripts/watch_sensor"), sensor, "__name:=watch"]

@@ -19,8 +19,9 @@ def known_names(name: str, known: Iterable[str]) -> str:
         return "known: none"
 
     def likeness(other: str) -> float:
-        is_part = name.lower() in other.lower() or other.lower() in name.lower()
-        is_begin = bool(name) and other.lower().startswith(name.lower())
+        one, two = sorted((name.lower(), other.lower()), key=len)
+        is_telling = len(one) >= 3  # a letter or two are a part of many names
+        is_part, is_begin = is_telling and one in two, is_telling and two.startswith(one)
         return is_part + is_begin + difflib.SequenceMatcher(None, name, other).ratio()
 
     near = sorted(names, key=likeness, reverse=True)[:_NAMES_SHOWN]
