@@ -327,6 +327,20 @@ def check_imu(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> Non
     assert imu["orientation"].w == pytest.approx(1, abs=0.01)
 
 
+def check_magnetometer(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
+    """Checks the field on level ground: x is east, y north; it dips northwards and declines to the west."""
+    field = last[f"ardee/{device}/mag"]["magnetic_field"]
+    dip, decline = (math.radians(numbers[f"{name}_deg"]) for name in ("inclination", "declination"))
+    level_t = numbers["magnitude_t"] * math.cos(dip)
+    expected = (
+        level_t * math.sin(decline),
+        level_t * math.cos(decline),
+        -numbers["magnitude_t"] * math.sin(dip),
+    )
+    assert expected[0] < 0 < expected[1]
+    assert (field.x, field.y, field.z) == pytest.approx(expected, abs=6 * numbers["noise_t"])
+
+
 def check_range(device: str, numbers: Dict[str, Any], last: Dict[str, Any]) -> None:
     echo = last[f"ardee/{device}"]
     assert echo["radiation_type"] == 0  # ULTRASOUND
@@ -359,6 +373,7 @@ CHECKS = {
     "imu": check_imu,
     "lidar_2d": check_lidar_2d,
     "lidar_3d": check_lidar_3d,
+    "magnetometer": check_magnetometer,
     "other": check_other,
     "range": check_range,
     "rgbd": check_rgbd,

@@ -15,17 +15,21 @@ def gps() -> np.ndarray:
     return lathe([(0.9 * radius, 0), (radius, 0.2 * height), *dome], 48)
 
 
-def imu() -> np.ndarray:
-    """Printed board with its chips and a connector."""
-    numbers = load("imu")
+def imu(device: str, chip: tuple, places: tuple) -> np.ndarray:
+    """Printed board of the device with a chip of a size (x y) at each place, and a connector."""
+    numbers = load(device)
     size_x, size_y, height = (numbers[f"size_{axis}_m"] for axis in "xyz")
     board = box((size_x, size_y, 0.0016), (0, 0, 0.0008))
-    chips = [
-        box((0.004, 0.004, 0.001), (x, y, 0.0021))
-        for x, y in ((0.006, 0), (-0.004, 0.006), (-0.004, -0.006))
-    ]
+    chips = [box((*chip, 0.001), (x, y, 0.0021)) for x, y in places]
     plug = box((0.006, 0.016, height - 0.0016), (-size_x / 2 + 0.005, 0, (height + 0.0016) / 2))
     return np.concatenate([board, *chips, plug])
+
+
+def magnetometer() -> np.ndarray:
+    """Chip on a board."""
+    numbers = load("magnetometer")
+    size = tuple(numbers[f"size_{axis}_m"] for axis in "xyz")
+    return box(size, (0, 0, size[2] / 2))
 
 
 def sonar() -> np.ndarray:
@@ -68,8 +72,10 @@ def checkerboard_black(squares: tuple = (8, 6), side_m: float = 0.25) -> np.ndar
 def meshes() -> dict:
     """All other meshes by file name."""
     return {
-        "gps.stl": gps(),
-        "imu.stl": imu(),
+        "antenna_3GO16.stl": gps(),
+        "imu.stl": imu("imu", (0.004, 0.004), ((0.006, 0), (-0.004, 0.006), (-0.004, -0.006))),
+        "imu_bno055.stl": imu("imu_bno055", (0.0052, 0.0038), ((0, 0),)),
+        "magnetometer.stl": magnetometer(),
         "sonar.stl": sonar(),
         "approx_battery.stl": approx_battery(),
         "encoder.stl": encoder(),

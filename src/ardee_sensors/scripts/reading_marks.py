@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Markers for readings without a display in rviz: fixes, inertial units, encoders, batteries."""
+"""Markers for readings without a display in rviz: fixes, inertial units, magnetometers, encoders, batteries."""
 from typing import Any, Callable, Dict, List, Sequence, Tuple
 
 from geometry_msgs.msg import Point, Quaternion
@@ -13,6 +13,7 @@ TEXT_HEIGHT_M = 0.045  # height of a capital letter
 FAR_TEXT_HEIGHT_M = 0.16  # for the distance at which a GPS's errors fit into the view
 TEXT_ABOVE_M = 0.85  # height above the foot of the post
 DOT_M = 0.08
+FIELD_SCALE_M = 4000.0  # length of an arrow, for each T
 FORCE_SCALE_M = 0.025  # length of an arrow, for each m/s2
 RATE_SCALE_M = 0.3  # length of an arrow, for each rad/s
 MOST_DOTS = 300
@@ -89,6 +90,15 @@ def imu_marks(imu: Any) -> List[Marker]:
     ]
 
 
+def magnetic_marks(reading: Any) -> List[Marker]:
+    """Arrow of the field."""
+    field = reading.magnetic_field
+    micro = type(field)(1e6 * field.x, 1e6 * field.y, 1e6 * field.z)
+    frame = reading.header.frame_id
+    lines = [f"magnetic field  {_three(micro, 2)} microtesla"]
+    return [text(lines), arrow(1, frame, field, FIELD_SCALE_M, RED)]
+
+
 def encoder_marks(encoder: Any) -> List[Marker]:
     """Text of angle and speed."""
     return [text([f"{encoder.position:.3f} rad", f"{encoder.qpps:.0f} pulses a second"])]
@@ -104,6 +114,7 @@ def marks_for(kind: str, numbers: Dict[str, Any]) -> Callable[[Any], List[Marker
     return {
         "sensor_msgs/NavSatFix": FixMarks(numbers),
         "sensor_msgs/Imu": imu_marks,
+        "sensor_msgs/MagneticField": magnetic_marks,
         "ardee_msgs/Encoder": encoder_marks,
         "ardee_msgs/Battery": battery_marks,
     }[kind]

@@ -14,7 +14,7 @@ MIXED = ("noise",)  # noise of an IMU's quaternion, rad/s and m/s2 alike
 UNITLESS = COUNTS + OF_FULL_SCALE + MIXED + ("depth_noise_linear",)
 UNITS = (
     "_m _rad _deg _hz _kg _px _v _s _count _a _a_h _a_s_per_m _a_s_per_rad _ohm "
-    "_m_s _rad_s _rad_s2 _m_s2 _n_m _n_m_s_per_rad _m_per_m _per_m"
+    "_m_s _rad_s _rad_s2 _m_s2 _t _n_m _n_m_s_per_rad _m_per_m _per_m"
 ).split()
 
 

@@ -17,7 +17,7 @@ CAMERAS = [device for device in devices() if load(device)["kind"] in ("camera", 
 TABLE_3_1 = """gps gps_with_dropout gps_with_mast imu_hector imu_terra hokuyo_urg04lx hokuyo_ust10lx hokuyo_utm30lx
     sick_s300 sick_s3000 sick_tim571 rplidar hokuyo3d axis_m5013 axis ueye_cp_gige asus_xtion_pro kinect kinectv2
     fotonic orbbec_astra sonar approx_battery encoder""".split()
-BEYOND = "imu imu_ardee vlp16 hdl32e realsense_d435 zed2".split()
+BEYOND = "imu imu_ardee imu_bno055 magnetometer vlp16 hdl32e realsense_d435 zed2".split()
 # Numbers that shape the body, the mesh and the frames: with others it would be another device.
 OF_THE_BODY = re.compile(
     r"(\w+_)?size_[xyz]_m|scan_height_m|window_height_m|turret_\w+|lens_\w+|frame_z_m|tilt_axis_z_m|"
@@ -32,7 +32,7 @@ def everything(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
     return robot(tmp_path_factory.mktemp("everything"), "\n".join(calls))
 
 
-def test_the_devices_are_those_of_the_table_and_six_more():
+def test_the_devices_are_those_of_the_table_and_eight_more():
     assert sorted(TABLE_3_1 + BEYOND) == devices()
 
 
@@ -245,7 +245,7 @@ def test_a_wrong_call_is_refused(tmp_path: pathlib.Path, device: str, arguments:
 @pytest.mark.parametrize("device", sorted(set(devices()) - {"approx_battery", "encoder"}))
 def test_a_sensor_of_zero_rate_is_left_out_with_a_message(tmp_path: pathlib.Path, device: str):
     """The simulator gives the message for encoder and battery; for other plugins 0 means each step, as in Gazebo."""
-    rate = "update_rate" if load(device)["kind"] in ("gps", "imu") else "rate_hz"
+    rate = "update_rate" if load(device)["kind"] in ("gps", "imu", "magnetometer") else "rate_hz"
     calls = call(device, "bad", f'{rate}="0"') + call("sonar", "good")
     done = run_xacro(write_robot(tmp_path, calls))
     root = ElementTree.fromstring(done.stdout)

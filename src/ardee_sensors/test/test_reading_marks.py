@@ -5,8 +5,16 @@ import math
 import pytest
 from device_numbers import devices, expected_topics, load
 from geometry_msgs.msg import Vector3
-from reading_marks import FORCE_SCALE_M, MOST_DOTS, FixMarks, imu_marks, local_m, marks_for
-from sensor_msgs.msg import Imu, NavSatFix
+from reading_marks import (
+    FORCE_SCALE_M,
+    MOST_DOTS,
+    FixMarks,
+    imu_marks,
+    local_m,
+    magnetic_marks,
+    marks_for,
+)
+from sensor_msgs.msg import Imu, MagneticField, NavSatFix
 from visualization_msgs.msg import Marker
 
 
@@ -51,11 +59,20 @@ def test_an_imu_at_rest_has_an_arrow_upwards():
     assert rate.points[1].z == 0
 
 
+def test_a_field_has_an_arrow_along_it():
+    field = MagneticField(magnetic_field=Vector3(2e-5, 0, -4e-5))
+    field.header.frame_id = "sensor_link"
+    text, arrow = magnetic_marks(field)
+    assert "20.00  0.00  -40.00 microtesla" in text.text
+    end = arrow.points[1]
+    assert (end.x, end.y, end.z) == pytest.approx((0.08, 0, -0.16))
+
+
 @pytest.mark.parametrize("device", devices())
 def test_what_rviz_does_not_show_itself_is_drawn(device: str):
     """Devices without an rviz configuration of their own or of their kind are drawn."""
     kind = next(iter(expected_topics(device, "sensor").values()))[0]
-    if load(device)["kind"] in ("gps", "imu", "other"):
+    if load(device)["kind"] in ("gps", "imu", "magnetometer", "other"):
         assert marks_for(kind, load("gps"))
     else:
         with pytest.raises(KeyError):

@@ -5,6 +5,7 @@ import pathlib
 import sys
 import xml.etree.ElementTree as ElementTree
 
+import collada
 import numpy as np
 import pytest
 from device_numbers import devices, load
@@ -31,14 +32,34 @@ def test_every_file_is_in_the_collection():
         assert f"/{file.relative_to(PACKAGE)}" in collection
 
 
+def vertices(path: pathlib.Path) -> np.ndarray:
+    """Returns the corners of the triangles of a COLLADA file, m."""
+    (triangles,) = collada.Collada(str(path)).geometries[0].primitives
+    return triangles.vertex[triangles.vertex_index].reshape(-1, 3)
+
+
+def assert_same_vertices(made: pathlib.Path, kept: pathlib.Path) -> None:
+    assert vertices(made) == pytest.approx(vertices(kept), abs=1.1e-5)  # written to 0.01 mm
+
+
+def test_the_encoder_of_listing_a_5_is_the_other_one_about_its_middle():
+    corners = read_stl(PACKAGE / "meshes/encoder.stl").reshape(-1, 3)
+    size_z_m = load("encoder")["size_z_m"]
+    assert vertices(PACKAGE / "meshes/rotary_encoder.dae") == pytest.approx(
+        corners - (0, 0, size_z_m / 2), abs=1e-5
+    )
+
+
 def test_the_script_makes_the_same_meshes(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.syspath_prepend(str(PACKAGE / "scripts"))
     spec = importlib.util.spec_from_file_location("meshes", PACKAGE / "scripts/make_meshes.py")
     script = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(script)
-    sys.modules["mesh_shapes"].write_all(script.meshes(), tmp_path)
+    script.write_meshes(tmp_path)
     names = sorted(path.name for path in (PACKAGE / "meshes").iterdir())
     assert sorted(path.name for path in tmp_path.iterdir()) == names
+    assert_same_vertices(tmp_path / "rotary_encoder.dae", PACKAGE / "meshes/rotary_encoder.dae")
+    names.remove("rotary_encoder.dae")
     for name in names:
         made, kept = tmp_path / name, PACKAGE / "meshes" / name
         assert made.read_bytes()[:84] == kept.read_bytes()[:84], name
@@ -52,7 +73,7 @@ def test_meshes_have_the_sizes_of_the_devices(mesh: str):
     """The middle of the mounting face is the origin; each part of a device in parts has its own size."""
     if mesh == "checkerboard_black":  # a part of the scene, not a device
         return
-    device, part = mesh, ""
+    device, part = ("gps" if mesh == "antenna_3GO16" else mesh), ""
     if device not in devices():
         device, part = mesh.rsplit("_", 1)
         part += "_"
