@@ -52,6 +52,10 @@ def streams(name: str) -> Dict[str, Any]:
     found.update(
         {f"ardee/encoder/{w}": ("ardee_msgs/Encoder", 50) for w in ("fr", "fl", "rr", "rl")}
     )
+    if robot["gimbals"]:
+        found["ardee/imu/mag"] = ("sensor_msgs/MagneticField", 100)
+        imus = [f"ardee/camera/{camera}/imu" for camera in robot["cameras"]]
+        found.update({imu: ("sensor_msgs/Imu", 100) for imu in imus})
     return found
 
 

@@ -73,7 +73,7 @@ V2 = Generation(
 )
 V3 = Generation(
     name="v3",
-    mass=10.615 + 0.3 + 4 * (0.18656 + 1.003) + 1.66,
+    mass=10.615 + 0.3 + 4 * (0.18656 + 1.003) + 1.669,
     chassis_box=(0.44, 0.33, 0.14),
     chassis_mesh=(0.44, 0.33, 0.14),
     chassis_z=0.01,
@@ -87,11 +87,11 @@ V3 = Generation(
     stiffness=20,
     appears_at_rest=True,
     torque=6,
-    sensors=frozenset({"hokuyo", "imu", "gps", "battery"})
+    sensors=frozenset({"hokuyo", "imu", "magnetometer", "gps", "battery"})
     | {
         f"camera_{side}{part}"
         for side in ("front", "left", "right")
-        for part in ("", "_bracket", "_gimbal")
+        for part in ("", "_bracket", "_gimbal", "_imu")
     },
     heavy_end=-1,
 )

@@ -57,7 +57,7 @@ def test_every_assembly_file_is_the_same_robot(file: str, default: str):
 
 def test_it_weighs_what_the_sources_say(robot: Robot, generation: Generation):
     assert sum(robot.mass(link) for link in robot.links) == pytest.approx(generation.mass, abs=1e-9)
-    assert min(robot.mass(link) for link in robot.bodies) > 0.005
+    assert min(robot.mass(link) for link in robot.bodies) > 0.002
     for place in PLACES:
         assert robot.mass(f"{place}_wheel_link") == generation.wheel_mass
         assert robot.mass(f"{place}_leg_link") == generation.leg_mass
@@ -105,6 +105,35 @@ def test_lenses_look_out_of_the_body(robot: Robot, generation: Generation):
         pose_of_lens = robot.frame(link)
         beyond = pose_of_lens[:3, 3] + near_m * pose_of_lens[:3, 2]  # z looks forward
         assert (np.abs(beyond - (0, 0, generation.chassis_z)) > half).any(), link
+
+
+@pytest.mark.parametrize(
+    "mode, size, rate_hz",
+    [
+        ("", ("640", "480"), 30),
+        ("640x480@120", ("640", "480"), 120),
+        ("1920x1080@30", ("1920", "1080"), 30),
+    ],
+)
+def test_the_cameras_have_the_modes_of_the_thesis(
+    generation: Generation, mode: str, size: tuple, rate_hz: float
+):
+    arguments = {"camera_mode": mode} if mode else {}
+    root = ElementTree.fromstring(expand(ROBOTS / generation.file, **arguments))
+    cameras = root.findall(".//sensor[@type='camera']")
+    assert len(cameras) == (2 if generation.name == "v1" else 3)
+    for camera in cameras:
+        assert (
+            tuple(camera.findtext(f"camera/image/{side}") for side in ("width", "height")) == size
+        )
+        assert float(camera.findtext("update_rate")) == rate_hz
+        assert float(camera.findtext("plugin/updateRate")) == rate_hz
+
+
+def test_another_mode_of_the_cameras_is_refused(generation: Generation):
+    done = run_xacro(ROBOTS / generation.file, camera_mode="800x600@60")
+    assert done.returncode != 0 and not done.stdout
+    assert 'found camera_mode "800x600@60", expected one of: 640x480@30, 640x480@120' in done.stderr
 
 
 def test_encoders_measure_their_wheels(robot: Robot, generation: Generation):
