@@ -5,7 +5,9 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 from macro_calls import call, robot, topics
+from xacro_runner import SOURCES, expand, mesh_path
 
+LISTINGS = SOURCES.parent / "tests/data/listings"
 LISTING_A_9 = """<xacro:sensor_imu name="imu" parent="base_footprint" color="red"
   update_rate="50.0"
   noise="0.005"
@@ -130,7 +132,65 @@ def test_noise_of_an_imu_stands_in_for_what_is_not_given(
     )
 
 
-def test_the_encoder_of_listing_a_5(tmp_path: pathlib.Path):
+def test_the_model_of_listing_a_1_ships():
+    """The listing is the shipped model, comments apart, and has its mesh."""
+    model = SOURCES / "ardee_sensors/models/simple_gps_model"
+    printed, ours = (
+        ElementTree.canonicalize(file.read_text(), strip_text=True)
+        for file in (LISTINGS / "a_1.sdf", model / "model.sdf")
+    )
+    assert printed == ours
+    assert (model / "meshes/antenna_3GO16.stl").read_bytes() == mesh_path(
+        "package://ardee_sensors/meshes/antenna_3GO16.stl"
+    ).read_bytes()
+
+
+def listing(folder: pathlib.Path, text: str, calls: str) -> ElementTree.Element:
+    """Returns a robot of a wheel on an axle, the text of a listing with its macro, and calls of it."""
+    file = folder / "listing.urdf.xacro"
+    file.write_text(
+        '<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">'
+        f'<link name="base_footprint"/><link name="wheel"/>{text}{calls}</robot>'
+    )
+    return ElementTree.fromstring(expand(file))
+
+
+def test_the_receiver_of_listing_a_2(tmp_path: pathlib.Path):
+    include = f'<xacro:include filename="{LISTINGS / "a_2.urdf.xacro"}"/>'
+    root = listing(
+        tmp_path,
+        include,
+        '<xacro:sensor_gps name="gps" parent="base_footprint" color="white" ref_lat="40" ref_long="-88" ref_head="0" '
+        'drift="0" vel_drift="0" noise="0" vel_noise="0" update_rate="5"><origin xyz="0 0 1"/></xacro:sensor_gps>',
+    )
+    plugin = root.find(".//plugin[@name='gps_controller']")
+    assert plugin.get("filename") == "libgazebo_ros_gps.so"
+    assert texts(plugin)["referenceLatitude"] == "40.1105875"
+    for mesh in root.iter("mesh"):
+        assert mesh_path(mesh.get("filename")).is_file()
+    assert root.find("joint[@name='gps_joint']/origin").get("xyz") == "0 0 1"
+
+
+@pytest.mark.parametrize("of", ["the listing", "this package"])
+def test_the_encoder_of_listing_a_5(tmp_path: pathlib.Path, of: str):
+    """The listing's own macro, and ours, called with the parent alone have the listing's defaults."""
+    text = (LISTINGS / "a_5.xacro").read_text()
+    if of == "this package":
+        text = '<xacro:include filename="$(find ardee_sensors)/urdf/encoder.urdf.xacro"/>'
+    root = listing(tmp_path, text, '<xacro:sensor_encoder parent="wheel"/>')
+    plugin = root.find(".//plugin[@name='wheel_encoder_plugin']")
+    assert plugin.get("filename") == "libardee_ros_encoder.so"
+    numbers = {"wheelDiameter": 0.15, "pulsesPR": 150, "updateRate": 100}
+    assert {key: float(plugin.findtext(key)) for key in numbers} == numbers
+    assert (plugin.findtext("joint"), plugin.findtext("encoderTopic")) == (
+        "front_left_wheel_rev",
+        "/encoder",
+    )
+    assert mesh_path(root.find(".//mesh").get("filename")).is_file()
+    assert root.find("joint[@name='wheel_encoder_joint']/child").get("link") == "wheel_encoder_link"
+
+
+def test_the_arguments_of_listing_a_5(tmp_path: pathlib.Path):
     calls = (
         '<xacro:sensor_encoder ns="/" parent="wheel" joint="axle" d="0.2" '
         'topic="/encoder" update_rate="50.0" ppr="300"/>'

@@ -13,6 +13,7 @@ from robot_bodies import shapes
 
 from ardee_common.cli import Parser
 
+INCH_M = 0.0254
 PACKAGE = pathlib.Path(__file__).resolve().parents[1]
 
 
@@ -123,6 +124,9 @@ def meshes() -> dict:
         parts["leg_type_1.STL"] = first
         parts["leg_type_2.STL"] = shapes.mirror_x(first)
         parts["wheel.STL"] = wheel(WHEELS[generation])
+    # Listing A.13 has the first wheel in inches, its frame on the outer face
+    outwards_m = (0, WHEELS["v1"].depth / 2, 0)
+    made["v1"]["wheel.STL"] = (made["v1"]["wheel.STL"] + outwards_m) / INCH_M
     return made
 
 

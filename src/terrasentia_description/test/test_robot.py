@@ -90,7 +90,12 @@ def test_a_sensor_configuration_that_does_not_exist_is_named():
 
 
 def test_lidar_and_antenna_stand_on_the_lid(robot: Robot, generation: Generation):
-    lid_top = robot.frame("lid_link")[2, 3] + generation.lid_box[2]
+    plate = robot.frame("lid_link") @ pose(robot.links["lid_link"].find("collision"))
+    lid_top = plate[2, 3] + generation.lid_box[2] / 2
+    assert plate[:2, 3] == pytest.approx([0, 0], abs=1e-9)
+    assert plate[2, 3] - generation.lid_box[2] / 2 == pytest.approx(
+        generation.chassis_z + generation.chassis_box[2] / 2
+    )
     assert robot.frame("hokuyo_link")[2, 3] - 0.0474 == pytest.approx(lid_top, abs=1e-3)
     assert lid_top - 0.0065 < robot.frame("gps_link")[2, 3] < lid_top + 1e-3
 
@@ -201,15 +206,18 @@ def test_meshes_exist_and_fill_their_collision_shapes(robot: Robot, generation: 
         if mesh is None:
             continue
         corners = read_stl(mesh_path(mesh.get("filename"))).reshape(-1, 3)
+        corners *= numbers(mesh.get("scale", "1 1 1"))
         assert np.abs(corners).max() < 0.3, name
         if name in boxes:
             assert np.ptp(corners, axis=0) == pytest.approx(boxes[name], abs=1e-6)
             assert corners.max(axis=0) == pytest.approx(-corners.min(axis=0), abs=1e-6)
         if name.endswith("wheel_link"):
             assert np.hypot(corners[:, 0], corners[:, 2]).max() == pytest.approx(0.097, abs=1e-4)
-            assert np.abs(corners[:, 1]).max() == pytest.approx(
-                generation.wheel_depth / 2, abs=1e-4
-            )
+            place = pose(link.find("visual"))
+            across = (corners @ place[:3, :3].T + place[:3, 3])[:, 1]
+            middle = pose(link.find("collision"))[1, 3]
+            ends = (middle - generation.wheel_depth / 2, middle + generation.wheel_depth / 2)
+            assert (across.min(), across.max()) == pytest.approx(ends, abs=1e-4)
 
 
 def leg_springs(robot: Robot) -> list:
