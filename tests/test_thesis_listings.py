@@ -72,7 +72,7 @@ def test_the_model_of_listing_a_1_is_found_by_its_name(graph: RosGraph) -> None:
 
 
 def test_the_encoder_of_listing_a_5_publishes_on_its_topic(graph: RosGraph) -> None:
-    text = (LISTINGS / "a_5.xacro").read_text() + '<xacro:sensor_encoder parent="base_footprint"/>'
+    text = (LISTINGS / "a_5.txt").read_text() + '<xacro:sensor_encoder parent="base_footprint"/>'
     start(graph, expanded(graph, BODY.format(link="base_footprint", more=WHEEL + text)), "urdf")
     count = collected(graph, "/encoder", "ardee_msgs/Encoder")[0]
     assert count.position == pytest.approx(0, abs=2 * math.pi / 150)  # a pulse

@@ -174,7 +174,7 @@ def test_the_receiver_of_listing_a_2(tmp_path: pathlib.Path):
 @pytest.mark.parametrize("of", ["the listing", "this package"])
 def test_the_encoder_of_listing_a_5(tmp_path: pathlib.Path, of: str):
     """The listing's own macro, and ours, called with the parent alone have the listing's defaults."""
-    text = (LISTINGS / "a_5.xacro").read_text()
+    text = (LISTINGS / "a_5.txt").read_text()
     if of == "this package":
         text = '<xacro:include filename="$(find ardee_sensors)/urdf/encoder.urdf.xacro"/>'
     root = listing(tmp_path, text, '<xacro:sensor_encoder parent="wheel"/>')
