@@ -2,7 +2,6 @@
 """Tests the package as a whole: every device file is included, every mesh reproduces, the helpers are correct."""
 import importlib.util
 import pathlib
-import sys
 import xml.etree.ElementTree as ElementTree
 
 import collada
