@@ -37,7 +37,7 @@ void run(const BenchArguments& arguments) {
   const TimeNs end = nanoseconds(arguments.number("--duration-s"));
   while (simulation.now_ns() < end) {
     for (const auto& device : robot.devices) {
-      for (const devices::Input& input : device->ports().inputs) {
+      for (const devices::Input& input : device->ports().all<devices::Input>()) {
         if (input.kind != devices::command_kind<Twist>()) continue;
         input.on_command(keeper.command(robot.robot->pose()));
       }

@@ -96,7 +96,7 @@ void run(const BenchArguments& arguments) {
         distance_m += (here.p - last).head<2>().norm();
         last = here.p;
         for (const auto& device : robot.devices) {
-          for (const devices::Input& input : device->ports().inputs) {
+          for (const devices::Input& input : device->ports().all<devices::Input>()) {
             if (input.kind == devices::command_kind<Twist>())
               input.on_command(keeper.command(here));
           }

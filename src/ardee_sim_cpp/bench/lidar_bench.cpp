@@ -77,14 +77,14 @@ Scans drive(const BenchArguments& arguments, Loader& loader, Simulation& simulat
   RateTimer due(kScanRate_hz);
   due.start_at(simulation.now_ns());
   for (const auto& device : robot.devices) {
-    for (devices::Output& output : device->ports().outputs) output.demanded = false;
+    for (devices::Output& output : device->ports().all<devices::Output>()) output.demanded = false;
   }
   while (static_cast<double>(scans.poses_W.size()) < arguments.number("--scans")) {
     simulation.step();
     if (!due.due(simulation.now_ns())) continue;
     scans.poses_W.push_back(simulation.state(lidar_link, "world").pose);
     for (const auto& device : robot.devices) {
-      for (const devices::Input& input : device->ports().inputs) {
+      for (const devices::Input& input : device->ports().all<devices::Input>()) {
         if (input.kind == devices::command_kind<Twist>()) {
           input.on_command(keeper.command(robot.robot->pose()));
         }

@@ -119,7 +119,7 @@ class Bench {
 
   void demand(bool lidars, bool rest) {
     for (const auto& device : robot_->devices) {
-      for (devices::Output& output : device->ports().outputs) {
+      for (devices::Output& output : device->ports().all<devices::Output>()) {
         const bool scan = output.kind == devices::reading_kind<devices::LidarReading>();
         const bool picture = output.kind == devices::reading_kind<devices::ImageReading>() ||
                              output.kind == devices::reading_kind<devices::PointCloudReading>();
@@ -177,7 +177,7 @@ class Bench {
 
   void command(const Twist& twist) {
     for (const auto& device : robot_->devices) {
-      for (const devices::Input& input : device->ports().inputs) {
+      for (const devices::Input& input : device->ports().all<devices::Input>()) {
         if (input.kind == devices::command_kind<Twist>()) input.on_command(twist);
       }
     }

@@ -110,7 +110,7 @@ void command(devices::Ports& ports) {
                                                std::vector<double>{0.3, -0.2},
                                                devices::SteeringCommand{0.2, -0.1, 0.5},
                                                some_trajectory()};
-  for (const devices::Input& input : ports.inputs) {
+  for (const devices::Input& input : ports.all<devices::Input>()) {
     for (const devices::Command& each : commands) {
       if (each.index() != input.kind) continue;
       try {
@@ -119,10 +119,10 @@ void command(devices::Ports& ports) {
       }
     }
   }
-  for (const devices::Action& action : ports.actions) {
+  for (const devices::Action& action : ports.all<devices::Action>()) {
     std::visit([](const auto& each) { set_goal(each); }, action);
   }
-  for (const devices::ParameterGroup& tuning : ports.tunings) {
+  for (const devices::ParameterGroup& tuning : ports.all<devices::ParameterGroup>()) {
     for (const devices::TunableParameter& tunable : tuning.parameters) tunable.set(tunable.high);
   }
 }

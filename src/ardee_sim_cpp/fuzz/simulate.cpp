@@ -104,7 +104,7 @@ std::vector<Pose> run(Simulation& simulation) {
 }
 
 void command(devices::Device& device) {
-  for (const devices::Input& input : device.ports().inputs) {
+  for (const devices::Input& input : device.ports().all<devices::Input>()) {
     if (input.kind == devices::command_kind<Twist>()) {
       input.on_command(Twist{{0.5, 0.0, 0.0}, {0.0, 0.0, 0.3}});
     }
@@ -115,7 +115,7 @@ void command(devices::Device& device) {
     if (input.kind == devices::command_kind<devices::Trigger>())
       input.on_command(devices::Trigger{});
   }
-  for (const devices::ParameterGroup& tuning : device.ports().tunings) {
+  for (const devices::ParameterGroup& tuning : device.ports().all<devices::ParameterGroup>()) {
     for (const devices::TunableParameter& tunable : tuning.parameters) tunable.set(tunable.high);
   }
 }

@@ -140,15 +140,13 @@ std::shared_ptr<void> serve(const ros::NodeHandle& node, const devices::GripperA
 
 }  // namespace
 
-void ActionServers::add(const ros::NodeHandle& node, const devices::Ports& ports) {
-  for (const devices::Action& action : ports.actions) {
-    std::visit(
-        [&](const auto& each) {
-          require_valid(each.name);
-          servers_.push_back(serve(node, each));
-        },
-        action);
-  }
+void ActionServers::add(const ros::NodeHandle& node, const devices::Action& action) {
+  std::visit(
+      [&](const auto& each) {
+        require_valid(each.name);
+        servers_.push_back(serve(node, each));
+      },
+      action);
 }
 
 }  // namespace ardee::node

@@ -6,16 +6,16 @@
 #include <memory>
 #include <vector>
 
-#include "ardee_sim/devices/ports.h"
+#include "ardee_sim/devices/actions.h"
 
 namespace ardee::node {
 
-/// Serves the actions of a device or controller by actionlib, on the queue of the node: goals
+/// Serves actions of devices or controllers by actionlib, on the queue of the node: goals
 /// arrive between two steps, as commands do.
 class ActionServers {
  public:
-  /// `ports` outlive this object. Throws Error for an invalid name.
-  void add(const ros::NodeHandle& node, const devices::Ports& ports);
+  /// `action` outlives this object. Throws Error for an invalid name.
+  void add(const ros::NodeHandle& node, const devices::Action& action);
 
  private:
   std::vector<std::shared_ptr<void>> servers_;

@@ -9,6 +9,7 @@
 
 #include <utility>
 
+#include "ros/command_subscription.h"
 #include "ros/conversions.h"
 
 namespace ardee::node {
@@ -27,21 +28,15 @@ bool is_free_service(const std::string& name) {
   return !ros::ServiceManager::instance()->lookupServicePublication(name);
 }
 
-void DeviceServices::add(const devices::Ports& ports) {
-  for (const devices::Service& service : ports.services) {
-    if (is_free(service.name)) add(service);
-  }
-  for (const devices::ParameterGroup& tuning : ports.tunings) {
-    if (is_free(TuningServer::service_of(tuning))) {
-      tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
-    }
-  }
-}
-
 bool DeviceServices::is_free(const std::string& name) {
   if (is_free_service(name)) return true;
   taken_.push_back(name);
   return false;
+}
+
+void DeviceServices::add(const devices::ParameterGroup& tuning) {
+  if (!is_free(TuningServer::service_of(tuning))) return;
+  tunings_.push_back(std::make_unique<TuningServer>(node_, tuning));
 }
 
 void DeviceServices::add(const devices::Service& service) {
@@ -49,6 +44,8 @@ void DeviceServices::add(const devices::Service& service) {
   using hector_gazebo_plugins::SetBias;
   using hector_gazebo_plugins::SetReferenceGeoPose;
   using std_srvs::Empty;
+  require_valid(service.name);
+  if (!is_free(service.name)) return;
   if (const auto* act = std::get_if<std::function<void()>>(&service.act)) {
     servers_.add<Empty>(service.name, service.name,
                         [act = *act](const Empty::Request&, Empty::Response&) {

@@ -21,13 +21,14 @@ class DeviceServices {
  public:
   explicit DeviceServices(const ros::NodeHandle& node) : node_(node), servers_(node) {}
 
-  /// `ports` outlive this object.
-  void add(const devices::Ports& ports);
+  /// Throws Error for an invalid name.
+  void add(const devices::Service& service);
+  /// `tuning` outlives this object.
+  void add(const devices::ParameterGroup& tuning);
   /// Names of services that were not added because they are taken.
   const std::vector<std::string>& taken() const { return taken_; }
 
  private:
-  void add(const devices::Service& service);
   bool is_free(const std::string& name);
 
   ros::NodeHandle node_;

@@ -44,25 +44,24 @@ bool Route::has_listeners() const {
 PortTopics::PortTopics(const ros::NodeHandle& node, devices::Ports& ports,
                        const devices::Robot& robot, const std::string& sensor, Routes& routes)
     : node_(node), ports_(ports), routes_(routes), services_(node) {
-  for (const devices::Service& service : ports.services) require_valid(service.name);
   std::vector<Route> made;
-  const bool is_camera = std::any_of(ports.outputs.begin(), ports.outputs.end(), is_picture);
-  for (devices::Output& output : ports.outputs) {
-    made.push_back(advertise(output, robot));
-    made.back().sensor = sensor;
-    made.back().is_camera = is_camera;
-  }
-  for (const devices::Input& input : ports.inputs) subscribers_.push_back(subscribe(node_, input));
-  services_.add(ports);
-  actions_.add(node, ports);
+  ports.visit([&](devices::Output& output) { made.push_back(advertise(output, robot)); },
+              [&](const devices::Input& input) { subscribers_.push_back(subscribe(node_, input)); },
+              [&](const devices::Service& service) { services_.add(service); },
+              [&](const devices::ParameterGroup& tuning) { services_.add(tuning); },
+              [&](const devices::Action& action) { actions_.add(node_, action); });
+  const bool is_camera = std::any_of(made.begin(), made.end(),
+                                     [](const Route& route) { return is_picture(*route.output); });
   for (Route& route : made) {
+    route.sensor = sensor;
+    route.is_camera = is_camera;
     const devices::Output* output = route.output;
     routes_.emplace(output, std::move(route));
   }
 }
 
 PortTopics::~PortTopics() {
-  for (const devices::Output& output : ports_.outputs) routes_.erase(&output);
+  for (const devices::Output& output : ports_.all<devices::Output>()) routes_.erase(&output);
 }
 
 Route PortTopics::advertise(devices::Output& output, const devices::Robot& robot) {

@@ -90,7 +90,7 @@ void DiffDriveController::add_tuning(const ControllerContext& context) {
   constexpr double kHighestRateHz = 2000.0;
   PublishTimer& timer = publish_timer();
   bool& tf = enable_odometry_tf();
-  ports().tunings.push_back(
+  ports().add<devices::ParameterGroup>(
       {context.own_name(),
        {multiplier("left_wheel_radius_multiplier", "Left wheel radius multiplier.",
                    left_.radius_multiplier),

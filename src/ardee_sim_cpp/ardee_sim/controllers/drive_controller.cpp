@@ -60,7 +60,7 @@ void DriveController::reset(TimeNs now_ns) {
   command_ns_ = now_ns;
   publish_timer_.start(now_ns);
   odometry_.reset(now_ns);
-  for (const devices::ParameterGroup& tuning : ports().tunings) {
+  for (const devices::ParameterGroup& tuning : ports().all<devices::ParameterGroup>()) {
     for (const devices::TunableParameter& parameter : tuning.parameters)
       parameter.set(parameter.initial);
   }

@@ -27,7 +27,7 @@ GripperController::GripperController(const ControllerContext& context, JointInte
   if (interface == JointInterface::kEffort) {
     const std::string group = "gains/" + joint_.name;
     pid_.emplace(read_pid_gains(context.settings.at(group), context.log));
-    ports().tunings.push_back(pid_->tuning(context.topic(group)));
+    ports().add(pid_->tuning(context.topic(group)));
   }
   devices::GripperAction action;
   action.name = context.topic("gripper_cmd");
@@ -36,7 +36,7 @@ GripperController::GripperController(const ControllerContext& context, JointInte
     on_goal(goal, handle);
   };
   action.on_cancel = [this](const devices::GripperAction::HandlePtr& handle) { on_cancel(handle); };
-  ports().actions.push_back(std::move(action));
+  ports().add<devices::Action>(std::move(action));
 }
 
 void GripperController::start(TimeNs now_ns) {

@@ -33,7 +33,7 @@ PidController::PidController(const ControllerContext& context, JointInterface in
     const std::string group = is_group ? name + "/pid" : "pid";
     JointHandle& handle = claim(context, name, interface, source);
     joints_.push_back({handle, Pid(read_pid_gains(context.settings.at(group), context.log))});
-    ports().tunings.push_back(joints_.back().pid.tuning(context.topic(group)));
+    ports().add(joints_.back().pid.tuning(context.topic(group)));
   }
   set_points_.resize(joints_.size());
   add_command_input(context, count, set_points_, ports());

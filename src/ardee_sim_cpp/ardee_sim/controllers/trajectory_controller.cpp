@@ -92,11 +92,11 @@ TrajectoryController::TrajectoryController(const ControllerContext& context,
   action.on_cancel = [this](const devices::FollowTrajectoryAction::HandlePtr& handle) {
     on_cancel(handle);
   };
-  ports().actions.push_back(std::move(action));
+  ports().add<devices::Action>(std::move(action));
   const std::function<devices::TrajectoryState(double)> query = [this](double time_s) {
     return state_at(time_s);
   };
-  ports().services.push_back({context.topic("query_state"), query});
+  ports().add(devices::Service{context.topic("query_state"), query});
 }
 
 void TrajectoryController::add_joint(const ControllerContext& context, const std::string& name,
@@ -114,7 +114,7 @@ void TrajectoryController::add_joint(const ControllerContext& context, const std
   const std::string group = "gains/" + name;
   joint.pid.emplace(read_pid_gains(settings.at(group), context.log));
   joint.velocity_share = settings.number("velocity_ff/" + name, 0.0);
-  ports().tunings.push_back(joint.pid->tuning(context.topic(group)));
+  ports().add(joint.pid->tuning(context.topic(group)));
 }
 
 void TrajectoryController::start(TimeNs now_ns) {

@@ -101,7 +101,6 @@ class Device {
   bool is_optional() const { return is_optional_; }
   void set_optional(bool is_optional) { is_optional_ = is_optional; }
   Ports& ports() { return ports_; }
-  const Ports& ports() const { return ports_; }
 
   /// Called before physics: controllers act.
   virtual void before_step(TimeNs /*now_ns*/) {}
@@ -124,9 +123,9 @@ class Device {
     return ports_.add_output(topic, kind);
   }
   void add_service(const std::string& name, Service::Act act) {
-    ports_.services.push_back({name, std::move(act)});
+    ports_.add(Service{name, std::move(act)});
   }
-  void add_tuning(ParameterGroup tuning) { ports_.tunings.push_back(std::move(tuning)); }
+  void add_tuning(ParameterGroup tuning) { ports_.add(std::move(tuning)); }
 
  private:
   std::string name_;

@@ -8,11 +8,6 @@
 
 namespace ardee::devices {
 
-Output& Ports::add_output(const std::string& topic, std::size_t kind) {
-  outputs.push_back({topic, kind});
-  return outputs.back();
-}
-
 Input& Ports::add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act) {
   return add_input<Twist>(topic, [act = std::move(act)](const Twist& command) {
     if (!command.linear.allFinite() || !command.angular.allFinite()) {

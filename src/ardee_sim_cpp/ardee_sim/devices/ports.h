@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -92,22 +93,26 @@ struct ParameterGroup {
   std::vector<TunableParameter> parameters;
 };
 
-/// All inputs and outputs of a device, or of a controller that it has loaded.
-struct Ports {
-  std::deque<Output> outputs;  // addresses stay valid as more are added
-  std::vector<Input> inputs;
-  std::vector<Service> services;
-  std::vector<ParameterGroup> tunings;
-  std::vector<Action> actions;
+/// Every kind of port; Ports::visit does not compile where a kind is not handled.
+using Port = std::variant<Output, Input, Service, ParameterGroup, Action>;
 
-  Output& add_output(const std::string& topic, std::size_t kind);
+/// All ports of a device, or of a controller that it has loaded.
+class Ports {
+ public:
+  /// Adds a port; the reference stays valid as more are added.
+  template <typename Kind>
+  Kind& add(Kind port) {
+    return std::get<Kind>(ports_.emplace_back(std::move(port)));
+  }
+  Output& add_output(const std::string& topic, std::size_t kind) {
+    return add(Output{topic, kind});
+  }
   /// Adds an input of commands that need no check.
   template <typename T>
   Input& add_input(const std::string& topic, std::function<void(const T&)> act) {
-    inputs.push_back({topic, command_kind<T>(), [act = std::move(act)](const Command& command) {
-                        act(std::get<T>(command));
-                      }});
-    return inputs.back();
+    return add(Input{topic, command_kind<T>(), [act = std::move(act)](const Command& command) {
+                       act(std::get<T>(command));
+                     }});
   }
   /// Adds an input of velocities; one that is not finite is an Error.
   Input& add_velocity_input(const std::string& topic, std::function<void(const Twist&)> act);
@@ -118,6 +123,28 @@ struct Ports {
   /// Adds an input of numbers within [low, high]; another number is an Error.
   Input& add_number_input(const std::string& topic, double low, double high,
                           std::function<void(double)> act);
+
+  /// Calls for each port the one of `acts` that takes its kind, in the order of addition.
+  template <typename... Acts>
+  void visit(const Acts&... acts) {
+    struct Overloads : Acts... {
+      using Acts::operator()...;
+    };
+    const Overloads act{acts...};
+    for (Port& port : ports_) std::visit(act, port);
+  }
+  /// Returns the ports of one kind, in the order of addition.
+  template <typename Kind>
+  std::vector<std::reference_wrapper<Kind>> all() {
+    std::vector<std::reference_wrapper<Kind>> found;
+    for (Port& port : ports_) {
+      if (Kind* each = std::get_if<Kind>(&port)) found.push_back(*each);
+    }
+    return found;
+  }
+
+ private:
+  std::deque<Port> ports_;
 };
 
 }  // namespace ardee::devices

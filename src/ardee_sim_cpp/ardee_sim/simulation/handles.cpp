@@ -11,15 +11,15 @@ std::string whole(const std::string& topic) {
   return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
 }
 
-/// Calls `found(port)` for each port of that kind that `list` gives of all devices. Returns their
+/// Calls `found(port)` for each port (Input, Output) of that kind of all devices. Returns their
 /// topics for a message.
-template <typename List, typename Found>
+template <typename PortType, typename Found>
 std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, std::size_t kind,
-                          List list, Found found) {
+                          Found found) {
   std::string topics;
   for (const auto& entity : entities) {
     for (const auto& device : entity->devices) {
-      for (auto& port : list(device->ports())) {
+      for (PortType& port : device->ports().all<PortType>()) {
         if (port.kind != kind) continue;
         topics += (topics.empty() ? "" : ", ") + port.topic;
         found(port);
@@ -80,9 +80,8 @@ void LatestReadings::on_reading(const devices::Output& output, const devices::Re
 
 devices::Input& Simulation::input(const std::string& topic, std::size_t kind) const {
   devices::Input* found = nullptr;
-  const std::string known = for_each_port(
-      entities_, kind, [](devices::Ports & ports) -> auto& { return ports.inputs; },
-      [&](devices::Input& input) {
+  const std::string known =
+      for_each_port<devices::Input>(entities_, kind, [&](devices::Input& input) {
         if (input.topic == whole(topic)) found = &input;
       });
   if (found == nullptr) {
@@ -95,9 +94,8 @@ devices::Input& Simulation::input(const std::string& topic, std::size_t kind) co
 std::shared_ptr<const LatestReadings::Latest> Simulation::keep_latest(const std::string& topic,
                                                                       std::size_t kind) {
   bool found = false;
-  const std::string known = for_each_port(
-      entities_, kind, [](devices::Ports & ports) -> auto& { return ports.outputs; },
-      [&](devices::Output& output) {
+  const std::string known =
+      for_each_port<devices::Output>(entities_, kind, [&](devices::Output& output) {
         if (output.topic != whole(topic)) return;
         output.demanded = true;
         found = true;

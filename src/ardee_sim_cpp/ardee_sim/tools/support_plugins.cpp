@@ -59,17 +59,21 @@ std::string joined(const std::vector<std::string>& parts) {
 
 void write_ports(devices::Device& device, std::ostringstream& page) {
   std::vector<std::string> out, in, calls;
-  for (const devices::Output& output : device.ports().outputs) {
-    out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
-  }
-  for (const devices::Input& input : device.ports().inputs) {
-    in.push_back("`" + input.topic + "` (" + kCommandMessages[input.kind] + ")");
-  }
-  for (const devices::Service& service : device.ports().services)
-    calls.push_back("`" + service.name + "`");
-  for (const devices::ParameterGroup& tuning : device.ports().tunings) {
-    calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
-  }
+  device.ports().visit(
+      [&](const devices::Output& output) {
+        out.push_back("`" + output.topic + "` (" + kMessages[output.kind] + ")");
+      },
+      [&](const devices::Input& input) {
+        in.push_back("`" + input.topic + "` (" + kCommandMessages[input.kind] + ")");
+      },
+      [&](const devices::Service& service) { calls.push_back("`" + service.name + "`"); },
+      [&](const devices::ParameterGroup& tuning) {
+        calls.push_back("`" + tuning.name + "` (dynamic_reconfigure)");
+      },
+      [&](const devices::Action& action) {
+        std::visit([&](const auto& each) { calls.push_back("`" + each.name + "` (actionlib)"); },
+                   action);
+      });
   if (!out.empty()) page << " Publishes " << joined(out) << ".";
   if (!in.empty()) page << " Listens to " << joined(in) << ".";
   if (!calls.empty()) page << " Serves " << joined(calls) << ".";

@@ -40,7 +40,7 @@ class RecordedGoal : public Action::Handle {
 /// Returns the only action of a controller.
 template <typename Action>
 const Action& action_of(Rig& rig) {
-  return std::get<Action>(rig.controller->ports().actions.at(0));
+  return std::get<Action>(rig.controller->ports().all<devices::Action>().at(0).get());
 }
 
 /// Sends a goal to the only action of a controller.

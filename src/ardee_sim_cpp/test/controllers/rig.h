@@ -152,7 +152,7 @@ class Rig : public ReadingSink {
     EXPECT_GT(*std::max_element(first.begin(), first.end()), 0.0);
   }
   void send(const std::string& topic, const Command& command) {
-    for (const Input& input : controller->ports().inputs) {
+    for (const Input& input : controller->ports().all<Input>()) {
       if (input.topic == topic) return input.on_command(command);
     }
     FAIL() << "no input " << topic;
@@ -161,7 +161,7 @@ class Rig : public ReadingSink {
     send("/base/cmd_vel", Twist{{v_m_per_s, 0, 0}, {0, 0, w_rad_per_s}});
   }
   TunableParameter& tunable(const std::string& name) {
-    for (ParameterGroup& tuning : controller->ports().tunings) {
+    for (ParameterGroup& tuning : controller->ports().all<ParameterGroup>()) {
       for (TunableParameter& each : tuning.parameters) {
         if (each.name == name) return each;
       }
@@ -178,7 +178,7 @@ class Rig : public ReadingSink {
     return std::get<T>(readings.at(topic).back());
   }
   bool publishes(const std::string& topic) {
-    for (const Output& output : controller->ports().outputs) {
+    for (const Output& output : controller->ports().all<Output>()) {
       if (output.topic == topic) return true;
     }
     return false;

@@ -199,7 +199,7 @@ TEST_F(DiffDriveController, MayBeTunedWhileItRunsUntilAReset) {
   expect_wheels((0.3 - 0.15) / 0.05, (0.3 + 0.15) / 0.1);
   EXPECT_EQ(rig.count("/tf"), 0u);
   EXPECT_EQ(rig.count("/base/odom"), 20u);
-  EXPECT_EQ(rig.controller->ports().tunings[0].name, "/base");
+  EXPECT_EQ(rig.controller->ports().all<ParameterGroup>()[0].get().name, "/base");
   rig.controller->reset(rig.now_ns);
   EXPECT_EQ(rig.tunable("wheel_separation_multiplier").get(), 1.0);
   EXPECT_EQ(rig.tunable("publish_rate").get(), 50.0);
@@ -207,10 +207,10 @@ TEST_F(DiffDriveController, MayBeTunedWhileItRunsUntilAReset) {
 
 TEST_F(DiffDriveController, AsksForOnePublisherWhereItIsTold) {
   start();
-  EXPECT_FALSE(rig.controller->ports().inputs[0].needs_one_publisher);
+  EXPECT_FALSE(rig.controller->ports().all<Input>()[0].get().needs_one_publisher);
   parameters["allow_multiple_cmd_vel_publishers"] = false;
   start();
-  EXPECT_TRUE(rig.controller->ports().inputs[0].needs_one_publisher);
+  EXPECT_TRUE(rig.controller->ports().all<Input>()[0].get().needs_one_publisher);
 }
 
 TEST_F(DiffDriveController, TakesNoCommandWhileItStandsOrThatIsNotFinite) {

@@ -117,7 +117,7 @@ TEST_F(PidController, BringsAGroupEachJointByItsOwnGains) {
   EXPECT_EQ(rig.command_of("a"), 2.0);
   EXPECT_EQ(rig.command_of("b"), 3.0);
   EXPECT_FALSE(rig.publishes("/base/state"));
-  EXPECT_EQ(rig.controller->ports().tunings[1].name, "/base/b/pid");
+  EXPECT_EQ(rig.controller->ports().all<ParameterGroup>()[1].get().name, "/base/b/pid");
 }
 
 TEST_F(PidController, MayBeTunedUntilAReset) {

@@ -279,7 +279,7 @@ TEST(TrajectoryController, AnswersWhereTheJointsWillBe) {
   Arm arm;
   arm.track(100);
   arm.send("/base/command", to(1, 2, 1));
-  const Service& query = arm.controller->ports().services.at(0);
+  const Service& query = arm.controller->ports().all<Service>().at(0);
   EXPECT_EQ(query.name, "/base/query_state");
   const auto& state_at = std::get<std::function<TrajectoryState(double)>>(query.act);
   // From the next update, 1.01 s, to 2.01 s.

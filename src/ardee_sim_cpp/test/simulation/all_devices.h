@@ -195,7 +195,7 @@ inline std::string rover_with(const std::vector<std::string>& devices) {
 /// Sends one command to each topic of a robot.
 inline void command_all(Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const Input& input : device->ports().inputs) {
+    for (const Input& input : device->ports().all<Input>()) {
       if (input.kind == command_kind<Twist>()) input.on_command(Twist{{0.4, 0, 0}, {0, 0, 0.3}});
       if (input.kind == command_kind<double>()) {
         input.on_command(std::clamp(0.7, input.low, input.high));

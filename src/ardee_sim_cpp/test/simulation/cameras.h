@@ -45,7 +45,7 @@ inline std::string glowing_box(const std::string& name, const std::string& pose,
 /// Listens to these outputs of a robot only.
 inline void listen_to(Entity& robot, const std::vector<std::string>& topics) {
   for (const auto& device : robot.devices) {
-    for (Output& output : device->ports().outputs) {
+    for (Output& output : device->ports().all<Output>()) {
       output.demanded = std::find(topics.begin(), topics.end(), output.topic) != topics.end();
     }
   }

@@ -73,7 +73,7 @@ class TestWorld {
   }
   void command(Entity& robot, double v_m_per_s, double w_rad_per_s) {
     for (const auto& device : robot.devices) {
-      for (const Input& input : device->ports().inputs) {
+      for (const Input& input : device->ports().all<Input>()) {
         if (input.kind != command_kind<Twist>()) continue;
         input.on_command(Twist{{v_m_per_s, 0, 0}, {0, 0, w_rad_per_s}});
       }

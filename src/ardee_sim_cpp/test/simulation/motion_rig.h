@@ -44,7 +44,7 @@ inline std::string still(const std::string& plugin) {
 /// Returns the service of that name of any of the robot's devices; throws if there is none.
 inline const Service& service(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
-    for (const Service& each : device->ports().services) {
+    for (const Service& each : device->ports().all<Service>()) {
       if (each.name == name) return each;
     }
   }
@@ -53,7 +53,7 @@ inline const Service& service(const Entity& robot, const std::string& name) {
 
 inline const ParameterGroup& tuning(const Entity& robot, const std::string& name) {
   for (const auto& device : robot.devices) {
-    for (const ParameterGroup& each : device->ports().tunings) {
+    for (const ParameterGroup& each : device->ports().all<ParameterGroup>()) {
       if (each.name == name) return each;
     }
   }

@@ -196,8 +196,8 @@ TEST(CameraPlugin, ZoomsToTheFieldOfViewThatItIsTold) {
                                                           lens_block("<cx>330</cx>")),
                                          "<horizontalFovMin>0.5</horizontalFovMin>"),
                              "post", kOneMetreUp);
-  ASSERT_EQ(post.devices.at(0)->ports().inputs.size(), 1u);
-  const Input& zoom = post.devices[0]->ports().inputs[0];
+  ASSERT_EQ(post.devices.at(0)->ports().all<Input>().size(), 1u);
+  const Input& zoom = post.devices[0]->ports().all<Input>()[0];
   EXPECT_EQ(zoom.topic, "/cam/set_hfov");
   EXPECT_EQ(zoom.low, 0.5);
   EXPECT_GT(zoom.high, 3.0);
@@ -299,11 +299,11 @@ TEST(CameraPlugin, WaitsForItsTrigger) {
   TestWorld world("");
   Entity& post = world.spawn(
       camera_post("camera", camera_block(8, 8, 1.0), "<triggered>true</triggered>"), "post");
-  ASSERT_EQ(post.devices.at(0)->ports().inputs.size(), 2u);  // zoom, trigger
-  EXPECT_EQ(post.devices[0]->ports().inputs.back().topic, "/cam/image_trigger");
+  ASSERT_EQ(post.devices.at(0)->ports().all<Input>().size(), 2u);  // zoom, trigger
+  EXPECT_EQ(post.devices[0]->ports().all<Input>().back().get().topic, "/cam/image_trigger");
   world.run(0.5);
   EXPECT_TRUE(world.recorder().on<ImageReading>("/cam/image_raw").empty());
-  post.devices[0]->ports().inputs.back().on_command(Trigger{});
+  post.devices[0]->ports().all<Input>().back().get().on_command(Trigger{});
   world.run(0.5);
   EXPECT_EQ(world.recorder().on<ImageReading>("/cam/image_raw").size(), 1u);
 }

@@ -105,7 +105,7 @@ TEST(CopiedBlocks, AnImuWithoutAServiceHasNone) {
       "</plugin></model></sdf>",
       "post");
   ASSERT_EQ(robot.devices.size(), 1u);
-  EXPECT_TRUE(robot.devices[0]->ports().services.empty());
+  EXPECT_TRUE(robot.devices[0]->ports().all<Service>().empty());
 }
 
 TEST(CopiedBlocks, APluginInTheWrongPlaceIsToldTheRightOne) {

@@ -151,7 +151,8 @@ TEST(DepthCamera, TopicsAndInfos) {
   Kinect kinect;
   Entity& post = *kinect.world->find("post");
   std::vector<std::string> topics;
-  for (const Output& output : post.devices.at(0)->ports().outputs) topics.push_back(output.topic);
+  for (const Output& output : post.devices.at(0)->ports().all<Output>())
+    topics.push_back(output.topic);
   EXPECT_EQ(topics, (std::vector<std::string>{"/cam/ir/image_raw", "/cam/ir/camera_info",
                                               "/cam/depth/image_raw", "/cam/depth/camera_info",
                                               "/cam/points"}));

@@ -49,7 +49,8 @@ TEST(GripperAtStop, StallsThereWithTheEffortOfItsGoal) {
   device.manager().switch_controllers({{"gripper"}, {}});
   world.run(0.1);
   const auto goal = std::make_shared<RecordedGoal<GripperAction>>();
-  std::get<GripperAction>(gripper.ports().actions.at(0)).on_goal({0.08, kEffort_n}, goal);
+  std::get<GripperAction>(gripper.ports().all<Action>().at(0).get())
+      .on_goal({0.08, kEffort_n}, goal);
   world.run(1.0);
   EXPECT_EQ(goal->state(), "aborted");
   EXPECT_TRUE(goal->result.is_stalled);

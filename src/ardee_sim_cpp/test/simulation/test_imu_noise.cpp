@@ -90,11 +90,11 @@ TEST(ImuNoise, goes_on_the_same_whoever_listens_and_begins_again_with_the_simula
   const auto last = [](TestWorld& world) {
     return world.recorder().on<ImuReading>("/imu").back().linear_acceleration;
   };
-  for (Output& output : other.devices[0]->ports().outputs) output.demanded = false;
+  for (Output& output : other.devices[0]->ports().all<Output>()) output.demanded = false;
   heard.run(0.05);
   unheard.run(0.05);
   EXPECT_TRUE(unheard.recorder().on<ImuReading>("/imu").empty());
-  for (Output& output : other.devices[0]->ports().outputs) output.demanded = true;
+  for (Output& output : other.devices[0]->ports().all<Output>()) output.demanded = true;
   heard.run(0.05);
   unheard.run(0.05);
   const Vector3d value = last(heard);

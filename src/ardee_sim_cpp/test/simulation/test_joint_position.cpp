@@ -39,7 +39,7 @@ std::string servo(const std::string& keys = "") {
 
 const Input& command(const Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const Input& input : device->ports().inputs) {
+    for (const Input& input : device->ports().all<Input>()) {
       if (input.kind == command_kind<double>() && input.topic.find("set_hfov") == std::string::npos)
         return input;
     }

@@ -90,7 +90,7 @@ TEST(Lidar, NoiseDoesNotDependOnWhoListens) {
   const auto last_scan = [](bool listen_always) {
     TestWorld world(room());
     Entity& post = world.spawn(lidar_post(kGpu, "gpu_ray", 11, 0.05), "post", kOneMetreUp);
-    Output& output = post.devices[0]->ports().outputs[0];
+    Output& output = post.devices[0]->ports().all<Output>()[0];
     output.demanded = listen_always;
     world.run(0.5);
     output.demanded = true;

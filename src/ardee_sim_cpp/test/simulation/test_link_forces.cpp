@@ -38,7 +38,7 @@ TEST(LinkForce, IsWhatTheGroundCarries) {
 TEST(LinkPush, AcceleratesByForceOverMassAndTorqueOverInertia) {
   TestWorld world("<gravity>0 0 0</gravity>");
   Entity& robot = world.spawn(cube(plugin("force")), "cube");
-  const Input& input = robot.devices.at(0)->ports().inputs.at(0);
+  const Input& input = robot.devices.at(0)->ports().all<Input>().at(0);
   EXPECT_EQ(input.topic, "/wrench");
   input.on_command(ForceTorque{{4, 0, 0}, {0, 0, 0.01}});
   world.run(0.5);
@@ -55,7 +55,8 @@ TEST(LinkPush, AcceleratesByForceOverMassAndTorqueOverInertia) {
 TEST(LinkPush, IsForgottenByAReset) {
   TestWorld world("<gravity>0 0 0</gravity>");
   Entity& robot = world.spawn(cube(plugin("force")), "cube");
-  robot.devices.at(0)->ports().inputs.at(0).on_command(ForceTorque{{4, 0, 0}, {0, 0, 0}});
+  robot.devices.at(0)->ports().all<Input>().at(0).get().on_command(
+      ForceTorque{{4, 0, 0}, {0, 0, 0}});
   world.run(0.1);
   world->reset_world();
   world.run(0.1);

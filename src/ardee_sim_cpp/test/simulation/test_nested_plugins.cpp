@@ -23,7 +23,7 @@ std::string robot_with_arm(const std::string& plugins) {
 std::vector<std::string> topics(const Entity& robot) {
   std::vector<std::string> found;
   for (const auto& device : robot.devices) {
-    for (const Output& output : device->ports().outputs) found.push_back(output.topic);
+    for (const Output& output : device->ports().all<Output>()) found.push_back(output.topic);
   }
   return found;
 }

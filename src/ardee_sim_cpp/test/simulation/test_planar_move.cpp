@@ -22,7 +22,7 @@ std::string mover(const std::string& keys, bool gravity = false) {
 
 void command(Entity& robot, const Eigen::Vector3d& linear, double turn_rad_per_s) {
   for (const auto& device : robot.devices) {
-    for (Input& input : device->ports().inputs)
+    for (Input& input : device->ports().all<Input>())
       input.on_command(Twist{linear, {0, 0, turn_rad_per_s}});
   }
 }

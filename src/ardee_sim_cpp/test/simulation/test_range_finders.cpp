@@ -123,7 +123,7 @@ TEST(Sonar, NoiseDoesNotDependOnWhoListens) {
     Entity& post =
         world.spawn(cone(kSonar, "<gaussianNoise>0.02</gaussianNoise><drift>0.1</drift>").xml(),
                     "post", kOneMetreUp);
-    Output& output = post.devices[0]->ports().outputs[0];
+    Output& output = post.devices[0]->ports().all<Output>()[0];
     output.demanded = listen_always;
     world.run(0.5);
     output.demanded = true;

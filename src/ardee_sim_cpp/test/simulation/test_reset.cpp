@@ -18,12 +18,12 @@ const std::string kScene = ground_plane() + static_box("wall", "3 0 1 0 0 0", "0
 /// Changes every property that a running robot has.
 void tune_all(Entity& robot) {
   for (const auto& device : robot.devices) {
-    for (const ParameterGroup& tuning : device->ports().tunings) {
+    for (const ParameterGroup& tuning : device->ports().all<ParameterGroup>()) {
       for (const TunableParameter& each : tuning.parameters) {
         each.set(each.get() == each.high ? each.low : each.high);
       }
     }
-    for (const Service& service : device->ports().services) {
+    for (const Service& service : device->ports().all<Service>()) {
       if (const auto* act = std::get_if<0>(&service.act)) (*act)();
       if (const auto* act = std::get_if<1>(&service.act)) (*act)({1, 2, 3});
       if (const auto* act = std::get_if<2>(&service.act)) {

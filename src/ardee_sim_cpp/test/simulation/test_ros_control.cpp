@@ -74,7 +74,7 @@ class RosControlTest : public ::testing::Test {
     return controller;
   }
   void command(control::Controller& controller, const Command& command) {
-    controller.ports().inputs.at(0).on_command(command);
+    controller.ports().all<Input>().at(0).get().on_command(command);
   }
   double position() const { return robot_->robot->dynamics().joint_position(1); }
   double velocity() const { return robot_->robot->dynamics().joint_velocity(1); }
@@ -151,7 +151,8 @@ TEST_F(RosControlTest, GainsMakeAnEffortOfAPosition) {
   EXPECT_NEAR(position(), 0.25 * (1.0 - 2.0 * std::exp(-1.0)), 0.01);
   world_->run(5.0);
   EXPECT_NEAR(position(), 0.25, 1e-3);
-  EXPECT_EQ(device().ports().tunings.at(0).name, "/gazebo_ros_control/pid_gains/axle");
+  EXPECT_EQ(device().ports().all<ParameterGroup>().at(0).get().name,
+            "/gazebo_ros_control/pid_gains/axle");
 }
 
 TEST_F(RosControlTest, GainsMakeAnEffortOfAVelocityWithinTheLimit) {
@@ -173,10 +174,10 @@ TEST_F(RosControlTest, AbsoluteGainsCountInLegacyModeOnly) {
       group("/gazebo_ros_control/pid_gains/axle", {{"p", number(1.0)}});
   const std::string space = "<robotNamespace>far</robotNamespace>";
   spawn(flywheel("VelocityJointInterface", space));
-  EXPECT_TRUE(device().ports().tunings.empty());
+  EXPECT_TRUE(device().ports().all<ParameterGroup>().empty());
   EXPECT_TRUE(said("joint 'axle': no gains at /far/gazebo_ros_control/pid_gains/axle"));
   spawn(flywheel("VelocityJointInterface", space + "<legacyModeNS>true</legacyModeNS>"));
-  EXPECT_EQ(device().ports().tunings.size(), 1u);
+  EXPECT_EQ(device().ports().all<ParameterGroup>().size(), 1u);
 }
 
 TEST_F(RosControlTest, AnEmergencyStopBrakesAndLetsGo) {
@@ -185,7 +186,7 @@ TEST_F(RosControlTest, AnEmergencyStopBrakesAndLetsGo) {
   world_->run(kStep_s);
   command(velocities, 1.0);
   world_->run(1.0);
-  const Input& stop = device().ports().inputs.at(0);
+  const Input& stop = device().ports().all<Input>().at(0);
   EXPECT_EQ(stop.topic, "/stop");
   stop.on_command(true);
   world_->run(1.0);

@@ -70,7 +70,7 @@ TEST(Save, HoldsWhatWasTuned) {
   TestWorld world(kScene, 0.005), other(kScene, 0.005);
   Entity& robot = world.spawn(rover_with(all_devices()), "rover", kOnWheels);
   for (const auto& device : robot.devices) {
-    for (const ParameterGroup& tuning : device->ports().tunings) {
+    for (const ParameterGroup& tuning : device->ports().all<ParameterGroup>()) {
       for (const TunableParameter& each : tuning.parameters) {
         each.set(each.get() == each.high ? each.low : each.high);
       }
@@ -188,7 +188,7 @@ TEST(Save, HoldsWhichControllersAreLoadedAndRun) {
   manager(robot).load("b");
   manager(robot).load("a");
   manager(robot).switch_controllers({{"a"}, {}});
-  manager(robot).find("a")->ports().inputs.at(0).on_command(0.002);
+  manager(robot).find("a")->ports().all<Input>().at(0).get().on_command(0.002);
   world.run(0.1);
   const SimulationState state = world->save();
   expect_goes_on(world, 0.5, "rover", other);

@@ -139,11 +139,11 @@ TEST(SkidSteer, AResetForgetsTheCommand) {
 TEST(SkidSteer, TopicsGoBelowTheNamespaceOfTheSpawnAndTheirOwnIsStronger) {
   TestWorld world(ground_plane());
   Entity& spawned = world.spawn(rover(), "a", kOnWheels, "robot2");
-  EXPECT_EQ(spawned.devices[0]->ports().outputs[0].topic, "/robot2/odom");
-  EXPECT_EQ(spawned.devices[0]->ports().inputs[0].topic, "/robot2/cmd_vel");
+  EXPECT_EQ(spawned.devices[0]->ports().all<Output>()[0].get().topic, "/robot2/odom");
+  EXPECT_EQ(spawned.devices[0]->ports().all<Input>()[0].get().topic, "/robot2/cmd_vel");
   Entity& own = world.spawn(rover("<robotNamespace>/mine</robotNamespace>"), "b",
                             Pose::from_xyz_rpy({5, 0, 0.151}, {0, 0, 0}), "robot2");
-  EXPECT_EQ(own.devices[0]->ports().outputs[0].topic, "/mine/odom");
+  EXPECT_EQ(own.devices[0]->ports().all<Output>()[0].get().topic, "/mine/odom");
 }
 
 TEST(JointStates, FollowTheWheelsAndAreNamedBelowTheModel) {

@@ -42,7 +42,7 @@ std::string tricycle(const std::string& keys) {
 
 /// Sends a command; linear.x: speed of the front wheel, angular.z: its angle.
 void command(Entity& robot, double speed_m_per_s, double angle_rad) {
-  robot.devices.at(0)->ports().inputs.at(0).on_command(
+  robot.devices.at(0)->ports().all<Input>().at(0).get().on_command(
       Twist{{speed_m_per_s, 0, 0}, {0, 0, angle_rad}});
 }
 

@@ -200,7 +200,7 @@ TEST(ValidState, CommandsThatAreNotFiniteAreRefusedAndChangeNothing) {
     for (const auto& device : robot.devices) {
       if (!absurd) break;
       for (const double number : {kNan, HUGE_VAL, -HUGE_VAL}) {
-        for (const Input& input : device->ports().inputs) {
+        for (const Input& input : device->ports().all<Input>()) {
           if (input.kind == command_kind<Twist>()) {
             EXPECT_THROW(input.on_command(Twist{{number, 0, 0}, {0, 0, 0}}), Error) << input.topic;
             EXPECT_THROW(input.on_command(Twist{{0.9, 0, 0}, {0, 0, number}}), Error)

@@ -249,7 +249,7 @@ TEST(Velodyne, DistortedScansDoNotDependOnWhoListensNorOnThreads) {
     post.is_static = false;
     Entity& robot = world.spawn(post.xml(), "post", kOneMetreUp);
     robot.robot->dynamics().set_twist({{0.5, 0.2, 0}, {0, 0, 1.0}});
-    Output& output = robot.devices[0]->ports().outputs[0];
+    Output& output = robot.devices[0]->ports().all<Output>()[0];
     output.demanded = listen_always;
     world.run(0.45);
     output.demanded = true;
