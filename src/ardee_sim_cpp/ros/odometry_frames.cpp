@@ -32,14 +32,14 @@ OdometryFrames::OdometryFrames(bool enabled) {
 
 void OdometryFrames::on_reading(const devices::Robot& robot,
                                 const devices::OdometryReading& reading) {
-  if (!reading.places_frame) return;
+  if (!reading.in_odometry_frame) return;
   // The height in odometry messages is 0 at any height of the robot.
   learn(robot, reading.header, reading.pose, true);
 }
 
 void OdometryFrames::on_reading(const devices::Robot& robot,
                                 const devices::TransformReading& reading) {
-  if (reading.places_frame) learn(robot, reading.header, reading.pose, false);
+  if (reading.in_odometry_frame) learn(robot, reading.header, reading.pose, false);
 }
 
 void OdometryFrames::learn(const devices::Robot& robot, const devices::Header& header,

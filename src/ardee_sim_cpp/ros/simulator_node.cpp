@@ -76,7 +76,7 @@ SimulationOptions simulation_options(const Settings& settings) {
   options.seed = settings.seed;
   options.rays.threads = settings.threads;
   options.bad_parts = bad_parts(settings.lenient);
-  options.tf_prefix = tf_prefix;
+  options.frame_prefix = tf_prefix;
   options.parameter = setting_from_ros;
   options.plugin_aliases = settings.plugin_aliases;
   return options;

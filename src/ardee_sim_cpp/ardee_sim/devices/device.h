@@ -70,8 +70,8 @@ struct DeviceContext {
   std::uint64_t seed = 0;            // of this robot's streams
   std::string robot_namespace = "";  // of plugins without a namespace of their own
   TimeNs step_ns = 0;
-  /// Prefix of the frames of a namespace (ROS's tf_prefix); empty: none.
-  std::function<std::string(const std::string& robot_namespace)> tf_prefix = nullptr;
+  /// Prefix of the frames of a robot's namespace; empty: none.
+  std::function<std::string(const std::string& robot_namespace)> frame_prefix = nullptr;
   WorldInfo world_info = {};
   std::string scope = "";  // of the plugin (PluginDescription)
   /// A parameter by its full name ("/robot/base"); without ROS's parameter server no parameter

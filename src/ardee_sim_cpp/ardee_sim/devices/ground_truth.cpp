@@ -53,7 +53,7 @@ void GroundTruth::sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& si
   OdometryReading reading;
   reading.header = {now_ns, params_.frame};
   reading.child_frame_id = params_.child_frame;
-  reading.places_frame = false;
+  reading.in_odometry_frame = false;
   relative_state(reading.pose, reading.twist);
   if (params_.local_twist) {
     reading.twist.linear = reading.pose.q.conjugate() * reading.twist.linear;

@@ -14,7 +14,8 @@
 namespace ardee::devices {
 
 /// Pose of the child frame in header.frame_id, velocity in the child frame; covariances are the
-/// diagonals of x, y, z, roll, pitch, yaw.
+/// diagonals of x, y, z, roll, pitch, yaw. The place in the world of an odometry frame is known
+/// only from the readings in it.
 struct OdometryReading {
   Header header;
   std::string child_frame_id;
@@ -22,15 +23,15 @@ struct OdometryReading {
   Twist twist;
   std::array<double, 6> pose_covariance{};
   std::array<double, 6> twist_covariance{};
-  bool places_frame = true;  // false: the header's frame is placed already (ground truth)
+  bool in_odometry_frame = true;  // false: in a frame of known place (ground truth)
 };
 
-/// A transform for the tf tree.
+/// The pose of the child frame in header.frame_id, an edge of the tree of frames.
 struct TransformReading {
   Header header;
   std::string child_frame_id;
   Pose pose;
-  bool places_frame = false;  // true: odometry, which places the header's frame
+  bool in_odometry_frame = false;  // true: as in an OdometryReading
 };
 
 /// Positions in rad (m), velocities in rad/s (m/s), efforts in N m (N), joint by joint; no efforts

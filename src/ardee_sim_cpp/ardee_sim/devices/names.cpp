@@ -27,7 +27,7 @@ std::string resolve_topic(const std::string& topic, const std::string& robot_nam
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
                           const DeviceContext& context, WithoutPrefix without_prefix) {
   std::string prefix =
-      context.tf_prefix ? without_slashes(context.tf_prefix(robot_namespace)) : std::string();
+      context.frame_prefix ? without_slashes(context.frame_prefix(robot_namespace)) : std::string();
   if (prefix.empty() && without_prefix == WithoutPrefix::kNamespace) {
     prefix = without_slashes(robot_namespace);
   }

@@ -19,17 +19,17 @@ std::string without_slashes(const std::string& text);
 /// goes below the namespace. Throws Error if the name is empty.
 std::string resolve_topic(const std::string& topic, const std::string& robot_namespace);
 
-/// Prefix of a frame whose namespace has no tf_prefix. The stock diff drive, lasers and cameras use
-/// the namespace, the other stock plugins nothing.
+/// Prefix of a frame whose namespace has no prefix of its own (DeviceContext::frame_prefix). The
+/// stock diff drive, lasers and cameras use the namespace, the other stock plugins nothing.
 enum class WithoutPrefix { kNothing, kNamespace };
 
-/// Resolves a frame for tf2: no leading slash, the namespace's tf_prefix in front (as tf::resolve
+/// Resolves a frame for tf2: no leading slash, the prefix of the namespace in front (as tf::resolve
 /// does).
 std::string resolve_frame(const std::string& frame, const std::string& robot_namespace,
                           const DeviceContext& context,
                           WithoutPrefix without_prefix = WithoutPrefix::kNothing);
 
-/// The frame that a drive's key names, below the namespace's tf_prefix even with a leading slash,
+/// The frame that a drive's key names, below the prefix of the namespace even with a leading slash,
 /// as in the stock plugins: an absolute "/odom" would be lost in tf2.
 std::string plugin_frame(Parameters& parameters, const char* key, const char* fallback,
                          const std::string& robot_namespace, const DeviceContext& context,

@@ -156,7 +156,7 @@ void Simulation::build_devices(Entity& entity) {
   context.seed = stream_key(options_.seed, entity.name());
   context.robot_namespace = entity.robot_namespace;
   context.step_ns = step_ns_;
-  context.tf_prefix = options_.tf_prefix;
+  context.frame_prefix = options_.frame_prefix;
   context.world_info = world_info();
   context.parameter = options_.parameter;
   entity.devices = registry_.make_devices(context);

@@ -26,7 +26,7 @@ struct SimulationOptions {
   raycast::RayOptions rays;
   BadParts bad_parts = BadParts::kRefuse;  // models of the world that cannot be built
   ResourceLocator locator = ResourceLocator::from_environment();  // finds files that plugins name
-  std::function<std::string(const std::string& robot_namespace)> tf_prefix;
+  std::function<std::string(const std::string& robot_namespace)> frame_prefix;
   std::function<Setting(const std::string& name)> parameter =
       devices::no_parameter;                         // of DeviceContext
   std::vector<devices::PluginAlias> plugin_aliases;  // added to the built-in ones

@@ -67,7 +67,7 @@ TEST_F(DiffDriveController, FollowsAnArcOfItsVelocities) {
   EXPECT_EQ(transform.header.frame_id, "odom");
   EXPECT_EQ(transform.child_frame_id, "base_link");
   EXPECT_EQ(transform.pose.p, odometry().pose.p);
-  EXPECT_TRUE(transform.places_frame);
+  EXPECT_TRUE(transform.in_odometry_frame);
 }
 
 TEST_F(DiffDriveController, StopsAfterTheTimeoutToTheStep) {

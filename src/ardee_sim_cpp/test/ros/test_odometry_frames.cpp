@@ -64,7 +64,7 @@ TEST(OdometryFrames, AreNotTheLinksThatCarryWheels) {
   EXPECT_TRUE(scene.told.empty());
   OdometryReading truth;
   truth.header.frame_id = "chassis";
-  truth.places_frame = false;
+  truth.in_odometry_frame = false;
   scene.frames.on_reading(scene.robot, truth);
   EXPECT_TRUE(scene.told.empty());
 }

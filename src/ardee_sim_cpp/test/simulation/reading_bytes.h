@@ -71,7 +71,8 @@ class ReadingBytes {
         r.ranges_m, r.intensities);
   }
   void add_reading(const OdometryReading& r) {
-    all(r.child_frame_id, r.pose, r.twist, r.pose_covariance, r.twist_covariance, r.places_frame);
+    all(r.child_frame_id, r.pose, r.twist, r.pose_covariance, r.twist_covariance,
+        r.in_odometry_frame);
   }
   void add_reading(const TransformReading& r) { all(r.child_frame_id, r.pose); }
   void add_reading(const JointStateReading& r) {

@@ -96,7 +96,7 @@ TEST(DiffDrive, EncoderOdometryFollowsTheWheelsAndWorldOdometryIsTheTruth) {
     EXPECT_NEAR(last.twist.angular.z(), 0.3, 0.02) << source;
     EXPECT_EQ(last.pose_covariance[0], 1e-5);
     EXPECT_EQ(last.twist_covariance, (std::array<double, 6>{})) << "the stock plugin says none";
-    EXPECT_TRUE(world.recorder().on<TransformReading>("/tf").back().places_frame);
+    EXPECT_TRUE(world.recorder().on<TransformReading>("/tf").back().in_odometry_frame);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(DiffDrive, WheelsAreInTheTreeAndTheRightOneIsNamedFirst) {
   EXPECT_EQ(transforms[0].header.frame_id, "base");
   EXPECT_EQ(transforms[0].child_frame_id, "right");
   EXPECT_NEAR(transforms[0].pose.p.y(), -0.2, 1e-4);
-  EXPECT_FALSE(transforms[0].places_frame);
+  EXPECT_FALSE(transforms[0].in_odometry_frame);
 }
 
 }  // namespace

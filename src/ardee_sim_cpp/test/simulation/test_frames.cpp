@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests of the prefix of frames in readings: a tf_prefix, the robot's namespace, or nothing; and of
+// Tests of the prefix of frames in readings: a given one, the robot's namespace, or nothing; and of
 // the velocities in the odometry of a robot that is not level.
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class FramesByTopic : public ReadingSink {
 };
 
 /// Returns the frames of a robot in the namespace r1.
-Frames frames_with(const std::string& tf_prefix) {
+Frames frames_with(const std::string& prefix) {
   const auto sensor = [](const std::string& library, const std::string& type,
                          const std::string& block, const std::string& name) {
     return mast_sensor(library, type, block,
@@ -44,7 +44,7 @@ Frames frames_with(const std::string& tf_prefix) {
                                      topic + "</odometryTopic>");
   };
   SimulationOptions options;
-  options.tf_prefix = [tf_prefix](const std::string&) { return tf_prefix; };
+  options.frame_prefix = [prefix](const std::string&) { return prefix; };
   TestWorld world(ground_plane(), 0.005, options);
   world.spawn(rover_with({drive("gazebo_ros_diff_drive", "diff"),
                           drive("gazebo_ros_skid_steer_drive", "skid"),

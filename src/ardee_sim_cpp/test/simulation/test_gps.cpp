@@ -287,7 +287,7 @@ TEST(GroundTruth, pose_and_velocity_of_a_link) {
   expect_near(in_world.twist.linear, {0.5, 0, 0}, 1e-9);
   EXPECT_EQ(in_world.header.frame_id, "world");
   EXPECT_EQ(in_world.child_frame_id, "nose");
-  EXPECT_FALSE(in_world.places_frame);
+  EXPECT_FALSE(in_world.in_odometry_frame);
   // The nose has x forwards (world's y), y up, z to its right (world's x).
   expect_near(last("/local").twist.linear, {0, 0, 0.5}, 1e-9);
   const OdometryReading seen = last("/seen");

@@ -80,7 +80,7 @@ TEST(PlanarMove, SaysWhereItIsAtItsRate) {
   EXPECT_NEAR(last.twist.angular.z(), 0.2, 1e-9);
   const auto transforms = world.recorder().on<TransformReading>("/tf");
   EXPECT_EQ(transforms.size(), 50u);
-  EXPECT_TRUE(transforms.back().places_frame);
+  EXPECT_TRUE(transforms.back().in_odometry_frame);
 }
 
 TEST(PlanarMove, ACommandLastsUntilItsTimeoutOrForEver) {

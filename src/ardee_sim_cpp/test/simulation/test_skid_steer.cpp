@@ -77,7 +77,7 @@ TEST(SkidSteer, OdometryIsTheTruthInTheWorldAndTheTwistIsTheBodys) {
   const std::array<double, 6> stock = {1e-4, 1e-4, 1e12, 1e12, 1e12, 0.01};
   EXPECT_EQ(last.pose_covariance, stock);
   EXPECT_EQ(last.twist_covariance, stock);
-  EXPECT_TRUE(transforms.back().places_frame);
+  EXPECT_TRUE(transforms.back().in_odometry_frame);
 }
 
 TEST(SkidSteer, EncoderOdometryStartsAtZeroAndFollowsTheWheels) {
