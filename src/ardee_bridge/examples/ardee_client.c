@@ -3,20 +3,11 @@
  * drives the robot.
  *
  *   cc -std=c11 -O2 -I../include -o ardee_client ardee_client.c
- *   ./ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT]
- *                  [-g GROUP] [-v SPEED] [-w YAW_RATE] [-t SECONDS]
- *
- *   -i  address of the simulation's computer, default 127.0.0.1
- *   -p  port to listen at, default 30000; 0: any free one, to be used with -a
- *   -a  ask the sensor server at this port, usually 30001, for all sensors and time stamps
- *   -c  port of the controls client, default 35555
- *   -g  multicast group to join, on the interface that leads to the simulator
- *   -v  speed, -1...1 of the robot's limit; without -v and -w the robot is not driven
- *   -w  yaw rate, -1...1 of the robot's limit
- *   -t  how long, default 5 s
+ *   ./ardee_client --help
  */
-#define _DEFAULT_SOURCE /* POSIX, and struct ip_mreq */
+#define _GNU_SOURCE /* POSIX, struct ip_mreq and getopt_long */
 #include <arpa/inet.h>
+#include <getopt.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <signal.h>
@@ -260,22 +251,75 @@ static double share_of_limit(const char *text) {
   return share;
 }
 
+/* A UDP port, or 0. */
+static int port_number(const char *text) {
+  char *end = NULL;
+  const long port = strtol(text, &end, 10);
+  if (end == text || *end || port < 0 || port > 65535) {
+    fprintf(stderr, "ardee_client: found %s, expected a port, 0 to 65535\n", text);
+    exit(2);
+  }
+  return (int)port;
+}
+
+/* A time, which is not negative. */
+static double duration_s(const char *text) {
+  char *end = NULL;
+  const double seconds = strtod(text, &end);
+  if (end == text || *end || !(seconds >= 0.0)) {
+    fprintf(stderr, "ardee_client: found %s, expected a time in s, at least 0\n", text);
+    exit(2);
+  }
+  return seconds;
+}
+
+static void print_usage(void) {
+  puts(
+      "usage: ardee_client [--simulator ADDRESS] [--port PORT] [--ask PORT] [--controls PORT]\n"
+      "                    [--group ADDRESS] [--speed SHARE] [--yaw-rate SHARE] [--duration-s S] "
+      "[-h]\n"
+      "Receives every sensor of the bridge, prints what came, and drives the robot.\n"
+      "  -i, --simulator ADDRESS  address of the simulator's computer (default 127.0.0.1)\n"
+      "  -p, --port PORT          UDP port to listen at (default 30000); 0: any free port, needs "
+      "--ask\n"
+      "  -a, --ask PORT           ask the sensor server at this port, usually 30001, for every "
+      "sensor\n"
+      "                           and for time stamps\n"
+      "  -c, --controls PORT      UDP port of the controls client (default 35555)\n"
+      "  -g, --group ADDRESS      multicast group to join, on the interface that leads to the "
+      "simulator\n"
+      "  -v, --speed SHARE        speed to drive at, -1...1 of the robot's limit\n"
+      "  -w, --yaw-rate SHARE     rate to turn at, -1...1 of the robot's limit\n"
+      "  -t, --duration-s S       time until it ends (default 5)\n"
+      "  -h, --help               this text");
+}
+
 static Options parse(int argc, char **argv) {
+  static const struct option names[] = {{"simulator", required_argument, NULL, 'i'},
+                                        {"port", required_argument, NULL, 'p'},
+                                        {"ask", required_argument, NULL, 'a'},
+                                        {"controls", required_argument, NULL, 'c'},
+                                        {"group", required_argument, NULL, 'g'},
+                                        {"speed", required_argument, NULL, 'v'},
+                                        {"yaw-rate", required_argument, NULL, 'w'},
+                                        {"duration-s", required_argument, NULL, 't'},
+                                        {"help", no_argument, NULL, 'h'},
+                                        {NULL, 0, NULL, 0}};
   Options options = {"127.0.0.1", NULL, 30000, 0, 35555, 0.0, 0.0, 5.0, 0};
   int letter;
-  while ((letter = getopt(argc, argv, "i:p:a:c:g:v:w:t:")) != -1) {
+  while ((letter = getopt_long(argc, argv, "i:p:a:c:g:v:w:t:h", names, NULL)) != -1) {
     switch (letter) {
       case 'i':
         options.simulator = optarg;
         break;
       case 'p':
-        options.port = atoi(optarg);
+        options.port = port_number(optarg);
         break;
       case 'a':
-        options.server_port = atoi(optarg);
+        options.server_port = port_number(optarg);
         break;
       case 'c':
-        options.controls_port = atoi(optarg);
+        options.controls_port = port_number(optarg);
         break;
       case 'g':
         options.group = optarg;
@@ -287,15 +331,18 @@ static Options parse(int argc, char **argv) {
         options.yaw_rate = share_of_limit(optarg), options.drives = 1;
         break;
       case 't':
-        options.seconds = atof(optarg);
+        options.seconds = duration_s(optarg);
         break;
-      default:
-        fputs(
-            "usage: ardee_client [-i SIMULATOR] [-p PORT] [-a SERVER_PORT] [-c CONTROLS_PORT]\n"
-            "                    [-g GROUP] [-v SPEED] [-w YAW_RATE] [-t SECONDS]\n",
-            stderr);
+      case 'h':
+        print_usage();
+        exit(0);
+      default: /* getopt_long has said what is wrong */
         exit(2);
     }
+  }
+  if (optind < argc) {
+    fprintf(stderr, "ardee_client: found %s, expected an argument of --help\n", argv[optind]);
+    exit(2);
   }
   return options;
 }

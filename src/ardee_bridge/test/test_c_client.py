@@ -15,10 +15,33 @@ def client(package, tmp_path_factory):
     return program
 
 
-def test_an_option_that_it_does_not_have_gets_those_it_has(client):
-    run = subprocess.run([str(client), "-h"], capture_output=True, text=True)
+@pytest.mark.parametrize("option", ["-h", "--help"])
+def test_help_lists_all_options_with_units_and_defaults(client, option):
+    run = subprocess.run([str(client), option], capture_output=True, text=True)
+    assert run.returncode == 0 and not run.stderr
+    assert run.stdout.startswith("usage: ardee_client [--simulator ADDRESS] [--port PORT]")
+    assert "--duration-s S       time until it ends (default 5)" in run.stdout
+
+
+@pytest.mark.parametrize(
+    "words, expected",
+    [
+        (["--sped", "1"], "unrecognized option '--sped'"),
+        (["--port", "65536"], "ardee_client: found 65536, expected a port, 0 to 65535\n"),
+        (["-t", "soon"], "ardee_client: found soon, expected a time in s, at least 0\n"),
+        (["fast"], "ardee_client: found fast, expected an argument of --help\n"),
+    ],
+)
+def test_a_word_without_meaning_is_refused_in_one_line(client, words, expected):
+    run = subprocess.run([str(client), *words], capture_output=True, text=True)
     assert run.returncode == 2
-    assert "usage: ardee_client [-i SIMULATOR] [-p PORT]" in run.stderr
+    assert expected in run.stderr
+    assert run.stderr.count("\n") == 1
+
+
+def test_the_names_of_the_python_client_are_understood(client):
+    command = [str(client), "--port", "0", "--controls", "9", "--speed", "0.5", "--duration-s", "0"]
+    assert subprocess.run(command).returncode == 0
 
 
 @pytest.mark.parametrize("option", ["-v", "-w"])
