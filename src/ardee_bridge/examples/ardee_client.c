@@ -110,27 +110,16 @@ static size_t data_size(const Ardee_Msg_Data_Header *h) {
 }
 
 static const char *name_of(int32_t data_type) {
-  static const char *names[] = {"ack",
-                                "",
-                                "gps",
-                                "gyro",
-                                "acceleration",
-                                "lidar",
-                                "orientation",
-                                "encoder",
-                                "",
-                                "imu",
-                                "battery",
-                                "",
-                                "",
-                                "",
-                                "",
-                                "",
-                                "time",
-                                "image",
-                                "point_cloud"};
-  return data_type >= 0 && data_type < (int32_t)(sizeof names / sizeof *names) ? names[data_type]
-                                                                               : "";
+  static const char *names[] = {
+      [ARDEE_DATA_NONE] = "ack",        [ARDEE_DATA_GPS] = "gps",
+      [ARDEE_DATA_GYRO] = "gyro",       [ARDEE_DATA_ACCELERATION] = "acceleration",
+      [ARDEE_DATA_LIDAR] = "lidar",     [ARDEE_DATA_ORIENTATION] = "orientation",
+      [ARDEE_DATA_ENCODER] = "encoder", [ARDEE_DATA_IMU] = "imu",
+      [ARDEE_DATA_BATTERY] = "battery", [ARDEE_DATA_TIME] = "time",
+      [ARDEE_DATA_IMAGE] = "image",     [ARDEE_DATA_POINT_CLOUD] = "point_cloud",
+  };
+  const int32_t count = sizeof names / sizeof *names;
+  return data_type >= 0 && data_type < count && names[data_type] ? names[data_type] : "";
 }
 
 /* The shortest valid range, as readers use it: 65533 mm beyond the maximum, 0 below the minimum. */
@@ -241,36 +230,23 @@ static void receive(int fd, Ardee_Msg_Data_Header *header, int *has_header, Seen
   describe(header, datagram, sensor->last, sizeof sensor->last);
 }
 
-static double share_of_limit(const char *text) {
+/* Reads a number within limits, which `expected` says in words. */
+static double number_in(const char *text, double low, double high, const char *expected) {
   char *rest;
-  const double share = strtod(text, &rest);
-  if (rest == text || *rest || !(share >= -1.0 && share <= 1.0)) {
-    fprintf(stderr, "ardee_client: found %s, expected a share of the limit, -1 to 1\n", text);
+  const double value = strtod(text, &rest);
+  if (rest == text || *rest || !(value >= low && value <= high)) {
+    fprintf(stderr, "ardee_client: found %s, expected %s\n", text, expected);
     exit(2);
   }
-  return share;
+  return value;
 }
 
-/* A UDP port, or 0. */
+static double share_of_limit(const char *text) {
+  return number_in(text, -1.0, 1.0, "a share of the limit, -1 to 1");
+}
+
 static int port_number(const char *text) {
-  char *end = NULL;
-  const long port = strtol(text, &end, 10);
-  if (end == text || *end || port < 0 || port > 65535) {
-    fprintf(stderr, "ardee_client: found %s, expected a port, 0 to 65535\n", text);
-    exit(2);
-  }
-  return (int)port;
-}
-
-/* A time, which is not negative. */
-static double duration_s(const char *text) {
-  char *end = NULL;
-  const double seconds = strtod(text, &end);
-  if (end == text || *end || !(seconds >= 0.0)) {
-    fprintf(stderr, "ardee_client: found %s, expected a time in s, at least 0\n", text);
-    exit(2);
-  }
-  return seconds;
+  return (int)number_in(text, 0.0, 65535.0, "a port, 0 to 65535");
 }
 
 static void print_usage(void) {
@@ -331,7 +307,7 @@ static Options parse(int argc, char **argv) {
         options.yaw_rate = share_of_limit(optarg), options.drives = 1;
         break;
       case 't':
-        options.seconds = duration_s(optarg);
+        options.seconds = number_in(optarg, 0.0, 1e9, "a time in s, at least 0");
         break;
       case 'h':
         print_usage();
