@@ -28,7 +28,7 @@ def run_xacro(file: pathlib.Path, **arguments: str) -> subprocess.CompletedProce
 def expand(file: pathlib.Path, **arguments: str) -> str:
     """Returns the URDF text that xacro makes of the file; any output on stderr is a failure."""
     done = run_xacro(file, **arguments)
-    assert done.returncode == 0 and not done.stderr, done.stderr
+    assert done.returncode == 0 and not done.stderr, f"code {done.returncode}: {done.stderr}"
     return done.stdout
 
 

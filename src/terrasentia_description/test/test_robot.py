@@ -141,6 +141,57 @@ def test_another_mode_of_the_cameras_is_refused(generation: Generation):
     assert 'found camera_mode "800x600@60", expected one of: 640x480@30, 640x480@120' in done.stderr
 
 
+OWN_SENSORS = """<robot xmlns:xacro="http://ros.org/wiki/xacro">
+  <xacro:include filename="$(find ardee_sensors)/urdf/all_sensors.urdf.xacro" />{more}
+  <xacro:sensor_ueye_cp_gige name="camera" parent="base_footprint"{mode}>
+    <origin xyz="${{MOUNT_CAMERA_FRONT}}" rpy="0 0 0" />
+  </xacro:sensor_ueye_cp_gige>
+</robot>"""
+
+
+def test_sensors_of_ones_own_that_do_not_read_the_mode_are_told_what_to_include(
+    generation: Generation, tmp_path: pathlib.Path
+):
+    file = tmp_path / "my_sensors.urdf.xacro"
+    file.write_text(OWN_SENSORS.format(more="", mode=""))
+    robot_file = ROBOTS / generation.file
+    assert run_xacro(robot_file, sensors=str(file)).stderr == ""
+    done = run_xacro(robot_file, sensors=str(file), camera_mode="1920x1080@30")
+    include = "$(find terrasentia_description)/urdf/includes/camera_mode.urdf.xacro"
+    assert done.returncode == 0 and done.stderr.splitlines()[0] == (
+        f'warning: found camera_mode "1920x1080@30", which has no effect on the cameras of {file}; expected there: '
+        f'include {include}, and cameras with width_px="${{CAMERA_WIDTH}}" height_px="${{CAMERA_HEIGHT}}" '
+        'rate_hz="${CAMERA_RATE}"'
+    )
+    mode = ' width_px="${CAMERA_WIDTH}" height_px="${CAMERA_HEIGHT}" rate_hz="${CAMERA_RATE}"'
+    more = f'\n  <xacro:include filename="{include}" />'
+    file.write_text(OWN_SENSORS.format(more=more, mode=mode))
+    text = expand(robot_file, sensors=str(file), camera_mode="1920x1080@30")
+    assert ElementTree.fromstring(text).findtext(".//camera/image/width") == "1920"
+
+
+def test_a_base_configuration_may_leave_out_the_places_of_meshes(
+    generation: Generation, tmp_path: pathlib.Path
+):
+    """The first robot's lid has a frame of its own, so its place is needed."""
+    config = ROBOTS.parent / f"config/ts{generation.name}_config.urdf.xacro"
+    words = ["WHEEL_SCALE", "WHEEL_MESH_OFFSET"] + ["LID_PLACE"] * (generation.name != "v1")
+    kept = [
+        line
+        for line in config.read_text().splitlines()
+        if not any(f'name="{word}"' in line for word in words)
+    ]
+    (tmp_path / "config.urdf.xacro").write_text("\n".join(kept))
+    text = (ROBOTS / f"ts{generation.name}.urdf.xacro").read_text()
+    find = f"$(find terrasentia_description)/config/{config.name}"
+    assert find in text and len(kept) == len(config.read_text().splitlines()) - len(words)
+    old = tmp_path / "robot.urdf.xacro"
+    old.write_text(text.replace(find, str(tmp_path / "config.urdf.xacro")))
+    robots = [expand(file) for file in (old, ROBOTS / f"ts{generation.name}.urdf.xacro")]
+    one, other = (ElementTree.canonicalize(each, strip_text=True) for each in robots)
+    assert one == other
+
+
 def test_encoders_measure_their_wheels(robot: Robot, generation: Generation):
     encoders = robot.plugins("libardee_ros_encoder.so")
     found = {e.findtext("encoderTopic"): e.findtext("joint") for e in encoders}
