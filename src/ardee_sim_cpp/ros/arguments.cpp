@@ -2,6 +2,7 @@
 #include "ros/arguments.h"
 
 #include <getopt.h>
+#include <ros/init.h>
 
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,8 @@
 
 namespace ardee::node {
 namespace {
+
+constexpr char kSeeHelp[] = " (--help lists all arguments)";
 
 std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;
@@ -67,27 +70,40 @@ std::vector<devices::PluginAlias> read_aliases(const ros::NodeHandle& node) {
 }  // namespace
 
 std::string usage() {
-  return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--lenient] [--verbose] [-h]\n"
-         "  WORLD         world file (SDF 1.2 to 1.12); default: the parameter ~world\n"
-         "  -u, --paused  start with the clock stopped\n"
-         "  --seed N      root of all random numbers, a whole number from 0\n"
-         "  --lenient     leave out what is missing or written wrong (files; models, includes and\n"
-         "                lights of the world), with an error each\n"
-         "  --verbose     log at debug level\n"
-         "  -h, --help    this text\n"
+  return "usage: simulator [WORLD] [-u | --paused] [--seed N] [--model-path DIR] [--lenient]\n"
+         "                 [--verbose] [-h]\n"
+         "Simulates a world and its robots on the ROS network.\n"
+         "  WORLD             world file (SDF 1.2 to 1.12): a path, or a name below\n"
+         "                    GAZEBO_RESOURCE_PATH; default: the parameter ~world\n"
+         "  -u, --paused      start with the clock stopped\n"
+         "  --seed N          root of all random numbers, a whole number from 0 (default 0)\n"
+         "  --model-path DIR  folder of models to search before GAZEBO_MODEL_PATH; may be given "
+         "again\n"
+         "  --lenient         leave out each file, model, include or light that is missing or\n"
+         "                    written wrong, with an error; by default the whole world is refused\n"
+         "  --verbose         log at debug level\n"
+         "  -h, --help        this text\n"
          "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
          "            ~publish_world_tf ~lenient ~scenery_radius ~realtime_priority ~verbose\n"
          "            ~plugin_aliases (list of filename, plugin, keys: plugins of other names)\n";
 }
 
 CommandLine parse_command_line(int argc, char** argv) {
-  static const option kOptions[] = {
-      {"paused", no_argument, nullptr, 'u'},  {"seed", required_argument, nullptr, 's'},
-      {"lenient", no_argument, nullptr, 'l'}, {"verbose", no_argument, nullptr, 'v'},
-      {"help", no_argument, nullptr, 'h'},    {nullptr, 0, nullptr, 0}};
+  std::vector<std::string> words;
+  ros::removeROSArgs(argc, argv, words);
+  std::vector<char*> own;
+  for (std::string& word : words) own.push_back(word.data());
+  static const option kOptions[] = {{"paused", no_argument, nullptr, 'u'},
+                                    {"seed", required_argument, nullptr, 's'},
+                                    {"lenient", no_argument, nullptr, 'l'},
+                                    {"verbose", no_argument, nullptr, 'v'},
+                                    {"model-path", required_argument, nullptr, 'm'},
+                                    {"help", no_argument, nullptr, 'h'},
+                                    {nullptr, 0, nullptr, 0}};
   CommandLine line;
   opterr = 0;
-  for (int found = 0; (found = getopt_long(argc, argv, ":uh", kOptions, nullptr)) != -1;) {
+  const int count = static_cast<int>(own.size());
+  for (int found = 0; (found = getopt_long(count, own.data(), ":uh", kOptions, nullptr)) != -1;) {
     switch (found) {
       case 'u':
         line.paused = true;
@@ -101,27 +117,31 @@ CommandLine parse_command_line(int argc, char** argv) {
       case 'v':
         line.verbose = true;
         break;
+      case 'm':
+        line.model_paths.emplace_back(optarg);
+        break;
       case 'h':
         line.help = true;
         break;
       case ':':
-        throw Error(std::string("found no value after ") + argv[optind - 1]);
+        throw Error(std::string("found no value after ") + own[optind - 1]);
       default:
-        throw Error(std::string("found unknown argument ") + argv[optind - 1] + "\n" + usage());
+        throw Error(std::string("found unknown argument ") + own[optind - 1] + kSeeHelp);
     }
   }
-  if (argc - optind > 1) throw Error("found more than one world\n" + usage());
-  if (optind < argc) line.world = argv[optind];
+  if (count - optind > 1) throw Error(std::string("found more than one world") + kSeeHelp);
+  if (optind < count) line.world = own[optind];
   return line;
 }
 
 Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& node) {
   Settings settings;
   settings.world = command_line.world;
+  settings.model_paths = command_line.model_paths;
   if (settings.world.empty()) {
     settings.world = parameter<std::string>(node, "world", "", "the path of a world file");
   }
-  if (settings.world.empty()) throw Error("found no world file\n" + usage());
+  if (settings.world.empty()) throw Error(std::string("found no world file") + kSeeHelp);
   settings.paused = command_line.paused.value_or(parameter(node, "paused", false, "true or false"));
   settings.seed = command_line.seed ? *command_line.seed
                                     : static_cast<std::uint64_t>(whole_number(node, "seed", 0));

@@ -18,11 +18,13 @@ struct CommandLine {
   std::optional<bool> paused;
   std::optional<std::uint64_t> seed;
   std::optional<bool> lenient;
+  std::vector<std::string> model_paths;  // before those of the environment
   bool verbose = false;
   bool help = false;
 };
 
-/// Reads the command line without ROS's own arguments. Throws Error for an unknown argument.
+/// Reads the command line, from which ROS's own arguments are left out. Throws Error for an unknown
+/// argument.
 CommandLine parse_command_line(int argc, char** argv);
 
 /// Usage text of the node, for -h.
@@ -31,6 +33,7 @@ std::string usage();
 /// The settings of the node.
 struct Settings {
   std::string world;
+  std::vector<std::string> model_paths;  // before those of the environment
   bool paused = false;
   std::uint64_t seed = 0;
   std::optional<double> real_time_factor;  // 0: as fast as the machine can; none: the world's

@@ -3,6 +3,7 @@
 #include <optional>
 #include <sstream>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ros/services.h"
 
 namespace ardee::node {
@@ -16,7 +17,11 @@ double checked(const std::string& field, double value, double low, double high) 
 
 Entity& require_model(ServiceContext& context, const std::string& name) {
   Entity* entity = context.simulation.find(name);
-  if (!entity) throw Error("model '" + name + "' does not exist");
+  if (!entity) {
+    std::vector<std::string> known;
+    for (const auto& each : context.simulation.entities()) known.push_back(each->name());
+    throw Error("model '" + name + "' does not exist, nearest: " + nearest_names(name, known));
+  }
   return *entity;
 }
 

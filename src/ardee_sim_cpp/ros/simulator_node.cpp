@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "ros/simulator_node.h"
 
+#include <ros/network.h>
 #include <ros/package.h>
 #include <ros/ros.h>
 #include <sched.h>
 #include <unistd.h>
+#include <xmlrpcpp/XmlRpcClient.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <thread>
 
 #include "ardee_sim/readers/start_pose.h"
 #include "ros/log_to_ros.h"
@@ -24,36 +29,18 @@ namespace {
 
 constexpr char kNodeName[] = "gazebo";  // users' code calls its private services by this name
 constexpr int kBadInput = 2;
+constexpr auto kMasterPoll = std::chrono::milliseconds(200);
 
 std::optional<std::string> find_package(const std::string& package) {
   const std::string path = ros::package::getPath(package);
   return path.empty() ? std::nullopt : std::optional<std::string>(path);
 }
 
-ResourceLocator make_locator() {
+ResourceLocator make_locator(const std::vector<std::string>& model_paths) {
   ResourceLocator locator = ResourceLocator::from_environment();
+  locator.add_first_model_paths(model_paths);
   locator.set_package_finder(find_package);
   return locator;
-}
-
-/// A name without a scheme is searched below Gazebo's paths, like file://.
-std::string world_uri(const std::string& world) {
-  return world.find("://") == std::string::npos ? "file://" + world : world;
-}
-
-/// A world file by its path, or by its name below Gazebo's resource paths.
-World load_world(Loader& loader, const std::string& world) {
-  const std::filesystem::path path(world);
-  if (std::filesystem::exists(path)) return loader.load_world(world);
-  if (path.is_absolute()) throw Error("found no file " + world + ", expected a world file");
-  std::string found;
-  try {
-    found = make_locator().resolve(world_uri(world), Source{});
-  } catch (const FileError&) {
-    throw Error("found no world '" + world +
-                "', expected a file, here or below a folder of GAZEBO_RESOURCE_PATH");
-  }
-  return loader.load_world(found);
 }
 
 BadParts bad_parts(bool lenient) { return lenient ? BadParts::kLeaveOut : BadParts::kRefuse; }
@@ -125,9 +112,10 @@ void log_at_debug_level() {
 
 SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_node)
     : messages_(log_to_ros()),
-      loader_(make_locator(), Log(messages_.sink()), bad_parts(settings.lenient)),
-      simulation_(load_world(loader_, settings.world), simulation_options(settings),
-                  messages_.sink()),
+      loader_(make_locator(settings.model_paths), Log(messages_.sink()),
+              bad_parts(settings.lenient)),
+      simulation_(loader_.load_world(make_locator(settings.model_paths).find_world(settings.world)),
+                  simulation_options(settings), messages_.sink()),
       frames_(settings.publish_world_tf),
       metrics_(private_node),
       topics_(frames_, metrics_, Log(messages_.sink())),
@@ -176,14 +164,53 @@ bool another_runs() {
 }
 
 /// Reads the world without messages, and throws Error if it cannot be read.
-void check_world(const CommandLine& command_line) {
+void check_world(const CommandLine& command_line, const std::string& world, bool lenient) {
+  if (world.empty()) return;
+  const ResourceLocator locator = make_locator(command_line.model_paths);
+  Loader loader(locator, Log([](LogLevel, const std::string&) {}),
+                bad_parts(command_line.lenient.value_or(lenient)));
+  read_start_pose(loader.load_world(locator.find_world(world)).source.file);
+}
+
+/// Checks the world of a node that is going to take the place of another one.
+void check_world_of_parameters(const CommandLine& command_line) {
   std::string world = command_line.world;
   if (world.empty()) ros::param::get("~world", world);
   bool lenient = false;
   ros::param::get("~lenient", lenient);
-  Loader loader(make_locator(), Log([](LogLevel, const std::string&) {}),
-                bad_parts(command_line.lenient.value_or(lenient)));
-  if (!world.empty()) read_start_pose(load_world(loader, world).source.file);
+  check_world(command_line, world, lenient);
+}
+
+/// The value of an argument of ROS's, as _world:=VALUE or __master:=VALUE, before ros::init.
+std::string ros_argument(int argc, char** argv, const std::string& name, std::string fallback) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.rfind(name + ":=", 0) == 0) fallback = word.substr(name.size() + 2);
+  }
+  return fallback;
+}
+
+bool has_master(const std::string& host, std::uint32_t port) {
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  XmlRpc::XmlRpcValue arguments;
+  XmlRpc::XmlRpcValue answer;
+  arguments[0] = kNodeName;
+  return client.execute("getPid", arguments, answer) && !client.isFault();
+}
+
+/// Waits until there is a ROS master, for ros::init does so without a word. A broken world is
+/// refused before.
+void wait_for_master(int argc, char** argv, const CommandLine& command_line) {
+  const char* given = std::getenv("ROS_MASTER_URI");
+  const std::string uri = ros_argument(argc, argv, "__master", given ? given : "");
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port) || has_master(host, port)) return;
+  const std::string world =
+      command_line.world.empty() ? ros_argument(argc, argv, "_world", "") : command_line.world;
+  check_world(command_line, world, ros_argument(argc, argv, "_lenient", "false") == "true");
+  std::cerr << "simulator: waiting for the ROS master at " << uri << " (start one: roscore)\n";
+  while (!has_master(host, port)) std::this_thread::sleep_for(kMasterPoll);
 }
 
 void run_node(const CommandLine& command_line, const ros::NodeHandle& private_node) {
@@ -199,21 +226,22 @@ void run_node(const CommandLine& command_line, const ros::NodeHandle& private_no
 
 int run_simulator(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // log lines appear as soon as they are written
-  ros::init(argc, argv, kNodeName);
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   CommandLine command_line;
   try {
     command_line = parse_command_line(argc, argv);
-  } catch (const Error& error) {
+    if (command_line.help) {
+      std::cout << usage();
+      return 0;
+    }
+    wait_for_master(argc, argv, command_line);
+  } catch (const std::exception& error) {
     std::cerr << "simulator: " << error.what() << "\n";
     return kBadInput;
   }
-  if (command_line.help) {
-    std::cout << usage();
-    return 0;
-  }
+  ros::init(argc, argv, kNodeName);
+  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   try {
-    if (another_runs()) check_world(command_line);
+    if (another_runs()) check_world_of_parameters(command_line);
   } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return kBadInput;

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::control {
@@ -56,9 +57,8 @@ Controller& Manager::load(const std::string& name) {
   loaded->type = loaded->settings.text("type");
   const auto maker = types_.find(loaded->type);
   if (maker == types_.end()) {
-    std::string known;
-    for (const std::string& type : type_names()) known += (known.empty() ? "" : ", ") + type;
-    throw Error(failure + path + "/type: found '" + loaded->type + "', expected one of " + known);
+    throw Error(failure + path + "/type: found '" + loaded->type + "', expected one of " +
+                nearest_names(loaded->type, type_names()));
   }
   try {
     loaded->controller = maker->second(loaded->context);

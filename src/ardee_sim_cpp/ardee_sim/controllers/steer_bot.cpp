@@ -6,6 +6,7 @@
 
 #include "ardee_sim/controllers/wheel_geometry.h"
 #include "ardee_sim/core/error.h"
+#include "ardee_sim/core/nearest_names.h"
 
 namespace ardee::control {
 namespace {
@@ -22,8 +23,11 @@ std::vector<std::string> car_joints(const Setting& settings, const std::string& 
   const std::vector<std::string> names = settings.texts(key);
   for (const std::string& name : names) {
     if (has_joint(model, name)) continue;
-    throw Error(settings.at(key).path() + ": found joint '" + name +
-                "', expected one of the robot's description");
+    std::vector<std::string> known;
+    for (const Joint& joint : model.joints) known.push_back(joint.name);
+    throw Error(
+        settings.at(key).path() + ": found joint '" + name +
+        "', expected one of the robot's description; nearest: " + nearest_names(name, known));
   }
   return names;
 }

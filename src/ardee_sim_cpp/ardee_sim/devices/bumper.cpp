@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -47,14 +48,13 @@ std::string scoped_collision(const Element& given, std::size_t link, const Robot
       if (has_collision(other, name)) return scoped(other, name);
     }
   }
-  std::string known;
+  std::vector<std::string> known;
   for (const Link& each : links) {
-    for (const Collision& collision : each.collisions) {
-      known += (known.empty() ? "" : ", ") + collision.name;
-    }
+    for (const Collision& collision : each.collisions) known.push_back(collision.name);
   }
-  throw Error(given.source, "found collision '" + given.text + "', expected one of: " +
-                                (known.empty() ? "none, as the model has none" : known));
+  throw Error(given.source, "found collision '" + given.text +
+                                "', expected one of: " + nearest_names(given.text, known) +
+                                (known.empty() ? ", as the model has none" : ""));
 }
 
 std::set<std::string> read_collisions(const SensorDescription& sensor, std::size_t link,

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "ardee_sim/core/nearest_names.h"
+
 namespace ardee::devices {
 namespace {
 
@@ -34,29 +36,32 @@ constexpr char kPlain16[] = "16UC1";  // bytes as in mono16, but not declared as
 }  // namespace
 
 render::PixelFormat read_pixel_format(const std::string& name, const Source& source, Log& log) {
-  std::string known;
+  std::vector<std::string> known;
   for (const Format& each : kFormats) {
     for (const char* text : each.names) {
       if (name == text || name == each.encoding) return each.format;
     }
-    known += std::string(known.empty() ? "" : ", ") + *each.names.begin();
+    known.emplace_back(*each.names.begin());
   }
   if (kOthers.count(name) != 0) {
-    log.warn(source.to_string() + ": found format '" + name + "', expected one of: " + known +
-             "; the first is used");
+    log.warn(source.to_string() + ": found format '" + name + "', expected one of: " +
+             nearest_names(name, known) + "; " + known.front() + " is used");
     return render::PixelFormat::kRgb8;
   }
-  throw Error(source, "found format '" + name + "', expected one of: " + known);
+  throw Error(source,
+              "found format '" + name + "', expected one of: " + nearest_names(name, known));
 }
 
 render::PixelFormat read_encoding(const std::string& name, const Source& source) {
-  std::string known;
+  std::vector<std::string> known;
   for (const Format& each : kFormats) {
     if (name == each.encoding) return each.format;
-    known += std::string(each.encoding) + ", ";
+    known.emplace_back(each.encoding);
   }
   if (name == kPlain16) return render::PixelFormat::kMono16;
-  throw Error(source, "found encoding '" + name + "', expected one of: " + known + kPlain16);
+  known.emplace_back(kPlain16);
+  throw Error(source,
+              "found encoding '" + name + "', expected one of: " + nearest_names(name, known));
 }
 
 const char* encoding_of(render::PixelFormat format) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/devices/battery.h"
 #include "ardee_sim/devices/block_lidar.h"
 #include "ardee_sim/devices/bumper.h"
@@ -128,6 +129,13 @@ std::vector<Registry::Candidate> Registry::candidates_of(const Model& model) {
   return found;
 }
 
+std::string Registry::nearest_plugins(const std::string& filename) const {
+  std::vector<std::string> known = model_plugin_files();
+  for (const std::string& file : sensor_plugin_files()) known.push_back(file);
+  for (const auto& [name, alias] : aliases_) known.push_back(alias.filename);
+  return nearest_names("lib" + stem(filename) + ".so", known);
+}
+
 void Registry::add_alias(const PluginAlias& alias) {
   const auto is_known = [this](const std::string& name) {
     return model_plugins_.count(name) != 0 || sensor_plugins_.count(name) != 0;
@@ -135,7 +143,8 @@ void Registry::add_alias(const PluginAlias& alias) {
   const std::string name = stem(alias.filename);
   const std::string problem = "plugin alias '" + alias.filename + "': found ";
   if (!is_known(stem(alias.plugin))) {
-    throw Error(problem + "plugin '" + alias.plugin + "', expected one in docs/support.md");
+    throw Error(problem + "plugin '" + alias.plugin +
+                "', expected one in docs/support.md; nearest: " + nearest_plugins(alias.plugin));
   }
   if (name.empty() || is_known(name) || !aliases_.emplace(name, alias).second) {
     throw Error(problem + "this file name, expected one that is not empty and not taken");
@@ -164,9 +173,11 @@ std::unique_ptr<Device> Registry::make(const Candidate& candidate, DeviceContext
   const bool found =
       candidate.sensor ? of_sensor != sensor_plugins_.end() : of_model != model_plugins_.end();
   if (!found) {
-    const std::string expected = of_sensor != sensor_plugins_.end() ? "it within a <sensor>"
-                                 : of_model != model_plugins_.end() ? "it outside of <sensor>"
-                                                                    : "one in docs/support.md";
+    const std::string expected =
+        of_sensor != sensor_plugins_.end() ? "it within a <sensor>"
+        : of_model != model_plugins_.end()
+            ? "it outside of <sensor>"
+            : "one in docs/support.md; nearest: " + nearest_plugins(plugin.filename);
     context.log.warn(plugin.element.source.to_string() + ": found plugin '" + plugin.filename +
                      "', expected " + expected + "; it is left out");
     return nullptr;

@@ -45,6 +45,8 @@ class Registry {
   struct Candidate;
 
   static std::vector<Candidate> candidates_of(const Model& model);
+  /// The names nearest to an unknown one, for a message.
+  std::string nearest_plugins(const std::string& filename) const;
   /// Makes a device; none for a plugin that is unknown or left out.
   std::unique_ptr<Device> make(const Candidate& candidate, DeviceContext& context) const;
   template <typename Plugins>

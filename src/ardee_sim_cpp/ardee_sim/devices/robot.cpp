@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "ardee_sim/core/nearest_names.h"
+
 namespace ardee::devices {
 namespace {
 
@@ -15,10 +17,11 @@ std::size_t index_of(const std::vector<Item>& items, const std::string& name, co
     });
     if (found != items.end()) return static_cast<std::size_t>(found - items.begin());
   }
-  std::string known;
-  for (const Item& item : items) known += (known.empty() ? "" : ", ") + item.name;
-  throw Error(source, "found " + std::string(what) + " '" + name + "', expected one of: " +
-                          (known.empty() ? "none, as the model has none" : known));
+  std::vector<std::string> known;
+  for (const Item& item : items) known.push_back(item.name);
+  throw Error(source, "found " + std::string(what) + " '" + name +
+                          "', expected one of: " + nearest_names(name, known) +
+                          (known.empty() ? ", as the model has none" : ""));
 }
 
 }  // namespace

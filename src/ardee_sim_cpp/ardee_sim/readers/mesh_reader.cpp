@@ -273,11 +273,11 @@ MeshFile read_mesh_file(const std::string& path, const Source& source, Log& log)
   return file;
 }
 
-std::string part_names(const MeshFile& file) {
-  std::string names;
+std::vector<std::string> part_names(const MeshFile& file) {
+  std::vector<std::string> names;
   std::set<std::string> given;
   for (const SubMesh& part : file.parts) {
-    if (given.insert(part.name).second) names += (names.empty() ? "'" : ", '") + part.name + "'";
+    if (given.insert(part.name).second) names.push_back(part.name);
   }
   return names;
 }

@@ -14,7 +14,7 @@ namespace ardee {
 /// Error at `source` if the file is broken, empty or holds values that are not finite.
 MeshFile read_mesh_file(const std::string& path, const Source& source, Log& log);
 
-/// The names of a mesh file's parts, for messages: 'a', 'b'.
-std::string part_names(const MeshFile& file);
+/// The names of a mesh file's parts, each once.
+std::vector<std::string> part_names(const MeshFile& file);
 
 }  // namespace ardee

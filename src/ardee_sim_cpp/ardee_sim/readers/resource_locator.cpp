@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/core/text_file.h"
 #include "ardee_sim/readers/fuel_cache.h"
 #include "ardee_sim/readers/package_index.h"
@@ -37,6 +38,51 @@ void add_exports(const ResourceLocator::PathExports& exports, const std::string&
   for (const std::string& folder : exports()) places.push_back(fs::path(folder) / rest);
 }
 
+/// Calls `use(path)` for each file and folder in a folder; none if it cannot be read.
+template <typename Use>
+void each_in(const fs::path& folder, Use use) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    use(it->path());
+  }
+}
+
+bool is_model(const fs::path& folder) {
+  return is_there(folder / "model.config") || is_there(folder / "model.sdf");
+}
+
+bool is_world(const fs::path& file) {
+  return file.extension() == ".world" || file.extension() == ".sdf";
+}
+
+/// The names nearest to one that is in none of the places, for a message; empty if there are none:
+/// of models for a model:// URI whose model is not there, else of files with the same ending.
+std::string nearest_beside(const std::vector<fs::path>& places, const std::string& uri) {
+  const std::size_t mark = uri.find("://");
+  const fs::path rest = mark == std::string::npos ? uri : uri.substr(mark + 3);
+  const std::string name = rest.filename().string();
+  std::set<std::string> models;
+  std::set<std::string> files;
+  for (const fs::path& place : places) {
+    each_in(place.parent_path(), [&](const fs::path& path) {
+      if (rest.has_extension() && path.extension() == rest.extension()) {
+        files.insert(path.filename().string());
+      }
+    });
+    fs::path folder = place;
+    for (auto part = rest.begin(); part != rest.end(); ++part) folder = folder.parent_path();
+    each_in(folder, [&](const fs::path& path) {
+      if (is_model(path)) models.insert(path.filename().string());
+    });
+  }
+  const std::string model = rest.begin()->string();
+  if (uri.rfind("model://", 0) == 0 && models.count(model) == 0) {
+    return models.empty() ? ""
+                          : "; nearest: " + nearest_names(model, {models.begin(), models.end()});
+  }
+  return files.empty() ? "" : "; nearest: " + nearest_names(name, {files.begin(), files.end()});
+}
+
 /// Name of a file for messages: a relative path gets the folder of the referring file.
 std::string name_of(const std::string& uri, const Source& source) {
   return uri.find("://") == std::string::npos ? folder_of(source.file) + "/" + uri : uri;
@@ -55,7 +101,8 @@ std::string first_existing(const std::vector<fs::path>& places, const std::strin
   }
   throw FileError(source, name_of(uri, source),
                   "found '" + uri + "', expected an existing file; searched: " +
-                      (searched.empty() ? "nowhere (no path is set)" : searched));
+                      (searched.empty() ? "nowhere (no path is set)" : searched) +
+                      nearest_beside(places, uri));
 }
 
 /// The file that a model.config gives for the newest version of Gazebo Classic, for whose plugins
@@ -111,16 +158,7 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
   } else if (fs::path(rest).is_absolute() && (scheme.empty() || scheme == "file")) {
     places.push_back(rest);
   } else if (scheme == "file") {
-    for (const auto* folders : {&resource_paths_, &model_paths_}) {
-      for (const std::string& folder : *folders) places.push_back(fs::path(folder) / rest);
-    }
-    for (const auto* folders : {&resource_paths_, &model_paths_}) {
-      for (const std::string& folder : *folders) {
-        places.push_back(fs::path(normal(folder + "/..")) / rest);
-      }
-    }
-    places.push_back(fs::path(folder_of(source.file)) / rest);
-    add_exports(media_exports_, rest, places);
+    places = file_places(rest, source);
   } else if (scheme.empty()) {
     places.push_back(fs::path(folder_of(source.file)) / rest);
   } else {
@@ -128,6 +166,50 @@ std::string ResourceLocator::resolve(const std::string& uri, const Source& sourc
                     "found '" + uri + "', expected model://, package://, file:// or a path");
   }
   return first_existing(places, uri, source);
+}
+
+std::vector<fs::path> ResourceLocator::file_places(const std::string& rest,
+                                                   const Source& source) const {
+  std::vector<fs::path> places;
+  for (const auto* folders : {&resource_paths_, &model_paths_}) {
+    for (const std::string& folder : *folders) places.push_back(fs::path(folder) / rest);
+  }
+  for (const auto* folders : {&resource_paths_, &model_paths_}) {
+    for (const std::string& folder : *folders) {
+      places.push_back(fs::path(normal(folder + "/..")) / rest);
+    }
+  }
+  places.push_back(fs::path(folder_of(source.file)) / rest);
+  add_exports(media_exports_, rest, places);
+  return places;
+}
+
+std::string ResourceLocator::find_world(const std::string& world) const {
+  if (world.find("://") != std::string::npos) return resolve(world, Source{});
+  const fs::path path(world);
+  std::vector<fs::path> places{path};
+  if (path.is_relative()) {
+    for (const fs::path& place : file_places(world, Source{})) places.push_back(place);
+  }
+  std::set<std::string> names;  // as they may be given
+  for (const fs::path& place : places) {
+    if (is_there(place)) return place == path ? world : normal(place);
+    const fs::path given = path.is_relative() ? path.parent_path() : fs::path();
+    for (const char* below : {"", "worlds"}) {
+      each_in(fs::absolute(place).parent_path() / below, [&](const fs::path& file) {
+        if (is_world(file)) names.insert((given / below / file.filename()).string());
+      });
+    }
+  }
+  const std::string nearest =
+      names.empty()
+          ? ""
+          : "; nearest: " + nearest_names(path.is_relative() ? world : path.filename().string(),
+                                          {names.begin(), names.end()});
+  if (path.is_absolute())
+    throw Error("found no file " + world + ", expected a world file" + nearest);
+  throw Error("found no world '" + world +
+              "', expected a file, here or below a folder of GAZEBO_RESOURCE_PATH" + nearest);
 }
 
 std::string ResourceLocator::resolve_package(const std::string& uri, const std::string& rest,

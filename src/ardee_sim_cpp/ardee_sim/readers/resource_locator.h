@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,6 +37,10 @@ class ResourceLocator {
   static ResourceLocator from_environment();
 
   void add_model_path(const std::string& folder) { model_paths_.push_back(folder); }
+  /// Folders of models to search before all others, the first of them first.
+  void add_first_model_paths(const std::vector<std::string>& folders) {
+    model_paths_.insert(model_paths_.begin(), folders.begin(), folders.end());
+  }
   void add_resource_path(const std::string& folder) { resource_paths_.push_back(folder); }
   /// A folder with models that Gazebo's tools downloaded from Fuel.
   void add_fuel_cache(const std::string& folder) { fuel_caches_.push_back(folder); }
@@ -52,8 +57,14 @@ class ResourceLocator {
   /// The .sdf file of the model folder that `uri` names (model.config's <sdf>, highest version up
   /// to 1.6 first).
   std::string resolve_model(const std::string& uri, const Source& source) const;
+  /// A world file by its path, or by its name below the resource paths. Throws Error with the
+  /// names of the nearest worlds.
+  std::string find_world(const std::string& world) const;
 
  private:
+  /// Places in which the path of a file:// URI is searched for, in this order.
+  std::vector<std::filesystem::path> file_places(const std::string& path,
+                                                 const Source& source) const;
   std::string resolve_package(const std::string& uri, const std::string& rest,
                               const Source& source) const;
   std::string resolve_fuel(const std::string& uri, const std::string& rest,

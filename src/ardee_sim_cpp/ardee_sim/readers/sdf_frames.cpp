@@ -3,13 +3,14 @@
 
 #include <set>
 
+#include "ardee_sim/core/nearest_names.h"
+
 namespace ardee {
 namespace {
 
 /// Greatest depth of nested frames; a greater depth counts as a cycle.
 constexpr std::size_t kDeepest = 1000;
 /// Greatest number of names in a message.
-constexpr std::size_t kListed = 10;
 
 /// The <pose> of an element, if it is not empty.
 std::optional<Node> pose_of(const Node& element) {
@@ -123,15 +124,10 @@ Pose SdfFrames::nested_frame(const std::string& name, const Node& asker, std::si
   const auto model = models_.find(scope);
   const auto frame = model != models_.end() ? model->second->find_frame(rest) : std::nullopt;
   if (frame) return find(scope, asker, depth + 1) * frame->X_MF;
-  std::string names = root_;
-  std::set<std::string> sorted;
-  for (const auto& each : frames_) sorted.insert(each.first);
-  std::size_t count = 0;
-  for (const std::string& each : sorted) {
-    names += ", " + (++count > kListed ? "..." : each);
-    if (count > kListed) break;
-  }
-  throw asker.error("found frame '" + name + "', expected one of " + names);
+  std::set<std::string> known{root_};
+  for (const auto& each : frames_) known.insert(each.first);
+  throw asker.error("found frame '" + name + "', expected one of " +
+                    nearest_names(name, {known.begin(), known.end()}));
 }
 
 std::string SdfFrames::body_of(const std::string& name) const {

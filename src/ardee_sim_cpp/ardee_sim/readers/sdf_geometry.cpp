@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/description/shape_fault.h"
 #include "ardee_sim/readers/mesh_reader.h"
 
@@ -87,7 +88,7 @@ Mesh make_mesh(const std::string& uri, const std::string& submesh, bool center,
                                        [&](const SubMesh& part) { return part.name == submesh; })) {
     throw FileError(source, uri + " " + submesh,
                     "found no submesh '" + submesh + "' in '" + uri + "', expected one of " +
-                        part_names(*mesh.file));
+                        nearest_names(submesh, part_names(*mesh.file)));
   }
   return mesh;
 }

@@ -5,17 +5,10 @@
 #include <set>
 #include <sstream>
 
+#include "ardee_sim/core/nearest_names.h"
+
 namespace ardee {
 namespace {
-
-std::string list_of_links(const Model& model) {
-  constexpr std::size_t kMost = 12;
-  std::string names;
-  for (std::size_t i = 0; i < model.links.size() && i < kMost; ++i) {
-    names += (i == 0 ? "'" : ", '") + model.links[i].name + "'";
-  }
-  return names + (model.links.size() > kMost ? ", ..." : "");
-}
 
 std::string comma_list(const Eigen::Vector3d& v) {
   std::ostringstream text;
@@ -89,7 +82,9 @@ void check_joint(const Joint& joint, const std::set<std::string>& links, const M
 }  // namespace
 
 std::string unknown_link(const std::string& name, const Model& model) {
-  return "found link '" + name + "', expected one of " + list_of_links(model);
+  std::vector<std::string> known;
+  for (const Link& link : model.links) known.push_back(link.name);
+  return "found link '" + name + "', expected one of " + nearest_names(name, known);
 }
 
 void validate_model(const Model& model, Log& log) {

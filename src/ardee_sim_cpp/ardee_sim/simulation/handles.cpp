@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ardee_sim/simulation/handles.h"
 
+#include "ardee_sim/core/nearest_names.h"
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
@@ -12,21 +13,21 @@ std::string whole(const std::string& topic) {
 }
 
 /// Calls `found(port)` for each port (Input, Output) of that kind of all devices. Returns their
-/// topics for a message.
+/// topics.
 template <typename PortType, typename Found>
-std::string for_each_port(const std::vector<std::unique_ptr<Entity>>& entities, std::size_t kind,
-                          Found found) {
-  std::string topics;
+std::vector<std::string> for_each_port(const std::vector<std::unique_ptr<Entity>>& entities,
+                                       std::size_t kind, Found found) {
+  std::vector<std::string> topics;
   for (const auto& entity : entities) {
     for (const auto& device : entity->devices) {
       for (PortType& port : device->ports().all<PortType>()) {
         if (port.kind != kind) continue;
-        topics += (topics.empty() ? "" : ", ") + port.topic;
+        topics.push_back(port.topic);
         found(port);
       }
     }
   }
-  return topics.empty() ? "none" : topics;
+  return topics;
 }
 
 }  // namespace
@@ -80,13 +81,14 @@ void LatestReadings::on_reading(const devices::Output& output, const devices::Re
 
 devices::Input& Simulation::input(const std::string& topic, std::size_t kind) const {
   devices::Input* found = nullptr;
-  const std::string known =
+  const std::vector<std::string> known =
       for_each_port<devices::Input>(entities_, kind, [&](devices::Input& input) {
         if (input.topic == whole(topic)) found = &input;
       });
   if (found == nullptr) {
-    throw Error("found no topic '" + whole(topic) +
-                "' that takes such commands, expected one of: " + known);
+    throw Error(
+        "found no topic '" + whole(topic) +
+        "' that takes such commands, expected one of: " + nearest_names(whole(topic), known));
   }
   return *found;
 }
@@ -94,15 +96,16 @@ devices::Input& Simulation::input(const std::string& topic, std::size_t kind) co
 std::shared_ptr<const LatestReadings::Latest> Simulation::keep_latest(const std::string& topic,
                                                                       std::size_t kind) {
   bool found = false;
-  const std::string known =
+  const std::vector<std::string> known =
       for_each_port<devices::Output>(entities_, kind, [&](devices::Output& output) {
         if (output.topic != whole(topic)) return;
         output.demanded = true;
         found = true;
       });
   if (!found) {
-    throw Error("found no topic '" + whole(topic) +
-                "' that gives such readings, expected one of: " + known);
+    throw Error(
+        "found no topic '" + whole(topic) +
+        "' that gives such readings, expected one of: " + nearest_names(whole(topic), known));
   }
   return latest_.keep(whole(topic), kind);
 }

@@ -135,6 +135,7 @@ RenderArguments parse_render_arguments(int argc, const char* const* argv) {
       {"--look-at", [&] { view.at = words.point("--look-at"); }},
       {"--size", [&] { read_size(words, found); }},
       {"--fov-deg", [&] { read_fov(words, found); }},
+      {"--model-path", [&] { found.model_paths.push_back(words.take("--model-path")); }},
       {"--robot", [&] { found.robot = words.take("--robot"); }},
       {"--robot-pose",
        [&] {
@@ -150,7 +151,8 @@ RenderArguments parse_render_arguments(int argc, const char* const* argv) {
     if (const auto option = options.find(word); option != options.end()) {
       option->second();
     } else if (word.empty() || word[0] == '-' || !found.world.empty()) {
-      throw Error("found '" + word + "', expected a world file and options (see --help)");
+      throw Error("found '" + word +
+                  "', expected a world file and options (--help lists all arguments)");
     } else {
       found.world = word;
     }
@@ -167,21 +169,26 @@ RenderArguments parse_render_arguments(int argc, const char* const* argv) {
 std::string render_usage() {
   return "usage: render_world WORLD --output PICTURE.png\n"
          "         [--pose X Y Z ROLL PITCH YAW | --look-from X Y Z --look-at X Y Z]\n"
-         "         [--size 1280x720] [--fov-deg 60] [--robot FILE] [--robot-pose X Y Z R P Y]\n"
-         "         [--samples 4] [--no-shadows] [--threads 0]\n"
+         "         [--size WIDTHxHEIGHT] [--fov-deg F] [--robot FILE] [--robot-pose X Y Z R P Y]\n"
+         "         [--model-path DIR] [--samples N] [--no-shadows] [--threads N] [-h]\n"
          "Draws a picture of a world without a display.\n"
-         "  WORLD         world file (SDF 1.2 to 1.12)\n"
-         "  --output      PNG file to write\n"
-         "  --pose        the camera's place in m and rad; it looks along its x axis, z is up\n"
-         "  --look-from   the camera's place in m, with --look-at, a point in its middle; "
-         "default:\n"
-         "                the world's gui camera, else a view over all that stands in it\n"
-         "  --size        width and height in pixels\n"
-         "  --fov-deg     horizontal angle of view in degrees\n"
-         "  --robot       URDF or SDF file of a robot to put at --robot-pose (m, rad; default 0)\n"
-         "  --samples     rays a pixel, for smooth edges\n"
-         "  --no-shadows  light reaches everywhere\n"
-         "  --threads     0: all cores; the picture is the same with any number\n";
+         "  WORLD             world file (SDF 1.2 to 1.12): a path, or a name below\n"
+         "                    GAZEBO_RESOURCE_PATH\n"
+         "  --output FILE     PNG file to write\n"
+         "  --pose            pose of the camera in m and rad; it looks along its x axis, z is up\n"
+         "                    (default the world's gui camera, else a view over the whole world)\n"
+         "  --look-from       position of the camera in m; it looks at --look-at\n"
+         "  --look-at         point in the middle of the picture in m, with --look-from\n"
+         "  --size            width and height in pixels (default 1280x720)\n"
+         "  --fov-deg F       horizontal angle of view in degrees (default 60)\n"
+         "  --robot FILE      URDF or SDF file of a robot to draw too\n"
+         "  --robot-pose      pose of the robot in m and rad (default 0 0 0 0 0 0)\n"
+         "  --model-path DIR  folder of models to search before GAZEBO_MODEL_PATH; may be given "
+         "again\n"
+         "  --samples N       rays per pixel, for smooth edges (default 4)\n"
+         "  --no-shadows      light reaches everywhere\n"
+         "  --threads N       threads, 0: all cores (default 0); the picture is the same with any\n"
+         "  -h, --help        this text\n";
 }
 
 }  // namespace ardee

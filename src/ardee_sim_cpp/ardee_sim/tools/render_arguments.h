@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ardee_sim/core/pose.h"
 
@@ -16,7 +17,8 @@ struct RenderArguments {
   int width = 1280;
   int height = 720;
   double horizontal_fov_rad = 0.0;
-  std::string robot;  // URDF or SDF file; empty: none
+  std::string robot;                     // URDF or SDF file; empty: none
+  std::vector<std::string> model_paths;  // before those of the environment
   Pose robot_W;
   int samples = 4;
   bool shadows = true;

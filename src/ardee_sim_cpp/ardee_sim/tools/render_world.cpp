@@ -87,8 +87,10 @@ int draw(const RenderArguments& arguments) {
   Log log([](LogLevel level, const std::string& text) {
     if (level >= LogLevel::kWarning) std::cerr << "render_world: " << text << '\n';
   });
-  Loader loader(ResourceLocator::from_environment(), log);
-  const World world = loader.load_world(arguments.world);
+  ResourceLocator locator = ResourceLocator::from_environment();
+  locator.add_first_model_paths(arguments.model_paths);
+  Loader loader(locator, log);
+  const World world = loader.load_world(locator.find_world(arguments.world));
   const std::shared_ptr<const Model> robot =
       arguments.robot.empty() ? nullptr : loader.load_model(arguments.robot);
   raycast::RayOptions ray_options;

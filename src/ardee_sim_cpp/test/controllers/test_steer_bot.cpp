@@ -93,7 +93,8 @@ TEST_F(SteerBotTest, SaysWhatIsWrong) {
   parameters["virtual_rear_wheels"] = names({"knee"});
   EXPECT_EQ(
       why(),
-      "/base/virtual_rear_wheels: found joint 'knee', expected one of the robot's description");
+      "/base/virtual_rear_wheels: found joint 'knee', expected one of the robot's description; "
+      "nearest: knuckle_left, knuckle_right, front_left, rear_left, front_right, ... (7 in all)");
   parameters.erase("rear_wheel");
   EXPECT_EQ(why(), "/base/rear_wheel: found nothing, expected a text");
 }

@@ -93,7 +93,7 @@ TEST_F(RayBlockTest, FormatsOfPicturesHaveManyNames) {
   }
   EXPECT_EQ(said_, "");
   EXPECT_EQ(read_pixel_format("RGBA_INT8", Source{"f", 3, "format"}, log_), PixelFormat::kRgb8);
-  EXPECT_NE(said_.find("f:3: <format>: found format 'RGBA_INT8', expected one of: R8G8B8"),
+  EXPECT_NE(said_.find("f:3: <format>: found format 'RGBA_INT8', expected one of: "),
             std::string::npos)
       << said_;
   EXPECT_THROW(read_pixel_format("R3", {}, log_), Error);

@@ -66,7 +66,7 @@ TEST(MeshReader, AppliesNodeTransformsAndNamesPartsByNode) {
   expect_box(file.parts[0], {0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(file.parts[1].name, "Leaf");
   expect_box(file.parts[1], {9, 0, 0}, {10, 1, 1});
-  EXPECT_EQ(part_names(file), "'Stem', 'Leaf'");
+  EXPECT_EQ(part_names(file), (std::vector<std::string>{"Stem", "Leaf"}));
 }
 
 TEST(MeshReader, AppliesTheUnitAndNotTheUpAxis) {

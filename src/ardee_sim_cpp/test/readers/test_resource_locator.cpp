@@ -57,6 +57,53 @@ TEST_F(Locator, SaysWhereItSearched) {
   EXPECT_HAS(error_of("package://nobody/x"), "searched for package 'nobody'");
 }
 
+TEST_F(Locator, NamesTheModelsThatAreNearestToAWrongOne) {
+  folder_.write("models/corn_plant/model.config", "");
+  folder_.write("models/stone/model.sdf", "");
+  folder_.write("models/no_model/readme.txt", "");
+  EXPECT_HAS(error_of("model://corm_plant"), "; nearest: corn_plant, stone");
+  EXPECT_HAS(error_of("model://corm_plant/meshes/leaf.dae"), "; nearest: corn_plant, stone");
+}
+
+TEST_F(Locator, NamesTheFilesThatAreNearestToAWrongOneInItsFolder) {
+  folder_.write("models/corn_plant/model.config", "");
+  folder_.write("models/corn_plant/meshes/leaf.dae", "");
+  folder_.write("models/corn_plant/meshes/stalk.dae", "");
+  folder_.write("models/corn_plant/meshes/leaf.png", "");
+  EXPECT_HAS(error_of("model://corn_plant/meshes/leav.dae"), "; nearest: leaf.dae, stalk.dae");
+}
+
+TEST_F(Locator, FindsAWorldByItsPathOrItsName) {
+  const std::string farm = folder_.write("share/worlds/farm.world", "");
+  EXPECT_EQ(locator_.find_world(farm), farm);
+  EXPECT_EQ(locator_.find_world("worlds/farm.world"), farm);
+  EXPECT_EQ(locator_.find_world("file://worlds/farm.world"), farm);
+}
+
+TEST_F(Locator, NamesTheWorldsThatAreNearestToAWrongOne) {
+  folder_.write("share/worlds/corn_plot.world", "");
+  folder_.write("share/worlds/farm.world", "");
+  folder_.write("share/worlds/notes.txt", "");
+  const auto why = [this](const std::string& world) -> std::string {
+    try {
+      locator_.find_world(world);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string expected =
+      "', expected a file, here or below a folder of GAZEBO_RESOURCE_PATH; nearest: ";
+  EXPECT_EQ(why("worlds/fram.world"), "found no world 'worlds/fram.world" + expected +
+                                          "worlds/farm.world, worlds/corn_plot.world");
+  EXPECT_EQ(why("fram.world"),
+            "found no world 'fram.world" + expected + "worlds/farm.world, worlds/corn_plot.world");
+  const std::string whole = folder_.path() + "/share/worlds/fram.world";
+  EXPECT_EQ(why(whole), "found no file " + whole +
+                            ", expected a world file; nearest: farm.world, corn_plot.world");
+  EXPECT_EQ(why("/no/such.world"), "found no file /no/such.world, expected a world file");
+}
+
 TEST_F(Locator, NamesEachPlaceThatItSearchedOnceAndInFull) {
   locator_.add_model_path(folder_.path() + "/share");
   locator_.add_model_path(folder_.path() + "/models/");

@@ -106,7 +106,7 @@ TEST_F(Urdf, AGazeboBlockMayCloseALoopByAnSdfJoint) {
                      "<gazebo><joint name='k' type='fixed'><parent>a</parent><child>x</child>"
                      "</joint></gazebo>");
              }),
-             "found link 'x', expected one of 'a', 'b'");
+             "found link 'x', expected one of a, b");
 }
 
 TEST_F(Urdf, AppliesACollisionBlockToAllCollisions) {

@@ -95,7 +95,7 @@ TEST(Bumper, IsLeftOutWhereItsCollisionIsUnknown) {
   world.spawn(mower(watching("gard_collision")), "mower");
   ASSERT_FALSE(world.messages().empty());
   EXPECT_NE(world.messages().back().find("found collision 'gard_collision', expected one of: "
-                                         "deck_collision, guard_collision"),
+                                         "guard_collision, deck_collision"),
             std::string::npos)
       << world.messages().back();
 }

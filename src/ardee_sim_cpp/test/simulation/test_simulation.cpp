@@ -67,10 +67,12 @@ TEST(Simulation, ANameIsTakenOnce) {
 
 TEST(Simulation, AnUnknownPluginIsAWarning) {
   TestWorld world("");
-  world.spawn(ball("<plugin name='p' filename='libno_such.so'/>"), "ball", kHigh);
+  world.spawn(ball("<plugin name='p' filename='libgazebo_ros_lazer.so'/>"), "ball", kHigh);
   EXPECT_TRUE(any_contains(
       world.messages(),
-      "found plugin 'libno_such.so', expected one in docs/support.md; it is left out"));
+      "found plugin 'libgazebo_ros_lazer.so', expected one in docs/support.md; nearest: "
+      "libgazebo_ros_laser.so, "));
+  EXPECT_TRUE(any_contains(world.messages(), " in all); it is left out"));
   EXPECT_NE(world->find("ball"), nullptr);
 }
 

@@ -16,10 +16,28 @@ RenderArguments parse(std::vector<const char*> words) {
 }
 
 TEST(RenderArguments, AreRead) {
-  const RenderArguments found =
-      parse({"a.world", "--output", "a.png", "--size", "64x32", "--look-from", "0", "0", "2",
-             "--look-at", "2", "0", "-0", "--no-shadows", "--samples", "9"});
+  const RenderArguments found = parse({"a.world",
+                                       "--output",
+                                       "a.png",
+                                       "--size",
+                                       "64x32",
+                                       "--look-from",
+                                       "0",
+                                       "0",
+                                       "2",
+                                       "--look-at",
+                                       "2",
+                                       "0",
+                                       "-0",
+                                       "--no-shadows",
+                                       "--samples",
+                                       "9",
+                                       "--model-path",
+                                       "m",
+                                       "--model-path",
+                                       "n"});
   EXPECT_EQ(found.world, "a.world");
+  EXPECT_EQ(found.model_paths, (std::vector<std::string>{"m", "n"}));
   EXPECT_EQ(found.width, 64);
   EXPECT_EQ(found.height, 32);
   EXPECT_FALSE(found.shadows);
