@@ -20,7 +20,7 @@ DRIVE_LIMIT_S = 300.0
 BRIEF = {
     "simulation_bench": ("--duration-s", "0.5"),
     "lidar_bench": ("--scans", "20", "--rounds", "2"),
-    "camera_bench": ("--seconds", "0.2", "--rounds", "1"),
+    "camera_bench": ("--duration-s", "0.2", "--rounds", "1"),
 }
 
 

@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Tests that a simulator without a good world, or without good parameters, says so once and ends."""
+import os
 import pathlib
+import signal
+import socket
+import subprocess
 
 import probes
 import pytest
@@ -84,3 +88,30 @@ def test_a_parameter_that_is_no_whole_number(
     assert simulator.wait(20.0) == 2, simulator.output()
     lines = [line for line in simulator.output().splitlines() if name in line]
     assert len(lines) == 1 and expected in lines[0], simulator.output()
+
+
+def without_master(*words: str) -> subprocess.Popen:
+    """Starts the simulator with the address of a master that is not there."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        env = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{free.getsockname()[1]}")
+    command = ["rosrun", "ardee_sim_cpp", "simulator", *words]
+    return subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True)
+
+
+@pytest.mark.parametrize("argument", ["{}", "_world:={}"])
+def test_a_wrong_world_is_told_without_a_master(tmp_path: pathlib.Path, argument: str) -> None:
+    (tmp_path / "farm.world").write_text(PLANE)
+    node = without_master(argument.format(tmp_path / "fram.world"))
+    said = node.communicate(timeout=60)[1]
+    assert node.returncode == 2
+    found = f"found no file {tmp_path}/fram.world, expected a world file; nearest: farm.world"
+    assert said == f"simulator: {found}\n"
+
+
+def test_a_good_world_waits_for_the_master_in_one_line(tmp_path: pathlib.Path) -> None:
+    (tmp_path / "farm.world").write_text(PLANE)
+    node = without_master(str(tmp_path / "farm.world"))
+    assert node.stderr.readline().startswith("simulator: waiting for the ROS master at http://")
+    node.send_signal(signal.SIGINT)
+    assert node.communicate(timeout=60)[1] == ""

@@ -46,7 +46,7 @@ def run(checkout: pathlib.Path, *arguments: str) -> Tuple[int, str]:
 
 
 def test_a_finding_is_named_and_fails(checkout: pathlib.Path) -> None:
-    code, text = run(checkout, "bad", "good", "--seconds", "1")
+    code, text = run(checkout, "bad", "good", "--duration-s", "1")
     assert code == 1
     assert "FOUND: fuzz_output/findings/bad-crash-1" in text
     assert "good: 100 inputs, 50 a second, 12 edges, 34 features" in text

@@ -57,10 +57,15 @@ class BenchArguments {
 };
 
 /// Runs a program that drives down a lane: calls `bench` with the command line. `own` adds to the
-/// defaults of all such programs, or replaces them. Returns the exit code; 2 for an error.
+/// defaults of all such programs, or replaces them. Returns the exit code; 0 for
+/// -h, which prints the usage, and 2 for an error.
 inline int run_bench(int argc, char** argv, std::map<std::string, std::string> own,
                      const std::string& usage,
                      const std::function<void(const BenchArguments&)>& bench) {
+  if (argc == 2 && (std::string(argv[1]) == "-h" || std::string(argv[1]) == "--help")) {
+    std::cout << usage << "\n";
+    return 0;
+  }
   try {
     own.merge(std::map<std::string, std::string>{{"--world", ""},
                                                  {"--robot", ""},

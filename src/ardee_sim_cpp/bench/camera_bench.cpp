@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: camera_bench --world FILE [--robot FILE] [--pose 'X Y Z YAW'] [--lane-m 6]\n"
-    "         [--speed-m-s 0.5] [--height-m 0.3] [--seconds 1] [--rounds 2] [--threads 0]\n"
+    "         [--speed-m-s 0.5] [--height-m 0.3] [--duration-s 1] [--rounds 2] [--threads 0]\n"
     "         [--reach-m 40]\n"
     "Prints JSON. Three cameras of 640 x 480 at 10 Hz look ahead, to the left and to the right as\n"
     "they go down the lane (without a robot: its file is not read); then the same rays through the "
@@ -74,7 +74,7 @@ Drive drive(const BenchArguments& arguments, Simulation& simulation, Entity& car
   start.pose = arguments.pose("--pose");
   start.pose.p.z() += arguments.number("--height-m");
   start.twist.linear = start.pose.q * Eigen::Vector3d(arguments.number("--speed-m-s"), 0, 0);
-  const int steps = static_cast<int>(arguments.number("--seconds") / kStep_s);
+  const int steps = static_cast<int>(arguments.number("--duration-s") / kStep_s);
   simulation.set_state("carrier", start, "world");
   for (int round = 0; round <= static_cast<int>(arguments.number("--rounds")); ++round) {
     counter.frames = 0;
@@ -149,7 +149,7 @@ void run(const BenchArguments& arguments, std::ostream& out) {
   const double cpu_a_frame_s = done.cpu_s / done.frames;
   const double embree = embree_rays_per_s(arguments, simulation, done);
   out << "{\"frames\": " << done.frames << ", \"frames_per_s\": " << done.frames / done.wall_s
-      << ", \"real_time_factor\": " << arguments.number("--seconds") / done.wall_s
+      << ", \"real_time_factor\": " << arguments.number("--duration-s") / done.wall_s
       << ",\n \"cpu_ms_a_frame\": " << 1e3 * cpu_a_frame_s
       << ", \"pixels_per_cpu_s\": " << rays_a_frame / cpu_a_frame_s
       << ",\n \"embree_rays_per_s\": " << embree
@@ -164,7 +164,7 @@ int main(int argc, char** argv) {
       argc, argv,
       {{"--robot", "none"},
        {"--height-m", "0.3"},
-       {"--seconds", "1"},
+       {"--duration-s", "1"},
        {"--rounds", "2"},
        {"--reach-m", "40"},
        {"--threads", "0"}},
