@@ -230,7 +230,7 @@ TEST_F(SdfFramesTest, NamesWhatIsWrong) {
       error_of([&] { model("<frame name='f' attached_to='f'/>" + link("a") + fixed("a", "f")); }),
       "found that frame 'f' lies in itself");
   EXPECT_HAS(error_of([&] { world("<model name='m'>" + pose("x", "") + link("a") + "</model>"); }),
-             "found frame 'x', expected one of world, m");
+             "found frame 'x', expected one of m, world");
   // Without known frames, only the pose of a file's own model counts.
   EXPECT_HAS(error_of([&] {
                loader_.load_model_text("<sdf version='1.7'><model name='m'>" +

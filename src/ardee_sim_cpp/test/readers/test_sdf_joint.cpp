@@ -174,7 +174,7 @@ TEST_F(SdfJointTest, TakesLinksInTheScopeOfTheirOwnModel) {
                    "<link name='a'/><joint name='j' type='fixed'><parent>m::x</parent>"
                    "<child>a</child></joint>");
              }),
-             "found link 'x', expected one of 'a'");
+             "found link 'x', expected one of a");
 }
 
 }  // namespace
