@@ -243,3 +243,12 @@ def test_the_keyboard_drives_while_keys_come_and_restores_the_terminal(robot: Ro
             teleop.wait()
         os.close(master)
         os.close(slave)
+
+
+@pytest.mark.parametrize("node", ["joy joy_node", "teleop_twist_joy teleop_node"])
+def test_help_of_the_joystick_s_nodes_needs_no_master(node: str) -> None:
+    env = dict(os.environ, ROS_MASTER_URI="http://127.0.0.1:9")
+    run = subprocess.run(
+        ["rosrun", *node.split(), "-h"], env=env, capture_output=True, text=True, timeout=20
+    )
+    assert run.returncode == 0 and run.stdout.startswith("usage: ")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """joy_node: publishes a Linux joystick as sensor_msgs/Joy."""
+import sys
 import time
 from typing import Optional
 
@@ -18,6 +19,9 @@ PARAMETERS = {  # name: default, least, greatest
     "autorepeat_rate": (0.0, 0.0, 1000.0),
     "coalesce_interval": (0.001, 0.0, 10.0),
 }
+ABOUT = """Publishes a Linux joystick as sensor_msgs/Joy on joy.
+Parameters: ~dev (default /dev/input/js0), ~deadzone (default 0.05), ~autorepeat_rate (Hz, default 0: off),
+~coalesce_interval (s, default 0.001), ~sticky_buttons, ~default_trig_val"""
 
 
 def number(name: str) -> float:
@@ -114,7 +118,10 @@ class JoyNode:
 
 
 def main() -> int:
-    """Run the node, once there is a ROS master; 2 when a parameter is wrong."""
+    """Run the node, once there is a ROS master; 2 when a parameter is wrong. -h needs no master."""
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(f"usage: joy_node [-h] [_PARAMETER:=VALUE ...]\n{ABOUT}")
+        return 0
     try:
         while not rosgraph.is_master_online():
             time.sleep(MASTER_S)

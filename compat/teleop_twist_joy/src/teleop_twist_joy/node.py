@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """teleop_node: sensor_msgs/Joy to geometry_msgs/Twist while the enable button is held."""
+import sys
 import threading
 import time
 from typing import Dict
@@ -14,6 +15,9 @@ from teleop_twist_joy.mapping import ANGULAR, LINEAR, read_mapping
 MASTER_S = 0.2  # between looks for a ROS master
 WATCH_S = 0.1  # between looks whether there still is a joystick's node
 FLUSH_S = 0.1  # for the last message to leave before the node ends
+ABOUT = """Drives by a joystick: listens to joy, publishes geometry_msgs/Twist on cmd_vel.
+Parameters: ~enable_button, ~enable_turbo_button, ~axis_linear, ~scale_linear, ~axis_angular, ~scale_angular
+and the turbo scales of teleop_twist_joy"""
 
 
 def to_twist(velocity: Dict[str, float]) -> Twist:
@@ -65,7 +69,10 @@ class TeleopNode:
 
 
 def main() -> int:
-    """Run the node, once there is a ROS master; 2 when a parameter is wrong."""
+    """Run the node, once there is a ROS master; 2 when a parameter is wrong. -h needs no master."""
+    if {"-h", "--help"} & set(sys.argv[1:]):
+        print(f"usage: teleop_node [-h] [_PARAMETER:=VALUE ...]\n{ABOUT}")
+        return 0
     try:
         while not rosgraph.is_master_online():
             time.sleep(MASTER_S)

@@ -179,7 +179,8 @@ const std::vector<SchemaRow>& model_rows() {
       {"heightmap", no_effect, "use_terrain_paging", "all of the ground is there", "false"},
       {"heightmap", settled, "sampling", "the ground is flat between two heights at any number"},
       {"heightmap/texture", acts, "size diffuse"},
-      {"heightmap/texture", no_effect, "normal", "there are no normal maps", "__default__"},
+      {"heightmap/texture", no_effect, "normal", "there are no normal maps",
+       "__default__|file://media/materials/textures/flat_normal.png"},
       {"blend", acts, "min_height fade_dist"},
 
       {"surface", acts, "bounce friction contact"},

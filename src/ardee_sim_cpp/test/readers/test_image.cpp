@@ -263,7 +263,8 @@ TEST_F(ReadersTest, ReadsTheHeightmapOfListingA23) {
                        map + R"(</heightmap></geometry></collision>
       <visual name="visual"><geometry><heightmap><use_terrain_paging>false</use_terrain_paging>
         <texture><diffuse>model://images/rgb.png</diffuse><normal>model://images/rgb.png</normal><size>2</size></texture>
-        <texture><diffuse>file://nowhere/grass.png</diffuse><size>1</size></texture>
+        <texture><diffuse>file://nowhere/grass.png</diffuse>
+          <normal>file://media/materials/textures/flat_normal.png</normal><size>1</size></texture>
         <blend><min_height>0.5</min_height><fade_dist>1</fade_dist></blend>)" +
                        map + "</heightmap></geometry></visual></link>");
   const auto& seen = std::get<Heightmap>(m->links.at(0).visuals.at(0).geometry);
