@@ -5,7 +5,7 @@ import difflib
 from pathlib import Path
 from typing import Iterable
 
-_NAMES_SHOWN = 6
+_NAMES_SHOWN = 5
 
 
 class GeneratorError(Exception):
