@@ -25,13 +25,13 @@ def _stalk(foot, height):
     return stalk
 
 
-def _leaf(foot, height, angle):
+def _leaf(foot, height, angle, radius_m=RADIUS):
     """Returns a strip that touches the stalk at its base and hangs with its tip on the ground."""
     side, out = np.array([-np.sin(angle), np.cos(angle), 0]), np.array(
         [np.cos(angle), np.sin(angle), 0]
     )
     s = np.linspace(0.0, 1.0, 6)[:, None]
-    middle = np.array([*foot, 0.6 * height]) + RADIUS * out + 0.16 * s * out
+    middle = np.array([*foot, 0.6 * height]) + radius_m * out + 0.16 * s * out
     middle = middle - 0.6 * height * s**3 * np.array([0, 0, 1.0])
     vertices = np.concatenate((middle - 0.02 * side, middle + 0.02 * side))
     faces = [f for i in range(5) for f in ((i, i + 6, i + 1), (i + 1, i + 6, i + 7))]
@@ -112,6 +112,31 @@ def test_whole_keeps_one_model_and_units_and_axes_are_obeyed(scene, tmp_path, ca
     _, written = _run(capsys, *arguments, "--output", tmp_path / "out")
     assert [p.rsplit("/", 1)[1] for p in written] == ["all"]
     assert crop_model("all", [tmp_path / "out"]).height_m == pytest.approx(max(HEIGHTS), abs=1e-4)
+
+
+@pytest.mark.parametrize("radius_m, sections", [(0.005, 6), (0.02, 24), (0.06, 12)])
+def test_thin_and_thick_stalks_in_one_piece_with_their_leaves_are_found(
+    tmp_path, capsys, radius_m, sections
+):
+    stalk = trimesh.creation.cylinder(radius_m, 0.9, sections=sections)
+    stalk.apply_translation([1.0, 1.0, 0.45])
+    leaves = [_leaf((1.0, 1.0), 0.9, angle, radius_m) for angle in (1.2, 4.0)]
+    plant = trimesh.util.concatenate([stalk, *leaves])
+    plant.export(tmp_path / "plant.stl")
+    _run(capsys, tmp_path / "plant.stl", "--name", "mine", "--output", tmp_path)
+    metrics = json.loads((tmp_path / "mine" / "metrics.json").read_text())
+    assert metrics["stalk_radius_m"] == pytest.approx(radius_m, rel=0.1)
+    assert metrics["stalk_height_m"] == pytest.approx(0.9, rel=0.02)
+
+
+def test_picture_of_a_plant_without_a_stalk_gets_a_thin_one_of_its_height(tmp_path, capsys):
+    (tmp_path / "board.obj").write_text(
+        "v -0.3 0 0\nv 0.3 0 0\nv 0.3 2 0\nv -0.3 2 0\nf 1 2 3 4\n"
+    )
+    _run(capsys, tmp_path / "board.obj", "--name", "mine", "--output", tmp_path)
+    metrics = json.loads((tmp_path / "mine" / "metrics.json").read_text())
+    assert metrics["stalk_radius_m"] == pytest.approx(0.02)
+    assert metrics["stalk_height_m"] == pytest.approx(2.0)
 
 
 OBJ = """# Blender 3.6.0
