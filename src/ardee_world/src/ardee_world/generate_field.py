@@ -159,9 +159,12 @@ def make_field(args: argparse.Namespace) -> Path:
     values = yaml_values(file) if file else {}
     if "row_length_m" in given:
         values.pop("stalks_per_row", None)
-    path = make_configured({**values, **given})
+    values = {**values, **given}
+    path = make_configured(values)
+    folders = [str(Path(folder).resolve()) for folder in configure(values)[0].model_path]
+    where = f"GAZEBO_MODEL_PATH={':'.join(folders)}:$GAZEBO_MODEL_PATH " if folders else ""
     field = f"{path}/{path.name}.urdf.xacro"
-    say("generate_field", f"to drive in it: scripts/run_custom_world {field} [TERRAIN]")
+    say("generate_field", f"to drive in it: {where}scripts/run_custom_world {field} [TERRAIN]")
     return path
 
 
