@@ -74,6 +74,22 @@ def test_types_of_arguments(kind, good, bad) -> None:
             kind(text)
 
 
+def test_a_misspelt_argument_is_named_and_not_its_value(capsys: pytest.CaptureFixture) -> None:
+    parser = Parser(prog="cut")
+    parser.add_argument("recipe", nargs="?")
+    parser.add_argument("--row-length-m", type=float)
+    parser.add_argument("--seed", type=int)
+    assert parser.parse_args(["--row-len", "2"]).row_length_m == 2.0
+    assert parser.parse_args(["--", "--row-lenght"]).recipe == "--row-lenght"
+    with pytest.raises(SystemExit) as ended:
+        parser.parse_args(["--row-lenght-m", "2", "--seed", "x"])
+    assert ended.value.code == 2
+    assert capsys.readouterr().err == (
+        "cut: unknown argument '--row-lenght-m', known: --row-length-m, --help, --seed;"
+        " did you mean '--row-length-m'? (--help lists all arguments)\n"
+    )
+
+
 @pytest.mark.parametrize("words", [("--length", "2"), ("--length=2",)])
 def test_an_old_name_is_understood_with_a_note(words, capsys: pytest.CaptureFixture) -> None:
     parser = Parser(prog="cut", old_names={"--length": "--row-length-m"})

@@ -191,7 +191,7 @@ def bad_files(tmp_path):
         (("--output", "{dir}/file"), "file: cannot be written"),
         (("--row-length-m", "5", "--stalks-per-row", "7"), "expected one of them"),
         (("--row-shape", "expression", "--row-expression", "open('x')"), "row expression"),
-        (("--unknown", "1"), "unrecognized arguments: --unknown"),
+        (("--unknown", "1"), "unknown argument '--unknown'"),
     ],
 )
 def test_bad_arguments_are_one_message_and_change_nothing(

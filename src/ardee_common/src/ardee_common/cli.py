@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
 
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import range_text
 
 PROGRESS_S = 3.0  # longest time that a command works without a word
@@ -42,8 +42,17 @@ class Parser(argparse.ArgumentParser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         """Parses the arguments by their present names, with a note for each old name."""
-        words = list(sys.argv[1:] if args is None else args)
-        return super().parse_known_args([self._present(word) for word in words], namespace)
+        words = [self._present(word) for word in (sys.argv[1:] if args is None else args)]
+        self._refuse_unknown(words)
+        return super().parse_known_args(words, namespace)
+
+    def _refuse_unknown(self, words: Sequence[str]) -> None:
+        """Ends with the nearest right names for a misspelt one, whose value argparse takes for another argument."""
+        known = [flag for flag in self._option_string_actions if flag.startswith("--")]
+        for word in words[: words.index("--")] if "--" in words else words:
+            flag = word.partition("=")[0]
+            if flag.startswith("--") and not any(name.startswith(flag) for name in known):
+                self.error(f"unknown argument {flag!r}, {known_names(flag, known)}")
 
     def _present(self, word: str) -> str:
         """Returns an argument with its present name in the place of an old one."""
