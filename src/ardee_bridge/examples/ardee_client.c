@@ -211,6 +211,15 @@ static Seen *find_seen(Seen *seen, int *count, const Ardee_Msg_Data_Header *h) {
   return &seen[(*count)++];
 }
 
+/* An image or a cloud is one message in several datagrams: it counts once, as its last one comes.
+ */
+static int ends_message(const Ardee_Msg_Data_Header *h, const unsigned char *bytes) {
+  Ardee_Ext_Chunk chunk;
+  if (h->data_type != ARDEE_DATA_IMAGE && h->data_type != ARDEE_DATA_POINT_CLOUD) return 1;
+  memcpy(&chunk, bytes, sizeof chunk);
+  return chunk.index == chunk.count - 1;
+}
+
 /* Read one datagram. No data datagram is as long as a header, so the length tells them apart. */
 static void receive(int fd, Ardee_Msg_Data_Header *header, int *has_header, Seen *seen,
                     int *count) {
@@ -226,7 +235,7 @@ static void receive(int fd, Ardee_Msg_Data_Header *header, int *has_header, Seen
   *has_header = 0;
   Seen *sensor = find_seen(seen, count, header);
   if (!sensor) return;
-  ++sensor->count;
+  sensor->count += ends_message(header, datagram);
   describe(header, datagram, sensor->last, sizeof sensor->last);
 }
 

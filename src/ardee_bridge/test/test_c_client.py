@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Arguments that the C client refuses; driving with it is tested with the whole bridge."""
+"""Arguments of the C client, and how it counts; driving with it is tested with the whole bridge."""
+import socket
 import subprocess
+import time
 
 import pytest
+from ardee_bridge.wire import chunks, codec
 
 
 @pytest.fixture(scope="module")
@@ -59,3 +62,21 @@ def test_a_speed_that_is_no_share_of_the_limit_is_refused(client, option, share)
 def test_the_limits_themselves_are_allowed(client, share):
     command = [str(client), "-p", "0", "-c", "9", "-t", "0.1", "-v", share]
     assert subprocess.run(command).returncode == 0
+
+
+def test_an_image_counts_once_whatever_its_datagrams(client):
+    """Two images of three datagrams each are two messages, as the Python client counts them."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    run = subprocess.Popen(
+        [str(client), "-p", str(port), "-t", "2"], stdout=subprocess.PIPE, text=True
+    )
+    time.sleep(0.5)  # until it listens
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+        for sequence in (1, 2):
+            head = codec.ImageChunk(chunk=codec.Chunk(sequence=sequence), width=10, height=30)
+            for pair in chunks.split(codec.DataType.IMAGE, 4, head, bytes(900), 300):
+                for datagram in pair:
+                    sender.sendto(datagram, ("127.0.0.1", port))
+    assert run.communicate()[0] == "image 4 count 2 width 10 height 30 bytes 900\n"
