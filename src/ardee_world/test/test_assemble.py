@@ -179,6 +179,21 @@ def test_the_worlds_origin_is_the_one_that_the_field_was_planned_with(
     np.testing.assert_allclose(east_m, truth["world_x_m"], rtol=1e-5, atol=1e-3)
 
 
+def test_a_field_that_reaches_beyond_its_terrain_is_told(put_together, tmp_path, models):
+    """Moved to x = -40 m, its start and all its plants lie beside the terrain."""
+    half_m = terrain_model("ground", [models]).size_m / 2.0
+    assert half_m < 40.0
+    words = ("ground", "pkg/my.geofence", "--world-pose", "-40", "0", "0")
+    code, error = put_together("models/field/field.urdf.xacro", *words)
+    plants = json.loads((tmp_path / "out/models/custom_field/truth.json").read_text())["plants"]
+    count = len(plants["world_x_m"])
+    assert code == 0
+    assert error == (
+        f"assemble_world: found the robot's start at (-40, 0) and {count} of {count} plants beside"
+        f" terrain ground (x -{half_m:g} to {half_m:g} m, y -{half_m:g} to {half_m:g} m)\n"
+    )
+
+
 def test_a_field_of_somebody_elses_is_not_moved(put_together, tmp_path):
     other = "<sdf><model name='m'><include><uri>x</uri><pose>1 2 3 0 0 0</pose></include></model></sdf>\n"
     (tmp_path / "other.urdf.xacro").write_text(f"{other}{SEPARATOR}\n<robot/>\n")
@@ -225,6 +240,7 @@ def test_heights_can_be_kept_and_those_of_others_always_are(put_together, tmp_pa
 def test_a_fields_and_a_terrains_name_will_do(put_together, tmp_path, monkeypatch, models):
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"{models}:{tmp_path / 'models'}")
     assert put_together("field", "ground") == (0, "")
+    assert put_together("models/field/", "ground") == (0, "")
     assert put_together("pkg/empty.urdf.xacro", str(models / "ground")) == (0, "")
 
 

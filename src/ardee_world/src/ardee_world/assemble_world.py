@@ -7,7 +7,9 @@ import shutil
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_common.cli import Parser, add_model_path, run
+import numpy as np
+
+from ardee_common.cli import Parser, add_model_path, run, say
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.output import model_directory, write_file
 from ardee_models.lookup import find_model, search_path
@@ -25,7 +27,7 @@ from ardee_world.moving import (
     read_truth,
 )
 from ardee_world.seating import is_generated, own_pose, read_table, seat, seat_table, table_name
-from ardee_world.start import read_start, start_file
+from ardee_world.start import Start, read_start, start_file
 from ardee_world.urdf_file import check_xml, split_field
 from ardee_world.writers.truth_files import csv_text
 from ardee_world.writers.world import world_text
@@ -52,7 +54,10 @@ def find_file(name: str, folders: Sequence[Path], what: str) -> Path:
 
 
 def find_field(name: str, folders: Sequence[Path], models: Sequence[Path]) -> Path:
-    """A .urdf.xacro file by its path, or that of a field's model directory by its name."""
+    """A .urdf.xacro file by its path, or that of a field's model directory by its path or its name."""
+    for path in (Path(name), *(folder / name for folder in folders)):
+        if (path / "model.config").is_file():
+            return path.resolve() / f"{path.resolve().name}.urdf.xacro"
     if "/" not in name and not name.endswith(".xacro"):
         return find_model(name, models) / f"{name}.urdf.xacro"
     return find_file(name, folders, "field")
@@ -108,6 +113,21 @@ def _write_field(
             _write_truth(truth, folder)
 
 
+def _say_what_hangs(start: Start, truth: Optional[Truth], ground: Ground, terrain: str) -> None:
+    """Warns of a start and of plants beside the terrain, where a robot falls and plants stand on air."""
+    plants = truth["plants"] if truth else {"world_x_m": [], "world_y_m": []}
+    places = np.column_stack(
+        ([start.x_m, *plants["world_x_m"]], [start.y_m, *plants["world_y_m"]])
+    ).astype(float)
+    low, high = ground.bounds_m()
+    beside = ((places < low) | (places > high)).any(axis=1)
+    found = [f"the robot's start at ({start.x_m:g}, {start.y_m:g})"] * bool(beside[0])
+    found += [f"{beside[1:].sum()} of {len(beside) - 1} plants"] * bool(beside[1:].any())
+    if found:
+        extent = f"x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m"
+        say("assemble_world", f"found {' and '.join(found)} beside terrain {terrain} ({extent})")
+
+
 def _refer_to_itself(folder: Path, old_name: str, new_name: str) -> None:
     """Makes the URIs of a copied model name the copy, so that the original need not be on a model path."""
     old, new = (f"://{name}/".encode() for name in (old_name, new_name))
@@ -140,6 +160,7 @@ def assemble(args: argparse.Namespace) -> Path:
     if truth:
         place_truth(truth, own_pose(model), ground if seated else None)
     start = start.on(ground)
+    _say_what_hangs(start, truth, ground, terrain.name)
     out = args.output
     _write_field(model, plots, table, truth, out / "models")
     with model_directory(out / "models", HEIGHTMAP) as folder:
@@ -164,7 +185,7 @@ def _place(text: str) -> float:
 def make_parser() -> argparse.ArgumentParser:
     """Makes the parser of `python3 -m ardee_world.assemble_world`."""
     parser = Parser(prog="assemble_world", description=__doc__)
-    parser.add_argument("field", help=".urdf.xacro file, or name of a field's model")
+    parser.add_argument("field", help=".urdf.xacro file of a field, or its model directory or that one's name")
     parser.add_argument("terrain", help="model directory of a terrain, or its name")
     parser.add_argument("geofence", help="geofence file")
     parser.add_argument("--output", type=Path, required=True, help="folder to write into")

@@ -3,7 +3,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
+from typing import Sequence, Tuple
 
 import numpy as np
 
@@ -21,6 +21,10 @@ class LevelGround:
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
         """Zero everywhere."""
         return np.zeros(np.broadcast(x_m, y_m).shape)
+
+    def bounds_m(self) -> Tuple[np.ndarray, np.ndarray]:
+        """A plane has no end."""
+        return np.full(2, -np.inf), np.full(2, np.inf)
 
 
 def is_ground(model: Path) -> bool:

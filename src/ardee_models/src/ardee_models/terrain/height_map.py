@@ -2,7 +2,7 @@
 """Field terrain as a square grid of heights: ridges along the crop rows and smooth bumps."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Tuple
 
 import numpy as np
 
@@ -64,6 +64,9 @@ class Ground(Protocol):
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
         """Height [m] of the ground at places of its frame."""
 
+    def bounds_m(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Least and greatest x and y [m] of the ground."""
+
 
 @dataclass(frozen=True)
 class Terrain:
@@ -85,6 +88,11 @@ class Terrain:
         beside = np.where(u >= v, h[r + 1, c + 1], h[r, c])
         first, second = np.maximum(u, v), np.minimum(u, v)
         return near + first * (beside - near) + second * (far - beside)
+
+    def bounds_m(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Corners of the grid."""
+        half_m = np.full(2, self.size_m / 2.0)
+        return -half_m, half_m
 
 
 def ridge_profile(y_m: np.ndarray, params: TerrainParams) -> np.ndarray:

@@ -2,6 +2,7 @@
 """The ground of a mesh: the highest of its triangles above each place."""
 
 from dataclasses import dataclass
+from typing import Tuple
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -20,7 +21,7 @@ class MeshGround:
 
     def _cells(self) -> tuple:
         """Lower corner, side and number of square cells that hold about one triangle each."""
-        low, high = self.vertices_m[:, :2].min(axis=0), self.vertices_m[:, :2].max(axis=0)
+        low, high = self.bounds_m()
         wanted = np.clip(len(self.triangles) * _CELLS_A_TRIANGLE, 1, _MOST_CELLS)
         side = max(float(np.sqrt(np.prod(np.maximum(high - low, 1e-6)) / wanted)), 1e-6)
         return low, side, np.floor((high - low) / side).astype(int) + 1
@@ -52,6 +53,10 @@ class MeshGround:
         inside = ~flat & (v >= -_TOLERANCE) & (w >= -_TOLERANCE) & (v + w <= 1.0 + _TOLERANCE)
         height = a[:, 2] + v * (b[:, 2] - a[:, 2]) + w * (c[:, 2] - a[:, 2])
         return np.where(inside, height, -np.inf)
+
+    def bounds_m(self) -> Tuple[np.ndarray, np.ndarray]:
+        """Corners of the rectangle around the mesh."""
+        return self.vertices_m[:, :2].min(axis=0), self.vertices_m[:, :2].max(axis=0)
 
     def height_at(self, x_m: np.ndarray, y_m: np.ndarray) -> np.ndarray:
         """Height of the highest triangle; beside the mesh, the height of its nearest vertex."""
