@@ -123,7 +123,7 @@ def test_a_priority_is_accepted_and_said_to_have_no_effect(shared_graph: RosGrap
         (
             "controls_client_node",
             "_wachdog_s:=1",
-            "unknown key 'wachdog_s', known: bind_address",
+            "unknown key 'wachdog_s', nearest",
         ),
     ],
 )

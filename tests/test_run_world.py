@@ -174,7 +174,7 @@ def test_a_field_stands_where_the_user_says_with_its_origin_on_the_earth(
 def test_a_pose_that_is_none_is_refused(graph: RosGraph, words: tuple) -> None:
     run = graph.spawn(str(SCRIPTS / "run_custom_world"), *words)
     assert run.wait(60.0) == 2
-    assert "X Y YAW" in run.output() or "argument --pose: invalid" in run.output()
+    assert "X Y YAW" in run.output() or "argument --world-pose: invalid" in run.output()
 
 
 def test_a_running_simulator_is_left_alone(graph: RosGraph) -> None:
