@@ -5,6 +5,7 @@ import subprocess
 import time
 
 import pytest
+
 from ardee_bridge.wire import chunks, codec
 
 
