@@ -37,16 +37,17 @@ API = {
 NOT_PAGES = ("conf.py", "generate_reference.py", "yaml_keys.py", "markdown_text.py", "__pycache__")
 COMMANDS = """# Commands
 
-What each command prints with `-h`. The commands speak one language: an argument ends in its unit (`--row-spacing-m`, `--speed-m-s`),
-and where a YAML file can give it too, the key is the same with underscores (`row_spacing_m`). `--output` is the file or folder to write,
-`--seed` the root of all random numbers, `--model-path` a folder of models before those of `GAZEBO_MODEL_PATH`. What a command made, or
-its path, is on standard output; progress, warnings and what to do next are on standard error.
+What each command prints with `-h`. The commands speak one language: an argument ends in its unit
+(`--row-spacing-m`, `--speed-m-s`), and where a YAML file can give it too, the key is the same with underscores
+(`row_spacing_m`). `--output` is the file or folder to write, `--seed` the root of all random numbers, `--model-path` a
+folder of models before those of `GAZEBO_MODEL_PATH`. What a command made, or its path, is on standard output; progress,
+warnings and what to do next are on standard error.
 
 | exit code | means |
 |---|---|
 | 0 | it is done |
-| 1 | the arguments were good, but what was to be measured or run was not: a value outside its range, a robot that does not answer |
-| 2 | an argument or a file is not usable; one line says where, what was found and what was expected, and nothing is written |
+| 1 | good arguments, but what was measured or run was not: a value outside its range, a robot that does not answer |
+| 2 | an argument or file is not usable: one line says where, what was found and expected; nothing is written |
 """
 LABELS = """# Labels
 

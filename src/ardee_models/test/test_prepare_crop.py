@@ -130,9 +130,7 @@ def test_thin_and_thick_stalks_in_one_piece_with_their_leaves_are_found(
 
 
 def test_picture_of_a_plant_without_a_stalk_gets_a_thin_one_of_its_height(tmp_path, capsys):
-    (tmp_path / "board.obj").write_text(
-        "v -0.3 0 0\nv 0.3 0 0\nv 0.3 2 0\nv -0.3 2 0\nf 1 2 3 4\n"
-    )
+    (tmp_path / "board.obj").write_text("v -0.3 0 0\nv 0.3 0 0\nv 0.3 2 0\nv -0.3 2 0\nf 1 2 3 4\n")
     _run(capsys, tmp_path / "board.obj", "--name", "mine", "--output", tmp_path)
     metrics = json.loads((tmp_path / "mine" / "metrics.json").read_text())
     assert metrics["stalk_radius_m"] == pytest.approx(0.02)

@@ -185,7 +185,9 @@ def _place(text: str) -> float:
 def make_parser() -> argparse.ArgumentParser:
     """Makes the parser of `python3 -m ardee_world.assemble_world`."""
     parser = Parser(prog="assemble_world", description=__doc__)
-    parser.add_argument("field", help=".urdf.xacro file of a field, or its model directory or that one's name")
+    parser.add_argument(
+        "field", help=".urdf.xacro file of a field, or its model directory or that one's name"
+    )
     parser.add_argument("terrain", help="model directory of a terrain, or its name")
     parser.add_argument("geofence", help="geofence file")
     parser.add_argument("--output", type=Path, required=True, help="folder to write into")

@@ -9,7 +9,10 @@ _ROUNDS = 12  # rounds of the search for a stalk among leaves
 _OUTLIER = 2.0  # radii from the axis beyond which a vertex belongs to a leaf
 _FEWEST = 8  # vertices that a cylinder is fitted to at least
 _FOOT = 0.05  # part of the plant's height that is its foot
-_GROWTH, _THICKEST = 1.25, 8.0  # steps by which the guess of the radius grows, up to this many guesses
+_GROWTH, _THICKEST = (
+    1.25,
+    8.0,
+)  # steps by which the guess of the radius grows, up to this many guesses
 _SKIN = (0.4, 1.7)  # radii between which a vertex lies on the stalk's skin, however it tapers
 
 
