@@ -96,7 +96,14 @@ def without_master(*words: str) -> subprocess.Popen:
         free.bind(("127.0.0.1", 0))
         env = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{free.getsockname()[1]}")
     command = ["rosrun", "ardee_sim_cpp", "simulator", *words]
-    return subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        command, env=env, stderr=subprocess.PIPE, text=True, preexec_fn=obey_ctrl_c
+    )
+
+
+def obey_ctrl_c() -> None:
+    """Undoes what a shell does to its jobs in the background: they ignore Ctrl-C, and so would their children."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @pytest.mark.parametrize("argument", ["{}", "_world:={}"])

@@ -206,10 +206,11 @@ class Capture:
     def times(self) -> Dict[str, Times]:
         """Returns arrival times by topic; with several connections, the first one's. Raises Missing if packets are."""
         deadline = time.monotonic() + LATE_S
-        while self.read() or any(flow.is_waiting() for flow in self._flows):
+        while (is_any_left := self.read()) or any(flow.is_waiting() for flow in self._flows):
             if time.monotonic() > deadline:
                 raise Missing(f"packets were missing, or came without end, for {LATE_S} s")
-            time.sleep(kernel_clock.LOOK_S)
+            if not is_any_left:
+                time.sleep(kernel_clock.LOOK_S)
         counts = self._socket.getsockopt(SOL_PACKET, PACKET_STATISTICS, 8)
         _, dropped = struct.unpack("=II", counts)
         if dropped:

@@ -109,4 +109,6 @@ def test_the_chassis_of_listing_a_10_and_of_the_third_generation(tmp_path: pathl
             f'{include}urdf/links_v{number}.urdf.xacro" />'
             f'{include}config/tsv{number}_config.urdf.xacro" />{call}</robot>'
         )
-        assert "body" in Robot(expand(file)).bodies
+        robot = Robot(expand(file))
+        assert robot.joint_of["body_mass_link"].find("parent").get("link") == "body"
+        assert robot.mass("body_mass_link") > 1
