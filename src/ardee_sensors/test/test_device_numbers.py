@@ -11,7 +11,7 @@ from ardee_common.errors import GeneratorError
 COUNTS = ("samples", "vertical_samples", "sub_rays")
 OF_FULL_SCALE = ("noise_std",)  # noise of an image's channels: no unit
 MIXED = ("noise",)  # noise of an IMU's quaternion, rad/s and m/s2 alike
-UNITLESS = COUNTS + OF_FULL_SCALE + MIXED + ("depth_noise_linear",)
+UNITLESS = COUNTS + OF_FULL_SCALE + MIXED + ("depth_noise_linear", "detection_noise")
 UNITS = (
     "_m _rad _deg _hz _kg _px _v _s _count _a _a_h _a_s_per_m _a_s_per_rad _ohm "
     "_m_s _rad_s _rad_s2 _m_s2 _t _n_m _n_m_s_per_rad _m_per_m _per_m"

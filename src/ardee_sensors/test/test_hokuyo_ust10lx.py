@@ -46,7 +46,7 @@ def test_listing_4_1_alone_gives_the_device(tmp_path: pathlib.Path):
     horizontal = sensor.find("ray/scan/horizontal")
     values = [float(horizontal.findtext(k)) for k in ("samples", "min_angle", "max_angle")]
     assert values == [1081, -2.35619, 2.35619]
-    assert [float(sensor.findtext(f"ray/range/{k}")) for k in ("min", "max")] == [0.06, 10]
+    assert [float(sensor.findtext(f"ray/range/{k}")) for k in ("min", "max")] == [0.06, 30]
     assert float(sensor.findtext("update_rate")) == 40
     assert float(sensor.findtext("ray/noise/stddev")) == 0.01
     plugin = sensor.find("plugin")
@@ -78,6 +78,7 @@ CHANGED = {  # argument: (another value, place in the URDF)
     "noise_std_m": ("0.03", "ray/noise/stddev"),
     "noise_growth_m_per_m": ("0.004", "plugin/noiseGrowth"),
     "reflectivity_range_m": ("5", "plugin/reflectivityRange"),
+    "detection_noise": ("0.1", "plugin/detectionNoise"),
     "beam_divergence_rad": ("0.009", "plugin/beamDivergence"),
     "sub_rays": ("7", "plugin/subRays"),
     "topic": ("front/scan", "plugin/topicName"),

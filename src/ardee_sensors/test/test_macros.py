@@ -148,19 +148,25 @@ def lidars(tmp_path_factory: pytest.TempPathFactory) -> ElementTree.Element:
 
 @pytest.mark.parametrize("device", LIDARS)
 def test_plain_switches_the_realism_off(lidars: ElementTree.Element, device: str):
-    keys = ("intensityModel", "reflectivityRange", "noiseGrowth", "beamDivergence")
-    keys += ("subRays", "subRaysAt")
+    keys = ("intensityModel", "reflectivityRange", "detectionNoise", "noiseGrowth")
+    keys += ("beamDivergence", "subRays", "subRaysAt")
     numbers = load(device)
     plugins = [p for p in lidars.iter("plugin") if p.get("name").startswith(f"{device}.")]
     real, plain, many = ([p.findtext(k) for k in keys] for p in plugins)
     of_the_device = [
-        numbers[k] for k in ("reflectivity_range_m", "noise_growth_m_per_m", "beam_divergence_rad")
+        numbers[k]
+        for k in (
+            "reflectivity_range_m",
+            "detection_noise",
+            "noise_growth_m_per_m",
+            "beam_divergence_rad",
+        )
     ]
     assert real[0] == many[0] == "lambert"
-    assert [float(v) for v in real[1:4]] == of_the_device
-    assert plain[:5] == ["plain", "0", "0", "0", "1"]
-    assert real[4:] == [str(numbers["sub_rays"]), "mixing"] and numbers["sub_rays"] > 2
-    assert many[4:] == ["5", "everywhere"]
+    assert [float(v) for v in real[1:5]] == of_the_device
+    assert plain[:6] == ["plain", "0", "0", "0", "0", "1"]
+    assert real[5:] == [str(numbers["sub_rays"]), "mixing"] and numbers["sub_rays"] > 2
+    assert many[5:] == ["5", "everywhere"]
 
 
 @pytest.mark.parametrize("device", devices())

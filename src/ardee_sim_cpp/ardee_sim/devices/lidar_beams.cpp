@@ -118,14 +118,14 @@ void LidarBeams::look_beyond_minimum(const Poses& X_WS, const Rays& rays, const 
 }
 
 template <typename Trace>
-void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS,
+void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS, const CounterRng& receiver,
                             std::vector<BeamEcho>& echoes) const {
   echoes.resize(count());
   const bool whole =
       !footprints_.beams.empty() && optics_.sub_rays_at == LidarOptics::SubRaysAt::kEverywhere;
   const Rays& first = whole ? footprints_ : axes_;
   trace(first, hits_);
-  make_echoes(first, hits_, X_WS, echoes);
+  make_echoes(first, hits_, X_WS, receiver, echoes);
   if (whole || footprints_.beams.empty()) return;
   pick_mixing(X_WS);
   trace(about_, hits_about_);
@@ -136,11 +136,11 @@ void LidarBeams::measure_by(const Trace& trace, const Poses& X_WS,
     hits_mixing_.insert(hits_mixing_.end(), about, about + about_.each);
     about += about_.each;
   }
-  make_echoes(mixing_, hits_mixing_, X_WS, echoes);
+  make_echoes(mixing_, hits_mixing_, X_WS, receiver, echoes);
 }
 
 void LidarBeams::measure(const Pose& X_WS, const raycast::RayScene& scene,
-                         std::vector<BeamEcho>& echoes) const {
+                         const CounterRng& receiver, std::vector<BeamEcho>& echoes) const {
   const Poses pose(&X_WS, 1);
   const auto trace = [&](const Rays& rays, std::vector<raycast::RayHit>& hits) {
     scene.cast(X_WS, rays.pattern, static_cast<float>(range_max_m_), carrier_.entity, carrier_.link,
@@ -152,11 +152,11 @@ void LidarBeams::measure(const Pose& X_WS, const raycast::RayScene& scene,
         },
         hits);
   };
-  measure_by(trace, pose, echoes);
+  measure_by(trace, pose, receiver, echoes);
 }
 
 void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const raycast::RayScene& scene,
-                                std::vector<BeamEcho>& echoes) const {
+                                const CounterRng& receiver, std::vector<BeamEcho>& echoes) const {
   const Poses poses(X_WS.data(), columns_);
   const Poses pose_now(&X_WS.back(), 1);
   const auto cast_at_others = [&](const std::vector<raycast::SceneRay>& some,
@@ -187,7 +187,7 @@ void LidarBeams::measure_moving(const std::vector<Pose>& X_WS, const raycast::Ra
           (then.q * (X_WS.back().q.conjugate() * own[i].normal_W.cast<double>())).cast<float>();
     }
   };
-  measure_by(trace, poses, echoes);
+  measure_by(trace, poses, receiver, echoes);
 }
 
 void LidarBeams::pick_mixing(const Poses& X_WS) const {
@@ -226,7 +226,8 @@ void LidarBeams::pick_mixing(const Poses& X_WS) const {
 }
 
 void LidarBeams::make_echoes(const Rays& rays, const std::vector<raycast::RayHit>& hits,
-                             const Poses& X_WS, std::vector<BeamEcho>& echoes) const {
+                             const Poses& X_WS, const CounterRng& receiver,
+                             std::vector<BeamEcho>& echoes) const {
   ReturnModel maker(optics_, range_min_m_);
   const auto each = static_cast<std::size_t>(rays.each);
   std::vector<float> cosines(each);
@@ -237,7 +238,8 @@ void LidarBeams::make_echoes(const Rays& rays, const std::vector<raycast::RayHit
       const Eigen::Vector3f direction_W = q * rays.pattern.directions_S[first + i];
       cosines[i] = std::abs(hits[first + i].normal_W.dot(direction_W));
     }
-    echoes[rays.beams[k]] = maker.make(&hits[first], cosines.data(), rays.each);
+    const double noise = optics_.detection_noise > 0.0 ? receiver.normal(rays.beams[k]) : 0.0;
+    echoes[rays.beams[k]] = maker.make(&hits[first], cosines.data(), rays.each, noise);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ardee_sim/core/rng.h"
 #include "ardee_sim/devices/lidar_optics.h"
 #include "ardee_sim/devices/ray_block.h"
 #include "ardee_sim/raycast/ray_scene.h"
@@ -27,14 +28,15 @@ class LidarBeams {
   std::size_t count() const { return axes_.beams.size(); }
   const Eigen::Vector3f& axis_S(std::size_t beam) const { return axes_.pattern.directions_S[beam]; }
 
-  /// Measures the returns of all beams at X_WS: a pure function of the scene.
-  void measure(const Pose& X_WS, const raycast::RayScene& scene,
+  /// Measures the returns of all beams at X_WS: a pure function of the scene and of the receiver's
+  /// noise, of which beam i uses counter i.
+  void measure(const Pose& X_WS, const raycast::RayScene& scene, const CounterRng& receiver,
                std::vector<BeamEcho>& echoes) const;
   /// Measures the returns of a sensor that moves while it scans: the beams of column k leave from
   /// X_WS[k], and the last pose is the present one. The robot's own bodies keep their present poses
   /// relative to the sensor.
   void measure_moving(const std::vector<Pose>& X_WS, const raycast::RayScene& scene,
-                      std::vector<BeamEcho>& echoes) const;
+                      const CounterRng& receiver, std::vector<BeamEcho>& echoes) const;
 
  private:
   /// Rays of some beams, those of a beam consecutively.
@@ -53,9 +55,10 @@ class LidarBeams {
                            std::vector<raycast::RayHit>& hits) const;
   /// `trace(rays, hits)` finds the hits of rays.
   template <typename Trace>
-  void measure_by(const Trace& trace, const Poses& X_WS, std::vector<BeamEcho>& echoes) const;
+  void measure_by(const Trace& trace, const Poses& X_WS, const CounterRng& receiver,
+                  std::vector<BeamEcho>& echoes) const;
   void make_echoes(const Rays& rays, const std::vector<raycast::RayHit>& hits, const Poses& X_WS,
-                   std::vector<BeamEcho>& echoes) const;
+                   const CounterRng& receiver, std::vector<BeamEcho>& echoes) const;
   /// Fills mixing_ and about_ with the beams beside which, by the hits of the axes, another surface
   /// begins, less than a pulse's length nearer or farther.
   void pick_mixing(const Poses& X_WS) const;

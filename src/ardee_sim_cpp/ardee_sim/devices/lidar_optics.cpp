@@ -15,6 +15,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kGoldenAngle_rad = 2.39996322972865332;
 /// Reflectivity of the target of <reflectivityRange>.
 constexpr double kReferenceReflectivity = 0.1;
+/// 99 % of a normal distribution lie above its mean less this many standard deviations.
+constexpr double kNinetyNinePercent = 2.3263478740408408;
 /// Least reflectivity and cosine: no surface absorbs all light or is perfectly smooth (nominal).
 constexpr double kDarkest = 0.01;
 constexpr double kLeastCosine = 1e-3;
@@ -42,6 +44,7 @@ LidarOptics read_lidar_optics(Parameters& parameters) {
       parameters.number("intensityScale", optics.intensity_scale, 0.0, limits::kMostFactor);
   optics.reflectivity_range_m =
       parameters.number("reflectivityRange", 0.0, 0.0, limits::kFarthest_m);
+  optics.detection_noise = parameters.number("detectionNoise", 0.0, 0.0, 1.0);
   optics.divergence_rad = parameters.number("beamDivergence", 0.0, 0.0, kWidest_rad);
   optics.sub_rays = parameters.integer("subRays", 1, 1, kMostSubRays);
   optics.sub_rays_at = choose(parameters, "subRaysAt", "mixing", LidarOptics::SubRaysAt::kMixing,
@@ -80,7 +83,8 @@ raycast::RayPattern spread_beams(const std::vector<Eigen::Vector3f>& axes_S,
 ReturnModel::ReturnModel(const LidarOptics& optics, double range_min_m)
     : optics_(optics), range_min_m_(static_cast<float>(range_min_m)) {
   if (optics.reflectivity_range_m > 0.0) {
-    least_power_ = kReferenceReflectivity / std::pow(optics.reflectivity_range_m, 2);
+    threshold_ = kReferenceReflectivity / std::pow(optics.reflectivity_range_m, 2) /
+                 (1.0 + kNinetyNinePercent * optics.detection_noise);
   }
 }
 
@@ -97,7 +101,9 @@ float ReturnModel::intensity(const raycast::RayHit& hit, float cosine) const {
   return static_cast<float>(optics_.intensity_scale) * hit.reflectivity * cosine;
 }
 
-BeamEcho ReturnModel::make(const raycast::RayHit* hits, const float* cosines, int count) {
+BeamEcho ReturnModel::make(const raycast::RayHit* hits, const float* cosines, int count,
+                           double noise) {
+  least_power_ = threshold_ * (1.0 - optics_.detection_noise * noise);
   if (count == 1) return single(hits[0], cosines[0]);
   returns_.clear();
   for (int k = 0; k < count; ++k) {

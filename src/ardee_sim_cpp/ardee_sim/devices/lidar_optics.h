@@ -14,7 +14,8 @@ namespace ardee::devices {
 ///
 /// The power returned by a surface that fills the beam is proportional to reflectivity *
 /// cos(incidence) / range^2 (the laser range equation for a Lambertian target wider than the beam;
-/// nominal). A surface that fills part of the beam returns that part.
+/// nominal). A surface that fills part of the beam returns that part. A return is detected if its
+/// power and the receiver's noise, which is normal, exceed the receiver's threshold.
 struct LidarOptics {
   /// Plain: the surface's laser_retro, else the cosine of incidence. Lambert: intensity_scale *
   /// reflectivity * cos(incidence) * share of the beam, the power without its 1 / range^2.
@@ -27,7 +28,10 @@ struct LidarOptics {
   Intensity intensity = Intensity::kPlain;
   double intensity_scale = 1.0;
   double reflectivity_range_m =
-      0.0;  // at which a 10 % target at normal incidence is just detected; 0: none
+      0.0;  // to which a 10 % target at normal incidence is detected, see detection_noise; 0: any
+  /// SD of the receiver's noise as a share of its threshold. At reflectivity_range_m 99 % of the
+  /// pulses are detected; 0: all up to there, and none beyond.
+  double detection_noise = 0.0;
   double divergence_rad = 0.0;  // full angle of the beam
   int sub_rays = 1;             // sample its footprint evenly; 1: its axis alone
   SubRaysAt sub_rays_at = SubRaysAt::kMixing;
@@ -35,8 +39,8 @@ struct LidarOptics {
   ReturnMode return_mode = ReturnMode::kStrongest;
 };
 
-/// The keys intensityModel, intensityScale, reflectivityRange, beamDivergence, subRays,
-/// subRaysAt, pulseLength, returnMode.
+/// The keys intensityModel, intensityScale, reflectivityRange, detectionNoise, beamDivergence,
+/// subRays, subRaysAt, pulseLength, returnMode.
 LidarOptics read_lidar_optics(Parameters& parameters);
 
 /// Return of a beam. Ranges by REP 117: +inf no return, -inf nearer than the minimum.
@@ -58,8 +62,8 @@ class ReturnModel {
   ReturnModel(const LidarOptics& optics, double range_min_m);
 
   /// `hits` and `cosines` (of incidence) are those of `count` rays that sample the beam: its axis
-  /// alone, or its sub-rays.
-  BeamEcho make(const raycast::RayHit* hits, const float* cosines, int count);
+  /// alone, or its sub-rays; `noise` is the receiver's, a standard normal.
+  BeamEcho make(const raycast::RayHit* hits, const float* cosines, int count, double noise);
 
  private:
   struct Return {
@@ -82,7 +86,8 @@ class ReturnModel {
 
   LidarOptics optics_;
   float range_min_m_;
-  double least_power_ = 0.0;
+  double threshold_ = 0.0;
+  double least_power_ = 0.0;     // that is detected in the present beam
   std::vector<Return> returns_;  // of the beam, by range
 };
 

@@ -8,6 +8,12 @@
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
+namespace {
+
+/// Separate stream of a scan, so that a beam's detection says nothing of its range's error.
+CounterRng receiver_noise(const CounterRng& scan) { return scan.frame(0); }
+
+}  // namespace
 
 RaySensor::RaySensor(const std::string& name, const Mount& mount, const Params& params,
                      RaySceneProvider& scenes, std::size_t kind)
@@ -20,13 +26,13 @@ RaySensor::RaySensor(const std::string& name, const Mount& mount, const Params& 
       output_(add_output(params.topic, kind)) {}
 
 const std::vector<BeamEcho>& RaySensor::measure(const CounterRng& noise) {
-  beams_.measure(pose(), scenes_.now(params_.scene), echoes_);
+  beams_.measure(pose(), scenes_.now(params_.scene), receiver_noise(noise), echoes_);
   return corrupted(noise);
 }
 
 const std::vector<BeamEcho>& RaySensor::measure_moving(const std::vector<Pose>& X_WS,
                                                        const CounterRng& noise) {
-  beams_.measure_moving(X_WS, scenes_.now(params_.scene), echoes_);
+  beams_.measure_moving(X_WS, scenes_.now(params_.scene), receiver_noise(noise), echoes_);
   return corrupted(noise);
 }
 

@@ -40,7 +40,7 @@ Simulation::Simulation(std::shared_ptr<const World> world, const SimulationOptio
     : world_(std::move(world)),
       lights_(world_->lights),
       options_(options),
-      log_(std::move(log_sink)),
+      log_(log_sink ? Log(std::move(log_sink)) : Log()),
       registry_(options.registry != nullptr ? *options.registry : known_plugins()),
       physics_(world_->physics, log_),
       scenes_(options.rays, entities_, log_),

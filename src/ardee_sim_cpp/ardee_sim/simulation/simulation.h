@@ -65,7 +65,7 @@ struct LinkOf {
 class Simulation {
  public:
   /// Shares the world with its other simulations. Throws Error if a part of the world cannot be
-  /// built and must not be left out.
+  /// built and must not be left out. Without a log sink, warnings and errors go to standard error.
   Simulation(std::shared_ptr<const World> world, const SimulationOptions& options,
              LogSink log_sink);
   /// Takes a world of its own.

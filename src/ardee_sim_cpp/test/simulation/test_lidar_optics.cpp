@@ -154,6 +154,32 @@ TEST(LidarOptics, RangeEndsWhereTooLittleLightComesBack) {
       first_scan(board("wall", farthest + 0.01, 0.0, 9.0, 0.4), lidar(limit)).ranges_m[0]));
 }
 
+TEST(LidarOptics, TheShareOfDetectedPulsesFallsWithThePower) {
+  // Threshold and noise: 0.1 / 8^2 / (1 + 2.326 * 0.2), and 0.2 of it. A wall across the beams at
+  // range r gives 0.4 / r^2: the share is Phi((power / threshold - 1) / 0.2), 99 % at 16 m.
+  const double threshold = 0.1 / 64.0 / (1.0 + 2.3263478740408408 * 0.2);
+  for (const double wall_m : {14.0, 16.0, 19.0, 20.0, 25.0}) {
+    RayPost post =
+        lidar("<reflectivityRange>8</reflectivityRange><detectionNoise>0.2</detectionNoise>",
+              angles(1001, -0.001, 0.001));
+    TestWorld world(board("wall", wall_m, 0.0, 9.0, 0.4));
+    world.spawn(post.xml(), "post");
+    world.run(1.0);
+    double beams = 0.0, detected = 0.0;
+    for (const LidarReading& scan : world.recorder().on<LidarReading>("/seen")) {
+      for (const float range : scan.ranges_m) {
+        ++beams;
+        detected += std::isfinite(range) ? 1.0 : 0.0;
+      }
+    }
+    ASSERT_EQ(beams, 10010.0);
+    const double excess = 0.4 / (wall_m * wall_m) / threshold - 1.0;
+    const double share = 0.5 * std::erfc(-excess / 0.2 / std::sqrt(2.0));
+    EXPECT_NEAR(detected / beams, share, kFourSigma * std::sqrt(share * (1.0 - share) / beams))
+        << wall_m;
+  }
+}
+
 TEST(LidarOptics, NoiseGrowsWithTheRange) {
   for (const double wall_m : {2.0, 8.0}) {
     RayPost post = lidar("<noiseGrowth>0.005</noiseGrowth>", angles(1001, -0.001, 0.001));

@@ -76,6 +76,15 @@ TEST(Simulation, AnUnknownPluginIsAWarning) {
   EXPECT_NE(world->find("ball"), nullptr);
 }
 
+TEST(Simulation, WithoutALogSinkWarningsGoToStandardError) {
+  World world;
+  world.plugins.push_back({"moon", "libmoon.so", {}});
+  testing::internal::CaptureStderr();
+  const Simulation simulation(std::move(world), {}, nullptr);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("world plugin 'libmoon.so'"),
+            std::string::npos);
+}
+
 TEST(Simulation, ABadPluginValueRefusesTheSpawnAndLeavesNothing) {
   TestWorld world("");
   const std::string plugin =

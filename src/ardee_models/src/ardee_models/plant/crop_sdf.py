@@ -21,7 +21,11 @@ class Visual:
     colour: Tuple[float, ...] = (0.8, 0.8, 0.8)
 
 
+# Share of a lidar's light, 905 nm, that leaves and stalks send back; green light tells nothing of it.
+# Maize 0.42 to 0.46 at 850 nm: Gausman and Allen 1973, Plant Physiology 52:57, from memory.
+_REFLECTIVITY = 0.45
 _VISUAL = """      <visual name="{visual}">
+        <laser_retro>{reflectivity:g}</laser_retro>
         <geometry>
           <mesh>
             <uri>model://{model}/{mesh}</uri>
@@ -91,7 +95,10 @@ def model_sdf(model: str, visuals: Sequence[Visual], cylinder: Cylinder) -> str:
     roll, pitch = cylinder.roll_pitch()
     pose = " ".join(_number(v) for v in (*cylinder.centre, roll, pitch, 0.0))
     text = "".join(
-        _VISUAL.format(visual=v.name, model=model, mesh=v.mesh, submesh=v.submesh) for v in visuals
+        _VISUAL.format(
+            visual=v.name, model=model, mesh=v.mesh, submesh=v.submesh, reflectivity=_REFLECTIVITY
+        )
+        for v in visuals
     )
     return _MODEL.format(
         model=model,

@@ -29,6 +29,9 @@ SURFACE = """        <surface>
           </contact>
         </surface>
 """
+# Share of a lidar's light, 905 nm, that dry soil sends back.
+# 0.2 to 0.4: Stoner and Baumgardner 1981, Soil Science Society of America Journal 45:1161, from memory.
+_REFLECTIVITY = 0.3
 _MODEL = """<?xml version="1.0"?>
 <sdf version="1.5">
   <model name="heightmap">
@@ -44,6 +47,7 @@ _MODEL = """<?xml version="1.0"?>
         </geometry>
 {surface}      </collision>
       <visual name="visual">
+        <laser_retro>{reflectivity:g}</laser_retro>
         <geometry>
           <heightmap>
             <use_terrain_paging>false</use_terrain_paging>
@@ -105,6 +109,7 @@ def write_terrain(
         size=f"{terrain.size_m:.9g} {terrain.size_m:.9g} {size_z:.9g}",
         pos=f"0 0 {pos_z:.9g}",
         surface=surface_xml(felt),
+        reflectivity=_REFLECTIVITY,
         textures="".join(_TEXTURE.format(name=t, size=look.texture_size_m) for t in look.textures),
         blends="".join(_BLEND.format(low=b.min_height_m, fade=b.fade_m) for b in blends),
     )
