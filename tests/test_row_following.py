@@ -197,3 +197,15 @@ def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
     for state in ("following", "finished"):
         assert launched.output().count(f": {state}") == 1  # by the driving node only
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
+
+
+def test_a_lane_is_judged_in_lockstep(graph: RosGraph, tmp_path: pathlib.Path) -> None:
+    command = ["rosrun", "ardee_navigation", "judge_lane", "artificial", "--seed", "3"]
+    words = ("--runs", "2", "--scans", "40", "--from-m", "0.5")
+    for name in ("first", "again"):
+        output = str(tmp_path / name)
+        printed = graph.run(*command, *words, "--output", output, timeout_s=120.0)
+        assert "| perceived width [m] | 0.768 | 0.7" in printed
+    for name in ("lane.md", "lane.png"):
+        first, again = (tmp_path / folder / name for folder in ("first", "again"))
+        assert first.read_bytes().replace(b"/first", b"/again") == again.read_bytes()

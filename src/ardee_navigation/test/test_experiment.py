@@ -12,7 +12,7 @@ from sensor_msgs.msg import LaserScan
 
 from ardee_common.errors import GeneratorError
 from ardee_models.terrain.ground import LevelGround
-from ardee_navigation.evaluation import run_experiment
+from ardee_navigation.evaluation.command import make_folder
 from ardee_navigation.evaluation.experiment_report import (
     check_folder,
     in_short,
@@ -173,16 +173,16 @@ def test_a_report_is_erased_by_none_but_the_same_experiment(tmp_path: Path) -> N
 
 
 def test_two_experiments_do_not_write_into_one_folder_at_once(tmp_path: Path) -> None:
-    code = "import sys, pathlib; from ardee_navigation.evaluation import run_experiment as r\n"
-    code += "r._make_folder(pathlib.Path(sys.argv[1])); print('made', flush=True); sys.stdin.read()"
+    code = "import sys, pathlib; from ardee_navigation.evaluation import command as r\n"
+    code += "r.make_folder(pathlib.Path(sys.argv[1])); print('made', flush=True); sys.stdin.read()"
     command = [sys.executable, "-c", code, str(tmp_path)]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, **pipes) as other:
         assert other.stdout.readline() == "made\n"
-        with pytest.raises(GeneratorError, match="where another run_experiment writes"):
-            run_experiment._make_folder(tmp_path)
+        with pytest.raises(GeneratorError, match="where another experiment writes"):
+            make_folder(tmp_path)
         other.communicate("")
-    run_experiment._make_folder(tmp_path)
+    make_folder(tmp_path)
 
 
 def test_runs_that_never_came_between_the_rows_are_reported(tmp_path: Path) -> None:

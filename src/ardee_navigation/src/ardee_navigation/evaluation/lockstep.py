@@ -4,6 +4,7 @@ import time
 from typing import Callable
 
 import numpy as np
+from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.evaluation.record import Record
 from ardee_navigation.evaluation.scenarios import Trial
@@ -40,8 +41,12 @@ def drive(
     parameters: Parameters,
     judge: Judge,
     progress: Callable[[float], None],
+    watch: Callable[[LaserScan, Output], None] = lambda scan, output: None,
 ) -> Record:
-    """Drives one run; the robot stands at its start. `progress` gets the distance along the lane [m]."""
+    """Drives one run; the robot stands at its start. `progress` gets the distance along the lane [m].
+
+    `watch` gets each scan and its answer, after the judge.
+    """
     began = time.monotonic()
     follower = RowFollower(parameters)
     _settle(simulation)
@@ -55,6 +60,7 @@ def drive(
         back = judge.look(now_s, pose, command, _seen(output))
         judge.keep_scan(scan)
         progress(judge.record.samples[-1].along_m)
+        watch(scan, output)
         if back is not None:
             simulation.set_pose(back, trial.height_m(back))
             follower.reset()

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Command `run_experiment`: runs of a scenario, headless, in lockstep or with hardware in the loop, and a report."""
 import argparse
-import fcntl
-import os
 import shutil
 import sys
-import tempfile
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, List, Optional
 
@@ -14,29 +12,10 @@ from tqdm import tqdm
 
 from ardee_common.cli import Parser, whole_in
 from ardee_common.errors import GeneratorError
-from ardee_common.process import end_by_signals
+from ardee_navigation.evaluation.command import LARGEST_SEED, make_folder, run
 from ardee_navigation.evaluation.record import Record
 from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
 from ardee_navigation.evaluation.scenarios import known_scenarios, prepare
-
-LARGEST_SEED = 2**31 - 1
-
-
-def _make_folder(output: Path) -> None:
-    """Makes the folder, and locks it until the program ends."""
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-        handle = os.open(output, os.O_RDONLY)
-    except OSError as error:
-        raise GeneratorError(
-            f"--output: found {str(output)!r}, expected a folder to write in: {error.strerror}"
-        ) from None
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise GeneratorError(
-            f"--output: found {str(output)!r}, where another run_experiment writes, expected a folder of its own"
-        ) from None
 
 
 def _arguments(argv: List[str]) -> argparse.Namespace:
@@ -132,9 +111,13 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     seeds = range(args.seed, args.seed + args.runs)
     usual = f"{args.scenario}_seeds_{seeds[0]}_to_{seeds[-1]}"
     output = args.output or Path("experiment_output") / usual
-    _make_folder(output)
+    make_folder(output)
     check_folder(output, args.scenario, seeds)
-    master, records, report = Master(), [], None  # type: Any, List[Record], Optional[Path]
+    master, records, report = (
+        Master("run_experiment"),
+        [],
+        None,
+    )  # type: Any, List[Record], Optional[Path]
     try:
         urdf = robot_urdf(args.bot_model)
         for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
@@ -165,19 +148,5 @@ def main() -> int:
     except GeneratorError as error:
         print(f"run_experiment: {error}", file=sys.stderr)
         return 2
-    from ardee_navigation.evaluation.simulation import SimulationError
-
-    end_by_signals()
-    work = Path(tempfile.mkdtemp(prefix="ardee_experiment_"))
     command = " ".join(["rosrun ardee_navigation run_experiment", *sys.argv[1:]])
-    try:
-        _experiment(args, command, work)
-    except GeneratorError as error:
-        print(f"run_experiment: {error}", file=sys.stderr)
-        return 2
-    except (SimulationError, OSError) as error:
-        print(f"run_experiment: {error}", file=sys.stderr)
-        return 1
-    finally:
-        shutil.rmtree(work, ignore_errors=True)
-    return 0
+    return run("run_experiment", partial(_experiment, args, command))

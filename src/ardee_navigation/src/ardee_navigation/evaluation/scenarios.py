@@ -10,7 +10,7 @@ import numpy as np
 import rospkg
 
 from ardee_common.config import build, read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_models.lookup import find_model, search_path
 from ardee_models.terrain.ground import ground_model, is_ground
 from ardee_navigation.evaluation.row_truth import Field, Pose, read_field
@@ -35,6 +35,29 @@ def known_scenarios() -> Dict[str, Scenario]:
     return read_scenarios(package_folder("ardee_navigation") / "config" / "scenarios.yaml")
 
 
+def find_scenario(world: str) -> Scenario:
+    """Returns the scenario of that name or world; for another world of ardee_world, or a file, one made from it.
+
+    The field of a world of ardee_world is sown anew for each run if its plan is there, that of a file never.
+    """
+    scenarios, share = known_scenarios(), package_folder("ardee_world")
+    if world in scenarios:
+        return scenarios[world]
+    file = f"{Path(world).stem}.world"
+    if world not in (file, file[: -len(".world")]) or not (share / "worlds" / file).is_file():
+        if Path(world).is_file():
+            return Scenario(world=str(Path(world).resolve()))
+        known = [*scenarios, *(path.stem for path in (share / "worlds").glob("*.world"))]
+        raise GeneratorError(
+            f"WORLD: found {world!r}, no such file, and {known_names(world, known)}"
+        )
+    for scenario in scenarios.values():
+        if scenario.world == file:
+            return scenario
+    plans = (share / "fields" / f"{name}.yaml" for name in _included_names(share / "worlds" / file))
+    return Scenario(world=file, plan=next((plan.name for plan in plans if plan.is_file()), None))
+
+
 @dataclass(frozen=True)
 class Trial:
     """One run of a scenario, ready to be driven."""
@@ -52,15 +75,19 @@ class Trial:
         return float(np.max(self.ground.height_at(x, y))) + STAND_M
 
 
-def _included_models(world: Path, folders: List[Path]) -> Dict[str, Path]:
-    """Returns the folders of the models that a world includes, by name; a light of Gazebo's database has none."""
+def _included_names(world: Path) -> List[str]:
+    """Returns the names of the models that a world includes."""
     try:
         uris = [node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri")]
     except ElementTree.ParseError as error:
         raise GeneratorError(f"{world}: not valid XML: {error}") from error
-    names = [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+    return [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+
+
+def _included_models(world: Path, folders: List[Path]) -> Dict[str, Path]:
+    """Returns the folders of the models that a world includes, by name; a light of Gazebo's database has none."""
     found = {}
-    for name in names:
+    for name in _included_names(world):
         with contextlib.suppress(GeneratorError):
             found[name] = find_model(name, folders)
     return found

@@ -39,14 +39,14 @@ class SimulationError(RuntimeError):
 class Master:
     """A ROS master in this process, and this process as a node of it. Once in a process."""
 
-    def __init__(self) -> None:
+    def __init__(self, node: str) -> None:
         for name in ("ROS_HOSTNAME", "ROS_NAMESPACE"):
             os.environ.pop(name, None)
         os.environ.setdefault("ROS_IP", "127.0.0.1")
         self._master = rosmaster.master.Master(0)
         self._master.start()
         os.environ["ROS_MASTER_URI"] = self._master.uri
-        rospy.init_node("run_experiment", disable_signals=True)
+        rospy.init_node(node, disable_signals=True)
 
     def stop(self) -> None:
         """Leaves the ROS graph and ends the master."""

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""Picture of a lane as a real and a simulated lidar see it: a scan of each over the other, and range by bearing."""
+from pathlib import Path
+from typing import Optional
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import numpy as np  # noqa: E402
+from matplotlib import pyplot  # noqa: E402
+
+from ardee_navigation.evaluation.lane_figures import BEARING_DEG, RealLane, by_bearing  # noqa: E402
+from ardee_navigation.evaluation.scan_run import Scans  # noqa: E402
+
+REAL, SIMULATED = "#d1495b", "#1f3b73"
+SHOWN_M = 2.5  # beside and before the lidar in the plan
+
+
+def _plan(axes: pyplot.Axes, scans: Scans, color: str, label: str) -> None:
+    """Draws the returns of the scan in the middle, x up and y to the left."""
+    ranges = scans.ranges_m[len(scans.ranges_m) // 2]
+    x, y = ranges * np.cos(scans.angles_rad), ranges * np.sin(scans.angles_rad)
+    axes.plot(-y, x, ".", color=color, markersize=3.0, alpha=0.7, label=label)
+
+
+def _band(axes: pyplot.Axes, quantiles: np.ndarray, color: str, label: str) -> None:
+    """Draws quantiles of range by bearing."""
+    bearings = -135.0 + BEARING_DEG * (np.arange(quantiles.shape[1]) + 0.5)
+    low, middle, high = quantiles
+    axes.fill_between(bearings, low, high, color=color, alpha=0.15, linewidth=0.0)
+    axes.plot(bearings, middle, color=color, label=label)
+
+
+def draw(
+    path: Path, real: RealLane, real_scans: Optional[Scans], scans: Optional[Scans], name: str
+) -> None:
+    """Draws the real lane, its scans if they are at hand, and the scans of a simulated run called `name`."""
+    figure, (plan, bearing) = pyplot.subplots(1, 2, figsize=(13.0, 6.0))
+    _band(
+        bearing, np.array([real.ranges_p10_m, real.ranges_p50_m, real.ranges_p90_m]), REAL, "real"
+    )
+    if real_scans is not None:
+        _plan(plan, real_scans, REAL, "real")
+    if scans is not None:
+        _plan(plan, scans, SIMULATED, name)
+        _band(bearing, by_bearing(scans), SIMULATED, name)
+    plan.plot(0.0, 0.0, "^", color="black", label="lidar")
+    plan.set_aspect("equal")
+    plan.set_xlim(-SHOWN_M, SHOWN_M)
+    plan.set_ylim(-1.5, SHOWN_M)
+    plan.set_xlabel("to the right of the lidar [m]")
+    plan.set_ylabel("before the lidar [m]")
+    plan.set_title("a scan from the middle of the run", loc="left")
+    plan.legend(loc="lower right", fontsize="small", markerscale=2.0)
+    bearing.set_yscale("log")
+    bearing.set_xlabel("bearing, positive to the left [deg]")
+    bearing.set_ylabel("range [m]; 30: no return")
+    bearing.set_title("all scans: median, 10th to 90th percentile", loc="left")
+    bearing.legend(loc="upper right", fontsize="small")
+    bearing.grid(alpha=0.3, which="both")
+    figure.tight_layout()
+    figure.savefig(path, dpi=110, metadata={"Software": None})
+    pyplot.close(figure)

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""Scans of a lidar down a lane, and what a row follower perceived in them, of a real robot or of a simulated one."""
+import math
+from dataclasses import dataclass, field
+from typing import List, Tuple
+
+import numpy as np
+from sensor_msgs.msg import LaserScan
+
+from ardee_navigation.evaluation.trial import Judge
+from ardee_navigation.lbirnt import Output, Parameters, RowFollower, State
+
+
+@dataclass(frozen=True)
+class Scans:
+    """Consecutive scans in the lidar's frame, x forward, angles counter-clockwise."""
+
+    time_s: np.ndarray  # (n,)
+    ranges_m: np.ndarray  # (n, beams), infinite without a return
+    angle_min_rad: float
+    increment_rad: float
+
+    @property
+    def angles_rad(self) -> np.ndarray:
+        """Returns the angle of each beam."""
+        return self.angle_min_rad + self.increment_rad * np.arange(self.ranges_m.shape[1])
+
+
+@dataclass(frozen=True)
+class Perceived:
+    """Answers of a row follower to scans."""
+
+    time_s: np.ndarray  # (n,)
+    left_m: np.ndarray  # from the lidar to the left row
+    right_m: np.ndarray
+    heading_rad: np.ndarray  # of the robot in the lane, positive to the left
+    spread_m: np.ndarray  # (n, 2) SD of the left, the right points about their line; nan without one
+
+
+@dataclass
+class Recorder:
+    """Records scans while the lidar is in the lane, and the follower's answers to them; ends the run after enough."""
+
+    judge: Judge
+    wanted: int
+    from_m: float  # along the lane
+    scans: List[LaserScan] = field(default_factory=list)
+    answers: List[Tuple[float, ...]] = field(default_factory=list)
+
+    def watch(self, scan: LaserScan, output: Output) -> None:
+        """Takes a scan and its answer; call it after the judge's look at them."""
+        record = self.judge.record
+        along_m = record.samples[-1].along_m + record.lidar_ahead_m
+        if output.state is not State.FOLLOWING or not self.from_m <= along_m <= record.length_m:
+            return
+        self.scans.append(scan)
+        self.answers.append((scan.header.stamp.to_sec(), *_answer(output)))
+        if len(self.scans) >= self.wanted:
+            record.end = record.end or "enough scans"
+
+    def result(self) -> Tuple[Scans, Perceived]:
+        """Returns what was recorded, at least one scan."""
+        first = self.scans[0]
+        ranges = np.array([scan.ranges for scan in self.scans])
+        ranges[~(np.isfinite(ranges) & (ranges > 0.0))] = math.inf
+        perceived = _perceived(self.answers)
+        return (
+            Scans(perceived.time_s, ranges, first.angle_min, first.angle_increment),
+            perceived,
+        )
+
+
+def _spread_m(points: np.ndarray) -> float:
+    """Standard deviation of points about their fitted line, across it."""
+    if len(points) < 3 or np.ptp(points[:, 0]) == 0.0:
+        return math.nan
+    slope, offset = np.polyfit(points[:, 0], points[:, 1], 1)
+    return float(np.std(points[:, 1] - slope * points[:, 0] - offset)) / math.hypot(1.0, slope)
+
+
+def _answer(output: Output) -> Tuple[float, ...]:
+    lane = output.lane
+    spreads = (_spread_m(side) for side in output.sides)
+    return (lane.left.distance_m, -lane.right.distance_m, -lane.centre.angle_rad, *spreads)
+
+
+def _perceived(answers: List[Tuple[float, ...]]) -> Perceived:
+    columns = np.array(answers)
+    return Perceived(*columns[:, :4].T, columns[:, 4:])
+
+
+def follow(scans: Scans, parameters: Parameters) -> Perceived:
+    """Returns the answers of this workspace's row follower to recorded scans, whatever the robot then did."""
+    follower = RowFollower(parameters)
+    answers = []
+    for time_s, ranges in zip(scans.time_s, scans.ranges_m):
+        output = follower.update(ranges, scans.angle_min_rad, scans.increment_rad, float(time_s))
+        answers.append((float(time_s), *_answer(output)))
+    return _perceived(answers)
