@@ -241,6 +241,7 @@ def world(shared_graph: RosGraph) -> Process:
             f"ns:={name}",
             f"y:={3 * index}",
             "yaw:=0",
+            "command_timeout:=0",  # a busy machine may hold a command up for longer
         )
     return process
 
