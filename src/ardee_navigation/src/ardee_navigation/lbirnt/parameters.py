@@ -3,7 +3,8 @@
 
 [field] one published field deployment on this robot: lane 0.756 m, lateral window 0.5 m, longitudinal -1 to 2 m,
 0.1 m bins, PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as straight ahead, about 0.5 m/s. [robot] limits of the
-TerraSentia. [own] chosen here; the thesis (5.1) names the check but no number.
+TerraSentia. [real run] what the figures of config/real_lane.yaml speak for (README). [own] chosen here; the thesis
+(5.1) names the check but no number.
 """
 import math
 from dataclasses import dataclass, fields
@@ -37,7 +38,7 @@ class Parameters:
     lane_width_m: float = bounded(0.2, 3.0, 0.762)  # 30 in (5.2); [field] 0.756
     lane_width_tolerance_m: float = bounded(0.01, 1.0, 0.15)  # [own]
     max_angle_between_rad: float = bounded(0.01, 3.2, 0.25)  # rows are parallel [own]
-    blend: float = bounded(0.01, 1.0, 0.12)  # weight of a new line against the one before [own]
+    blend: float = bounded(0.01, 1.0, 1.0)  # weight of a new line against the one before [real run]
     max_coast_s: float = bounded(0.0, 60.0, 0.5)  # a side lost for longer takes any line [own]
 
     # Control (5.1.3)
