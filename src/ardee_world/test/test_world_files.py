@@ -23,6 +23,8 @@ WORLDS = {
     "long_corn.world": ["heightmap_rough", "long-corn-field"],
     "long_corn_gaps.world": ["heightmap_rough", "long-corn-gaps-field"],
     "curved_corn.world": ["heightmap_rough", "curved-corn-field"],
+    "energy_farm.world": ["heightmap_rough", "energy-farm-field"],
+    "energy_farm_sorghum.world": ["heightmap_rough", "energy-farm-sorghum-field"],
 }
 
 
