@@ -78,11 +78,26 @@ def test_truth_tells_rows_and_world_positions(generate_field, tmp_path):
         assert abs(float(row["latitude_deg"]) - 40.1) < 1e-4 and float(row["longitude_deg"]) < -88.2
 
 
-def test_map_shows_plants(generate_field, tmp_path):
+def _count_of(image, colour):
+    return sum(count for count, found in image.getcolors(1 << 24) if found == colour)
+
+
+def test_map_shows_planned_places_and_plants(generate_field, tmp_path):
     generate_field(*BASE, "--output", tmp_path)
     with Image.open(tmp_path / "field" / "map.png") as image:
-        colours = dict((colour, count) for count, colour in image.getcolors())
-    assert colours[(40, 120, 40)] > 190 * 8 and (200, 0, 0) in colours
+        assert _count_of(image, (200, 20, 20)) > 190 * 4
+        assert _count_of(image, (110, 200, 110)) > 190 * 8
+        assert _count_of(image, (0, 0, 0)) > 0
+
+
+def test_map_explains_only_what_it_shows(generate_field, tmp_path):
+    colours = ((60, 110, 220), (225, 140, 20))  # gaps, leaning plants
+    for name, flags in (("bare", ()), ("full", ("--gaps", 2, "--lodging", 0.1))):
+        generate_field(*BASE, *flags, "--output", tmp_path / name)
+        with Image.open(tmp_path / name / "field" / "map.png") as image:
+            legend = image.crop((image.width - 170, 0, image.width, image.height))
+            for colour in colours:
+                assert (_count_of(legend, colour) == 100) == (name == "full")
 
 
 def test_same_seed_same_bytes_other_seed_other_bytes(generate_field, tmp_path):
