@@ -11,6 +11,8 @@ from ardee_models.plant.species import Leaves
 
 _FINE_STEPS = 8  # integration steps a segment of the midrib
 _TIP_WIDTH = 0.03  # part of the largest width: keeps the last triangles from collapsing
+_KINK_LENGTH = 0.02  # part of the blade over which a buckled midrib bends (estimate)
+MOST_DOWNWARD = np.radians(172.0)  # a tip hangs, it does not point back to the stalk
 _COLLAR_LENGTH = 0.08  # part of the blade in which the fold at the collar opens
 _STRIP_MARGIN = 0.04  # part of a texture strip's width that stays free at each side
 
@@ -25,6 +27,8 @@ class Blade:
     azimuth_drift_rad: float
     insertion_rad: float
     curvature_rad: float
+    buckle_rad: float
+    buckle_at: float
     twist_rad: float
     fold_extra_rad: float
     length_m: float
@@ -50,12 +54,17 @@ def profile_area(klig: float, s_wmax: float, tip_power: float) -> float:
 
 
 def midrib(blade: Blade, power: float, segments: int) -> tuple:
-    """Points and tangents at segments + 1 stations; the angle from the vertical grows by curvature * s^power."""
+    """Points and tangents at segments + 1 stations; the angle from the vertical grows by curvature * s^power.
+
+    At `buckle_at` of its length the midrib has kinked, within a few per cent of it, by `buckle_rad`.
+    """
     fine = np.linspace(0.0, 1.0, segments * _FINE_STEPS + 1)
     middle = (fine[1:] + fine[:-1]) / 2
 
     def direction(s: np.ndarray) -> np.ndarray:
-        angle = blade.insertion_rad + blade.curvature_rad * s**power
+        kink = blade.buckle_rad / (1.0 + np.exp((blade.buckle_at - s) / _KINK_LENGTH))
+        angle = blade.insertion_rad + blade.curvature_rad * s**power + kink
+        angle = np.minimum(angle, MOST_DOWNWARD)
         azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
         return np.stack(
             (np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1

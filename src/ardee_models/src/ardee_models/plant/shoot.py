@@ -7,14 +7,14 @@ from typing import List, Tuple
 import numpy as np
 
 from ardee_models.plant.curve import Curve
-from ardee_models.plant.leaf import Blade
+from ardee_models.plant.leaf import MOST_DOWNWARD, Blade
 from ardee_models.plant.leaf_sizes import full_sizes, young_fractions
 from ardee_models.plant.species import Architecture
 from ardee_models.plant.stages import Stage
 from ardee_models.plant.stalk import StalkPlan, ligule_heights
 
 STRIP_DRYNESS = (0.0, 0.0, 0.12, 0.45, 0.75, 1.0)  # dryness of the strips of a leaf texture
-_MOST_DOWNWARD = np.radians(172.0)  # a tip hangs, it does not point back to the stalk
+_BUCKLE_AT = (0.4, 0.6)  # part of the blade's length (Helios)
 _FRESH_STRIPS = 2
 
 
@@ -32,6 +32,7 @@ class ShootSize:
     base_radius_m: float
     top_radius_m: float
     leaf_scale: float = 1.0
+    hanging: int = 0
 
 
 @dataclass(frozen=True)
@@ -50,18 +51,20 @@ def main_size(shape: Architecture, stage: Stage, rng: np.random.Generator) -> Sh
     complete = stage.collared_leaves == usual
     collared = number if complete else min(stage.collared_leaves, number)
     young = min(stage.young_leaves, number - collared)
+    lost = min(stage.lost_leaves, collared - 1)
     diameter = float(np.exp(shape.stalk.diameter_cv * rng.normal()))
     return ShootSize(
         number=number,
         collared=collared,
         young=young,
-        lost=min(stage.lost_leaves, collared - 1),
+        lost=lost,
         dry=stage.dry_leaves,
         maturity=stage.maturity,
         height_m=stage.stalk_height_m * float(np.exp(shape.stalk.height_cv * rng.normal())),
         base_radius_m=0.5 * stage.base_diameter_m * diameter,
         top_radius_m=0.5 * stage.top_diameter_m * diameter,
         leaf_scale=stage.leaf_scale,
+        hanging=min(stage.hanging_leaves, lost),
     )
 
 
@@ -90,6 +93,8 @@ def _posture(shape: Architecture, size: ShootSize, i: int, dry: float) -> tuple:
             leaves.curvature_deg * young.curvature_factor * (1.0 - 0.6 * part),
             young.fold_extra_deg,
         )
+    if i < size.lost:
+        return leaves.hanging_deg, leaves.curvature_deg, 32.0 * dry
     age = i / max(size.number - 1, 1)
     insertion = leaves.insertion_angle_deg + age * (
         leaves.insertion_angle_top_deg - leaves.insertion_angle_deg
@@ -108,17 +113,20 @@ def _blade(
     rng: np.random.Generator,
 ) -> Blade:
     leaves = shape.leaves
-    tilt, bend, drift, roll = rng.normal(0.0, 1.0, 4)
+    tilt, bend, drift, roll, turn = rng.normal(0.0, 1.0, 5)
+    buckled, buckle_at = rng.uniform() < leaves.buckle_probability, rng.uniform(*_BUCKLE_AT)
+    azimuth += np.radians(leaves.azimuth_sd_deg) * turn
     phase, strip = rng.uniform(0.0, 2.0 * np.pi), _strip(dry, rng)
     insertion, curvature, fold = _posture(shape, size, i, dry)
+    tilt_sd = leaves.hanging_sd_deg if i < size.lost else leaves.insertion_sd_deg
     s = stalk.collars_m[min(i, size.collared - 1)]
     clasp = 0.25 if i >= size.collared else 0.8  # young leaves stand inside the whorl
     origin = stalk.curve.points(np.array([s]))[0]
     outward = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
-    insertion_rad = np.radians(max(insertion + leaves.insertion_sd_deg * tilt, 1.0))
+    insertion_rad = np.radians(max(insertion + tilt_sd * tilt, 1.0))
     # the leaf leans with the stalk it stands on
     insertion_rad += float(stalk.curve.direction(np.array([s]))[0] @ outward)
-    insertion_rad = max(insertion_rad, 0.01)
+    insertion_rad = float(np.clip(insertion_rad, 0.01, MOST_DOWNWARD))
     curvature_rad = np.radians(max(curvature + leaves.curvature_sd_deg * bend, 0.0))
     length, width = extent
     return Blade(
@@ -127,7 +135,9 @@ def _blade(
         azimuth_rad=azimuth,
         azimuth_drift_rad=np.radians(leaves.azimuth_drift_sd_deg) * drift,
         insertion_rad=insertion_rad,
-        curvature_rad=min(curvature_rad, max(_MOST_DOWNWARD - insertion_rad, 0.0)),
+        curvature_rad=min(curvature_rad, MOST_DOWNWARD - insertion_rad),
+        buckle_rad=np.radians(leaves.buckle_deg) if buckled and i < size.collared else 0.0,
+        buckle_at=buckle_at,
         twist_rad=np.radians(leaves.twist_sd_deg) * roll,
         fold_extra_rad=np.radians(min(fold, 85.0 - leaves.fold_blade_deg)),
         length_m=length,
@@ -147,7 +157,7 @@ def grow_shoot(
     stalk = StalkPlan(
         curve,
         tuple(collars),
-        tuple(i >= size.lost for i in range(size.collared)),
+        tuple(i >= size.lost - size.hanging for i in range(size.collared)),
         size.base_radius_m,
         size.top_radius_m,
         shape.stalk.node_swelling,
@@ -166,6 +176,6 @@ def grow_shoot(
         length = size.leaf_scale * lengths[i] * grown[i]
         width = size.leaf_scale * widths[i] * (0.35 + 0.65 * grown[i])
         blade = _blade(shape, size, stalk, i, azimuth, float(dry[i]), (length, width), rng)
-        if i >= size.lost:
+        if i >= size.lost - size.hanging:
             blades.append(blade)
     return Shoot(stalk, tuple(blades), emerged)

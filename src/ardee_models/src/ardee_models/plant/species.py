@@ -71,6 +71,11 @@ class Leaves:
     wave_amplitude: float = bounded(0, 1)
     wave_count: float = bounded(0, 20)
     dry_droop_deg: float = bounded(0, 120)
+    azimuth_sd_deg: float = bounded(0, 90)
+    buckle_probability: float = bounded(0, 1)
+    buckle_deg: float = bounded(0, 120)
+    hanging_deg: float = bounded(0, 170)
+    hanging_sd_deg: float = bounded(0, 60)
 
 
 @dataclass(frozen=True)

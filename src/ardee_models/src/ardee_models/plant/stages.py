@@ -19,6 +19,7 @@ SEASONS = ("early", "mid", "late")
 class Stage:
     """State of a mean plant; `inflorescence`, `ears` and `maturity` run from 0 to 1.
 
+    `hanging_leaves` of the lost ones, the topmost, have died and broken at the collar but hang there yet.
     `leaf_scale` is the present over the final size of leaves that still grow when the next leaves appear.
     """
 
@@ -30,6 +31,7 @@ class Stage:
     leaf_scale: float = bounded(0.05, 1, 1.0)
     young_leaves: int = bounded(0, 30, 0)
     lost_leaves: int = bounded(0, 59, 0)
+    hanging_leaves: int = bounded(0, 59, 0)
     dry_leaves: float = bounded(0, 60, 0.0)
     tillers: float = bounded(0, 10, 0.0)
     inflorescence: float = bounded(0, 1, 0.0)
