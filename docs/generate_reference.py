@@ -29,6 +29,7 @@ CPP_COMMANDS = ("simulator", "spawn_model", "render_world")  # others: scripts/ 
 FOR_BUILDING = ("generate_wire_files",)  # takes no argument
 HELP_SECONDS = 60
 API = {
+    "ardee_sim": "src/ardee_sim_py/src/ardee_sim",
     "ardee_common": "src/ardee_common/src/ardee_common",
     "ardee_models": "src/ardee_models/src/ardee_models",
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
@@ -183,7 +184,8 @@ def python_api() -> Iterator[Tuple[str, str]]:
         modules = [package]
         for file in sorted((ROOT / folder).rglob("*.py")):
             name = ".".join(file.relative_to(ROOT / folder).with_suffix("").parts)
-            if not name.endswith("__init__") and not name.endswith("build"):
+            is_private = file.name.startswith("_")
+            if not is_private and not name.endswith("build"):
                 modules.append(f"{package}.{name}")
         parts = [f"# {package}\n"]
         for module in modules:

@@ -72,11 +72,18 @@ World field(int plants, const std::shared_ptr<const Model>& model) {
   return world;
 }
 
+/// Makes the robot measure all that it can.
+class Listener : public devices::ReadingSink {
+  void on_reading(const devices::Output&, const devices::Reading&) override {}
+};
+
 void run(const BenchArguments& arguments) {
   Loader loader(ResourceLocator::from_environment(), Log());
   const std::string file = arguments.text("--plant");
   const auto model = file.empty() ? plant() : loader.load_model(file);
   Simulation simulation(field(static_cast<int>(arguments.number("--plants")), model), {}, nullptr);
+  Listener listener;
+  simulation.set_sink(&listener);
   SpawnRequest request;
   request.name = "robot";
   request.model = loader.load_model(arguments.text("--robot"));

@@ -92,6 +92,8 @@ bool Solver::solve_directly(const PhysicsParams& params, const std::vector<dBody
 
 void Solver::iterate(const PhysicsParams& params, const Island& island) {
   enable(island);
+  static std::mutex ode_random;  // worlds may step in several threads
+  const std::lock_guard<std::mutex> lock(ode_random);
   dRandSetSeed(seed_);
   int done = 0;
   try {

@@ -124,7 +124,7 @@ std::string choose_sdf(const Node& config) {
 
 }  // namespace
 
-ResourceLocator ResourceLocator::from_environment() {
+ResourceLocator ResourceLocator::from_environment(std::vector<std::string> package_folders) {
   ResourceLocator locator;
   locator.model_paths_ = environment_list("GAZEBO_MODEL_PATH");
   // Gazebo's default folder of downloaded models.
@@ -137,7 +137,10 @@ ResourceLocator ResourceLocator::from_environment() {
     }
   }
   locator.resource_paths_ = environment_list("GAZEBO_RESOURCE_PATH");
-  auto index = std::make_shared<PackageIndex>(environment_list("ROS_PACKAGE_PATH"));
+  for (std::string& folder : environment_list("ROS_PACKAGE_PATH")) {
+    package_folders.push_back(std::move(folder));
+  }
+  auto index = std::make_shared<PackageIndex>(package_folders);
   locator.find_package_ = [index](const std::string& package) { return index->find(package); };
   locator.model_exports_ = [index] { return index->exported_model_paths(); };
   locator.media_exports_ = [index] { return index->exported_media_paths(); };

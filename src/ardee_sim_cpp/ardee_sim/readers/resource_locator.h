@@ -33,8 +33,9 @@ class ResourceLocator {
 
   using PathExports = std::function<std::vector<std::string>()>;
 
-  /// GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ROS_PACKAGE_PATH of the environment.
-  static ResourceLocator from_environment();
+  /// GAZEBO_MODEL_PATH, GAZEBO_RESOURCE_PATH and ROS_PACKAGE_PATH of the environment, and before
+  /// the last these folders with packages.
+  static ResourceLocator from_environment(std::vector<std::string> package_folders = {});
 
   void add_model_path(const std::string& folder) { model_paths_.push_back(folder); }
   /// Folders of models to search before all others, the first of them first.

@@ -67,6 +67,12 @@ void LatestReadings::restore(const Saved& saved) {
   }
 }
 
+bool LatestReadings::wants(const devices::Output& output) const {
+  const auto found = kept_.find(output.topic);
+  return next_ != nullptr || (found != kept_.end() && found->second.kind == output.kind &&
+                              !found->second.latest.expired());
+}
+
 void LatestReadings::on_reading(const devices::Output& output, const devices::Reading& reading) {
   const auto found = kept_.find(output.topic);
   if (found != kept_.end() && found->second.kind == reading.index()) {
@@ -77,6 +83,19 @@ void LatestReadings::on_reading(const devices::Output& output, const devices::Re
     }
   }
   if (next_ != nullptr) next_->on_reading(output, reading);
+}
+
+void Simulation::demand_readings(Entity& entity) {
+  for (const auto& device : entity.devices) {
+    for (devices::Output& output : device->ports().all<devices::Output>()) {
+      output.demanded = latest_.wants(output);
+    }
+  }
+}
+
+void Simulation::set_sink(devices::ReadingSink* sink) {
+  latest_.hand_on_to(sink);
+  for (const auto& entity : entities_) demand_readings(*entity);
 }
 
 devices::Input& Simulation::input(const std::string& topic, std::size_t kind) const {

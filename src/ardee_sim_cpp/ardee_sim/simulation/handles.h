@@ -40,6 +40,8 @@ class LatestReadings : public devices::ReadingSink {
   /// Replaces all that is kept by the saved readings.
   void restore(const Saved& saved);
   void hand_on_to(devices::ReadingSink* sink) { next_ = sink; }
+  /// Whether there is a receiver of an output's readings.
+  bool wants(const devices::Output& output) const;
   void on_reading(const devices::Output& output, const devices::Reading& reading) override;
 
  private:

@@ -160,6 +160,7 @@ void Simulation::build_devices(Entity& entity) {
   context.world_info = world_info();
   context.parameter = options_.parameter;
   entity.devices = registry_.make_devices(context);
+  demand_readings(entity);
   for (const auto& device : entity.devices) device->reset(now_ns_);
 }
 
@@ -309,6 +310,14 @@ void Simulation::place_static(Entity& entity, const Pose& X_WM) {
       physics_.add_scenery(entity.placements, entity.name(), placement_names(entity.instance));
   entity.robot->place(X_WM);
   scenes_.add(entity);
+}
+
+render::Frame Simulation::take_picture(const render::Camera& camera,
+                                       const render::FrameParts& parts) {
+  const auto eye =
+      scenes_.register_eye(raycast::SceneKind::kVisual, [&camera] { return camera.X_WC.p; });
+  scenes_.invalidate();
+  return pictures_.take(camera, parts);
 }
 
 void Simulation::reset_world() { reset_entities(); }

@@ -73,8 +73,9 @@ class Simulation {
       : Simulation(std::make_shared<const World>(std::move(world)), options, std::move(log_sink)) {}
   ~Simulation();
 
-  /// Sets the receiver of all readings from now on; nullptr: none.
-  void set_sink(devices::ReadingSink* sink) { latest_.hand_on_to(sink); }
+  /// Sets the receiver of all readings from now on; nullptr: none. Without one, only readings that
+  /// reading_port() has asked for are measured.
+  void set_sink(devices::ReadingSink* sink);
 
   /// The topic of a robot that takes commands of type T (Twist, double, devices::JointTrajectory,
   /// ...), for command(). If there is no such topic, throws an Error that lists the existing ones.
@@ -159,6 +160,12 @@ class Simulation {
   /// model ends them.
   Wrenches& wrenches() { return wrenches_; }
   JointEfforts& joint_efforts() { return joint_efforts_; }
+  /// Requests the contacts of the coming step.
+  void want_contacts() { physics_.want_contacts(); }
+  /// The contacts of the last step, if they were requested.
+  const std::vector<physics::Contact>& contacts() const { return physics_.contacts(); }
+  /// Takes a picture of the present world by a camera of nobody's.
+  render::Frame take_picture(const render::Camera& camera, const render::FrameParts& parts);
   /// Rays into the present world, for tools (pictures, labels).
   devices::RaySceneProvider& scenes() { return scenes_; }
 
@@ -176,6 +183,8 @@ class Simulation {
   void add_world_models(const std::vector<Instance>& models);
   Entity& add(std::unique_ptr<Entity> entity);
   void build_devices(Entity& entity);
+  /// Lets the entity's devices measure what has a receiver.
+  void demand_readings(Entity& entity);
   devices::WorldInfo world_info();
   void instantiate(Entity& entity);
   void take_from_physics(const Entity& entity);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Pictures of a simulation by cameras of nobody's.
+#include "ardee_sim/render/image_formation.h"
+#include "arrays.h"
+#include "simulation.h"
+
+namespace ardee::python {
+namespace {
+
+template <typename T>
+py::array_t<T> picture_of(std::vector<T> values, const render::Frame& frame) {
+  return hold(std::move(values), {frame.height, frame.width});
+}
+
+}  // namespace
+
+py::dict BoundSimulation::picture(const render::Camera& camera, const render::FrameParts& parts) {
+  const Use use(*this);
+  render::Frame frame;
+  std::vector<std::uint8_t> rgb;
+  {
+    const py::gil_scoped_release free;
+    frame = use->take_picture(camera, parts);
+    if (parts.light) rgb = render::form_image(frame, {}, CounterRng(0));
+  }
+  py::dict made;
+  if (parts.light) made["rgb"] = hold(std::move(rgb), {frame.height, frame.width, 3});
+  if (parts.depth) made["depth_m"] = picture_of(std::move(frame.depth_m), frame);
+  if (parts.ids) {
+    made["labels"] = picture_of(std::move(frame.labels), frame);
+    std::vector<std::int32_t> instances;
+    instances.reserve(frame.entities.size());
+    for (const std::uint32_t entity : frame.entities) {
+      instances.push_back(static_cast<std::int32_t>(entity + 1));  // none: 0
+    }
+    made["instances"] = picture_of(std::move(instances), frame);
+  }
+  return made;
+}
+
+}  // namespace ardee::python

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "simulation.h"
+
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "ardee_sim/core/nearest_names.h"
+#include "arrays.h"
+#include "commands.h"
+#include "readings.h"
+
+namespace ardee::python {
+namespace {
+
+using devices::Input;
+using devices::Output;
+using devices::Service;
+
+/// "cmd_vel" and "/cmd_vel" are one topic.
+std::string whole(const std::string& topic) {
+  return !topic.empty() && topic.front() == '/' ? topic : "/" + topic;
+}
+
+py::key_error unknown(const std::string& kind, const std::string& name,
+                      const std::vector<std::string>& known) {
+  return py::key_error("found no " + kind + " '" + name +
+                       "', expected one of: " + nearest_names(name, known));
+}
+
+py::tuple made(const Inbox::Item& item) {
+  return py::make_tuple(reading_class(item->index()), reading_fields(item));
+}
+
+}  // namespace
+
+BoundSimulation::BoundSimulation(std::shared_ptr<LoadedWorld> world, std::uint64_t seed,
+                                 int ray_threads)
+    : world_(std::move(world)), seed_(seed), log_(world_->log()) {
+  SimulationOptions options;
+  options.seed = seed;
+  options.rays.threads = ray_threads;
+  options.locator = world_->locator();
+  simulation_ = std::make_unique<Simulation>(world_->world(), options,
+                                             [this](LogLevel level, const std::string& text) {
+                                               log_.push_back({level, text});
+                                               if (level == LogLevel::kError) fault_ = text;
+                                             });
+  simulation_->set_sink(&inbox_);
+  apply_demands();
+}
+
+BoundSimulation::Use::Use(BoundSimulation& bound)
+    : lock_(bound.in_use_, std::try_to_lock), simulation_(*bound.simulation_) {
+  if (!lock_.owns_lock()) {
+    throw std::runtime_error(
+        "found a simulation that another thread is using, expected an idle one");
+  }
+  if (!bound.simulation_) {
+    throw std::runtime_error("found a simulation that is closed, expected an open one");
+  }
+}
+
+void BoundSimulation::close() {
+  if (!simulation_) return;
+  const Use use(*this);
+  simulation_.reset();
+}
+
+void BoundSimulation::spawn(const Spawn& wanted) {
+  const Use use(*this);
+  SpawnRequest request;
+  request.name = wanted.name;
+  request.model = wanted.model->model;
+  request.X_WM = wanted.X_WM;
+  request.robot_namespace = wanted.robot_namespace;
+  request.joint_positions = wanted.joint_positions;
+  request.is_static = wanted.is_static;
+  request.scale = wanted.scale;
+  request.label = wanted.label;
+  use->spawn(request);
+  spawned_[wanted.name] = wanted.model;
+  apply_demands();
+}
+
+void BoundSimulation::remove(const std::string& name) {
+  const Use use(*this);
+  if (use->find(name) == nullptr) throw Error("found no model '" + name + "' to remove");
+  use->remove(name);
+  spawned_.erase(name);
+}
+
+void BoundSimulation::step(std::uint64_t count) {
+  const Use use(*this);
+  constexpr std::chrono::milliseconds kSignals{50};
+  const py::gil_scoped_release free;
+  auto look_at = std::chrono::steady_clock::now() + kSignals;
+  fault_.reset();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (wants_contacts_) use->want_contacts();
+    use->step();
+    if (fault_) throw PhysicsFault(*fault_);
+    if (std::chrono::steady_clock::now() < look_at) continue;
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    look_at = std::chrono::steady_clock::now() + kSignals;
+  }
+}
+
+void BoundSimulation::reset() {
+  const Use use(*this);
+  use->reset_simulation();
+  inbox_.clear();
+}
+
+RelativeState BoundSimulation::state(const std::string& name, const std::string& reference) {
+  return Use(*this)->state(name, reference);
+}
+
+void BoundSimulation::set_state(const std::string& model, const RelativeState& state,
+                                const std::string& reference) {
+  Use(*this)->set_state(model, state, reference);
+}
+
+template <typename Kind, typename Act>
+std::vector<std::string> BoundSimulation::for_each(const Simulation& simulation, Act act) const {
+  std::vector<std::string> names;
+  for (const auto& entity : simulation.entities()) {
+    for (const auto& device : entity->devices) {
+      for (Kind& port : device->ports().template all<Kind>()) {
+        if constexpr (std::is_same_v<Kind, Service>) {
+          names.push_back(port.name);
+        } else {
+          names.push_back(port.topic);
+        }
+        act(port);
+      }
+    }
+  }
+  return names;
+}
+
+void BoundSimulation::apply_demands() {
+  for_each<Output>(*simulation_,
+                   [this](Output& output) { output.demanded = inbox_.demands(output.topic); });
+}
+
+Output& BoundSimulation::output(const Simulation& simulation, const std::string& topic) const {
+  Output* found = nullptr;
+  const auto known = for_each<Output>(simulation, [&](Output& output) {
+    if (output.topic == whole(topic)) found = &output;
+  });
+  if (found == nullptr) throw unknown("topic with readings", topic, known);
+  return *found;
+}
+
+void BoundSimulation::command(const std::string& topic, const py::object& value) {
+  const Use use(*this);
+  bool is_taken = false;
+  const auto known = for_each<Input>(*use, [&](Input& input) {
+    if (input.topic != whole(topic)) return;
+    input.on_command(to_command(input.kind, value));
+    is_taken = true;
+  });
+  if (!is_taken) throw unknown("topic with commands", topic, known);
+}
+
+py::object BoundSimulation::call(const std::string& service, const py::args& arguments) {
+  const Use use(*this);
+  Service* found = nullptr;
+  const auto known = for_each<Service>(*use, [&](Service& each) {
+    if (each.name == whole(service)) found = &each;
+  });
+  if (found == nullptr) throw unknown("service", service, known);
+  return python::call(*found, arguments);
+}
+
+void BoundSimulation::demand(const std::string& topic, std::size_t keep) {
+  const Use use(*this);
+  output(*use, topic);
+  inbox_.demand(whole(topic), keep);
+  apply_demands();
+}
+
+py::object BoundSimulation::latest(const std::string& topic) {
+  const Use use(*this);
+  if (!inbox_.demands(whole(topic))) {
+    output(*use, topic);
+    throw Error("found the topic '" + topic + "', which was not demanded: sim.demand('" + topic +
+                "') first");
+  }
+  const Inbox::Item item = inbox_.latest(whole(topic));
+  return item ? py::object(made(item)) : py::none();
+}
+
+py::list BoundSimulation::drain(const std::string& topic) {
+  const Use use(*this);
+  if (!inbox_.demands(whole(topic))) output(*use, topic);
+  py::list items;
+  if (!inbox_.demands(whole(topic))) return items;
+  for (const Inbox::Item& item : inbox_.drain(whole(topic))) items.append(made(item));
+  return items;
+}
+
+std::size_t BoundSimulation::dropped(const std::string& topic) {
+  const Use use(*this);
+  output(*use, topic);
+  return inbox_.demands(whole(topic)) ? inbox_.dropped(whole(topic)) : 0;
+}
+
+py::list BoundSimulation::contacts() {
+  const Use use(*this);
+  py::list found;
+  for (const physics::Contact& contact : use->contacts()) found.append(contact_fields(contact));
+  return found;
+}
+
+py::list BoundSimulation::entities() {
+  const Use use(*this);
+  py::list found;
+  for (const auto& entity : use->entities()) {
+    const Model& model = entity->robot->model();
+    py::list joints, links, topics;
+    for (const Joint& joint : model.joints) joints.append(joint.name);
+    for (const Link& link : model.links) links.append(link.name);
+    for (const auto& device : entity->devices) {
+      for (Output& output : device->ports().all<Output>()) topics.append(output.topic);
+      for (Input& input : device->ports().all<Input>()) topics.append(input.topic);
+    }
+    found.append(py::make_tuple(entity->name(), py::tuple(joints), py::tuple(links),
+                                py::tuple(topics), entity->is_static()));
+  }
+  return found;
+}
+
+py::dict BoundSimulation::topics() {
+  const Use use(*this);
+  py::dict found;
+  for_each<Output>(*use, [&](Output& each) {
+    found[py::str(each.topic)] = py::make_tuple(reading_class(each.kind), "reading");
+  });
+  for_each<Input>(*use, [&](Input& each) {
+    found[py::str(each.topic)] = py::make_tuple(command_name(each.kind), "command");
+  });
+  for_each<Service>(*use, [&](Service& each) {
+    found[py::str(each.name)] = py::make_tuple("service", "service");
+  });
+  return found;
+}
+
+std::vector<LogLine> BoundSimulation::take_log() {
+  const Use use(*this);
+  return std::exchange(log_, {});
+}
+
+std::int64_t BoundSimulation::time_ns() { return Use(*this)->now_ns(); }
+std::uint64_t BoundSimulation::step_count() { return Use(*this)->step_count(); }
+std::int64_t BoundSimulation::step_ns() { return nanoseconds(Use(*this)->physics().step_s); }
+Eigen::Vector3d BoundSimulation::gravity_m_s2() { return Use(*this)->physics().gravity_m_per_s2; }
+
+}  // namespace ardee::python

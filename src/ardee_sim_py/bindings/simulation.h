@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ardee_sim/simulation/simulation.h"
+#include "inbox.h"
+#include "world.h"
+
+namespace ardee::python {
+
+namespace py = pybind11;
+
+/// Thrown when a model's state is not valid any more.
+class PhysicsFault : public Error {
+  using Error::Error;
+};
+
+/// What Python wants to spawn.
+struct Spawn {
+  std::string name;
+  std::shared_ptr<const LoadedModel> model;
+  Pose X_WM;
+  std::string robot_namespace;
+  std::map<std::string, double> joint_positions;
+  bool is_static = false;
+  double scale = 1.0;
+  std::uint32_t label = 0;
+};
+
+/// A simulation as Python holds it: one caller at a time, readings kept until they are fetched, and
+/// no Python in a step.
+class BoundSimulation {
+ public:
+  BoundSimulation(std::shared_ptr<LoadedWorld> world, std::uint64_t seed, int ray_threads);
+
+  /// The right to use the simulation for the time of a call. Throws std::runtime_error if it is
+  /// closed, or another thread is using it.
+  class Use {
+   public:
+    explicit Use(BoundSimulation& bound);
+    Simulation* operator->() const { return &simulation_; }
+    Simulation& operator*() const { return simulation_; }
+
+   private:
+    std::unique_lock<std::mutex> lock_;
+    Simulation& simulation_;
+  };
+
+  void close();
+  void spawn(const Spawn& wanted);
+  void remove(const std::string& name);
+  /// Steps without the GIL; a signal such as Ctrl-C ends it between two steps.
+  void step(std::uint64_t count);
+  void reset();
+  py::bytes snapshot();
+  void restore(const std::string& bytes);
+
+  RelativeState state(const std::string& name, const std::string& reference);
+  void set_state(const std::string& model, const RelativeState& state,
+                 const std::string& reference);
+  void command(const std::string& topic, const py::object& value);
+  py::object call(const std::string& service, const py::args& arguments);
+
+  void demand(const std::string& topic, std::size_t keep);
+  py::object latest(const std::string& topic);
+  py::list drain(const std::string& topic);
+  std::size_t dropped(const std::string& topic);
+  void want_contacts() { wants_contacts_ = true; }
+  py::list contacts();
+  /// Returns a dict with the requested parts of rgb, depth_m, labels, instances.
+  py::dict picture(const render::Camera& camera, const render::FrameParts& parts);
+
+  py::list entities();
+  /// Returns class name or command name, and "reading", "command" or "service", by topic.
+  py::dict topics();
+  std::vector<LogLine> take_log();
+  std::int64_t time_ns();
+  std::uint64_t step_count();
+  std::int64_t step_ns();
+  Eigen::Vector3d gravity_m_s2();
+
+ private:
+  void apply_demands();
+  template <typename Kind, typename Act>
+  std::vector<std::string> for_each(const Simulation& simulation, Act act) const;
+  devices::Output& output(const Simulation& simulation, const std::string& topic) const;
+  std::shared_ptr<const Model> model_of(const std::string& name, const std::string& text,
+                                        const std::string& file);
+  void serialize(StateArchive& archive, SimulationState& state);
+  void save_entity(StateArchive& archive, SimulationState::EntityState& entity);
+
+  std::shared_ptr<LoadedWorld> world_;
+  std::uint64_t seed_;
+  std::vector<LogLine> log_;
+  std::optional<std::string> fault_;
+  Inbox inbox_;
+  std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;  // by name
+  std::atomic<bool> wants_contacts_{false};
+  std::mutex in_use_;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+}  // namespace ardee::python

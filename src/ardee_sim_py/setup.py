@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: MIT
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(
+    **generate_distutils_setup(
+        packages=["ardee_sim", "ardee_sim.examples"], package_dir={"": "src"}
+    )
+)

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Expands a xacro file by PyPI's xacro, whose $(find) needs ROS 2: `python3 -m ardee_sim._expand_xacro FILE A:=B`."""
+
+import contextlib
+import io
+import os
+import sys
+from pathlib import Path
+
+from ardee_sim.errors import ArdeeError
+from ardee_sim.packages import find_package
+
+
+def _import_xacro():  # type: ignore[no-untyped-def]
+    """Returns PyPI's xacro: an installed one, else that of the workspace or of its install space."""
+    workspace = Path(__file__).resolve().parents[4]
+    kept = [os.environ.get("ARDEE_PYDEPS", ""), workspace / "pydeps"]
+    with contextlib.suppress(ArdeeError):
+        kept.append(find_package("xacro") / "pydeps")
+    sys.path.extend(str(place) for place in kept if place and Path(place).is_dir())
+    try:
+        import xacro.substitution_args
+    except ImportError as error:
+        sys.exit(f"xacro: {error}, expected: pip install xacro")
+    return xacro
+
+
+def main() -> None:
+    """Prints the expanded file; exits with xacro's message if that fails."""
+    xacro = _import_xacro()
+    xacro.substitution_args._eval_find = lambda name: str(find_package(name))
+    path, *words = sys.argv[1:]
+    arguments = dict(word.split(":=", 1) for word in words)
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            document = xacro.process_file(path, mappings=arguments)
+    except Exception as error:  # of any kind that an expression in the file raises
+        sys.exit(f"{path}: {error}")
+    sys.stdout.write(document.toprettyxml(indent="  "))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+"""Robots' descriptions: expands xacro without ROS."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import List, Union
+
+from ardee_sim.errors import ArdeeError
+from ardee_sim.packages import find_package
+from ardee_sim.world import PathLike
+
+
+def _xacro_file(name_or_path: PathLike) -> Path:
+    path = Path(name_or_path)
+    if path.is_file():
+        return path
+    robots = find_package("terrasentia_description") / "robots"
+    shipped = robots / f"{name_or_path}.urdf.xacro"
+    if shipped.is_file():
+        return shipped
+    names = ", ".join(sorted(file.name[: -len(".urdf.xacro")] for file in robots.glob("*.xacro")))
+    raise ArdeeError(f"found no robot '{name_or_path}', expected a file or one of: {names}")
+
+
+def robot(name_or_path: PathLike, **xacro_arguments: Union[str, float, bool]) -> str:
+    """Returns the URDF of a shipped robot, such as tsv1_default, or of an .urdf, .sdf or .xacro file of yours.
+
+    xacro_arguments : values of the file's <xacro:arg>, as name:=value on a command line.
+    Raises ArdeeError with xacro's message if the file cannot be expanded.
+    """
+    path = _xacro_file(name_or_path)
+    if path.suffix != ".xacro":
+        if xacro_arguments:
+            raise ArdeeError(f"{path}: found xacro arguments for a file that is not .xacro")
+        return path.read_text()
+    arguments = [f"{key}:={_text(value)}" for key, value in xacro_arguments.items()]
+    return _expand(path, arguments)
+
+
+def _text(value: Union[str, float, bool]) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _expand(path: Path, arguments: List[str]) -> str:
+    # xacro keeps its state in globals of its module: each file has a process of its own
+    command = [sys.executable, "-m", "ardee_sim._expand_xacro", str(path), *arguments]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise ArdeeError(done.stderr.strip() or f"{path}: xacro failed")
+    return done.stdout

@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: MIT
+"""A simulation: a world with robots, stepped by its owner."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Union
+
+import numpy as np
+from ardee_sim import _core
+from ardee_sim.readings import Reading, make_reading
+from ardee_sim.world import World
+
+Vector = Sequence[float]
+Command = Union["Twist", float, bool, Sequence[float], Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Twist:
+    """A velocity: m/s and rad/s, forwards, left, up and about these axes (REP 103)."""
+
+    linear_x_m_s: float = 0.0
+    linear_y_m_s: float = 0.0
+    linear_z_m_s: float = 0.0
+    angular_x_rad_s: float = 0.0
+    angular_y_rad_s: float = 0.0
+    angular_z_rad_s: float = 0.0
+
+
+@dataclass(frozen=True)
+class Entity:
+    """A model of the world: names of its joints and links, topics of its devices."""
+
+    name: str
+    joints: Tuple[str, ...]
+    links: Tuple[str, ...]
+    topics: Tuple[str, ...]
+    is_static: bool
+
+
+@dataclass(frozen=True)
+class TopicInfo:
+    """`kind` is a class of readings, or a kind of command; `role` is reading, command or service."""
+
+    kind: str
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Pose and velocity, float64: position [3], quaternion [4], velocity [3], angular velocity [3]."""
+
+    xyz_m: np.ndarray
+    quat_xyzw: np.ndarray
+    v_m_s: np.ndarray
+    w_rad_s: np.ndarray
+
+    @property
+    def yaw_rad(self) -> float:
+        """Angle about z of the x axis."""
+        x, y, z, w = self.quat_xyzw
+        return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """A point at which two collisions touched in the last step; vectors in the world's axes.
+
+    Names are model::link::collision; the normal points from the second into the first, on which the force acts.
+    """
+
+    collision1: str
+    collision2: str
+    xyz_m: np.ndarray
+    normal: np.ndarray
+    depth_m: float
+    force_n: np.ndarray
+
+
+@dataclass(frozen=True)
+class LogLine:
+    """A message of the engine; level is debug, info, warning or error."""
+
+    level: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A moment of a simulation, as bytes: Simulation.restore() goes on from it, in another process too."""
+
+    data: bytes
+
+
+def _vector(values: Vector, size: int, name: str) -> np.ndarray:
+    try:
+        vector = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name}: found {values!r}, expected {size} numbers") from None
+    if vector.shape != (size,) or not np.isfinite(vector).all():
+        raise ValueError(f"{name}: found {values!r}, expected {size} finite numbers")
+    return vector
+
+
+class Simulation:
+    """A world with robots. One thread at a time uses it; a second gets RuntimeError.
+
+    The same world, seed, models, commands and steps give the same bytes, with any number of `ray_threads`, and beside
+    any number of other simulations of the world.
+    """
+
+    def __init__(self, world: World, *, seed: int = 0, ray_threads: int = 1) -> None:
+        self.world = world
+        self.seed = seed
+        self._core = _core.Simulation(world._core, seed, ray_threads)
+
+    def __enter__(self) -> "Simulation":
+        return self
+
+    def __exit__(
+        self,
+        kind: Optional[Type[BaseException]],
+        error: Optional[BaseException],
+        traceback: Optional[TracebackType],
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Ends the simulation; its readings live on. Every later call raises RuntimeError."""
+        self._core.close()
+
+    def spawn(
+        self,
+        name: str,
+        model: Union[str, Path],
+        *,
+        xyz_m: Vector = (0, 0, 0),
+        rpy_rad: Vector = (0, 0, 0),
+        namespace: str = "",
+        joint_positions: Optional[Mapping[str, float]] = None,
+        is_static: bool = False,
+        scale: float = 1.0,
+        label: int = 0,
+    ) -> Entity:
+        """Adds a model and returns it.
+
+        model : URDF or SDF text, as robot() returns it, or the path of such a file
+        xyz_m, rpy_rad : pose in the world; roll, pitch, yaw about the fixed axes
+        namespace : of the robot's topics
+        joint_positions : initial ones, rad or m, by the joint's name; others as described
+        scale : of static models
+        label : class in label pictures
+
+        Raises ArdeeError, and then nothing is left behind.
+        """
+        text, file = (model.read_text(), str(model)) if isinstance(model, Path) else (model, name)
+        loaded = self.world._core.load_model(text, file)
+        pose = _vector(xyz_m, 3, "xyz_m"), _vector(rpy_rad, 3, "rpy_rad")
+        places = dict(joint_positions or {})
+        self._core.spawn(name, loaded, *pose, namespace, places, is_static, scale, label)
+        return next(entity for entity in self.entities() if entity.name == name)
+
+    def remove(self, name: str) -> None:
+        """Takes a model out of the world."""
+        self._core.remove(name)
+
+    def step(self, n: int = 1) -> None:
+        """Advances the world by n steps of step_ns; other threads of Python run meanwhile, and Ctrl-C ends it.
+
+        Raises PhysicsError if a model's state became invalid.
+        """
+        if n < 0:
+            raise ValueError(f"found {n} steps, expected 0 or more")
+        self._core.step(n)
+
+    def reset(self) -> None:
+        """Puts the clock to 0 and all models where they were spawned; what follows repeats the first run."""
+        self._core.reset()
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time."""
+        return self._core.time_ns()
+
+    @property
+    def step_count(self) -> int:
+        """Number of steps since the start or the last reset."""
+        return self._core.step_count()
+
+    @property
+    def step_ns(self) -> int:
+        """Simulated time of a step."""
+        return self._core.step_ns()
+
+    @property
+    def gravity_m_s2(self) -> np.ndarray:
+        """Acceleration by gravity [3]."""
+        return self._core.gravity_m_s2()
+
+    def snapshot(self) -> Snapshot:
+        """Returns the present moment."""
+        return Snapshot(self._core.snapshot())
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Goes on from a snapshot of a simulation of the same world and seed: what follows is equal, byte for byte.
+
+        Models spawned since are gone, removed ones are back. Kept readings are forgotten.
+        """
+        self._core.restore(snapshot.data)
+
+    def state(self, name: str, *, relative_to: str = "world") -> State:
+        """Returns the state of "model" or "model::link", in the axes of another such name or of the world."""
+        return State(*self._core.state(name, relative_to))
+
+    def set_state(
+        self,
+        name: str,
+        *,
+        xyz_m: Optional[Vector] = None,
+        quat_xyzw: Optional[Vector] = None,
+        v_m_s: Vector = (0, 0, 0),
+        w_rad_s: Vector = (0, 0, 0),
+        relative_to: str = "world",
+    ) -> None:
+        """Moves a model; a part of the pose that is not given stays."""
+        present = self.state(name, relative_to=relative_to)
+        xyz_m = present.xyz_m if xyz_m is None else xyz_m
+        quat_xyzw = present.quat_xyzw if quat_xyzw is None else quat_xyzw
+        self._core.set_state(
+            name,
+            _vector(xyz_m, 3, "xyz_m"),
+            _vector(quat_xyzw, 4, "quat_xyzw"),
+            _vector(v_m_s, 3, "v_m_s"),
+            _vector(w_rad_s, 3, "w_rad_s"),
+            relative_to,
+        )
+
+    def command(self, topic: str, value: Command) -> None:
+        """Commands a device from the next step on, as a message on its topic does.
+
+        Raises KeyError for an unknown topic, with the nearest ones; TypeError for a value of another kind;
+        ArdeeError for a value that the device refuses.
+        """
+        if isinstance(value, Twist):
+            value = (
+                value.linear_x_m_s,
+                value.linear_y_m_s,
+                value.linear_z_m_s,
+                value.angular_x_rad_s,
+                value.angular_y_rad_s,
+                value.angular_z_rad_s,
+            )
+        self._core.command(topic, value)
+
+    def trigger(self, topic: str) -> None:
+        """Sends a command without content."""
+        self._core.command(topic, None)
+
+    def call(self, service: str, *arguments: float) -> Optional[Dict[str, Any]]:
+        """Calls a device's service, with no argument, a vector, or latitude, longitude [deg] and altitude [m]."""
+        return self._core.call(service, *arguments)
+
+    def demand(self, *topics: str, keep: int = 1) -> None:
+        """Lets devices measure for these topics from now on; `keep` readings of each wait for drain()."""
+        if keep < 1:
+            raise ValueError(f"found keep={keep}, expected 1 or more")
+        for topic in topics:
+            self._core.demand(topic, keep)
+
+    def latest(self, topic: str) -> Optional[Reading]:
+        """Returns the last reading of a demanded topic, or None before the first."""
+        made = self._core.latest(topic)
+        return None if made is None else make_reading(made)
+
+    def drain(self, topic: str) -> List[Reading]:
+        """Returns the readings since the last call, in the order of time, up to the `keep` of demand()."""
+        return [make_reading(made) for made in self._core.drain(topic)]
+
+    def dropped(self, topic: str) -> int:
+        """Returns how many readings drain() came too late for."""
+        return self._core.dropped(topic)
+
+    def entities(self) -> List[Entity]:
+        """Returns all models, in the order of the world's file, then of spawning."""
+        return [Entity(*made) for made in self._core.entities()]
+
+    def topics(self) -> Dict[str, TopicInfo]:
+        """Returns the topics and services of all devices."""
+        return {name: TopicInfo(*made) for name, made in self._core.topics().items()}
+
+    def contacts(self) -> List[Contact]:
+        """Returns the contacts of the last step; the first call is empty and asks for them from the next step on."""
+        self._core.want_contacts()
+        return [Contact(**made) for made in self._core.contacts()]
+
+    def log(self) -> List[LogLine]:
+        """Returns the engine's messages since the last call; at the first, also those of reading the world."""
+        return [LogLine(*made) for made in self._core.take_log()]
+
+    def render(self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any) -> np.ndarray:
+        """Returns a picture, uint8[h, w, 3], of a camera at this pose: x forward, y left, z up.
+
+        lens : width_px=640, height_px=480, horizontal_fov_rad=1.2
+        """
+        return self._picture(xyz_m, quat_xyzw, "rgb", **lens)
+
+    def depth_image(
+        self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
+    ) -> np.ndarray:
+        """Returns depths along the camera's axis, float32[h, w] in m, +inf where nothing is met. As render()."""
+        return self._picture(xyz_m, quat_xyzw, "depth_m", **lens)
+
+    def label_image(
+        self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
+    ) -> np.ndarray:
+        """Returns classes, uint16[h, w]: 0 nothing, 1 corn, 2 sorghum, 3 tobacco, 10 weed, ... As render()."""
+        return self._picture(xyz_m, quat_xyzw, "labels", **lens)
+
+    def instance_image(
+        self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
+    ) -> np.ndarray:
+        """Returns numbers of models, int32[h, w]: 0 nothing, Plant.instance, ... As render()."""
+        return self._picture(xyz_m, quat_xyzw, "instances", **lens)
+
+    def _picture(
+        self,
+        xyz_m: Vector,
+        quat_xyzw: Vector,
+        part: str,
+        *,
+        width_px: int = 640,
+        height_px: int = 480,
+        horizontal_fov_rad: float = 1.2,
+    ) -> np.ndarray:
+        if not (1 <= width_px <= 10_000 and 1 <= height_px <= 10_000):
+            raise ValueError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
+        if not 0 < horizontal_fov_rad < math.pi:
+            raise ValueError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
+        wanted = (part == "rgb", part == "depth_m", part in ("labels", "instances"))
+        size = (width_px, height_px, horizontal_fov_rad)
+        pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
+        return self._core.picture(*pose, *size, *wanted)[part]

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MIT
+"""A world as data: fields, terrain, light."""
+
+import csv
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import yaml
+from ardee_sim import _core, packages
+from ardee_sim.errors import ArdeeError
+
+PathLike = Union[str, "os.PathLike[str]"]
+_SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
+
+
+@dataclass(frozen=True)
+class Plant:
+    """A crop plant, as the world has it; plot, row, place, stage and height are those of its field's truth.csv.
+
+    `instance` is its number in instance pictures. A plant of a field without truth.csv has None there, and no height.
+    """
+
+    name: str
+    species: str
+    xyz_m: np.ndarray
+    quat_xyzw: np.ndarray
+    scale: float
+    instance: int
+    id: Optional[int] = None
+    plot: Optional[int] = None
+    row: Optional[int] = None
+    place: Optional[int] = None
+    stage: Optional[str] = None
+    height_m: Optional[float] = None
+
+
+def _truth_beside(file: str) -> Dict[int, Dict[str, str]]:
+    path = Path(file).parent / "truth.csv"
+    if not path.is_file():
+        return {}
+    with path.open(newline="") as lines:
+        return {int(row["id"]): row for row in csv.DictReader(lines)}
+
+
+def _plant(placement: Tuple[Any, ...], truth: Dict[int, Dict[str, str]]) -> Plant:
+    name, _, xyz_m, quat_xyzw, scale, label, instance = placement
+    number = name.rpartition("plant_")[2]
+    row = truth.get(int(number), {}) if number.isdigit() else {}
+    known: Dict[str, Any] = {key: int(row[key]) for key in ("id", "plot", "row", "place") if row}
+    if row:
+        known.update(stage=row["stage"], height_m=float(row["height_m"]))
+    return Plant(name, _SPECIES[label], xyz_m, quat_xyzw, scale, instance, **known)
+
+
+class World:
+    """A world, read and checked whole; it never changes, and any number of simulations share it.
+
+    Relative files and model:// are searched for in `model_paths` first, then in GAZEBO_MODEL_PATH,
+    GAZEBO_RESOURCE_PATH, ROS_PACKAGE_PATH and the data that comes with this module.
+    """
+
+    def __init__(self, core: "_core.World") -> None:
+        self._core = core
+
+    @classmethod
+    def from_file(cls, path: PathLike, *, model_paths: Sequence[PathLike] = ()) -> "World":
+        """Returns the world of an SDF file, by its path or the name of a shipped world such as corn.world.
+
+        Raises ArdeeError with file, line and element if the file, or one that it refers to, cannot be read.
+        """
+        return cls(_core.World.from_file(os.fspath(path), *cls._folders(model_paths)))
+
+    @classmethod
+    def from_string(
+        cls, sdf: str, *, base_dir: PathLike = ".", model_paths: Sequence[PathLike] = ()
+    ) -> "World":
+        """Returns the world of an SDF text; relative files are searched for in `base_dir`."""
+        path = os.path.join(os.fspath(base_dir), "world")
+        return cls(_core.World.from_string(sdf, path, *cls._folders(model_paths)))
+
+    @staticmethod
+    def _folders(model_paths: Sequence[PathLike]) -> Tuple[List[str], List[str], List[str]]:
+        models = [os.path.abspath(path) for path in model_paths] + packages.model_folders()
+        return models, packages.media_folders(), packages.package_folders()
+
+    @property
+    def name(self) -> str:
+        """Name in the file's <world> element."""
+        return self._core.name()
+
+    @property
+    def path(self) -> str:
+        """File of the world; of a text, a name for messages."""
+        return self._core.path()
+
+    @property
+    def start(self) -> Dict[str, Tuple[float, float, float]]:
+        """Pose at which a robot starts, as Simulation.spawn() takes it; from NAME.start.yaml beside the world.
+
+        Raises ArdeeError if the world has no such file.
+        """
+        file = Path(self.path).with_suffix(".start.yaml")
+        if not file.is_file():
+            raise ArdeeError(f"{file}: found no file, expected a start pose of the world")
+        try:
+            given = yaml.safe_load(file.read_text())
+            x, y, z, yaw = (float(given[key]) for key in ("x_m", "y_m", "z_m", "yaw_rad"))
+        except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
+            raise ArdeeError(f"{file}: {error}, expected x_m, y_m, z_m, yaw_rad") from None
+        return {"xyz_m": (x, y, z), "rpy_rad": (0.0, 0.0, yaw)}
+
+    def plants(self) -> List[Plant]:
+        """Returns all crop plants, in the order of their instance numbers."""
+        truths: Dict[str, Dict[int, Dict[str, str]]] = {}
+        found = []
+        for placement in self._core.placements():
+            file, label = placement[1], placement[5]
+            if label in _SPECIES:
+                if file not in truths:
+                    truths[file] = _truth_beside(file)
+                found.append(_plant(placement, truths[file]))
+        return found

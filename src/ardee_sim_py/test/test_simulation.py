@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: MIT
+"""Tests simulations: motion, readings, snapshots, threads, refusals."""
+import signal
+import subprocess
+import sys
+import threading
+import time
+from typing import Callable, List
+
+import ardee_sim
+import numpy as np
+import pytest
+
+ON_WHEELS_M = (0.0, 0.0, 0.175)
+BALL = """<sdf version='1.6'><model name='ball'><link name='link'>
+<inertial><mass>1</mass><inertia><ixx>0.004</ixx><iyy>0.004</iyy><izz>0.004</izz></inertia></inertial>
+<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link></model></sdf>"""
+GROUND = """<sdf version='1.6'><world name='plain'><model name='ground'><static>true</static><link name='link'>
+<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>
+</link></model></world></sdf>"""
+
+
+def drive(sim: ardee_sim.Simulation, steps: int) -> bytes:
+    """Returns the bytes of all scans and of the last pose of a drive."""
+    sim.demand("ardee/hokuyo", "ardee/imu/custom", keep=1000)
+    sim.command("cmd_vel", ardee_sim.Twist(linear_x_m_s=0.5, angular_z_rad_s=0.1))
+    sim.step(steps)
+    scans = b"".join(scan.ranges_m.tobytes() for scan in sim.drain("ardee/hokuyo"))
+    turns = b"".join(reading.w_rad_s.tobytes() for reading in sim.drain("ardee/imu/custom"))
+    return scans + turns + sim.state("robot").xyz_m.tobytes()
+
+
+def placed(corn: ardee_sim.World, terrasentia: str, seed: int = 1) -> ardee_sim.Simulation:
+    made = ardee_sim.Simulation(corn, seed=seed)
+    made.spawn("robot", terrasentia, xyz_m=ON_WHEELS_M, rpy_rad=(0, 0, -3.14))
+    return made
+
+
+def test_it_drives_as_commanded(sim: ardee_sim.Simulation) -> None:
+    sim.step(100)
+    before = sim.state("robot").xyz_m
+    for _ in range(5):
+        sim.command("cmd_vel", ardee_sim.Twist(linear_x_m_s=0.5))
+        sim.step(40)
+    # The legs' springs and the start cost a little of 1 s at 0.5 m/s; yaw is -3.14.
+    assert before[0] - sim.state("robot").xyz_m[0] == pytest.approx(0.5, abs=0.05)
+    assert sim.time_ns == sim.step_count * sim.step_ns == 1_500_000_000
+
+
+def test_a_ball_falls_as_galilei_says_and_tells_whom_it_touches() -> None:
+    with ardee_sim.Simulation(ardee_sim.World.from_string(GROUND)) as sim:
+        sim.spawn("ball", BALL, xyz_m=(0, 0, 2.0))
+        seconds = 0.5
+        sim.step(round(seconds / (sim.step_ns * 1e-9)))
+        fallen_m = 0.5 * -sim.gravity_m_s2[2] * seconds**2
+        # Symplectic Euler falls half a step's velocity too far.
+        assert 2.0 - sim.state("ball").xyz_m[2] == pytest.approx(fallen_m, rel=0.003)
+        assert sim.contacts() == []
+        sim.step(200)  # it lies, and does not sleep yet
+        (contact,) = sim.contacts()
+        assert {contact.collision1, contact.collision2} == {"ball::link::c", "ground::link::c"}
+        assert abs(contact.force_n[2]) == pytest.approx(9.8, rel=0.01)
+
+
+def test_readings_are_read_only_and_outlive_the_simulation(
+    corn: ardee_sim.World, terrasentia: str
+) -> None:
+    with placed(corn, terrasentia) as sim:
+        sim.demand("ardee/hokuyo", "ardee/camera/front/image_raw")
+        assert sim.latest("ardee/hokuyo") is None
+        sim.step(100)
+        scan, image = sim.latest("ardee/hokuyo"), sim.latest("ardee/camera/front/image_raw")
+        first = scan.ranges_m.copy()
+        sim.step(100)
+        assert not np.array_equal(sim.latest("ardee/hokuyo").ranges_m, first)
+    assert scan.ranges_m.dtype == np.float32 and scan.ranges_m.shape == (1081,)
+    assert np.array_equal(scan.ranges_m, first)
+    assert image.pixels.dtype == np.uint8 and image.pixels.shape == (480, 640, 3)
+    for array in (scan.ranges_m, scan.intensities, image.pixels):
+        assert not array.flags.writeable
+        with pytest.raises(ValueError):
+            array[0] = 0
+
+
+def test_what_nobody_demands_is_not_measured(sim: ardee_sim.Simulation) -> None:
+    begin = time.process_time()
+    sim.step(200)
+    without_s = time.process_time() - begin
+    sim.demand("ardee/camera/front/image_raw")
+    begin = time.process_time()
+    sim.step(200)
+    # Thirty pictures cost far more than a second of a robot without one.
+    assert time.process_time() - begin > 3 * without_s
+
+
+def test_drain_keeps_the_last_ones_and_counts_the_lost(sim: ardee_sim.Simulation) -> None:
+    sim.demand("ardee/hokuyo", keep=10)
+    sim.step(200)  # 1 s: 40 scans
+    stamps = [reading.stamp_ns for reading in sim.drain("ardee/hokuyo")]
+    assert stamps == [775_000_000 + 25_000_000 * k for k in range(10)]
+    assert sim.dropped("ardee/hokuyo") == 30
+    assert sim.drain("ardee/hokuyo") == []
+
+
+def test_a_seed_repeats_all_bytes_and_another_does_not(
+    corn: ardee_sim.World, terrasentia: str
+) -> None:
+    def run(seed: int) -> bytes:
+        with placed(corn, terrasentia, seed) as sim:
+            return drive(sim, 400)
+
+    assert run(1) == run(1) != run(2)
+
+
+def test_a_reset_repeats_all_bytes(sim: ardee_sim.Simulation) -> None:
+    first = drive(sim, 300)
+    sim.reset()
+    assert sim.time_ns == 0
+    assert drive(sim, 300) == first
+
+
+RESTORED_ELSEWHERE = """
+import pathlib, sys, ardee_sim
+sys.path.insert(0, sys.argv[1])
+from test_simulation import drive
+sim = ardee_sim.Simulation(ardee_sim.World.from_file("corn.world"), seed=1)
+sim.restore(ardee_sim.Snapshot(pathlib.Path(sys.argv[2]).read_bytes()))
+sys.stdout.buffer.write(drive(sim, 300))
+"""
+
+
+def test_a_snapshot_goes_on_here_and_in_another_process(
+    sim: ardee_sim.Simulation, tmp_path: "object", request: pytest.FixtureRequest
+) -> None:
+    drive(sim, 300)
+    moment = sim.snapshot()
+    first = drive(sim, 300)
+    sim.remove("robot")
+    sim.restore(moment)
+    assert drive(sim, 300) == first
+    file = tmp_path / "moment"
+    file.write_bytes(moment.data)
+    command = [sys.executable, "-c", RESTORED_ELSEWHERE, str(request.path.parent), str(file)]
+    assert subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout == first
+
+
+@pytest.mark.parametrize(
+    "change", [lambda b: b[:-1], lambda b: b[:40], lambda b: b"", lambda b: b + b"x"]
+)
+def test_a_broken_snapshot_is_refused(
+    sim: ardee_sim.Simulation, change: Callable[[bytes], bytes]
+) -> None:
+    broken = ardee_sim.Snapshot(change(sim.snapshot().data))
+    with pytest.raises(ardee_sim.ArdeeError, match="expected one of this world"):
+        sim.restore(broken)
+
+
+def test_a_snapshot_of_another_seed_is_refused(
+    sim: ardee_sim.Simulation, corn: ardee_sim.World, terrasentia: str
+) -> None:
+    with placed(corn, terrasentia, seed=2) as other:
+        with pytest.raises(ardee_sim.ArdeeError, match="another world, seed or version"):
+            other.restore(sim.snapshot())
+
+
+def test_threads_and_interleaving_change_no_byte(corn: ardee_sim.World, terrasentia: str) -> None:
+    sims = [placed(corn, terrasentia) for _ in range(3)]
+    results: List[bytes] = [b""] * 2
+
+    def run(index: int) -> None:
+        results[index] = drive(sims[index], 400)
+
+    threads = [threading.Thread(target=run, args=(k,)) for k in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert results[0] == results[1] == drive(sims[2], 400)
+
+
+def test_a_second_caller_of_a_busy_simulation_gets_an_error(sim: ardee_sim.Simulation) -> None:
+    thread = threading.Thread(target=lambda: sim.step(20_000))
+    thread.start()
+    said = ""
+    while thread.is_alive() and not said:
+        try:
+            sim.state("robot")
+        except RuntimeError as error:
+            said = str(error)
+    thread.join()
+    assert "another thread is using" in said
+    assert sim.step_count == 20_000
+
+
+def test_ctrl_c_ends_a_long_step(sim: ardee_sim.Simulation) -> None:
+    threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        sim.step(100_000_000)
+    sim.step()  # and it goes on
+
+
+def test_pictures_agree_with_each_other_and_with_the_plants(
+    sim: ardee_sim.Simulation, corn: ardee_sim.World
+) -> None:
+    eye = dict(xyz_m=(0, 0, 0.5), quat_xyzw=(0, 0, 1, 0), width_px=160, height_px=120)
+    rgb, depth_m = sim.render(**eye), sim.depth_image(**eye)
+    labels, instances = sim.label_image(**eye), sim.instance_image(**eye)
+    assert rgb.shape == (120, 160, 3) and depth_m.shape == labels.shape == (120, 160)
+    plants = {plant.instance: plant for plant in corn.plants()}
+    crop = instances[labels == 1]
+    assert crop.size > 500 and set(crop) <= set(plants)
+    # The middle of the picture looks along the world's -x: a plant's depth is about its distance in x.
+    y, x = np.argwhere((labels == 1) & (depth_m < 3))[0]
+    plant = plants[instances[y, x]]
+    assert depth_m[y, x] == pytest.approx(-plant.xyz_m[0], abs=0.7)
+
+
+def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia: str) -> None:
+    for error, text, call in [
+        (KeyError, "/cmd_vel", lambda: sim.command("cmd_vell", ardee_sim.Twist())),
+        (KeyError, "/ardee/hokuyo", lambda: sim.demand("ardee/hokuyu")),
+        (KeyError, "calibrate", lambda: sim.call("ardee/imu/custom/calibrat")),
+        (TypeError, "expected a Twist", lambda: sim.command("cmd_vel", 1.0)),
+        (ValueError, "not finite", lambda: sim.command("cmd_vel", ardee_sim.Twist(float("nan")))),
+        (ValueError, "was not demanded", lambda: sim.latest("ardee/imu/custom")),
+        (ValueError, "already exists", lambda: sim.spawn("robot", terrasentia)),
+        (ValueError, "expected 3 finite", lambda: sim.spawn("x", terrasentia, xyz_m=(0, 1))),
+        (ValueError, "expected 0 or more", lambda: sim.step(-1)),
+        (ValueError, "no model 'nobody'", lambda: sim.remove("nobody")),
+    ]:
+        with pytest.raises(error, match=text):
+            call()
+    sim.step()
+
+
+def test_a_closed_simulation_says_so(sim: ardee_sim.Simulation) -> None:
+    sim.close()
+    sim.close()
+    for call in (sim.step, sim.reset, sim.snapshot, sim.entities, lambda: sim.time_ns):
+        with pytest.raises(RuntimeError, match="closed"):
+            call()
+
+
+def test_services_and_triggers_act(sim: ardee_sim.Simulation) -> None:
+    sim.call("ardee/imu/custom/set_rate_bias", 0.5, 0.0, 0.0)
+    sim.demand("ardee/imu/custom", keep=100)
+    sim.step(200)
+    rates = np.mean([reading.w_rad_s[0] for reading in sim.drain("ardee/imu/custom")])
+    assert rates == pytest.approx(0.5, abs=0.05)
