@@ -9,8 +9,9 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from typing import Iterator, List, Optional, Set, Tuple
 
-# The rosdep key of each module that is no ROS package; a ROS package has the name of its module.
+# The rosdep key, or the package of ours, of each module that has not its name.
 KEYS = {
+    "ardee_sim": "ardee_sim_py",
     "collada": "python3-collada",
     "matplotlib": "python3-matplotlib",
     "mpl_toolkits": "python3-matplotlib",
