@@ -84,7 +84,8 @@ std::string usage() {
          "  --verbose         log at debug level\n"
          "  -h, --help        this text\n"
          "Parameters: ~world ~paused ~seed ~real_time_factor ~threads ~pub_clock_frequency\n"
-         "            ~publish_world_tf ~lenient ~scenery_radius ~realtime_priority ~verbose\n"
+         "            ~publish_world_tf ~lenient ~scenery_radius ~show_collisions\n"
+         "            ~realtime_priority ~verbose\n"
          "            ~plugin_aliases (list of filename, plugin, keys: plugins of other names)\n";
 }
 
@@ -153,6 +154,7 @@ Settings read_settings(const CommandLine& command_line, const ros::NodeHandle& n
   settings.lenient =
       command_line.lenient.value_or(parameter(node, "lenient", false, "true or false"));
   settings.scenery_radius_m = number(node, "scenery_radius", settings.scenery_radius_m, 0.0, 1e4);
+  settings.show_collisions = parameter(node, "show_collisions", false, "true or false");
   settings.plugin_aliases = read_aliases(node);
   constexpr int kHighestPriority = 99;  // of SCHED_RR
   settings.realtime_priority = whole_number(node, "realtime_priority", 0, kHighestPriority);

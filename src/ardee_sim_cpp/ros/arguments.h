@@ -43,6 +43,7 @@ struct Settings {
   bool lenient =
       false;  // leave missing or malformed parts out, with an error; else refuse the world
   double scenery_radius_m = 6.0;
+  bool show_collisions = false;  // collision bodies in /ardee/scenery
   std::vector<devices::PluginAlias> plugin_aliases;
   int realtime_priority = 0;  // 1 to 99, of the threads that send messages; 0: none
 };

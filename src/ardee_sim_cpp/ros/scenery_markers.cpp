@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ardee_sim/description/collision_bodies.h"
 #include "ros/conversions.h"
 #include "ros/ground_marker.h"
 
@@ -18,11 +19,12 @@ constexpr double kMove_m = 1.5;  // motion of a model after which the markers ar
 constexpr double kFine_m = 1.5;  // plants farther than this from all models are drawn coarsely
 constexpr char kFrame[] = "world";
 constexpr char kFar[] = " (far)";  // suffix of an entity's name: the marker of its far plants
+constexpr char kCollisions[] = " (collision)";  // suffix: the markers of collision bodies
 
 }  // namespace
 
-SceneryMarkers::SceneryMarkers(const Simulation& simulation, double radius_m)
-    : simulation_(simulation), radius_m_(radius_m) {
+SceneryMarkers::SceneryMarkers(const Simulation& simulation, double radius_m, bool show_collisions)
+    : simulation_(simulation), radius_m_(radius_m), show_collisions_(show_collisions) {
   publisher_ =
       ros::NodeHandle().advertise<visualization_msgs::MarkerArray>("/ardee/scenery", 1, true);
 }
@@ -112,15 +114,20 @@ void SceneryMarkers::append(const Entity& entity, visualization_msgs::MarkerArra
   far_.pose.orientation.w = 1.0;
   far_.scale = to_vector(Eigen::Vector3d::Ones());
   far_.color.a = 1.0f;
-  int first_id = 0;  // a placement keeps its ids as long as it exists
-  for (const Placement& placement : entity.placements) {
-    const std::vector<MarkerShape>& shapes = shapes_of(placement.model);
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      append_shape(shapes[i], placement, {entity.name(), first_id + static_cast<int>(i)}, message);
-    }
-    first_id += static_cast<int>(shapes.size());
-  }
+  append_shapes(entity, false, message);
   if (!far_.points.empty()) message.markers.push_back(std::move(far_));
+  if (show_collisions_) append_shapes(entity, true, message);
+}
+
+void SceneryMarkers::append_shapes(const Entity& entity, bool collisions,
+                                   visualization_msgs::MarkerArray& message) {
+  const std::string name = entity.name() + (collisions ? kCollisions : "");
+  int id = 0;  // a placement keeps its ids as long as it exists
+  for (const Placement& placement : entity.placements) {
+    for (const MarkerShape& shape : shapes_of(placement.model, collisions)) {
+      append_shape(shape, placement, {name, id++}, message);
+    }
+  }
 }
 
 void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& placement,
@@ -150,11 +157,16 @@ void SceneryMarkers::append_shape(const MarkerShape& shape, const Placement& pla
   message.markers.push_back(std::move(marker));
 }
 
-const std::vector<MarkerShape>& SceneryMarkers::shapes_of(
-    const std::shared_ptr<const Model>& model) {
-  const auto found = shapes_.find(model);
+const std::vector<MarkerShape>& SceneryMarkers::shapes_of(const std::shared_ptr<const Model>& model,
+                                                          bool collisions) {
+  const auto found = shapes_.find({model, collisions});
   if (found != shapes_.end()) return found->second;
-  return shapes_[model] = marker_shapes(*model);
+  std::vector<MarkerShape>& shapes = shapes_[{model, collisions}];
+  shapes = marker_shapes(collisions ? *collision_bodies(*model) : *model);
+  if (collisions) {
+    for (MarkerShape& shape : shapes) shape.coarse_path.clear();  // it has the plant's colours
+  }
+  return shapes;
 }
 
 }  // namespace ardee::node

@@ -121,7 +121,7 @@ SimulatorNode::SimulatorNode(const Settings& settings, ros::NodeHandle private_n
       topics_(frames_, metrics_, Log(messages_.sink())),
       states_(private_node, simulation_),
       clock_(settings.clock_rate_hz),
-      scenery_(simulation_, settings.scenery_radius_m),
+      scenery_(simulation_, settings.scenery_radius_m, settings.show_collisions),
       runner_(simulation_, {topics_, states_, clock_, frames_},
               [this] {
                 scenery_.update();

@@ -104,6 +104,12 @@ def test_launch_sets_the_simulators_parameters(package):
     assert parameters["/use_gui"] is False
 
 
+def test_launch_tells_the_simulator_what_scenery_to_show(package):
+    parameters = _parameters(package, "scenery_radius_m:=2.5", "show_collisions:=true")
+    assert parameters["/gazebo/scenery_radius"] == 2.5
+    assert parameters["/gazebo/show_collisions"] is True
+
+
 def test_launch_takes_an_absolute_path_and_a_factor(package):
     parameters = _parameters(package, "world:=/tmp/mine.world", "rtf:=0.5")
     assert (

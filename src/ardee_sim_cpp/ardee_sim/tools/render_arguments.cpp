@@ -128,6 +128,7 @@ RenderArguments parse_render_arguments(int argc, const char* const* argv) {
   const std::map<std::string, std::function<void()>> options = {
       {"-h", [&] { found.help = true; }},
       {"--help", [&] { found.help = true; }},
+      {"--collisions", [&] { found.collisions = true; }},
       {"--no-shadows", [&] { found.shadows = false; }},
       {"--output", [&] { found.output = words.take("--output"); }},
       {"--pose", [&] { view.pose = words.pose("--pose"); }},
@@ -170,7 +171,8 @@ std::string render_usage() {
   return "usage: render_world WORLD --output PICTURE.png\n"
          "         [--pose X Y Z ROLL PITCH YAW | --look-from X Y Z --look-at X Y Z]\n"
          "         [--size WIDTHxHEIGHT] [--fov-deg F] [--robot FILE] [--robot-pose X Y Z R P Y]\n"
-         "         [--model-path DIR] [--samples N] [--no-shadows] [--threads N] [-h]\n"
+         "         [--model-path DIR] [--samples N] [--collisions] [--no-shadows] [--threads N] "
+         "[-h]\n"
          "Draws a picture of a world without a display.\n"
          "  WORLD             world file (SDF 1.2 to 1.12): a path, or a name below\n"
          "                    GAZEBO_RESOURCE_PATH\n"
@@ -186,6 +188,7 @@ std::string render_usage() {
          "  --model-path DIR  folder of models to search before GAZEBO_MODEL_PATH; may be given "
          "again\n"
          "  --samples N       rays per pixel, for smooth edges (default 4)\n"
+         "  --collisions      draw collision bodies too, transparent and orange\n"
          "  --no-shadows      light reaches everywhere\n"
          "  --threads N       threads, 0: all cores (default 0); the picture is the same with any\n"
          "  -h, --help        this text\n";

@@ -22,6 +22,7 @@ struct RenderArguments {
   Pose robot_W;
   int samples = 4;
   bool shadows = true;
+  bool collisions = false;  // draw collision bodies too
   int threads = 0;
   bool help = false;
 };

@@ -4,8 +4,10 @@
 
 #include <csignal>
 #include <iostream>
+#include <map>
 #include <mutex>
 
+#include "ardee_sim/description/collision_bodies.h"
 #include "ardee_sim/raycast/ray_scene.h"
 #include "ardee_sim/readers/loader.h"
 #include "ardee_sim/render/renderer.h"
@@ -45,13 +47,21 @@ class ProgressLine {
   int percent_ = -1;
 };
 
-/// The world's scenery and models at their described poses, and the robot.
+/// The world's scenery and models at their described poses, and the robot; with `collisions`, the
+/// collision bodies of each.
 void fill(raycast::RayScene& rays, render::MaterialLibrary& materials, const World& world,
-          const std::shared_ptr<const Model>& robot, const Pose& robot_W) {
+          const std::shared_ptr<const Model>& robot, const Pose& robot_W, bool collisions) {
   std::vector<Placement> placements;
+  std::map<std::shared_ptr<const Model>, std::shared_ptr<const Model>> bodies_of;
   const auto put = [&](const Instance& instance) {
     for (Placement& placement : flatten_scenery(instance)) {
       materials.add(placement.model);
+      placements.push_back(placement);
+      if (!collisions) continue;
+      std::shared_ptr<const Model>& bodies = bodies_of[placement.model];
+      if (!bodies) bodies = collision_bodies(*placement.model);
+      materials.add(bodies);
+      placement.model = bodies;
       placements.push_back(std::move(placement));
     }
   };
@@ -98,7 +108,7 @@ int draw(const RenderArguments& arguments) {
   ray_options.local_scene_radius_m = kFlattenedRadius_m;
   raycast::RayScene rays(raycast::SceneKind::kVisual, ray_options, log);
   render::MaterialLibrary materials(log);
-  fill(rays, materials, world, robot, arguments.robot_W);
+  fill(rays, materials, world, robot, arguments.robot_W, arguments.collisions);
   const render::Camera camera = camera_of(arguments, world, rays);
   rays.prepare({camera.X_WC.p});
   const render::Renderer renderer(rays.pictures(), materials, world.scene, world.lights);

@@ -29,6 +29,7 @@ TEST(RenderArguments, AreRead) {
                                        "2",
                                        "0",
                                        "-0",
+                                       "--collisions",
                                        "--no-shadows",
                                        "--samples",
                                        "9",
@@ -40,6 +41,8 @@ TEST(RenderArguments, AreRead) {
   EXPECT_EQ(found.model_paths, (std::vector<std::string>{"m", "n"}));
   EXPECT_EQ(found.width, 64);
   EXPECT_EQ(found.height, 32);
+  EXPECT_TRUE(found.collisions);
+  EXPECT_FALSE(parse({"a.world", "--output", "a.png"}).collisions);
   EXPECT_FALSE(found.shadows);
   EXPECT_EQ(found.samples, 9);
   ASSERT_TRUE(found.camera_W.has_value());
