@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from typing import Callable, List
+from typing import Callable, Iterator, List
 
 import ardee_sim
 import numpy as np
@@ -192,7 +192,15 @@ def test_a_second_caller_of_a_busy_simulation_gets_an_error(sim: ardee_sim.Simul
     assert sim.step_count == 20_000
 
 
-def test_ctrl_c_ends_a_long_step(sim: ardee_sim.Simulation) -> None:
+@pytest.fixture
+def obeys_ctrl_c() -> Iterator[None]:
+    """Undoes that a shell starts programs in the background with Ctrl-C ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_ends_a_long_step(sim: ardee_sim.Simulation, obeys_ctrl_c: None) -> None:
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         sim.step(100_000_000)
