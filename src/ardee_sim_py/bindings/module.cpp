@@ -91,7 +91,6 @@ void bind_world(py::module_& module) {
           py::call_guard<py::gil_scoped_release>())
       .def("name", [](const LoadedWorld& w) { return w.world()->name; })
       .def("path", &LoadedWorld::path)
-      .def("log", [](const LoadedWorld& w) { return log_of(w.log()); })
       .def("placements", &placements_of);
 }
 

@@ -51,13 +51,13 @@ BoundSimulation::BoundSimulation(std::shared_ptr<LoadedWorld> world, std::uint64
   apply_demands();
 }
 
-BoundSimulation::Use::Use(BoundSimulation& bound)
-    : lock_(bound.in_use_, std::try_to_lock), simulation_(*bound.simulation_) {
-  if (!lock_.owns_lock()) {
+BoundSimulation::Use::Use(BoundSimulation& bound) : bound_(bound) {
+  if (bound.in_use_.exchange(true)) {
     throw std::runtime_error(
         "found a simulation that another thread is using, expected an idle one");
   }
   if (!bound.simulation_) {
+    bound.in_use_ = false;
     throw std::runtime_error("found a simulation that is closed, expected an open one");
   }
 }
@@ -70,6 +70,7 @@ void BoundSimulation::close() {
 
 void BoundSimulation::spawn(const Spawn& wanted) {
   const Use use(*this);
+  log_.insert(log_.end(), wanted.model->log.begin(), wanted.model->log.end());
   SpawnRequest request;
   request.name = wanted.name;
   request.model = wanted.model->model;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,12 +46,14 @@ class BoundSimulation {
   class Use {
    public:
     explicit Use(BoundSimulation& bound);
-    Simulation* operator->() const { return &simulation_; }
-    Simulation& operator*() const { return simulation_; }
+    ~Use() { bound_.in_use_ = false; }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    Simulation* operator->() const { return bound_.simulation_.get(); }
+    Simulation& operator*() const { return *bound_.simulation_; }
 
    private:
-    std::unique_lock<std::mutex> lock_;
-    Simulation& simulation_;
+    BoundSimulation& bound_;
   };
 
   void close();
@@ -105,7 +106,7 @@ class BoundSimulation {
   Inbox inbox_;
   std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;  // by name
   std::atomic<bool> wants_contacts_{false};
-  std::mutex in_use_;
+  std::atomic<bool> in_use_{false};
   std::unique_ptr<Simulation> simulation_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace ardee::python {
 namespace {
@@ -33,17 +34,20 @@ LoadedWorld::LoadedWorld(std::string text, const std::string& path, const Folder
     : text_(std::move(text)),
       path_(path),
       locator_(make_locator(folders)),
-      log_(std::make_shared<std::vector<LogLine>>()),
-      loader_(locator_, Log([log = log_](LogLevel level, const std::string& line) {
-                log->push_back({level, line});
+      said_(std::make_shared<std::vector<LogLine>>()),
+      loader_(locator_, Log([said = said_](LogLevel level, const std::string& line) {
+                said->push_back({level, line});
               })),
-      world_(std::make_shared<const World>(loader_.load_world_text(text_, path))) {}
+      world_(std::make_shared<const World>(loader_.load_world_text(text_, path))),
+      world_log_(std::exchange(*said_, {})) {}
 
 std::shared_ptr<const LoadedModel> LoadedWorld::load_model(const std::string& text,
                                                            const std::string& name) {
   const std::lock_guard<std::mutex> lock(reading_);
+  said_->clear();  // of a model that was refused
+  auto model = loader_.load_model_text(text, name);
   return std::make_shared<const LoadedModel>(
-      LoadedModel{loader_.load_model_text(text, name), text, name});
+      LoadedModel{std::move(model), text, name, std::exchange(*said_, {})});
 }
 
 }  // namespace ardee::python

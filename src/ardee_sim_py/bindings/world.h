@@ -20,7 +20,8 @@ struct LogLine {
 struct LoadedModel {
   std::shared_ptr<const Model> model;
   std::string text;
-  std::string name;  // of its file, for messages
+  std::string name;          // of its file, for messages
+  std::vector<LogLine> log;  // of reading it
 };
 
 /// A world, and the reader that made it: models spawned in its simulations share the files that it
@@ -43,17 +44,19 @@ class LoadedWorld {
   const ResourceLocator& locator() const { return locator_; }
   const std::string& text() const { return text_; }
   const std::string& path() const { return path_; }
-  const std::vector<LogLine>& log() const { return *log_; }
+  /// Messages of reading the world.
+  const std::vector<LogLine>& log() const { return world_log_; }
   std::shared_ptr<const LoadedModel> load_model(const std::string& text, const std::string& name);
 
  private:
   std::string text_;
   std::string path_;
   ResourceLocator locator_;
-  std::shared_ptr<std::vector<LogLine>> log_;
+  std::shared_ptr<std::vector<LogLine>> said_;  // by the loader, since the last take
   std::mutex reading_;
   Loader loader_;
   std::shared_ptr<const World> world_;
+  std::vector<LogLine> world_log_;
 };
 
 }  // namespace ardee::python

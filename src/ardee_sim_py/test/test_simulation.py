@@ -241,6 +241,14 @@ def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia:
     sim.step()
 
 
+def test_the_log_has_what_reading_a_model_said(sim: ardee_sim.Simulation) -> None:
+    sim.log()
+    sim.spawn("ball", BALL.replace("<mass>1</mass>", "<mass>1</mass><mas>2</mas>"), xyz_m=(0, 5, 1))
+    (line,) = sim.log()
+    assert line.level == "warning" and "<mas>" in line.text and "ball:2" in line.text
+    assert sim.log() == []
+
+
 def test_a_closed_simulation_says_so(sim: ardee_sim.Simulation) -> None:
     sim.close()
     sim.close()

@@ -65,6 +65,8 @@ def test_a_robot_is_expanded_as_by_ros(name: str) -> None:
 def test_a_robot_that_is_not_there_or_broken_says_so(tmp_path: pathlib.Path) -> None:
     with pytest.raises(ardee_sim.ArdeeError, match="tsv1_default"):
         ardee_sim.robot("tsv9_default")
+    with pytest.raises(ardee_sim.ArdeeError, match="'sensrs', expected one of: .*sensors"):
+        ardee_sim.robot("tsv1_default", sensrs="full")
     broken = tmp_path / "broken.urdf.xacro"
     broken.write_text('<robot xmlns:xacro="http://ros.org/wiki/xacro" name="${1/0}"/>')
     with pytest.raises(ardee_sim.ArdeeError, match="division by zero"):

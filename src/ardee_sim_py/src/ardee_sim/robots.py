@@ -27,7 +27,7 @@ def robot(name_or_path: PathLike, **xacro_arguments: Union[str, float, bool]) ->
     """Returns the URDF of a shipped robot, such as tsv1_default, or of an .urdf, .sdf or .xacro file of yours.
 
     xacro_arguments : values of the file's <xacro:arg>, as name:=value on a command line.
-    Raises ArdeeError with xacro's message if the file cannot be expanded.
+    Raises ArdeeError with xacro's message if the file cannot be expanded, or has no such argument.
     """
     path = _xacro_file(name_or_path)
     if path.suffix != ".xacro":

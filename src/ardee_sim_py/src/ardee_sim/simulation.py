@@ -278,7 +278,7 @@ class Simulation:
         return [make_reading(made) for made in self._core.drain(topic)]
 
     def dropped(self, topic: str) -> int:
-        """Returns how many readings drain() came too late for."""
+        """Returns how many readings drain() came too late for; none with keep=1, where only the last counts."""
         return self._core.dropped(topic)
 
     def entities(self) -> List[Entity]:

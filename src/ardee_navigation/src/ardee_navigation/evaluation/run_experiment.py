@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, List, Optional
+from typing import List, Optional
 
 from tqdm import tqdm
 
@@ -113,11 +113,9 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     output = args.output or Path("experiment_output") / usual
     make_folder(output)
     check_folder(output, args.scenario, seeds)
-    master, records, report = (
-        Master("run_experiment"),
-        [],
-        None,
-    )  # type: Any, List[Record], Optional[Path]
+    master = Master("run_experiment")
+    records: List[Record] = []
+    report: Optional[Path] = None
     try:
         urdf = robot_urdf(args.bot_model)
         for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
