@@ -116,17 +116,22 @@ class Survey:
         self._command.linear.x, self._command.angular.z = forward_m_s, turn_rad_s
 
     def rates(self) -> Dict[str, Dict[str, float]]:
-        """Returns messages a simulated second of each stream, by their stamps, and their frames."""
+        """Returns messages a simulated second of each stream, by their stamps."""
         begin_s = self.now_s()
-        self.wait(RATES_S + 0.2)
+        end_s = begin_s + RATES_S
+        wait_until(lambda: self.heard_until(end_s), f"every stream's messages until {end_s} s")
         return {
             name: {
-                topic: sum(begin_s <= m.header.stamp.to_sec() < begin_s + RATES_S for m in messages)
-                / RATES_S
+                topic: sum(begin_s <= m.header.stamp.to_sec() < end_s for m in messages) / RATES_S
                 for topic, messages in robot.items()
             }
             for name, robot in self.heard.items()
         }
+
+    def heard_until(self, end_s: float) -> bool:
+        """Tells whether every stream has come as far as this simulated time: each has a thread of its own."""
+        streams_heard = [messages for robot in self.heard.values() for messages in robot.values()]
+        return all(messages[-1].header.stamp.to_sec() >= end_s for messages in streams_heard)
 
     def frames(self) -> Dict[str, Dict[str, str]]:
         """Returns the frames by stream; none for streams without one."""
