@@ -90,19 +90,33 @@ def test_a_robot_goes_with_its_launch_file_and_comes_again(graph: RosGraph) -> N
     assert world.exit_code() is None
 
 
-def test_a_taken_name_is_named_and_the_first_robot_stays(graph: RosGraph) -> None:
+def assert_whole(graph: RosGraph, first: Process) -> None:
+    """Checks that the first robot stands at its place, and that its wheels and its description are told."""
+    assert first.exit_code() is None
+    assert_place(place_of(graph, "TerraSentia_0"), 0.0, 0.0, -3.14)
+    assert graph.call(probes.transform, "odom", "front_left_wheel_link")
+    assert '<robot name="TSv1"' in graph.call(probes.parameter, "/robot_description")
+
+
+def test_a_taken_namespace_or_name_leaves_the_first_robot_whole(graph: RosGraph) -> None:
     start_world(graph, "empty.world")
     first = spawned(graph)
-    second = graph.launch(*LAUNCH, "y:=3")
-    second.wait()
-    told = [line for line in second.output().splitlines() if "already exists" in line]
+    for arguments in ([], ["y:=3", "model_name:=Another", "bot_model:=tsv3_default.urdf.xacro"]):
+        second = graph.launch(*LAUNCH, *arguments)
+        assert second.wait() != 0
+        assert "a robot runs in the namespace / already" in second.output()
+        assert "another namespace: ns:=NAME" in second.output()
+        assert_whole(graph, first)
+    namesake = graph.launch(*LAUNCH, "ns:=robot2", "model_name:=TerraSentia_0")
+    namesake.wait()
+    told = [line for line in namesake.output().splitlines() if "already exists" in line]
     assert len(told) == 1
     assert "there is a model named 'TerraSentia_0'; delete it" in told[0]
     assert "rosservice call /gazebo/delete_model TerraSentia_0" in told[0]
     assert "model_name:=NAME" in told[0]
-    assert first.exit_code() is None
-    assert_place(place_of(graph, "TerraSentia_0"), 0.0, 0.0, -3.14)
-    graph.run("rosservice", "call", "/gazebo/delete_model", "TerraSentia_0")  # as it says
+    assert_whole(graph, first)
+    first.interrupt()  # as the first message says
+    assert first.wait() == 0
     spawned(graph, "y:=3")
     assert_place(place_of(graph, "TerraSentia_0"), 0.0, 3.0, -3.14)
 

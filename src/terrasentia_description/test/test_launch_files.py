@@ -10,20 +10,23 @@ import yaml
 from xacro_runner import SOURCES, XACRO, ros_environment
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[1] / "launch"
+DESCRIBE = LAUNCH.parent / "scripts/describe_robot"
 FILES = ["launch_default_tsv1.launch", "launch_default_bot.launch"]
 
 
 @pytest.fixture(scope="module", autouse=True)
 def workspace(tmp_path_factory: pytest.TempPathFactory):
-    """Returns a catkin workspace of links, built as far as $(find xacro)/xacro needs it."""
+    """Returns a catkin workspace of links, built as far as launch files look for executables."""
     root = tmp_path_factory.mktemp("workspace")
-    sources, scripts = root / "src", root / "devel/lib/xacro"
+    sources = root / "src"
     sources.mkdir()
-    scripts.mkdir(parents=True)
     for package in ("ardee_sensors", "terrasentia_description"):
         (sources / package).symlink_to(SOURCES / package)
     (sources / "xacro").symlink_to(XACRO.parents[1])
-    (scripts / "xacro").symlink_to(XACRO)
+    for package, script in (("xacro", XACRO), ("terrasentia_description", DESCRIBE)):
+        scripts = root / "devel/lib" / package
+        scripts.mkdir(parents=True)
+        (scripts / script.name).symlink_to(script)
     (root / "devel/.catkin").write_text(str(sources))
     with pytest.MonkeyPatch.context() as patch:
         prefixes = [str(root / "devel"), os.environ.get("CMAKE_PREFIX_PATH", "")]
