@@ -10,16 +10,18 @@ export PATH="/usr/bin:$PATH"
 export ROS_IP="${ROS_IP:-127.0.0.1}"
 unset ROS_HOSTNAME
 
-# Leave out what the calling shell has sourced of another checkout: its stand-ins are no packages of the system, and it
-# is not to lie below this workspace. Other workspaces of the user's and /opt/ros stay.
+# Leave out what the calling shell has sourced of another checkout or of an install space: its stand-ins are no packages
+# of the system, and it is not to lie below this workspace. Other workspaces of the user's and /opt/ros stay.
 drop_other_checkouts() {
   local name entry folder kept
   for name in {CMAKE_PREFIX,GAZEBO_MODEL,GAZEBO_RESOURCE,LD_LIBRARY,PKG_CONFIG,ROS_PACKAGE}_PATH PATH PYTHONPATH; do
     kept=""
     while IFS= read -rd : entry; do
       folder=$entry
-      until [[ -e $folder/src/ardee_sim_cpp || $folder != */* ]]; do folder=${folder%/*}; done
-      [[ $folder == */* && ! $folder -ef $root ]] || kept+=:$entry
+      until [[ -e $folder/src/ardee_sim_cpp || -e $folder/share/ardee_sim_cpp || $folder != */* ]]; do
+        folder=${folder%/*}
+      done
+      [[ $folder == */* && ! $folder -ef $root && ! $folder -ef $root/devel ]] || kept+=:$entry
     done <<<"${!name:+${!name}:}"
     if [[ $kept ]]; then export "$name=${kept#:}"; else unset "$name"; fi
   done

@@ -46,9 +46,16 @@ def test_a_users_own_package_counts_and_another_checkouts_stand_ins_do_not(
 
 
 @pytest.mark.parametrize("name", ["CMAKE_PREFIX_PATH", "PYTHONPATH", "GAZEBO_MODEL_PATH"])
-def test_another_checkout_does_not_lie_below_this_one(checkout: pathlib.Path, name: str) -> None:
+def test_another_checkout_and_an_install_space_do_not_lie_below_this_one(
+    checkout: pathlib.Path, name: str
+) -> None:
     (checkout / "src" / "ardee_sim_cpp").mkdir()
+    installed = checkout.parent / "installed"
+    (installed / "share" / "ardee_sim_cpp").mkdir(parents=True)
     kept = f"{checkout}/devel/lib:/opt/ros/noetic:/own/devel:/own/src/models"
     print_it = f"source {checkout}/scripts/common.bash; echo ${{{name}-unset}}"
-    assert run(print_it, **{name: f"{ROOT}/devel/lib:{kept}:{ROOT}/src/a/b"}).strip() == kept
-    assert run(print_it, **{name: f"{ROOT}/devel"}).strip() == "unset"
+    assert (
+        run(print_it, **{name: f"{ROOT}/devel/lib:{kept}:{installed}/lib:{ROOT}/src/a/b"}).strip()
+        == kept
+    )
+    assert run(print_it, **{name: f"{ROOT}/devel:{installed}"}).strip() == "unset"

@@ -5,6 +5,8 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
     **generate_distutils_setup(
-        packages=["ardee_sim", "ardee_sim.examples"], package_dir={"": "src"}
+        packages=["ardee_sim", "ardee_sim.examples"],
+        package_dir={"": "src"},
+        package_data={"ardee_sim": ["py.typed"]},
     )
 )

@@ -45,7 +45,7 @@ class Piece:
 
 
 def load_trimesh() -> ModuleType:
-    """Imports trimesh from the system, else from $ARDEE_PYDEPS or <workspace>/pydeps, where scripts/setup puts it."""
+    """Imports trimesh from the Python path, else from $ARDEE_PYDEPS or the workspace's pydeps/ of scripts/setup."""
     folder = os.environ.get("ARDEE_PYDEPS") or str(Path(__file__).resolve().parents[4] / "pydeps")
     if folder not in sys.path:
         sys.path.append(folder)

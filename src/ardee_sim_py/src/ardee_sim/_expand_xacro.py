@@ -8,16 +8,13 @@ import sys
 from pathlib import Path
 from typing import Dict, List, Set
 
-from ardee_sim.errors import ArdeeError
 from ardee_sim.packages import find_package
 
 
 def _import_xacro():  # type: ignore[no-untyped-def]
-    """Returns PyPI's xacro: an installed one, else that of the workspace or of its install space."""
+    """Returns PyPI's xacro: one on the Python path, else that of the workspace."""
     workspace = Path(__file__).resolve().parents[4]
     kept = [os.environ.get("ARDEE_PYDEPS", ""), workspace / "pydeps"]
-    with contextlib.suppress(ArdeeError):
-        kept.append(find_package("xacro") / "pydeps")
     sys.path.extend(str(place) for place in kept if place and Path(place).is_dir())
     try:
         import xacro.substitution_args
