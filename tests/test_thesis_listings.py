@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Tests that robots of the thesis's Listings A.1, A.2, A.5, A.13 and A.25, as they are printed, load and work."""
+"""Tests that robots of the thesis's Listings A.1 to A.13 and A.25, as they are printed, load and work."""
 import math
 import pathlib
+import string
 from typing import Any, List
 
 import probes
@@ -119,3 +120,76 @@ def test_the_leg_of_listing_a_25_settles_at_its_spring_s_rest(graph: RosGraph) -
         {"joint_name": "front_right_leg_joint"},
     )
     assert call(graph, joint)[0].position[0] == pytest.approx(-0.2, abs=0.005)
+
+
+PLOT = {
+    "plot_id": 3,
+    "plot_range_index": 0,
+    "plot_crossrange_index": 0,
+    "x": 0,
+    "y": 0,
+    "z": 0,
+    "rotation": 0,
+}
+PLOT.update(row_count=4, row_width=0.762, row_length=5, average_height=1.5)
+
+
+def test_the_sensors_of_listing_a_12_in_a_plot_of_a_7_have_the_noise_of_a_6(
+    graph: RosGraph,
+) -> None:
+    """Crops of 1.5 m lie in the band whose variance is four times the open sky's, of 1 mm."""
+    field = graph.folder / "models/field"
+    field.mkdir(parents=True)
+    (field / "model.sdf").write_text(
+        '<sdf version="1.5"><model name="field"><static>true</static><link name="l"/></model></sdf>'
+    )
+    plots = string.Template((LISTINGS / "a_7.xacro").read_text()).substitute(PLOT)
+    (field / "plots.xacro").write_text(plots)
+    (graph.folder / "custom_gps_behavior.geofence").write_text(
+        (LISTINGS / "a_6.geofence").read_text()
+    )
+    for name, folder in (("MODEL", field.parent), ("RESOURCE", graph.folder)):
+        graph.env[f"GAZEBO_{name}_PATH"] = f"{folder}:{graph.env[f'GAZEBO_{name}_PATH']}"
+    world = "<include><uri>model://field</uri></include></world>"
+    simulator = simulate(graph, GROUND.replace("</world>", world))
+    robot = graph.run(
+        "bash",
+        "-c",
+        f"xacro $(rospack find terrasentia_description)/robots/tsv1.urdf.xacro sensors:={LISTINGS}/a_12.urdf.xacro",
+    )
+    answer = call(graph, spawn("r", robot, pose(z=0.2), "urdf"))[0]
+    assert answer.status_message == "SpawnModel: Successfully spawned entity"
+    gps = collected(graph, "/ardee/gps/data", "ardee_msgs/GpsQuality", 3)[-1]
+    assert (gps.region, gps.position_std) == ("plot 3", pytest.approx(2 * 0.001))
+    battery = collected(graph, "/ardee/battery", "ardee_msgs/Battery")[0]
+    assert battery.voltage == pytest.approx(12.694, abs=0.1)
+    topics = [
+        "/ardee/hokuyo",
+        "/ardee/imu/custom",
+        "/ardee/camera/image_raw",
+        "/ardee/camera_left/image_raw",
+    ]
+    graph.call(probes.wait_for_topics, topics, [])
+    assert "WARN" not in simulator.output() and "ERROR" not in simulator.output()
+
+
+def test_the_chassis_of_listing_a_10_weighs_what_it_says(graph: RosGraph) -> None:
+    urdf = "$(find terrasentia_description)/urdf/includes"
+    more = "".join(
+        f'<xacro:include filename="{urdf}/{name}.urdf.xacro"/>' for name in ("materials", "utils")
+    )
+    meshes = "package://terrasentia_description/meshes/v2"
+    more += (LISTINGS / "a_10.txt").read_text() + (
+        f'<xacro:chassis_v2 name="base" stl_chassis="{meshes}/base_link.STL" stl_lid="{meshes}/lid.STL" color="grey"/>'
+    )
+    start(
+        graph,
+        expanded(graph, f'<robot name="r" xmlns:xacro="http://ros.org/wiki/xacro">{more}</robot>'),
+        "urdf",
+    )
+    kind = "gazebo_msgs/GetLinkProperties"
+    links = [
+        ("/gazebo/get_link_properties", kind, {"link_name": f"r::{each}"})
+        for each in ("base", "lid_link")
+    ]
+    assert [answer.mass for answer in call(graph, *links)] == pytest.approx([7.227, 0.01])

@@ -119,6 +119,30 @@ def test_every_enumerator_of_the_header_is_in_the_codec(package):
     assert names == {(word, name) for word, kind in kinds.items() for name in kind.__members__}
 
 
+def test_listings_a_16_and_a_17_of_the_thesis_have_the_same_layout(package, tmp_path):
+    """Compiles the printed headers in a namespace: each struct, field and enumerator of theirs is ours, and the same."""
+    listings = [package.parents[1] / "tests/data/listings" / name for name in ("a_16.h", "a_17.h")]
+    text = "".join(file.read_text() for file in listings)
+    structs = set(re.findall(r"typedef struct (\w+)", text))
+    kinds = [kind for kind in codec.STRUCTS if kind.C_NAME in structs]
+    assert {kind.C_NAME for kind in kinds} >= {s for s in structs if s.startswith("Ardee_Msg_")}
+    enumerators = re.findall(r"^\s*(\w+) = \d+,", text, re.MULTILINE)
+    assert len(enumerators) == 11 + 2 + 11 + 2 + 4
+    lines = ["#include <ardee_message.h>", "namespace printed {"]
+    lines += [f'#include "{file}"' for file in listings] + ["}"]
+    pairs = [f"sizeof({{}}{kind.C_NAME})" for kind in kinds]
+    pairs += [f"offsetof({{}}{kind.C_NAME}, {leaf.path})" for kind in kinds for leaf in kind.leaves]
+    pairs += [f"int({{}}{name})" for name in enumerators]
+    lines += [
+        f'static_assert({pair.format("printed::")} == {pair.format("")}, "");' for pair in pairs
+    ]
+    source = tmp_path / "printed.cpp"
+    source.write_text("\n".join(lines) + "\n")
+    command = ["g++", "-std=c++17", "-fsyntax-only", f"-I{package / 'include'}", str(source)]
+    built = subprocess.run(command, capture_output=True, text=True)
+    assert built.returncode == 0, built.stderr
+
+
 def test_generated_parts_are_up_to_date(package):
     for file, text in generate.generated(package).items():
         assert file.read_text() == text, f"{file}: run `rosrun ardee_bridge generate_wire_files`"

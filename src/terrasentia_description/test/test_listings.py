@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tests that the thesis's Listings A.13 and A.25 expand as they are printed, to the robots that they describe."""
+"""Tests that the thesis's Listings A.11, A.13 and A.25, as they are printed, describe the robots that are here."""
 import pathlib
+import re
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -94,6 +95,28 @@ def test_the_leg_of_listing_a_25_is_the_one_here(tmp_path: pathlib.Path):
     assert ElementTree.canonicalize(one, strip_text=True) == ElementTree.canonicalize(
         other, strip_text=True
     )
+
+
+def test_the_numbers_of_listing_a_11_are_ours(tmp_path: pathlib.Path):
+    """Sizes are in another order: the listing's meshes had y forward."""
+    listing = LISTINGS / "a_11.urdf.xacro"
+    names = re.findall(r'property name="(\w+)"', listing.read_text())
+    assert len(names) == 20
+    ours = SOURCES / "terrasentia_description/config/tsv1_config.urdf.xacro"
+    links = '<xacro:include filename="$(find terrasentia_description)/urdf/links_v1.urdf.xacro" />'
+    values = []
+    for number, include in enumerate((listing, ours)):
+        file = tmp_path / f"{number}.urdf.xacro"
+        told = " ".join(f'{name}="${{{name}}}"' for name in names)
+        file.write_text(
+            f'<robot xmlns:xacro="http://ros.org/wiki/xacro">{links}<xacro:include filename="{include}" />'
+            f"<numbers {told} /></robot>"
+        )
+        values.append(ElementTree.fromstring(expand(file)).find("numbers").attrib)
+    for name in ("CHASSIS_SIZE", "LID_SIZE"):
+        y, x, z = values[0][name].split()
+        values[0][name] = " ".join((x, y, z))
+    assert values[0] == values[1]
 
 
 def test_the_chassis_of_listing_a_10_and_of_the_third_generation(tmp_path: pathlib.Path):
