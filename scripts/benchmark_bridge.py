@@ -78,7 +78,7 @@ def _or_nan(choose: Callable[[List[float]], float], values: List[float]) -> floa
 
 
 def _run(seconds: float, *options: str) -> Dict[str, Any]:
-    command = [str(PROGRAM), "--json", "--seconds", str(seconds)]
+    command = [str(PROGRAM), "--json", "--duration-s", str(seconds)]
     command += options
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as process:

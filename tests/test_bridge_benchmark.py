@@ -24,7 +24,7 @@ def measured(graph: RosGraph, *arguments: str) -> Dict[str, Any]:
 
 
 def test_everything_is_measured(graph: RosGraph) -> None:
-    found = measured(graph, "--seconds", "1", "--cameras")
+    found = measured(graph, "--duration-s", "1", "--cameras")
     assert set(found) == ROWS | {"datagram to cmd_vel"}
     # streams a row, and their rate [Hz]; of each, the last message may be due after the end
     planned = {"imu": (1, 100), "gps": (1, 20), "lidar": (1, 40), "battery": (1, 100)}
@@ -37,7 +37,7 @@ def test_everything_is_measured(graph: RosGraph) -> None:
 
 @pytest.mark.parametrize("only", ["sensors", "controls"])
 def test_one_half_is_left_out(graph: RosGraph, only: str) -> None:
-    kinds = measured(graph, "--seconds", "0.5", "--only", only)
+    kinds = measured(graph, "--duration-s", "0.5", "--only", only)
     assert kinds and {"cmd_vel" in name for name in kinds} == {only == "controls"}
 
 
@@ -46,5 +46,5 @@ def test_every_sensor_of_a_simulated_robot_is_timed_by_its_packets(graph: RosGra
         Capture("/anyone").close()
     except OSError as error:
         pytest.skip(f"packets cannot be captured here: {error}")
-    arguments = ("--simulator", "--only", "sensors", "--seconds", "10", "--cameras")
+    arguments = ("--simulator", "--only", "sensors", "--duration-s", "10", "--cameras")
     assert set(measured(graph, *arguments)) == ROWS
