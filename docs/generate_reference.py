@@ -5,6 +5,7 @@ import argparse
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import xml.etree.ElementTree as xml
@@ -46,9 +47,13 @@ warnings and what to do next are on standard error.
 
 | exit code | means |
 |---|---|
-| 0 | it is done |
+| 0 | it is done; or a node was told to end, by Ctrl-C too |
 | 1 | good arguments, but what was measured or run was not: a value outside its range, a robot that does not answer |
 | 2 | an argument or file is not usable: one line says where, what was found and expected; nothing is written |
+| 3 | the ROS master was started anew and knows the node no more |
+| 130 | Ctrl-C ended the work before it was done: what was complete stays, what was half-made is removed |
+
+Work of more than three seconds shows on standard error how far it is.
 """
 LABELS = """# Labels
 
@@ -210,7 +215,8 @@ def cpp_library() -> str:
 
 
 def main() -> int:
-    """Runs the command; returns its exit code."""
+    """Runs the command; returns its exit code. Ctrl-C ends it without a word."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
         "folder", type=Path, metavar="FOLDER", help="folder to write, replaced if it is there"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_common.output import model_directory
+from ardee_common.output import model_directory, output_folder, write_file
 
 
 def write(parent: Path, name: str, text: str) -> None:
@@ -45,3 +45,30 @@ def test_a_parent_that_is_a_file(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(GeneratorError, match="cannot be written"):
         write(tmp_path / "file", "x", "new")
+
+
+def test_a_folder_goes_again_if_nothing_came_into_it(tmp_path: Path) -> None:
+    def interrupt(write_first: bool) -> None:
+        with pytest.raises(KeyboardInterrupt), output_folder(tmp_path / "out") as folder:
+            if write_first:
+                write_file(folder / "whole", b"text")
+            raise KeyboardInterrupt
+
+    interrupt(write_first=False)
+    assert not (tmp_path / "out").exists()
+    interrupt(write_first=True)
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["whole"]
+
+
+def test_ctrl_c_amid_a_file_leaves_the_earlier_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def half(path: Path, data: bytes) -> None:
+        path.touch()
+        raise KeyboardInterrupt
+
+    write_file(tmp_path / "x", b"first")
+    monkeypatch.setattr(Path, "write_bytes", half)
+    with pytest.raises(KeyboardInterrupt):
+        write_file(tmp_path / "x", b"second")
+    assert [path.read_bytes() for path in tmp_path.iterdir()] == [b"first"]

@@ -61,7 +61,9 @@ def _changed(share, tmp_path, **changes):
 
 def test_a_value_outside_its_range_fails(share, tmp_path):
     arguments = _changed(share, tmp_path, height_m=3.4)
-    assert crop_report.main(arguments) == 1
+    with pytest.raises(SystemExit) as exit_:
+        crop_report.main(arguments)
+    assert exit_.value.code == 1
     assert (
         "| height_m | 3.4 | 2 to 2.8 | NO | nominal | notes |"
         in (tmp_path / "r" / "crop_report.md").read_text()

@@ -5,7 +5,6 @@ import math
 import pathlib
 import re
 import subprocess
-import tempfile
 from typing import List, Tuple
 
 from device_numbers import CONFIG, MARKS, PACKAGE, Number, devices, load, read_numbers, sources
@@ -13,6 +12,7 @@ from PIL import Image, ImageDraw
 
 from ardee_common.cli import steps
 from ardee_common.errors import GeneratorError
+from ardee_common.output import output_folder, write_file
 
 POST_HEIGHT_M = 0.6
 WORLD = """<?xml version="1.0"?>
@@ -170,27 +170,19 @@ def page(shown: List[str]) -> str:
     )
 
 
-def make_writable(folder: pathlib.Path) -> None:
-    """Makes the folder and checks that it can be written, before minutes of drawing; raises GeneratorError if not."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=folder).close()
-    except OSError as error:
-        raise GeneratorError(
-            f"found --output {folder} ({error.strerror}), expected a folder that can be written"
-        ) from None
-
-
 def write_report(folder: pathlib.Path, shown: List[str], work: pathlib.Path) -> pathlib.Path:
     """Writes the pictures, a sheet of all of them and index.html into the folder; returns the page's path."""
-    make_writable(folder)
-    for device in steps("sensor_report", shown):
-        take_picture(device, work, work / f"{device}.png")
-    text = page(shown)
-    for device in shown:
-        (folder / f"{device}.png").write_bytes((work / f"{device}.png").read_bytes())
-    contact_sheet([folder / f"{device}.png" for device in shown]).save(folder / "sensors_sheet.png")
-    (folder / "index.html").write_text(text, encoding="utf-8")
+    with output_folder(folder):
+        for device in steps("sensor_report", shown):
+            take_picture(device, work, work / f"{device}.png")
+        text = page(shown)
+        pictures = [folder / f"{device}.png" for device in shown]
+        for picture in pictures:
+            write_file(picture, (work / picture.name).read_bytes())
+        sheet = work / "sensors_sheet.png"
+        contact_sheet(pictures).save(sheet)
+        write_file(folder / sheet.name, sheet.read_bytes())
+        write_file(folder / "index.html", text.encode())
     return folder / "index.html"
 
 

@@ -106,7 +106,10 @@ class PtzNode:
 
 def main() -> int:
     """Runs the node; returns 1 when a parameter is wrong."""
-    rospy.init_node("axis_ptz_driver")
+    try:
+        rospy.init_node("axis_ptz_driver")
+    except rospy.ROSInitException:  # ended while there was no ROS master
+        return 130
     try:
         rate_hz = read_rate_hz()
         joints = [

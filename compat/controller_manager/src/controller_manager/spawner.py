@@ -119,7 +119,10 @@ def parse_arguments() -> argparse.Namespace:
 
 def main() -> int:
     arguments = parse_arguments()
-    rospy.init_node("spawner", anonymous=True)
+    try:
+        rospy.init_node("spawner", anonymous=True)
+    except rospy.ROSInitException:  # ended while there was no ROS master
+        return 130
     timeout_s = None if arguments.no_timeout or arguments.timeout <= 0.0 else arguments.timeout
     spawner = Spawner(arguments.namespace)
     try:

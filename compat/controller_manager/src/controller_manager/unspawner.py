@@ -14,7 +14,10 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="unspawner", description=__doc__)
     parser.add_argument("controllers", nargs="+", metavar="NAME")
     names = parser.parse_args(rospy.myargv()[1:]).controllers
-    rospy.init_node("unspawner", anonymous=True)
+    try:
+        rospy.init_node("unspawner", anonymous=True)
+    except rospy.ROSInitException:  # ended while there was no ROS master
+        return 130
     rospy.wait_for_service("controller_manager/list_controllers")
     rospy.wait_for_service("controller_manager/switch_controller")
     list_controllers = rospy.ServiceProxy("controller_manager/list_controllers", ListControllers)

@@ -122,11 +122,11 @@ def main() -> int:
     if {"-h", "--help"} & set(sys.argv[1:]):
         print(f"usage: joy_node [-h] [_PARAMETER:=VALUE ...]\n{ABOUT}")
         return 0
+    while not rosgraph.is_master_online():
+        time.sleep(MASTER_S)
     try:
-        while not rosgraph.is_master_online():
-            time.sleep(MASTER_S)
         rospy.init_node("joy_node")
-    except (KeyboardInterrupt, rospy.ROSInitException):  # ended before there was one
+    except rospy.ROSInitException:  # ended before it had begun
         return 130
     try:
         node = JoyNode()

@@ -2,17 +2,21 @@
 """The parser of all commands, types of arguments, and the handling of errors."""
 
 import argparse
+import contextlib
 import math
 import re
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
 
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import range_text
+from ardee_common.process import Ended, end_by_signals
 
 PROGRESS_S = 3.0  # longest time that a command works without a word
+_CLEAR_LINE = "\r\033[K"  # of a terminal
 
 
 class Help(argparse.HelpFormatter):
@@ -101,7 +105,33 @@ def _number(is_good: Callable[[float], bool], expected: str) -> Callable[[str], 
 
 def say(prog: str, text: str) -> None:
     """Prints a line for the user beside the output, which another program may read."""
-    print(f"{prog}: {text}", file=sys.stderr, flush=True)
+    clear = _CLEAR_LINE if sys.stderr.isatty() else ""
+    print(f"{clear}{prog}: {text}", file=sys.stderr, flush=True)
+
+
+@contextlib.contextmanager
+def seconds_shown(prog: str) -> Iterator[None]:
+    """Shows the seconds that the work in the block has taken, from PROGRESS_S on, in the last line of a terminal."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    began, has_ended = time.monotonic(), threading.Event()
+
+    def show() -> None:
+        wait_s = PROGRESS_S
+        while not has_ended.wait(wait_s):
+            wait_s = 1.0
+            text = f"{_CLEAR_LINE}{prog}: {time.monotonic() - began:.0f} s "
+            print(text, end="", file=sys.stderr, flush=True)
+        print(_CLEAR_LINE, end="", file=sys.stderr, flush=True)
+
+    shower = threading.Thread(target=show, daemon=True)
+    shower.start()
+    try:
+        yield
+    finally:
+        has_ended.set()
+        shower.join()
 
 
 def steps(
@@ -147,10 +177,17 @@ def run(
     work: Callable[[argparse.Namespace], Any],
     arguments: Optional[Sequence[str]] = None,
 ) -> int:
-    """Parses, works, prints the result if there is one; returns 0, or exits with one line and 2 for bad input."""
+    """Parses, works, prints the result if there is one; returns 0.
+
+    Exits with one line and 2 for bad input, and with 130 after Ctrl-C, once the work has cleaned up behind itself.
+    """
     args = parser.parse_args(arguments)
+    end_by_signals()
     try:
-        result = work(args)
+        with seconds_shown(parser.prog):
+            result = work(args)
+    except Ended as ended:
+        parser.exit(ended.code, f"{parser.prog}: interrupted\n")
     except (GeneratorError, OSError) as error:
         parser.exit(2, f"{parser.prog}: {error}\n")
     if result is not None:

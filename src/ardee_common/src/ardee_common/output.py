@@ -32,8 +32,9 @@ def _swap(temporary: Path, target: Path) -> None:
     os.rename(target, retired / target.name)
     try:
         os.rename(temporary, target)
-    except OSError:
-        os.rename(retired / target.name, target)
+    except BaseException:  # Ctrl-C too
+        if not target.exists():
+            os.rename(retired / target.name, target)
         raise
     finally:
         shutil.rmtree(retired)
@@ -62,9 +63,30 @@ def model_directory(parent: Path, name: str) -> Iterator[Path]:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
+@contextlib.contextmanager
+def output_folder(folder: Path) -> Iterator[Path]:
+    """Makes a folder to write in; one that is still empty when the block ends badly is removed."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise GeneratorError(
+            f"found --output {folder} ({error.strerror}), expected a folder that can be written"
+        ) from None
+    try:
+        yield folder
+    except BaseException:  # Ctrl-C too
+        with contextlib.suppress(OSError):
+            folder.rmdir()  # refused where something is in it
+        raise
+
+
 def write_file(path: Path, data: bytes) -> None:
     """Replaces one file in one step."""
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.new")
-    temporary.write_bytes(data)
-    os.replace(temporary, path)
+    try:
+        temporary.write_bytes(data)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

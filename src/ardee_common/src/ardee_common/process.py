@@ -31,7 +31,8 @@ def end_by_signals(codes: Optional[List[int]] = None) -> None:
         raise Ended(128 + number)
 
     for number in END_SIGNALS:
-        signal.signal(number, end)
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # nohup's wish
+            signal.signal(number, end)
 
 
 def ignore_end_signals() -> None:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """A picture of crop models side by side, read back from their meshes and textures."""
 
+import argparse
+import io
 import json
 from pathlib import Path
 from typing import List, Optional, Sequence
@@ -9,8 +11,9 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from ardee_common.cli import Parser, steps
+from ardee_common.cli import Parser, run, steps
 from ardee_common.errors import GeneratorError
+from ardee_common.output import write_file
 from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.report.splat import Part, draw, read_dae
 
@@ -96,10 +99,17 @@ def draw_contact_sheet(
     sheet = Image.new("RGB", (columns * width, rows * height), (255, 255, 255))
     for i, model in enumerate(steps("contact sheet", models)):
         sheet.paste(_cell(model, suffix), (i % columns * width + 2, i // columns * height + 2))
+    picture = io.BytesIO()
+    sheet.save(picture, format="PNG")
     try:
-        sheet.save(output)
-    except (OSError, ValueError) as error:
+        write_file(output, picture.getvalue())
+    except OSError as error:
         raise GeneratorError(f"{output}: cannot be written: {error}") from error
+
+
+def _draw(args: argparse.Namespace) -> None:
+    suffix = "_lod1" if args.lod1 else ""
+    draw_contact_sheet(args.models, args.output, max(args.columns, 1), suffix)
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
@@ -113,10 +123,4 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument(
         "--lod1", action="store_true", help="draw the coarse level of detail instead"
     )
-    args = parser.parse_args(arguments)
-    try:
-        suffix = "_lod1" if args.lod1 else ""
-        draw_contact_sheet(args.models, args.output, max(args.columns, 1), suffix)
-    except GeneratorError as error:
-        parser.exit(2, f"{parser.prog}: {error}\n")
-    return 0
+    return run(parser, _draw, arguments)

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
 """The command `crop_report`: a picture of all crop models, and their metrics beside the literature's ranges."""
 
+import argparse
 import csv
 import io
 import json
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence
 
-from ardee_common.cli import Parser, add_model_path
+from ardee_common.cli import Parser, add_model_path, run
 from ardee_common.errors import GeneratorError
-from ardee_common.output import write_file
+from ardee_common.output import output_folder, write_file
 from ardee_models.lookup import find_model, search_path
 from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.plant.stages import SEASONS
@@ -131,30 +132,28 @@ def _season_order(model: Path) -> tuple:
 def report(models: Sequence[Path], output: Path) -> int:
     """Writes crop_report.md, crop_report.csv and contact_sheet.png; returns how many values lie outside."""
     rows = _rows(models)
-    try:
-        output.mkdir(parents=True, exist_ok=True)
+    with output_folder(output):
         draw_contact_sheet(sorted(models, key=_season_order), output / "contact_sheet.png")
         write_file(output / "crop_report.csv", _csv(rows).encode())
         write_file(output / "crop_report.md", _markdown(rows, models).encode())
-    except OSError as error:
-        raise GeneratorError(f"{output}: cannot be written: {error.strerror}") from error
     return sum(row["within"] == "NO" for row in rows)
 
 
+def _report(args: argparse.Namespace) -> None:
+    folders = search_path(args.model_path)
+    models = [find_model(name, folders) for name in args.models or load_variants()]
+    outside = report(models, args.output)
+    print(f"{args.output}: {len(models)} models, {outside} values outside the literature's range")
+    if outside:
+        raise SystemExit(1)
+
+
 def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """Returns 0 if every metric lies in its range, 1 if one does not, 2 for bad input."""
+    """Returns 0 if every metric lies in its range; exits with 1 if one does not, with 2 for bad input."""
     parser = Parser(prog="crop_report", description=__doc__)
     parser.add_argument("--output", type=Path, required=True, help="folder to write the report in")
     add_model_path(parser)
     parser.add_argument(
         "models", nargs="*", help="models by name (default: all that the build makes)"
     )
-    args = parser.parse_args(arguments)
-    try:
-        folders = search_path(args.model_path)
-        models = [find_model(name, folders) for name in args.models or load_variants()]
-        outside = report(models, args.output)
-    except GeneratorError as error:
-        parser.exit(2, f"{parser.prog}: {error}\n")
-    print(f"{args.output}: {len(models)} models, {outside} values outside the literature's range")
-    return 1 if outside else 0
+    return run(parser, _report, arguments)

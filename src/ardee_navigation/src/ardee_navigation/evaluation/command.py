@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Shared parts of commands that drive runs in a simulator of their own: folder of the output, errors, clean endings."""
+import contextlib
 import fcntl
 import os
 import shutil
@@ -29,6 +30,12 @@ def make_folder(output: Path) -> None:
         raise GeneratorError(
             f"--output: found {str(output)!r}, where another experiment writes, expected a folder of its own"
         ) from None
+
+
+def drop_if_empty(output: Path) -> None:
+    """Removes the folder unless something is in it."""
+    with contextlib.suppress(OSError):
+        output.rmdir()
 
 
 def run(prog: str, experiment: Callable[[Path], None]) -> int:

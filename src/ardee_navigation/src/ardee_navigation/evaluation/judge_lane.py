@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from ardee_common.cli import Parser, number_in, whole_in
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation.command import LARGEST_SEED, make_folder, run
+from ardee_navigation.evaluation.command import LARGEST_SEED, drop_if_empty, make_folder, run
 from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
 from ardee_navigation.evaluation.scenarios import find_scenario, package_folder, prepare
 
@@ -166,6 +166,7 @@ def _drive_all(args: argparse.Namespace, scenario: Scenario, report: Report, wor
             tqdm.write(f"{number + 1} of {args.runs}: {line}", file=sys.stderr)
             shutil.rmtree(folder)
     except BaseException:
+        drop_if_empty(report.output)
         where = f"what had ended by then is in {report.path}" if runs else "no run had ended"
         tqdm.write(f"{PROG}: {where}", file=sys.stderr)
         raise

@@ -12,7 +12,7 @@ from tqdm import tqdm
 
 from ardee_common.cli import Parser, whole_in
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation.command import LARGEST_SEED, make_folder, run
+from ardee_navigation.evaluation.command import LARGEST_SEED, drop_if_empty, make_folder, run
 from ardee_navigation.evaluation.record import Record
 from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
 from ardee_navigation.evaluation.scenarios import known_scenarios, prepare
@@ -128,6 +128,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
                 print(f"{number + 1} of {args.runs}: {in_short(records[-1])}", file=sys.stderr)
             shutil.rmtree(folder)
     except BaseException as error:
+        drop_if_empty(output)
         if report:
             tqdm.write(f"run_experiment: what had ended by then is in {report}", file=sys.stderr)
         elif isinstance(error, SystemExit):
