@@ -23,7 +23,7 @@ FILES = (
     ("Terrain", "a recipe of `rosrun ardee_models generate_terrain RECIPE.yaml`", Recipe),
     ("Species", "`config/species/*.yaml` of ardee_models, with the numbers' sources", SpeciesFile),
     ("Row follower", "`parameters:=FILE` and `--parameters FILE`", Parameters),
-    ("Scenario", "an entry of `config/scenarios.yaml` of ardee_navigation", Scenario),
+    ("Scenario", "an entry of `config/scenarios.yaml` of ardee_world", Scenario),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
     ("A GPS of the sensor server", "an entry of `sources`", settings.GpsSource),
     ("A camera of the sensor server", "an entry of `sources`", settings.ImageSource),

@@ -20,10 +20,11 @@ def way_driven_m(world: str, folder: str) -> float:
     import rospy
 
     from ardee_common.config import build, read_yaml_lines
-    from ardee_navigation.evaluation.row_truth import Pose, lane_of
-    from ardee_navigation.evaluation.scenario_files import Scenario, Start
+    from ardee_navigation.evaluation.scenario_files import Scenario
     from ardee_navigation.evaluation.scenarios import prepare
     from ardee_navigation.evaluation.simulation import Simulation, robot_urdf
+    from ardee_world.row_truth import Pose, lane_of
+    from ardee_world.start import Start
 
     rospy.init_node("driver", disable_signals=True)
     trial = prepare(Scenario(world=world), 0, pathlib.Path(folder))

@@ -20,10 +20,10 @@ from ardee_navigation.evaluation.experiment_report import (
     write_run,
 )
 from ardee_navigation.evaluation.record import COLUMNS, Record
-from ardee_navigation.evaluation.row_truth import Field, Pose, Stalks
 from ardee_navigation.evaluation.run_metrics import summarize
-from ardee_navigation.evaluation.scenarios import Trial
 from ardee_navigation.evaluation.trial import LARGEST_OFFSET_M, Judge, Seen
+from ardee_world.row_truth import Field, Pose, Stalks
+from ardee_world.trial import Trial
 
 DT_S, SPEED_M_S = 0.025, 0.5
 Course = Callable[[float], Tuple[float, float]]  # along m -> lateral m, heading rad

@@ -9,7 +9,7 @@ from typing import List, Set
 
 import numpy as np
 
-from ardee_navigation.evaluation.row_truth import Pose, Stalks
+from ardee_world.row_truth import Pose, Stalks
 
 LENGTH_M, WIDTH_M = (
     0.508,

@@ -21,10 +21,10 @@ from std_srvs.srv import Empty
 from ardee_common.process import start_child, stop_child
 from ardee_navigation.evaluation.answers import Answers
 from ardee_navigation.evaluation.record import Record
-from ardee_navigation.evaluation.scenarios import Trial
 from ardee_navigation.evaluation.simulation import Simulation, SimulationError
 from ardee_navigation.evaluation.trial import Judge, Seen
 from ardee_navigation.lbirnt import Parameters
+from ardee_world.trial import Trial
 
 SETTLE_STEPS = 200  # 1 s: the robot comes to rest on its springs
 ANSWER_WITHIN_S = 5.0  # time limit of an answer; the first one waits for the bridge to start

@@ -7,10 +7,10 @@ import numpy as np
 from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.evaluation.record import Record
-from ardee_navigation.evaluation.scenarios import Trial
 from ardee_navigation.evaluation.simulation import Simulation, SimulationError
 from ardee_navigation.evaluation.trial import Judge, Seen
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
+from ardee_world.trial import Trial
 
 STEP_S = 0.005  # step of the worlds
 STEPS_A_SCAN = 5  # 25 ms: the UST-10LX's 40 Hz

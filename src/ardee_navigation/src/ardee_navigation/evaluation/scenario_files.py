@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Files of scenarios, start poses and parameters, read without ROS: a target computer reads them too."""
+"""Files of scenarios and parameters, read without ROS: a target computer reads them too."""
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Dict, Optional
 
 from ardee_common.config import build, build_group, read_yaml_lines
-from ardee_common.options import bounded, option
+from ardee_common.options import option
 from ardee_navigation.lbirnt import Parameters
-
-STAND_M = 0.175  # base_footprint above the ground (terrasentia_description)
 
 
 @dataclass(frozen=True)
@@ -18,16 +16,6 @@ class Scenario:
     world: str = option("")
     plan: Optional[str] = option(None)
     parameters: Parameters = option(Parameters())
-
-
-@dataclass(frozen=True)
-class Start:
-    """Start pose of a robot in a world's .start.yaml."""
-
-    x_m: float = bounded(-1e6, 1e6, 0.0)
-    y_m: float = bounded(-1e6, 1e6, 0.0)
-    z_m: float = bounded(-1e3, 1e4, STAND_M)
-    yaw_rad: float = bounded(-7.0, 7.0, 0.0)
 
 
 def read_scenarios(path: Path) -> Dict[str, Scenario]:

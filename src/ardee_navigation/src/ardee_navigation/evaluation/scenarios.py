@@ -1,28 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Scenarios by name, and the parts of a run in one: a fresh field, its truth, a start pose, the ground."""
-import contextlib
-from dataclasses import dataclass
+"""Scenarios by name, and the parts of a run in one."""
 from pathlib import Path
-from typing import Dict, List, Tuple
-from xml.etree import ElementTree
+from typing import Dict
 
-import numpy as np
 import rospkg
 
-from ardee_common.config import build, read_yaml_lines
 from ardee_common.errors import GeneratorError, known_names
-from ardee_models.lookup import find_model, search_path
-from ardee_models.terrain.ground import ground_model, is_ground
-from ardee_navigation.evaluation.row_truth import Field, Pose, read_field
-from ardee_navigation.evaluation.scenario_files import STAND_M, Scenario, Start, read_scenarios
-from ardee_world.generate_field import make_configured
-from ardee_world.request import yaml_values
-
-HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
-START_SD_M, START_SD_RAD = (
-    0.03,
-    0.05,
-)  # "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
+from ardee_navigation.evaluation.scenario_files import Scenario, read_scenarios
+from ardee_world import trial
+from ardee_world.trial import Trial
 
 
 def package_folder(name: str) -> Path:
@@ -31,8 +17,8 @@ def package_folder(name: str) -> Path:
 
 
 def known_scenarios() -> Dict[str, Scenario]:
-    """Returns the scenarios of this package's file by name."""
-    return read_scenarios(package_folder("ardee_navigation") / "config" / "scenarios.yaml")
+    """Returns the scenarios of ardee_world by name."""
+    return read_scenarios(package_folder("ardee_world") / "config" / "scenarios.yaml")
 
 
 def find_scenario(world: str) -> Scenario:
@@ -54,85 +40,14 @@ def find_scenario(world: str) -> Scenario:
     for scenario in scenarios.values():
         if scenario.world == file:
             return scenario
-    plans = (share / "fields" / f"{name}.yaml" for name in _included_names(share / "worlds" / file))
+    plans = (
+        share / "fields" / f"{name}.yaml" for name in trial.included_names(share / "worlds" / file)
+    )
     return Scenario(world=file, plan=next((plan.name for plan in plans if plan.is_file()), None))
-
-
-@dataclass(frozen=True)
-class Trial:
-    """One run of a scenario, ready to be driven."""
-
-    world: Path
-    models: List[Path]  # folders before GAZEBO_MODEL_PATH
-    field: Field
-    start: Pose
-    ground: object  # has height_at(x_m, y_m)
-
-    def height_m(self, pose: Pose) -> float:
-        """Returns the height of base_footprint at a place: the highest wheel determines it."""
-        around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
-        x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
-        return float(np.max(self.ground.height_at(x, y))) + STAND_M
-
-
-def _included_names(world: Path) -> List[str]:
-    """Returns the names of the models that a world includes."""
-    try:
-        uris = [node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri")]
-    except ElementTree.ParseError as error:
-        raise GeneratorError(f"{world}: not valid XML: {error}") from error
-    return [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
-
-
-def _included_models(world: Path, folders: List[Path]) -> Dict[str, Path]:
-    """Returns the folders of the models that a world includes, by name; a light of Gazebo's database has none."""
-    found = {}
-    for name in _included_names(world):
-        with contextlib.suppress(GeneratorError):
-            found[name] = find_model(name, folders)
-    return found
-
-
-def field_and_terrain(world: Path, folders: List[Path]) -> Tuple[Path, str]:
-    """Returns the folder of the field that a world includes, and the name of the terrain."""
-    models = _included_models(world, folders)
-    fields = [name for name, model in models.items() if (model / "truth.json").is_file()]
-    terrains = [name for name in models if name not in fields and is_ground(models[name])]
-    for what, names in (("fields with truth.json", fields), ("terrains", terrains)):
-        if len(names) != 1:
-            which = f" ({', '.join(names)})" if names else ""
-            raise GeneratorError(f"{world}: found {len(names)} {what}{which}, expected one include")
-    return models[fields[0]], terrains[0]
-
-
-def _sow(plan: Path, seed: int, folder: Path) -> None:
-    values = yaml_values(plan)
-    values.update(name=plan.stem, output=str(folder), seed=seed)
-    make_configured(values)
-
-
-def start_near(start: Start, seed: int) -> Pose:
-    """Returns the start pose with a person's inaccuracy, drawn from the seed."""
-    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,)))
-    aside, turn = rng.standard_normal(2) * (START_SD_M, START_SD_RAD)
-    x = start.x_m - np.sin(start.yaw_rad) * aside
-    y = start.y_m + np.cos(start.yaw_rad) * aside
-    return Pose(float(x), float(y), float(start.yaw_rad + turn))
 
 
 def prepare(scenario: Scenario, seed: int, folder: Path) -> Trial:
     """Generates the field of a run in a folder of models and finds its truth, start and ground."""
     share = package_folder("ardee_world")
-    world = share / "worlds" / scenario.world
-    if not world.is_file():
-        raise GeneratorError(f"{world}: no such world")
-    if scenario.plan:
-        folder.mkdir(parents=True, exist_ok=True)
-        _sow(share / "fields" / scenario.plan, seed, folder)
-    folders = search_path([folder] if scenario.plan else [])
-    field, terrain = field_and_terrain(world, folders)
-    truth = read_field(field / "truth.json")
-    start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))
-    ground = ground_model(terrain, folders)
-    models = [folder] if scenario.plan else []
-    return Trial(world, models, truth, start_near(start, seed), ground)
+    plan = share / "fields" / scenario.plan if scenario.plan else None
+    return trial.prepare(share / "worlds" / scenario.world, plan, seed, folder)

@@ -24,7 +24,7 @@ from sensor_msgs.msg import LaserScan
 from ardee_common.errors import GeneratorError
 from ardee_common.process import start_child, stop_child
 from ardee_msgs.srv import Step
-from ardee_navigation.evaluation.row_truth import Pose
+from ardee_world.row_truth import Pose
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 

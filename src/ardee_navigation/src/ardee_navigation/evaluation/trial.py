@@ -10,9 +10,9 @@ from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.evaluation.contacts import Contacts
 from ardee_navigation.evaluation.record import Intervention, Record, Sample
-from ardee_navigation.evaluation.row_truth import Deviation, Lane, Pose, lane_of
-from ardee_navigation.evaluation.scenarios import Trial
 from ardee_navigation.lbirnt.preprocess import to_cartesian
+from ardee_world.row_truth import Deviation, Lane, Pose, lane_of
+from ardee_world.trial import Trial
 
 LARGEST_OFFSET_M = 0.38  # half a 30 in lane: the robot is in the row (criterion of the UIUC group)
 STUCK_AFTER_S, STUCK_WITHIN_M = 2.0, 0.05  # commanded motion without motion

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests truth files, lanes, deviations and contacts against closed forms."""
+"""Tests truth files, lanes and deviations against closed forms."""
 import json
 import math
 from pathlib import Path
@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation.contacts import LENGTH_M, WIDTH_M, Contacts, depths_m
-from ardee_navigation.evaluation.row_truth import Field, Polyline, Pose, Stalks, lane_of, read_field
+from ardee_world.row_truth import Field, Polyline, Pose, Stalks, lane_of, read_field
 
 NO_STALKS = Stalks(np.empty((0, 2)), np.empty(0))
 
@@ -94,29 +93,6 @@ def test_rows_of_one_plant_are_stalks_but_no_lane(tmp_path: Path) -> None:
     assert len(field.rows) == 2 and len(field.stalks.xy_m) == 1
     seen = lane_of(field, Pose(-1.0, 0.0, 0.0)).deviation(Pose(4.0, 0.1, 0.0))
     assert seen.lateral_m == pytest.approx(0.1)
-
-
-def test_stalks_in_the_outline_by_hand() -> None:
-    """The robot is at the origin, turned by 90 degrees: its length lies along y."""
-    half_length, half_width = LENGTH_M / 2, WIDTH_M / 2
-    xy = [
-        [0.0, half_length + 0.05],
-        [half_width - 0.01, 0.0],
-        [half_width + 0.03, half_length + 0.04],
-    ]
-    stalks = Stalks(np.array(xy), np.array([0.01, 0.01, 0.02]))
-    depth = depths_m(Pose(0.0, 0.0, math.pi / 2), stalks, np.arange(3))
-    assert depth == pytest.approx([0.01 - 0.05, 0.01 + 0.01, 0.02 - 0.05])
-
-
-def test_contacts_count_beginnings_stalks_and_depth() -> None:
-    stalks = Stalks(np.array([[1.0, 0.24], [2.0, -0.1], [50.0, 0.0]]), np.full(3, 0.01))
-    contacts = Contacts(stalks)
-    for x in np.arange(0.0, 3.0, 0.02):
-        contacts.update(Pose(float(x), 0.0, 0.0))
-    assert contacts.collisions == 2 and contacts.touched == {0, 1} and contacts.knocked == {1}
-    contacts.update(Pose(1.0, 0.0, 0.0))  # the first one once more
-    assert contacts.collisions == 3 and len(contacts.touched) == 2
 
 
 def _truth(rows: List[list]) -> str:

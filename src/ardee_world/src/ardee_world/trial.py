@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Parts of a run in a world: a freshly sown field, its truth, a start pose, the ground."""
+
+import contextlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Optional, Tuple
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ardee_common.config import build, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_models.lookup import find_model, search_path
+from ardee_models.terrain.ground import ground_model, is_ground
+from ardee_models.terrain.height_map import Ground
+from ardee_world.generate_field import make_configured
+from ardee_world.request import yaml_values
+from ardee_world.row_truth import Field, Pose, read_field
+from ardee_world.start import STAND_M, Start
+
+HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
+# "relatively near the center" (thesis 5.2.1): how a person sets a robot down (estimate)
+START_SD_M, START_SD_RAD = 0.03, 0.05
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One run of a scenario, ready to be driven."""
+
+    world: Path
+    models: List[Path]  # folders before GAZEBO_MODEL_PATH
+    field: Field
+    start: Pose
+    ground: Ground
+
+    def height_m(self, pose: Pose) -> float:
+        """Returns the height of base_footprint at a place: the highest wheel determines it."""
+        around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
+        x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
+        return float(np.max(self.ground.height_at(x, y))) + STAND_M
+
+
+def included_names(world: Path) -> List[str]:
+    """Returns the names of the models that a world includes."""
+    try:
+        uris = [node.text or "" for node in ElementTree.parse(world).iterfind("world/include/uri")]
+    except ElementTree.ParseError as error:
+        raise GeneratorError(f"{world}: not valid XML: {error}") from error
+    return [uri.strip()[len("model://") :] for uri in uris if uri.strip().startswith("model://")]
+
+
+def _included_models(world: Path, folders: List[Path]) -> Dict[str, Path]:
+    """Returns the folders of the models that a world includes, by name; a light of Gazebo's database has none."""
+    found = {}
+    for name in included_names(world):
+        with contextlib.suppress(GeneratorError):
+            found[name] = find_model(name, folders)
+    return found
+
+
+def field_and_terrain(world: Path, folders: List[Path]) -> Tuple[Path, str]:
+    """Returns the folder of the field that a world includes, and the name of the terrain."""
+    models = _included_models(world, folders)
+    fields = [name for name, model in models.items() if (model / "truth.json").is_file()]
+    terrains = [name for name in models if name not in fields and is_ground(models[name])]
+    for what, names in (("fields with truth.json", fields), ("terrains", terrains)):
+        if len(names) != 1:
+            which = f" ({', '.join(names)})" if names else ""
+            raise GeneratorError(f"{world}: found {len(names)} {what}{which}, expected one include")
+    return models[fields[0]], terrains[0]
+
+
+def _sow(plan: Path, seed: int, folder: Path) -> None:
+    values = yaml_values(plan)
+    values.update(name=plan.stem, output=str(folder), seed=seed)
+    make_configured(values)
+
+
+def start_near(start: Start, seed: int) -> Pose:
+    """Returns the start pose with a person's inaccuracy, drawn from the seed."""
+    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(5,)))
+    aside, turn = rng.standard_normal(2) * (START_SD_M, START_SD_RAD)
+    x = start.x_m - np.sin(start.yaw_rad) * aside
+    y = start.y_m + np.cos(start.yaw_rad) * aside
+    return Pose(float(x), float(y), float(start.yaw_rad + turn))
+
+
+def prepare(world: Path, plan: Optional[Path], seed: int, folder: Path) -> Trial:
+    """Sows the field of a plan, if given, in a folder of models; finds truth, start and ground of the world."""
+    if not world.is_file():
+        raise GeneratorError(f"{world}: no such world")
+    if plan:
+        folder.mkdir(parents=True, exist_ok=True)
+        _sow(plan, seed, folder)
+    models = [folder] if plan else []
+    folders = search_path(models)
+    field, terrain = field_and_terrain(world, folders)
+    truth = read_field(field / "truth.json")
+    start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))
+    return Trial(world, models, truth, start_near(start, seed), ground_model(terrain, folders))
