@@ -199,6 +199,23 @@ def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
 
 
+def test_an_experiment_over_udp_waits_for_both_halves_of_its_bridge(
+    graph: RosGraph, tmp_path: pathlib.Path
+) -> None:
+    """The receiver of commands starts late, as on a busy machine: the robot that stands meanwhile is not stuck."""
+    late = tmp_path / "rosrun"
+    late.write_text(
+        '#!/bin/sh\ncase "$*" in *controls_client_node*) sleep 8 ;; esac\nexec /usr/bin/rosrun "$@"\n'
+    )
+    late.chmod(0o755)
+    graph.env["PATH"] = f"{tmp_path}:{graph.env['PATH']}"
+    report = experiment(graph, tmp_path / "report", "--hil", "--runs", "1")
+    (run,) = rows(report / "runs.csv")
+    assert (run["end"], run["interventions"]) == ("end of the row", "0")
+    assert float(run["lateral_rms_m"]) < LARGEST_RMS_M
+    assert "from scan message to `cmd_vel` message" in (report / "report.md").read_text()
+
+
 def test_a_lane_is_judged_in_lockstep(graph: RosGraph, tmp_path: pathlib.Path) -> None:
     command = ["rosrun", "ardee_navigation", "judge_lane", "artificial", "--seed", "3"]
     words = ("--runs", "2", "--scans", "40", "--from-m", "0.5")

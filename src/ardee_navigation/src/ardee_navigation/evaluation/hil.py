@@ -167,6 +167,7 @@ def _drive(
     simulation.on_scan = latency.on_scan
     try:
         simulation.step(SETTLE_STEPS)
+        simulation.wait_for_commander()
         simulation.call("/gazebo/unpause_physics", Empty)
         follower = Follower(parameters, bridge)
         processes.append(follower)

@@ -15,6 +15,7 @@ import warnings
 from pathlib import Path
 from typing import Callable, Dict, List, Optional
 
+import rosgraph
 import rosmaster.master
 import rospy
 from geometry_msgs.msg import Pose as RosPose
@@ -171,6 +172,16 @@ class Simulation:
             self._commands = rospy.Publisher("/cmd_vel", Twist, queue_size=None)
         ports = (self._subscriber, self._commands)
         _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
+
+    def wait_for_commander(self) -> None:
+        """Waits until another node than this one can command the robot, which would else stand and seem stuck."""
+
+        def there() -> bool:
+            self._check_alive()
+            publishers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[0])
+            return bool(set(publishers.get("/cmd_vel", [])) - {rospy.get_name()})
+
+        _until(there, "a node that commands the robot")
 
     def _on_scan(self, scan: LaserScan) -> None:
         if self.on_scan:
