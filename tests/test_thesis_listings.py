@@ -8,7 +8,7 @@ from typing import Any, List
 import probes
 import pytest
 from gazebo_calls import call, pose, simulate, spawn, state
-from ros_graph import RosGraph, wait_until
+from ros_graph import Process, RosGraph, wait_until
 
 LISTINGS = pathlib.Path(__file__).resolve().parent / "data/listings"
 GROUND = """<sdf version="1.6"><world name="w">
@@ -39,13 +39,14 @@ def include(name: str) -> str:
     return f'<xacro:include filename="{LISTINGS / name}"/>'
 
 
-def start(graph: RosGraph, xml: str, kind: str, z: float = 0.5) -> None:
+def start(graph: RosGraph, xml: str, kind: str, z: float = 0.5) -> Process:
     """Starts the simulator and spawns the robot; fails at any complaint."""
     simulator = simulate(graph, GROUND)
     answer = call(graph, spawn("r", xml, pose(z=z), kind))[0]
     assert answer.success, answer.status_message
     complaints = [line for line in simulator.output().splitlines() if "ERROR" in line]
     assert complaints == []
+    return simulator
 
 
 def collected(graph: RosGraph, topic: str, kind: str, count: int = 1) -> List[Any]:
@@ -112,7 +113,8 @@ def test_the_leg_of_listing_a_25_settles_at_its_spring_s_rest(graph: RosGraph) -
     more = include("a_25.urdf.xacro") + A_25_CALL
     base = '<gazebo reference="base_link"><gravity>0</gravity></gazebo>'
     leg = '<gazebo reference="front_right_leg_link"><gravity>0</gravity></gazebo>'
-    start(graph, expanded(graph, BODY.format(link="base_link", more=more + base + leg)), "urdf", 2)
+    text = BODY.format(link="base_link", more=more + base + leg)
+    simulator = start(graph, expanded(graph, text), "urdf", 2)
     graph.call(probes.clock_at_least, 3.0)
     joint = (
         "/gazebo/get_joint_properties",
@@ -120,6 +122,7 @@ def test_the_leg_of_listing_a_25_settles_at_its_spring_s_rest(graph: RosGraph) -
         {"joint_name": "front_right_leg_joint"},
     )
     assert call(graph, joint)[0].position[0] == pytest.approx(-0.2, abs=0.005)
+    assert "joint front_right_leg_joint: position -0.2 rad" in simulator.output()  # verbose
 
 
 PLOT = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests that worlds, models and launch files of the thesis's Listings A.14, A.15, A.21, A.23 and A.24 work as printed."""
+"""Tests that worlds, models and launch files of the thesis's Listings A.14 to A.24 work as they are printed."""
 import pathlib
 import shutil
 from typing import Tuple
