@@ -111,9 +111,9 @@ def documents() -> Iterator[Tuple[str, str]]:
 def launch_files() -> str:
     """The page of launch files and their arguments."""
     parts = ["# Launch files\n\n`roslaunch PACKAGE FILE NAME:=VALUE ...`\n"]
-    for file in sorted([*ROOT.glob("src/*/launch/*.launch"), *ROOT.glob("launch/*.launch")]):
+    for file in sorted(ROOT.glob("src/*/launch/*.launch")):
         place = file.relative_to(ROOT)
-        start = f"{place.parts[1]} {file.name}" if place.parts[0] == "src" else str(place)
+        start = f"{place.parts[1]} {file.name}"
         rows = []
         for arg in xml.parse(file).getroot().iter("arg"):
             if arg.get("doc") and not arg.get("value"):

@@ -11,7 +11,8 @@ import time
 from typing import Any, Callable, Dict, List
 
 from benchmark_field import Field
-from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 PROBE = pathlib.Path(__file__).with_name("benchmark_probe.py")
 PACKAGE = "ardee_sim_cpp"

@@ -11,7 +11,8 @@ from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, NamedTuple, Set, Tuple
 
 import probes
-from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 TESTS = pathlib.Path(__file__).resolve().parent
 PACKAGE = TESTS.parent / "src" / "ardee_bridge"

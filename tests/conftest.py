@@ -4,7 +4,8 @@ import pathlib
 from typing import Iterator
 
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def _graph(folder: pathlib.Path) -> Iterator[RosGraph]:

@@ -6,7 +6,8 @@ from typing import Any, Callable, Dict, List
 import numpy as np
 import rospy
 from probes import _start, _type
-from ros_graph import wait_until
+
+from ardee_common.ros_graph import wait_until
 
 DEPTH_TYPES = {"32FC1": (np.float32, 1.0), "16UC1": (np.uint16, 1e-3)}
 FIELD_TYPES = {2: "u1", 4: "<u2", 6: "<u4", 7: "<f4", 8: "<f8"}  # sensor_msgs/PointField

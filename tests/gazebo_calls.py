@@ -5,7 +5,8 @@ from typing import Any, Dict, List, Tuple
 
 import probes
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3, Wrench
-from ros_graph import Process, RosGraph
+
+from ardee_common.ros_graph import Process, RosGraph
 
 EMPTY = '<sdf version="1.6"><world name="w"></world></sdf>'  # steps of 1 ms, gravity of 9.8 m/s2
 Call = Tuple[str, str, Dict[str, Any]]

@@ -6,7 +6,8 @@ from typing import Any, Dict, List, Optional, Set, Tuple
 
 import rosgraph
 import rospy
-from ros_graph import wait_until
+
+from ardee_common.ros_graph import wait_until
 
 
 def _type(name: str) -> Any:

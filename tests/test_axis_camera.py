@@ -6,7 +6,8 @@ from typing import Any, Dict, List
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 BASE = "/ardee/sensor"
 WIDTH_PX, WIDE_DEG, TELE_DEG = 704, 52, 4.7

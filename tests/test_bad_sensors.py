@@ -7,7 +7,8 @@ from typing import Iterator, List, NamedTuple, Tuple
 import probes
 import pytest
 from gazebo_calls import call, pose, spawn
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 STEP_S = 0.005
 WORLD = f"""<sdf version="1.5"><world name="default"><physics type="ode">

@@ -8,7 +8,8 @@ import subprocess
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 DATA = pathlib.Path(__file__).parent / "data"
 PLANE = (DATA / "plane.world").read_text()

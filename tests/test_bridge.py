@@ -6,9 +6,9 @@ from typing import Iterator
 import probes
 import pytest
 from bridge_bench import SENSORS, Bench, feed_until_killed, finish_once_heard, interrupt, start_in
-from ros_graph import RosGraph, wait_until
 
 from ardee_bridge.wire import codec
+from ardee_common.ros_graph import RosGraph, wait_until
 
 FRAMES = {"image 2", "image 3", "point_cloud 0"}
 

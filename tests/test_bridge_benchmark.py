@@ -6,7 +6,8 @@ from typing import Any, Dict
 
 import pytest
 from bench.capture import Capture
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 PROGRAM = pathlib.Path(__file__).resolve().parent / "bench" / "latency_benchmark"
 SENSORS = {"imu", "gps", "lidar", "battery", "encoder", "point_cloud", "jpeg image", "raw image"}

@@ -5,9 +5,9 @@ import time
 from typing import Any, List
 
 from bridge_bench import free_port, start_in
-from ros_graph import Process, RosGraph, wait_until
 
 from ardee_bridge.wire import codec
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 NODES = ("sensor_server_node", "controls_client_node")
 

@@ -8,9 +8,9 @@ from typing import Callable, Iterator, List, Tuple
 import pytest
 from bench import latency_controls, latency_sensors
 from bridge_bench import Bench, resident_mb
-from ros_graph import RosGraph, wait_until
 
 from ardee_bridge.wire import codec
+from ardee_common.ros_graph import RosGraph, wait_until
 
 FLOOD_HZ = 10_000
 FLOOD_S = 4.0

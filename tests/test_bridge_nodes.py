@@ -6,7 +6,8 @@ import signal
 
 import pytest
 from bridge_bench import free_port
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 NODES = [
     ("ardee_bridge", "sensor_server_node"),

@@ -25,13 +25,13 @@ from bridge_bench import (
     start_client,
 )
 from PIL import Image as Picture
-from ros_graph import RosGraph, wait_until
 from test_motion_sensors import reconfigure
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import Assembler
 from ardee_bridge.wire.pairing import Pairer
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.ros_graph import RosGraph, wait_until
 
 G_M_S2, WALL_X_M, LIDAR_AHEAD_M = 9.81, 4.0, 0.16
 REFERENCE_DEG = (40.1021496545, -88.2267974168)  # as in both robots' sensor configurations

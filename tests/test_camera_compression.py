@@ -10,13 +10,13 @@ import probes
 import pytest
 from bridge_bench import free_port, start_in
 from PIL import Image as Picture
-from ros_graph import Process, RosGraph, wait_until
 from test_cameras import HEIGHT, WIDTH, sensor
 
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.chunks import Assembler, Whole
 from ardee_bridge.wire.pairing import Pairer
 from ardee_bridge.wire.udp import open_socket
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 COMPRESSED = "/fed/camera/compressed"
 BOX = (

@@ -4,7 +4,8 @@ from typing import Any, Dict
 
 import numpy as np
 import probes
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 WIDTH, HEIGHT, FOV_RAD, WALL_M = 64, 48, 1.5707963, 3.0
 CAMERA = f"""

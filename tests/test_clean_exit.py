@@ -4,7 +4,8 @@ import pathlib
 import signal
 
 import probes
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 PLANE = str(pathlib.Path(__file__).parent / "data" / "plane.world")
 

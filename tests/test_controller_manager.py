@@ -7,7 +7,8 @@ from typing import Any, Dict, Iterator, List, Tuple
 import probes
 import pytest
 from gazebo_calls import Call, call, delete, empty, pose, simulate, spawn, step
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 ROBOT = (
     pathlib.Path(__file__).parent / "cases" / "ros-control-diff-drive" / "wheels.urdf"
@@ -170,9 +171,9 @@ def test_controllers_go_on_after_a_reset(world: RosGraph) -> None:
 def step_and_hear() -> Any:
     """Returns the first joint states of 0.1 s."""
     import rospy
-    from ros_graph import wait_until
     from sensor_msgs.msg import JointState
 
+    from ardee_common.ros_graph import wait_until
     from ardee_msgs.srv import Step
 
     rospy.init_node("listener", anonymous=True, disable_signals=True)

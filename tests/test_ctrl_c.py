@@ -10,7 +10,8 @@ import subprocess
 from typing import Dict, NamedTuple
 
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 LATEST_S = 120.0  # until the work shows how far it is

@@ -8,18 +8,16 @@ import subprocess
 from typing import Set
 
 from PIL import Image
-from ros_graph import wait_until
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+from ardee_common.ros_graph import wait_until
 
 
 def start(log: pathlib.Path) -> subprocess.Popen:
     env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "ROS_MASTER_URI")}
-    program = str(ROOT / "scripts" / "demo_run.py")
     with log.open("wb") as output:
         return subprocess.Popen(
-            ["/usr/bin/python3", program, "--output", str(log.parent / "output")],
-            env=dict(env, ARDEE_DEMO_TEST=str(log), PYTHONUNBUFFERED="1"),
+            ["rosrun", "ardee_bringup", "demo", "--output", str(log.parent / "output")],
+            env=dict(env, ARDEE_DEMO_TEST=str(log), TMPDIR=str(log.parent), PYTHONUNBUFFERED="1"),
             stdout=output,
             stderr=subprocess.STDOUT,
             start_new_session=True,
@@ -38,10 +36,6 @@ def ours(log: pathlib.Path) -> Set[int]:
     return found
 
 
-def leftovers() -> Set[pathlib.Path]:
-    return set(ROOT.glob(".demo_*"))
-
-
 def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
     log = tmp_path / "demo.log"
     demo = start(log)
@@ -57,10 +51,10 @@ def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
 
 
 def test_ctrl_c_on_the_way_leaves_nothing(tmp_path: pathlib.Path) -> None:
-    log, before = tmp_path / "demo.log", leftovers()
+    log = tmp_path / "demo.log"
     demo = start(log)
     wait_until(lambda: "m driven" in log.read_text(), "the robot on its way", 120.0)
     os.killpg(demo.pid, signal.SIGINT)
     assert demo.wait(60) == 128 + signal.SIGINT
     wait_until(lambda: not ours(log), "the demo's processes gone", 10.0)
-    assert leftovers() <= before
+    assert list(tmp_path.iterdir()) == [log]

@@ -20,7 +20,8 @@ import time
 from typing import Dict, Iterator, List, NamedTuple
 
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FOREGROUND_S = 300.0

@@ -3,7 +3,8 @@
 import pathlib
 
 import probes
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 FILE = pathlib.Path(__file__).resolve().parents[1] / "launch" / "farm_and_robot.launch"
 

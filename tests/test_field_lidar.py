@@ -12,9 +12,9 @@ from typing import Callable, Dict, List, Tuple
 import numpy as np
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
 from scipy import stats
 
+from ardee_common.ros_graph import RosGraph, wait_until
 from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
 

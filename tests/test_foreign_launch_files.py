@@ -4,7 +4,8 @@ from pathlib import Path
 
 import probes
 import pytest
-from ros_graph import Process, RosGraph
+
+from ardee_common.ros_graph import Process, RosGraph
 
 FOREIGN = Path(__file__).parent / "data" / "foreign"
 

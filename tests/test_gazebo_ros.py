@@ -5,7 +5,8 @@ from typing import Any
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 ROBOT = """<robot name="block"><link name="base_link">
   <inertial><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>

@@ -15,7 +15,8 @@ from typing import Any, Iterator, List
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 BUTTON, AXIS, INIT = 0x01, 0x02, 0x80
 ENABLE, PS3_ENABLE, PS3_BUTTONS = (

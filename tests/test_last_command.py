@@ -11,9 +11,9 @@ from typing import Any, Callable, Dict, List, Tuple
 
 import pytest
 from bridge_bench import free_port, start_in
-from ros_graph import RosGraph, wait_until
 
 from ardee_bridge.wire import codec
+from ardee_common.ros_graph import RosGraph, wait_until
 
 PERIOD_S = 0.01
 HELD_BUTTON = 0

@@ -5,7 +5,8 @@ from typing import Iterator
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 SCAN = "/ardee/hokuyo"
 

@@ -5,7 +5,8 @@ from typing import List
 import probes
 import pytest
 from gazebo_calls import call, empty, pose, spawn
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 # Slats and wall are less than a pulse length apart: one return.
 SLATS_M, WALL_M, HEIGHT_M = 2.0, 2.2, 0.5

@@ -8,8 +8,8 @@ from typing import Any, Dict, Iterator, List
 import probes
 import pytest
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
-from ros_graph import RosGraph, wait_until
 
+from ardee_common.ros_graph import RosGraph, wait_until
 from geographic_msgs.msg import GeoPoint, GeoPose
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"

@@ -7,7 +7,8 @@ import pathlib
 import probes
 import pytest
 from gazebo_calls import call, pose, simulate, spawn
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 ALIAS = """plugin_aliases:
   - filename: liblab_receiver.so

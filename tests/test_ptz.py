@@ -4,7 +4,8 @@ import math
 from typing import Any, Dict, List, Tuple
 
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 PAN_RAD, TILT_RAD, FOV_RAD = 0.6, 0.35, 0.3
 CLOSE_RAD = 1e-3

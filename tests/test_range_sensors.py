@@ -7,8 +7,9 @@ from typing import Any, Dict, Iterator, List
 
 import probes
 import pytest
-from ros_graph import RosGraph
 from test_services import call, pose, spawn
+
+from ardee_common.ros_graph import RosGraph
 
 DATA = pathlib.Path(__file__).parent / "data"
 WALL_M, RINGS, COLUMNS = 4.0, 16, 91

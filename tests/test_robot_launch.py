@@ -6,7 +6,8 @@ from typing import Any, List, Tuple
 
 import probes
 import pytest
-from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 WORLDS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "worlds"
 LAUNCH = ("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")

@@ -8,7 +8,8 @@ from typing import Any, List, Tuple
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 SPEED_M_S = 0.5
 TIMEOUT_S = 0.5  # the default of the launch file

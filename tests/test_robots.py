@@ -7,7 +7,8 @@ from typing import Any, Dict, List
 
 import probes
 import pytest
-from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 # Half the wheelbase at rest and half the track (m), for the rate of turning in place by Coulomb's friction.
 ROBOTS = {

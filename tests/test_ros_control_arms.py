@@ -4,7 +4,8 @@ from typing import Any, Callable, Dict, Iterator, List
 
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, step
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 JOINTS = ["shoulder", "elbow", "wrist"]
 KINDS = ["effort", "position"]

@@ -8,7 +8,8 @@ from typing import Any, List, NamedTuple, Tuple
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 ROBOTS = pathlib.Path(__file__).parent / "robots_with_ros_control"
 STATE = ("/gazebo/get_model_state", "gazebo_msgs/GetModelState")

@@ -7,7 +7,8 @@ from typing import Dict, List, Set, Tuple
 
 import pytest
 from bridge_bench import free_port
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 LARGEST_RMS_M = 0.05
 

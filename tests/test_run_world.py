@@ -7,8 +7,9 @@ import subprocess
 import numpy as np
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
 from test_drive_row import drive_row
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "scripts"
 LISTING_4_4 = ("ardee_world/urdf/corn_plot.urdf.xacro", "ardee_models/heightmap_ground")

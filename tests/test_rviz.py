@@ -9,7 +9,8 @@ import numpy as np
 import probes
 from bridge_bench import free_port
 from PIL import Image
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 ROBOT_VIEW = ROOT / "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"

@@ -3,8 +3,9 @@
 from typing import Any, List
 
 import probes
-from ros_graph import RosGraph
 from visualization_msgs.msg import Marker
+
+from ardee_common.ros_graph import RosGraph
 
 KIND = "visualization_msgs/MarkerArray"
 

@@ -13,7 +13,8 @@ import device_summary
 import gazebo_calls
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[1] / "src/ardee_sensors"
 sys.path.insert(0, str(PACKAGE / "scripts"))

@@ -9,8 +9,8 @@ import probes
 import pytest
 from gazebo_calls import call, delete, empty, pose, push, spawn, state, step
 from geometry_msgs.msg import Quaternion, Twist, Vector3
-from ros_graph import RosGraph
 
+from ardee_common.ros_graph import RosGraph
 from gazebo_msgs.msg import ModelState
 
 DATA = pathlib.Path(__file__).parent / "data"

@@ -7,9 +7,9 @@ from typing import Any, Dict, Iterator, List, Tuple
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, state, step
 from geometry_msgs.msg import Point, Pose, Twist, Vector3, Wrench
-from ros_graph import RosGraph
 from std_msgs.msg import ColorRGBA
 
+from ardee_common.ros_graph import RosGraph
 from gazebo_msgs.msg import LinkState, ModelState, ODEJointProperties, ODEPhysics
 
 WORLD = """<sdf version="1.6"><world name="w">

@@ -11,7 +11,8 @@ import roslaunch.config
 import roslib.packages
 import yaml
 from geometry_msgs.msg import Point, Pose, Quaternion
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SRC = ROOT / "src"
@@ -33,7 +34,7 @@ def models() -> Dict[str, pathlib.Path]:
 # The model of Willow Garage belongs to Gazebo's database.
 WORLDS = {n: f for n, f in shipped("worlds/*.world").items() if f.stem != "willowgarage"}
 ROBOTS = shipped("robots/*.urdf.xacro")
-LAUNCH_FILES = {**shipped("launch/*.launch"), **{f.name: f for f in ROOT.glob("launch/*.launch")}}
+LAUNCH_FILES = shipped("launch/*.launch")
 YAML_FILES = {**shipped("config/**/*.yaml"), **shipped("**/*.rviz")}
 MODELS = models()
 

@@ -6,7 +6,6 @@ import pathlib
 import probes
 import pytest
 from geometry_msgs.msg import Twist, Vector3
-from ros_graph import RosGraph, wait_until
 from test_services import (  # noqa: F401  (fixtures)
     BALL,
     POST,
@@ -22,6 +21,8 @@ from test_services import (  # noqa: F401  (fixtures)
     step,
     world,
 )
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 DATA = pathlib.Path(__file__).parent / "data"
 TURNTABLE = (DATA / "turntable.sdf").read_text()

@@ -3,7 +3,8 @@
 import pathlib
 
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 WORLDS = pathlib.Path(__file__).resolve().parents[1] / "src" / "ardee_world" / "worlds"
 STARTS = sorted(path.name.replace(".start.yaml", ".world") for path in WORLDS.glob("*.start.yaml"))

@@ -5,7 +5,8 @@ from typing import Dict, Iterator, Tuple
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 ROOT = pathlib.Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "support.md").read_text()

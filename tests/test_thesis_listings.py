@@ -8,7 +8,8 @@ from typing import Any, List
 import probes
 import pytest
 from gazebo_calls import call, pose, simulate, spawn, state
-from ros_graph import Process, RosGraph, wait_until
+
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
 LISTINGS = pathlib.Path(__file__).resolve().parent / "data/listings"
 GROUND = """<sdf version="1.6"><world name="w">

@@ -9,7 +9,8 @@ import probes
 import pytest
 from gazebo_calls import call, pose, simulate, spawn, state
 from PIL import Image
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 LISTINGS = pathlib.Path(__file__).resolve().parent / "data/listings"
 PLANT = "corn_variant_1"

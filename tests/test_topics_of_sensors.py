@@ -6,7 +6,8 @@ from typing import List
 import gazebo_calls
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 WORLD = """<sdf version="1.5"><world name="default"><physics type="ode">
   <max_step_size>0.005</max_step_size></physics></world></sdf>"""

@@ -3,7 +3,8 @@
 from typing import List
 
 import probes
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def models(graph: RosGraph) -> List[str]:

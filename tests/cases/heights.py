@@ -5,7 +5,8 @@ from typing import List, Sequence, Tuple
 
 import probes
 from gazebo_calls import call, pose, spawn
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
 WORLD = CASES.parent / "data" / "plane.world"

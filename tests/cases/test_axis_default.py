@@ -6,7 +6,8 @@ from typing import Any, List
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
 WORLD = CASES.parent / "data" / "plane.world"

@@ -7,7 +7,8 @@ import probes
 import pytest
 from gazebo_calls import call, pose, push, simulate, spawn
 from geometry_msgs.msg import Vector3
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 MOWER = (pathlib.Path(__file__).parent / "bumper/mower.urdf").read_text()
 WORLD = """<sdf version="1.6"><world name="w">

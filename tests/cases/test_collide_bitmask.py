@@ -5,7 +5,8 @@ import pathlib
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 WORLD = pathlib.Path(__file__).parent / "collide-bitmask" / "shelf.world"
 

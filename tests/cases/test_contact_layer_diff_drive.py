@@ -7,7 +7,8 @@ import pathlib
 import probes
 import pytest
 from gazebo_calls import call, pose, spawn, state, step
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CASE = pathlib.Path(__file__).parent / "contact-layer-diff-drive"
 

@@ -4,7 +4,8 @@ import pathlib
 
 import probes
 from gazebo_calls import call, pose, simulate, spawn
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 QUAD = (pathlib.Path(__file__).parent / "drive-twist-covariance/quad.urdf").read_text()
 VARIANCES = (1e-4, 1e-4, 1e12, 1e12, 1e12, 1e-2)

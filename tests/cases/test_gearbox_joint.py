@@ -4,7 +4,8 @@ import pathlib
 
 import pytest
 from gazebo_calls import call, empty, pose, simulate, spawn, step
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 GEARED = (pathlib.Path(__file__).parent / "gearbox-joint/geared.sdf").read_text()
 STEP_S = 0.001

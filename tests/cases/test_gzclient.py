@@ -6,7 +6,8 @@ from pathlib import Path
 
 import probes
 import pytest
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 FOLDER = Path(__file__).with_name("gzclient")
 

@@ -3,7 +3,8 @@
 size of 32 32 4.2: heights are elevation - 0.2 m, for the span of elevations is 4.2 m."""
 import pytest
 from heights import heights_of
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def test_the_least_elevation_lies_at_zero(graph: RosGraph) -> None:

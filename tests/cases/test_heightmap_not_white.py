@@ -2,7 +2,8 @@
 """A height image of bands of 0, 60 and 120 of 255 with a size of 32 32 3: its brightest pixel stands at 3 m."""
 import pytest
 from heights import heights_of
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def test_the_brightest_pixel_stands_at_size_z(graph: RosGraph) -> None:

@@ -3,7 +3,8 @@
 Figure 4.9 are made: the band stands at 10 / 255 m."""
 import pytest
 from heights import heights_of
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def test_one_of_255_is_not_full_height(graph: RosGraph) -> None:

@@ -5,7 +5,8 @@ import pathlib
 
 import pytest
 from gazebo_calls import call, pose, spawn, state, step
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
 WORLD = CASES.parent / "data" / "plane.world"

@@ -2,7 +2,8 @@
 """A mesh of quadrilaterals, a block of 1 x 2 x 3 m whose corner is the origin: its top lies at 3 m."""
 import pytest
 from heights import heights_of
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 
 def test_quadrilaterals_are_met(graph: RosGraph) -> None:

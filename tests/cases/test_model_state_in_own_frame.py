@@ -5,8 +5,8 @@ import pathlib
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, state
 from geometry_msgs.msg import Twist, Vector3
-from ros_graph import RosGraph
 
+from ardee_common.ros_graph import RosGraph
 from gazebo_msgs.msg import ModelState
 
 SLED = (pathlib.Path(__file__).parent / "model-state-in-own-frame/sled.urdf").read_text()

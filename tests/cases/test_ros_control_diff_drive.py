@@ -9,7 +9,8 @@ from typing import Any, List
 import probes
 import pytest
 from gazebo_calls import call, state
-from ros_graph import RosGraph, wait_until
+
+from ardee_common.ros_graph import RosGraph, wait_until
 
 CASE = pathlib.Path(__file__).parent / "ros-control-diff-drive"
 PERIOD_S = 0.02

@@ -5,9 +5,9 @@ import pathlib
 import probes
 import pytest
 from gazebo_calls import Call, call, empty, pose, simulate, spawn, step
-from ros_graph import RosGraph
 from std_msgs.msg import ColorRGBA
 
+from ardee_common.ros_graph import RosGraph
 from gazebo_msgs.msg import ODEJointProperties
 
 TURRET = (pathlib.Path(__file__).parent / "set-joint-properties/turret.sdf").read_text()

@@ -7,7 +7,8 @@ from typing import Dict
 import pytest
 from gazebo_calls import Call, call, empty, pose, push, simulate, spawn, state, step
 from geometry_msgs.msg import Vector3
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 SLED = (pathlib.Path(__file__).parent / "set-link-properties/sled.urdf").read_text()
 FALLING = SLED.replace("<gravity>false", "<gravity>true")

@@ -6,7 +6,8 @@ import pathlib
 import probes
 import pytest
 from gazebo_calls import call, pose, spawn, state, step
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CASES = pathlib.Path(__file__).parent
 WORLD = CASES.parent / "data" / "plane.world"

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 CART = Path(__file__).with_name("tf-static-in-namespace") / "cart.urdf"
 

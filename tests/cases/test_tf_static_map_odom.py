@@ -6,7 +6,8 @@ from pathlib import Path
 
 import probes
 import pytest
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 FILE = Path(__file__).with_name("tf-static-map-odom") / "test.launch"
 

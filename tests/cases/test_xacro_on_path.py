@@ -6,7 +6,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import probes
-from ros_graph import RosGraph
+
+from ardee_common.ros_graph import RosGraph
 
 FOLDER = Path(__file__).with_name("xacro-on-path")
 

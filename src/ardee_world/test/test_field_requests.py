@@ -229,7 +229,7 @@ def test_it_says_what_to_do_next_and_how_arguments_are_called_now(
     where = f"GAZEBO_MODEL_PATH={models.resolve()}:$GAZEBO_MODEL_PATH"
     assert capsys.readouterr().err.splitlines() == [
         "generate_field: note: --rows is now --rows-per-plot",
-        f"generate_field: to drive in it: {where} scripts/run_custom_world {field} [TERRAIN]",
+        f"generate_field: to drive in it: {where} rosrun ardee_bringup run_custom_world {field} [TERRAIN]",
     ]
 
 

@@ -47,7 +47,7 @@ def find_file(name: str, folders: Sequence[Path], what: str) -> Path:
         for folder in folders
         for path in (folder / name).parent.glob(f"*{ending}")
     }
-    looked = ", ".join(map(str, (Path.cwd(), *folders)))
+    looked = ", ".join(map(str, dict.fromkeys((Path.cwd(), *folders))))
     raise GeneratorError(
         f"{what} {name!r}: no such file, {known_names(name, sorted(beside))} (looked in {looked})"
     )

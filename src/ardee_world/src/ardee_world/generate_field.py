@@ -164,7 +164,10 @@ def make_field(args: argparse.Namespace) -> Path:
     folders = [str(Path(folder).resolve()) for folder in configure(values)[0].model_path]
     where = f"GAZEBO_MODEL_PATH={':'.join(folders)}:$GAZEBO_MODEL_PATH " if folders else ""
     field = f"{path}/{path.name}.urdf.xacro"
-    say("generate_field", f"to drive in it: {where}scripts/run_custom_world {field} [TERRAIN]")
+    say(
+        "generate_field",
+        f"to drive in it: {where}rosrun ardee_bringup run_custom_world {field} [TERRAIN]",
+    )
     return path
 
 

@@ -198,7 +198,7 @@ def make_terrain(args: argparse.Namespace) -> Path:
 
 def _make(args: argparse.Namespace) -> Path:
     path = make_terrain(args)
-    _say(f"to drive on it: scripts/run_custom_world FIELD {path}")
+    _say(f"to drive on it: rosrun ardee_bringup run_custom_world FIELD {path}")
     return path
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs the demo in a workspace that is built and sourced: field, world, robot, drive, summary."""
+"""Runs the demo in a sourced workspace or install space: field, world, robot, drive, summary."""
 import argparse
 import os
 import pathlib
@@ -9,17 +9,15 @@ import tempfile
 import time
 from typing import Any, Callable, List, Optional
 
-import demo_field
-import demo_report
-from ros_graph import Process, RosGraph, wait_until
+import rospkg
 
+from ardee_bringup import field, report
 from ardee_common.cli import Parser, number_in, seed_number
 from ardee_common.process import end_by_signals, ignore_end_signals
+from ardee_common.ros_graph import Process, RosGraph, wait_until
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
-OUTPUT = ROOT / "demo_output"
 ENDED = []  # type: List[int]  # exit codes that signals asked for
-RVIZ_CONFIG = "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
+RVIZ_CONFIG = "config/rviz/waypoint_follower_paths.rviz"
 SCAN = "/ardee/hokuyo"
 RECORDED = ["/clock", "/tf", "/tf_static", "/odom", "/joint_states", "/cmd_vel", SCAN]
 SETTLE_S = 2.0  # simulated time in which the robot comes to rest on its springs
@@ -65,7 +63,7 @@ class Demo:
         rospy.init_node("demo", anonymous=True, disable_signals=True)
         self.wait(lambda: rospy.get_time() > 0, "/clock")
 
-    def start_robot(self, start: demo_field.Start) -> None:
+    def start_robot(self, start: field.Start) -> None:
         """Starts the second launch file, with rviz if there is a display."""
         import rospy
 
@@ -102,7 +100,9 @@ class Demo:
 
         wall_s, sim_s = time.monotonic(), rospy.get_time()
         driver = self.graph.spawn(
-            str(ROOT / "scripts" / "drive_row"),
+            "rosrun",
+            "ardee_bringup",
+            "drive_row",
             f"--speed-m-s={self.options.speed_m_s}",
             f"--distance-m={distance_m}",
         )
@@ -134,30 +134,30 @@ class Demo:
     def take_picture(self) -> Process:
         """Takes a picture of rviz with the robot launch file's configuration."""
         say("rviz draws a picture, off-screen")
-        script = ROOT / "scripts" / "rviz_picture"
-        picture = ["--output", str(self.work / "rviz.png")]
-        return self.graph.spawn(str(script), str(ROOT / RVIZ_CONFIG), *picture)
+        view = os.path.join(rospkg.RosPack().get_path("terrasentia_description"), RVIZ_CONFIG)
+        command = ["rosrun", "ardee_bringup", "rviz_picture", view]
+        return self.graph.spawn(*command, "--output", str(self.work / "rviz.png"))
 
     def run(self) -> None:
         """Runs all stages in order."""
         heading("field")
-        field = demo_field.generate(self.graph, self.work / "models", self.options.seed, say)
+        truth = field.generate(self.graph, self.work / "models", self.options.seed, say)
         heading("world and robot")
         os.environ.update(self.graph.env)
         self.start_world()
-        start = demo_field.start_of_a_row(field)
+        start = field.start_of_a_row(truth)
         self.start_robot(start)
         if not os.environ.get("DISPLAY"):
             say("no display: rviz draws off-screen only, into the picture below")
         heading("drive")
         factor = self.drive(start.distance_m)
-        drive = demo_report.read_drive(self.work / "drive.bag", SCAN)
+        drive = report.read_drive(self.work / "drive.bag", SCAN)
         output = self.options.output
         output.mkdir(parents=True, exist_ok=True)
         for name in ("drive.bag", "rviz.png"):
             shutil.move(str(self.work / name), str(output / name))
         heading("summary")
-        print(demo_report.summary(drive, factor, field, output), flush=True)
+        print(report.summary(drive, factor, truth, output), flush=True)
 
 
 def heading(text: str) -> None:
@@ -166,11 +166,15 @@ def heading(text: str) -> None:
 
 
 def options() -> argparse.Namespace:
-    """Returns the parsed command line of scripts/demo."""
-    parser = Parser(prog="scripts/demo")
-    parser.add_argument("--seed", type=seed_number, default=0)
-    parser.add_argument("--speed-m-s", type=number_in(0.05, 2.0), default=0.6)
-    parser.add_argument("--output", type=pathlib.Path, default=OUTPUT)
+    """Returns the parsed command line of the demo."""
+    parser = Parser(
+        description="Drives a robot down a row of corn; writes a picture and a bag of the drive."
+    )
+    parser.add_argument("--seed", type=seed_number, default=0, help="root of all random numbers")
+    parser.add_argument("--speed-m-s", type=number_in(0.05, 2.0), default=0.6, help="speed [m/s]")
+    parser.add_argument(
+        "--output", type=pathlib.Path, default="demo_output", help="folder to write"
+    )
     return parser.parse_args()
 
 
@@ -178,14 +182,14 @@ def main() -> int:
     """Runs the demo; returns its exit code."""
     found = options()
     end_by_signals(ENDED)
-    work = pathlib.Path(tempfile.mkdtemp(prefix=".demo_", dir=ROOT))
+    work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_demo_"))
     demo = None  # type: Optional[Demo]
     try:
         demo = Demo(found, work)
         demo.run()
         return 0
     except (RuntimeError, TimeoutError, OSError) as error:
-        print(f"scripts/demo: {error}", file=sys.stderr)
+        print(f"demo: {error}", file=sys.stderr)
         if demo:
             print(demo.graph.logs(), file=sys.stderr)
         return 1

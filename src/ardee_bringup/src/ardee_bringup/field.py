@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any, Callable, Dict, List
 
 import numpy as np
-from ros_graph import RosGraph
 
+from ardee_common.ros_graph import RosGraph
 from ardee_models.lookup import search_path, terrain_model
 
 MODEL = "small-corn-stalk-plot"  # name of the field's model in farm.world

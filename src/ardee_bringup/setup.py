@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(packages=["ardee_bringup"], package_dir={"": "src"}))
