@@ -3,6 +3,7 @@
 import math
 from typing import Iterator
 
+import numpy as np
 import probes
 import pytest
 
@@ -38,6 +39,16 @@ def test_the_lidar_sees_plants(robot: RosGraph) -> None:
     scan = robot.call(probes.collect, SCAN, "sensor_msgs/LaserScan", 1)[0]
     near = [r for r in scan.ranges if scan.range_min < r < 5.0]
     assert len(near) > 50
+
+
+def test_the_front_camera_sees_plants_between_soil_and_sky(robot: RosGraph) -> None:
+    picture = robot.call(probes.collect, "/ardee/camera/front/image_raw", "sensor_msgs/Image", 1)[0]
+    pixels = np.frombuffer(picture.data, np.uint8).reshape(picture.height, picture.width, 3)
+    red, green, blue = np.moveaxis(pixels.astype(int), 2, 0)
+    plants, soil, sky = green > np.maximum(red, blue), red > green + 10, blue > green
+    top, _, bottom = (slice(start, start + 160) for start in (0, 160, 320))
+    assert plants[top].mean() > 0.4 and sky[top].mean() > 0.1 and soil[top].mean() < 0.01
+    assert soil[bottom].mean() > 0.8 and sky[bottom].mean() < 0.01
 
 
 def test_joint_states_name_legs_and_wheels(robot: RosGraph) -> None:

@@ -71,3 +71,44 @@ def test_plants_plots_truth_and_start_agree(
     assert 0.5 < near[:, 0].min() < 1.5  # the headland of 1 m
     assert np.any(near[:, 1] > 0.0) and np.any(near[:, 1] < 0.0)  # in a lane
     assert np.abs(near[:, 1]).min() > 0.2
+
+
+@pytest.mark.parametrize(
+    "name, species, rows, stalks, off",
+    [
+        ("scenario-1-artificial-plot", "corn", 2, 23, 0),
+        ("scenario-2-corn-plot", "corn", 4, 50, 2),
+        ("scenario-3-sorghum-plot", "sorghum", 4, 50, 2),
+    ],
+)
+def test_the_scenarios_of_the_thesis_have_its_rows(
+    name: str, species: str, rows: int, stalks: int, off: int
+) -> None:
+    """Sections 5.2.2 to 5.2.4: rows 30 in apart; 23 stalks 6 in apart without noise, or on the average 50 on 5 m."""
+    truth = json.loads((SHARE / f"ardee_world/models/{name}/truth.json").read_text())
+    plants = truth["plants"]
+    assert set(plants["species"]) == {species}
+    counts = np.bincount(plants["row"])
+    assert len(counts) == rows and np.abs(counts - stalks).max() <= off
+    across = [
+        np.mean(np.array(plants["x_m"])[np.array(plants["row"]) == row]) for row in range(rows)
+    ]
+    np.testing.assert_allclose(np.diff(across), 0.762, atol=0.02)
+    along = np.sort(np.array(plants["y_m"])[np.array(plants["row"]) == 0])
+    if off == 0:
+        np.testing.assert_allclose(np.diff(along), 0.1524, atol=2e-4)
+        assert np.ptp(np.abs(plants["x_m"])) == 0.0
+    else:
+        assert np.ptp(along) == pytest.approx(5.0, abs=0.15)
+
+
+def test_sorghum_of_the_thesis_is_sown_with_more_noise_than_its_corn() -> None:
+    corn, sorghum = (
+        json.loads((SHARE / f"ardee_world/models/{name}/truth.json").read_text())["plants"]
+        for name in ("scenario-2-corn-plot", "scenario-3-sorghum-plot")
+    )
+    spreads = [
+        np.mean([np.std(np.array(field["x_m"])[np.array(field["row"]) == row]) for row in range(4)])
+        for field in (corn, sorghum)
+    ]
+    assert 0.0 < spreads[0] < spreads[1]
