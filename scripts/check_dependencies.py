@@ -13,6 +13,7 @@ from typing import Iterator, List, Optional, Set, Tuple
 KEYS = {
     "ardee_sim": "ardee_sim_py",
     "collada": "python3-collada",
+    "gymnasium": "python3-gymnasium-pip",
     "matplotlib": "python3-matplotlib",
     "mpl_toolkits": "python3-matplotlib",
     "numpy": "python3-numpy",

@@ -19,7 +19,7 @@ void Inbox::clear() {
 
 void Inbox::on_reading(const devices::Output& output, const devices::Reading& reading) {
   const auto found = boxes_.find(output.topic);
-  if (found == boxes_.end()) return;
+  if (found == boxes_.end() || !found->second.is_open) return;
   Box& box = found->second;
   box.latest = std::make_shared<const devices::Reading>(reading);
   box.waiting.push_back(box.latest);

@@ -18,8 +18,15 @@ class Inbox : public devices::ReadingSink {
   using Item = std::shared_ptr<const devices::Reading>;
 
   /// Keeps up to `keep` readings of a topic from now on.
-  void demand(const std::string& topic, std::size_t keep) { boxes_[topic].keep = keep; }
-  bool demands(const std::string& topic) const { return boxes_.count(topic) > 0; }
+  void demand(const std::string& topic, std::size_t keep) {
+    boxes_[topic].keep = keep;
+    boxes_[topic].is_open = true;
+  }
+  /// Keeps what is there, and takes no more.
+  void undemand(const std::string& topic) { boxes_.at(topic).is_open = false; }
+  bool demands(const std::string& topic) const { return knows(topic) && boxes_.at(topic).is_open; }
+  /// Whether the topic was ever demanded.
+  bool knows(const std::string& topic) const { return boxes_.count(topic) > 0; }
   /// Returns the last reading since the last clear(), or null. Throws std::out_of_range if nobody
   /// demanded the topic, as do the next two.
   Item latest(const std::string& topic) const { return boxes_.at(topic).latest; }
@@ -33,6 +40,7 @@ class Inbox : public devices::ReadingSink {
 
  private:
   struct Box {
+    bool is_open = true;
     std::size_t keep = 1;
     std::size_t dropped = 0;
     std::deque<Item> waiting;

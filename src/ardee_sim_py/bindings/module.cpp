@@ -127,6 +127,7 @@ void bind_state(py::class_<BoundSimulation>& bound) {
 
 void bind_readings(py::class_<BoundSimulation>& bound) {
   bound.def("demand", &BoundSimulation::demand)
+      .def("undemand", &BoundSimulation::undemand)
       .def("latest", &BoundSimulation::latest)
       .def("drain", &BoundSimulation::drain)
       .def("dropped", &BoundSimulation::dropped)
@@ -134,12 +135,14 @@ void bind_readings(py::class_<BoundSimulation>& bound) {
       .def("contacts", &BoundSimulation::contacts)
       .def("picture",
            [](BoundSimulation& sim, const Eigen::Vector3d& xyz_m, const Eigen::Vector4d& quat_xyzw,
-              int width, int height, double horizontal_fov_rad, bool light, bool depth, bool ids) {
+              int width, int height, double horizontal_fov_rad, double near_m, bool light,
+              bool depth, bool ids) {
              render::Camera camera;
              camera.X_WC = {xyz_m, quaternion(quat_xyzw)};
              camera.width = width;
              camera.height = height;
              camera.horizontal_fov_rad = horizontal_fov_rad;
+             camera.near_m = near_m;
              return sim.picture(camera, {light, depth, ids});
            });
 }

@@ -184,9 +184,17 @@ void BoundSimulation::demand(const std::string& topic, std::size_t keep) {
   apply_demands();
 }
 
+void BoundSimulation::undemand(const std::string& topic) {
+  const Use use(*this);
+  output(*use, topic);
+  if (!inbox_.knows(whole(topic))) return;
+  inbox_.undemand(whole(topic));
+  apply_demands();
+}
+
 py::object BoundSimulation::latest(const std::string& topic) {
   const Use use(*this);
-  if (!inbox_.demands(whole(topic))) {
+  if (!inbox_.knows(whole(topic))) {
     output(*use, topic);
     throw Error("found the topic '" + topic + "', which was not demanded: sim.demand('" + topic +
                 "') first");
@@ -197,9 +205,9 @@ py::object BoundSimulation::latest(const std::string& topic) {
 
 py::list BoundSimulation::drain(const std::string& topic) {
   const Use use(*this);
-  if (!inbox_.demands(whole(topic))) output(*use, topic);
+  if (!inbox_.knows(whole(topic))) output(*use, topic);
   py::list items;
-  if (!inbox_.demands(whole(topic))) return items;
+  if (!inbox_.knows(whole(topic))) return items;
   for (const Inbox::Item& item : inbox_.drain(whole(topic))) items.append(made(item));
   return items;
 }
@@ -207,7 +215,7 @@ py::list BoundSimulation::drain(const std::string& topic) {
 std::size_t BoundSimulation::dropped(const std::string& topic) {
   const Use use(*this);
   output(*use, topic);
-  return inbox_.demands(whole(topic)) ? inbox_.dropped(whole(topic)) : 0;
+  return inbox_.knows(whole(topic)) ? inbox_.dropped(whole(topic)) : 0;
 }
 
 py::list BoundSimulation::contacts() {

@@ -72,6 +72,7 @@ class BoundSimulation {
   py::object call(const std::string& service, const py::args& arguments);
 
   void demand(const std::string& topic, std::size_t keep);
+  void undemand(const std::string& topic);
   py::object latest(const std::string& topic);
   py::list drain(const std::string& topic);
   std::size_t dropped(const std::string& topic);

@@ -93,6 +93,22 @@ def test_what_nobody_demands_is_not_measured(sim: ardee_sim.Simulation) -> None:
     assert time.process_time() - begin > 3 * without_s
 
 
+def test_what_is_demanded_no_more_is_not_measured_and_its_last_reading_stays(
+    sim: ardee_sim.Simulation,
+) -> None:
+    sim.demand("ardee/hokuyo")
+    sim.step(10)
+    sim.undemand("ardee/hokuyo")
+    sim.undemand("ardee/imu/custom")  # which nobody demanded
+    sim.step(20)
+    assert sim.latest("ardee/hokuyo").stamp_ns == 50_000_000
+    sim.demand("ardee/hokuyo")
+    sim.step(10)
+    assert sim.latest("ardee/hokuyo").stamp_ns == 200_000_000
+    with pytest.raises(KeyError, match="/ardee/hokuyo"):
+        sim.undemand("ardee/hokuyu")
+
+
 def test_drain_keeps_the_last_ones_and_counts_the_lost(sim: ardee_sim.Simulation) -> None:
     sim.demand("ardee/hokuyo", keep=10)
     sim.step(200)  # 1 s: 40 scans
@@ -217,6 +233,8 @@ def test_pictures_agree_with_each_other_and_with_the_plants(
     plants = {plant.instance: plant for plant in corn.plants()}
     crop = instances[labels == 1]
     assert crop.size > 500 and set(crop) <= set(plants)
+    far = sim.depth_image(**eye, near_m=1.0)
+    assert far.min() >= 1.0 > depth_m.min()
     # The middle of the picture looks along the world's -x: a plant's depth is about its distance in x.
     y, x = np.argwhere((labels == 1) & (depth_m < 3))[0]
     plant = plants[instances[y, x]]

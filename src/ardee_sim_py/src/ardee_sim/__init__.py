@@ -4,6 +4,7 @@
 SI units, in the names; x forward, y left, z up (REP 103); quaternions x, y, z, w.
 """
 
+from ardee_sim import _devel_space  # noqa: F401  before all others
 from ardee_sim.errors import ArdeeError, PhysicsError
 from ardee_sim.readings import (
     BatteryReading,

@@ -155,7 +155,7 @@ class Simulation:
         Raises ArdeeError, and then nothing is left behind.
         """
         text, file = (model.read_text(), str(model)) if isinstance(model, Path) else (model, name)
-        loaded = self.world._core.load_model(text, file)
+        loaded = self.world.load_model(text, file)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(rpy_rad, 3, "rpy_rad")
         places = dict(joint_positions or {})
         self._core.spawn(name, loaded, *pose, namespace, places, is_static, scale, label)
@@ -268,6 +268,11 @@ class Simulation:
         for topic in topics:
             self._core.demand(topic, keep)
 
+    def undemand(self, *topics: str) -> None:
+        """Lets devices measure for these topics no more; their last readings stay."""
+        for topic in topics:
+            self._core.undemand(topic)
+
     def latest(self, topic: str) -> Optional[Reading]:
         """Returns the last reading of a demanded topic, or None before the first."""
         made = self._core.latest(topic)
@@ -301,7 +306,7 @@ class Simulation:
     def render(self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any) -> np.ndarray:
         """Returns a picture, uint8[h, w, 3], of a camera at this pose: x forward, y left, z up.
 
-        lens : width_px=640, height_px=480, horizontal_fov_rad=1.2
+        lens : width_px=640, height_px=480, horizontal_fov_rad=1.2, near_m=0 (what is nearer is invisible)
         """
         return self._picture(xyz_m, quat_xyzw, "rgb", **lens)
 
@@ -332,12 +337,15 @@ class Simulation:
         width_px: int = 640,
         height_px: int = 480,
         horizontal_fov_rad: float = 1.2,
+        near_m: float = 0.0,
     ) -> np.ndarray:
         if not (1 <= width_px <= 10_000 and 1 <= height_px <= 10_000):
             raise ValueError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
         if not 0 < horizontal_fov_rad < math.pi:
             raise ValueError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
+        if not 0 <= near_m < math.inf:
+            raise ValueError(f"found near_m={near_m}, expected 0 or more")
         wanted = (part == "rgb", part == "depth_m", part in ("labels", "instances"))
-        size = (width_px, height_px, horizontal_fov_rad)
+        size = (width_px, height_px, horizontal_fov_rad, near_m)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
         return self._core.picture(*pose, *size, *wanted)[part]

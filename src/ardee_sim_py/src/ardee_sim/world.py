@@ -13,6 +13,7 @@ from ardee_sim import _core, packages
 from ardee_sim.errors import ArdeeError
 
 PathLike = Union[str, "os.PathLike[str]"]
+_MOST_MODELS = 16  # that stay loaded
 _SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
 
 
@@ -64,6 +65,16 @@ class World:
 
     def __init__(self, core: "_core.World") -> None:
         self._core = core
+        self._models: Dict[Tuple[str, str], "_core.Model"] = {}
+
+    def load_model(self, text: str, file: str) -> "_core.Model":
+        """Returns a model for Simulation.spawn(); the last ones stay, for a robot that is spawned again and again."""
+        key = text, file
+        if key not in self._models:
+            if len(self._models) >= _MOST_MODELS:
+                self._models.pop(next(iter(self._models)))
+            self._models[key] = self._core.load_model(text, file)
+        return self._models[key]
 
     @classmethod
     def from_file(cls, path: PathLike, *, model_paths: Sequence[PathLike] = ()) -> "World":

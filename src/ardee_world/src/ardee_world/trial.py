@@ -4,13 +4,14 @@
 import contextlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Optional, Tuple
+from types import MappingProxyType
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
 
 from ardee_common.config import build, read_yaml_lines
-from ardee_common.errors import GeneratorError
+from ardee_common.errors import GeneratorError, known_names
 from ardee_models.lookup import find_model, search_path
 from ardee_models.terrain.ground import ground_model, is_ground
 from ardee_models.terrain.height_map import Ground
@@ -71,8 +72,12 @@ def field_and_terrain(world: Path, folders: List[Path]) -> Tuple[Path, str]:
     return models[fields[0]], terrains[0]
 
 
-def _sow(plan: Path, seed: int, folder: Path) -> None:
+def _sow(
+    plan: Path, seed: int, folder: Path, changes: Mapping[str, object], models: Sequence[Path]
+) -> None:
     values = yaml_values(plan)
+    values.update(changes)
+    values["model_path"] = (*values.get("model_path", ()), *map(str, models))
     values.update(name=plan.stem, output=str(folder), seed=seed)
     make_configured(values)
 
@@ -86,15 +91,34 @@ def start_near(start: Start, seed: int) -> Pose:
     return Pose(float(x), float(y), float(start.yaw_rad + turn))
 
 
-def prepare(world: Path, plan: Optional[Path], seed: int, folder: Path) -> Trial:
-    """Sows the field of a plan, if given, in a folder of models; finds truth, start and ground of the world."""
+def scenario_paths(share: Path, name: str) -> Tuple[Path, Optional[Path]]:
+    """Returns world and plan, if any, of a scenario of config/scenarios.yaml; `share` is ardee_world's folder."""
+    scenarios = read_yaml_lines(share / "config" / "scenarios.yaml")
+    if name not in scenarios:
+        raise GeneratorError(f"scenario: found {name!r}, {known_names(name, scenarios)}")
+    world, plan = scenarios[name]["world"], scenarios[name]["plan"]
+    return share / "worlds" / world, share / "fields" / plan if plan else None
+
+
+def prepare(
+    world: Path,
+    plan: Optional[Path],
+    seed: int,
+    folder: Path,
+    changes: Mapping[str, object] = MappingProxyType({}),
+    more_models: Sequence[Path] = (),
+) -> Trial:
+    """Sows the field of a plan, if given, in a folder of models; finds truth, start and ground of the world.
+
+    `changes` replace options of the plan; `more_models` are folders of models besides those of GAZEBO_MODEL_PATH.
+    """
     if not world.is_file():
         raise GeneratorError(f"{world}: no such world")
     if plan:
         folder.mkdir(parents=True, exist_ok=True)
-        _sow(plan, seed, folder)
+        _sow(plan, seed, folder, changes, more_models)
     models = [folder] if plan else []
-    folders = search_path(models)
+    folders = search_path([*models, *more_models])
     field, terrain = field_and_terrain(world, folders)
     truth = read_field(field / "truth.json")
     start = build(Start, read_yaml_lines(world.with_suffix(".start.yaml")))

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: MIT
+"""The registered environments."""
+
+from typing import Any, Dict, Tuple
+
+from ardee_sim.envs.field_env import FieldEnv
+from ardee_sim.envs.row_follow import RowFollowCameraTask, RowFollowTask
+
+
+class RowFollowEnv(FieldEnv):
+    """ardee/RowFollow-v0: follow a lane between crop rows by lidar.
+
+    Description
+    -----------
+    A robot stands before a lane of a field, near its middle, and has to drive to the lane's end without touching a
+    plant.
+
+    Action Space
+    ------------
+    `Box(-1, 1, (2,), float32)`
+
+    | Num | Action | Min | Max | Name | Unit |
+    |---|---|---|---|---|---|
+    | 0 | speed / `v_max_m_s` | -1 | 1 | `linear_x` | m/s |
+    | 1 | turn rate / `w_max_rad_s`, positive to the left | -1 | 1 | `angular_z` | rad/s |
+
+    Observation Space
+    -----------------
+    `Box(0, 1, (1081,), float32)`: the last scan, ranges / greatest range, from right to left; 1 where nothing was met.
+    With more than one of `topics` a Dict of scans, images and IMU readings by the topics' last parts.
+
+    Rewards
+    -------
+    | term in `info` | value |
+    |---|---|
+    | `reward_progress` | way along the lane in the control period [m] |
+    | `reward_offset` | -0.05 x distance from the lane's middle / half its width |
+    | `reward_end` | 1 at the row's end, -1 at a collision or outside the lane, else 0 |
+
+    Starting State
+    --------------
+    The world's start pose, displaced to the side (0.03 m) and turned (0.05 rad) by normal deviates, at rest. The field
+    is sown anew with `seed_field`. `info["replay"]` has all that was drawn; `reset(options=...)` with it repeats the
+    episode.
+
+    Episode End
+    -----------
+    `info["end_reason"]`: `row_end`, `collision` (a plant is touched at the end of a control period), `row_lost` (the
+    robot's middle is beyond a row, or the robot turned round). Truncated after 600 control periods.
+
+    Arguments
+    ---------
+    topics : sensors of the observation
+    scenario="corn", and all others of FieldEnv
+
+    Version History
+    ---------------
+    v0 : first version
+    """
+
+    def __init__(self, *, topics: Tuple[str, ...] = ("ardee/hokuyo",), **arguments: Any) -> None:
+        super().__init__(RowFollowTask(tuple(topics)), **_in_corn(arguments))
+
+
+class RowFollowCameraEnv(FieldEnv):
+    """ardee/RowFollowCamera-v0: follow a lane between crop rows by a camera's picture.
+
+    Description
+    -----------
+    As ardee/RowFollow-v0, with a pinhole camera without noise at the place of the robot's front camera.
+
+    Action Space
+    ------------
+    As ardee/RowFollow-v0.
+
+    Observation Space
+    -----------------
+    `picture="rgb"`: `Box(0, 255, (224, 320, 3), uint8)`. `"depth"`: `Box(0, 1, (224, 320), float32)`, depth along the
+    camera's axis / 10 m, 1 where nothing is nearer. `"labels"`: `Box(0, 65535, (224, 320), uint16)`, classes: 0 none,
+    1 corn, 2 sorghum, 3 tobacco, 10 weed, 11 stone, 12 litter.
+
+    Rewards
+    -------
+    As ardee/RowFollow-v0.
+
+    Starting State
+    --------------
+    As ardee/RowFollow-v0.
+
+    Episode End
+    -----------
+    As ardee/RowFollow-v0.
+
+    Arguments
+    ---------
+    picture : rgb, depth or labels
+    width_px=320, height_px=224, horizontal_fov_rad=1.2 : of the camera
+    camera_link="camera_link" : link that holds it, x forward, z up
+    scenario="corn", and all others of FieldEnv
+
+    Version History
+    ---------------
+    v0 : first version
+    """
+
+    def __init__(
+        self,
+        *,
+        picture: str = "rgb",
+        width_px: int = 320,
+        height_px: int = 224,
+        horizontal_fov_rad: float = 1.2,
+        camera_link: str = "camera_link",
+        **arguments: Any,
+    ) -> None:
+        task = RowFollowCameraTask(picture, width_px, height_px, horizontal_fov_rad, camera_link)
+        super().__init__(task, **_in_corn(arguments))
+
+
+def _in_corn(arguments: Dict[str, Any]) -> Dict[str, Any]:
+    return arguments if "world" in arguments else {"scenario": "corn", **arguments}

@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: MIT
+"""A Gymnasium environment: a robot in a field, and a task."""
+
+import math
+from typing import Any, Dict, List, Mapping, Optional, Tuple
+
+import gymnasium
+import numpy as np
+from ardee_sim.envs.fields import FieldSource, Ranges, SownField, check_ranges
+from ardee_sim.envs.task import Scene, Task
+from ardee_sim.errors import ArdeeError
+from ardee_sim.robots import robot as robot_text
+from ardee_sim.simulation import Simulation, Twist
+from ardee_sim.world import PathLike, World
+from gymnasium import spaces
+
+from ardee_world.row_truth import Pose
+
+SETTLE_S = 0.5  # in which a robot comes to rest on its springs
+COMMANDS = "cmd_vel"
+Episode = Dict[str, Any]
+
+
+class FieldEnv(gymnasium.Env):
+    """A robot that is driven through a field by speed and turn rate; the task observes and rewards.
+
+    task : of ardee_sim.envs, or one of yours
+    scenario, world : name of a scenario, or path of a world instead
+    robot : name of a shipped robot, or a file, as ardee_sim.robot() takes it
+    control_period_s : a whole number of the world's steps
+    seed_field : sow a new field at each reset; else the field of `field_seed` stays
+    randomise : least and greatest values of a plan's numbers, drawn at each sowing
+    v_max_m_s, w_max_rad_s : speed and turn rate of an action of 1
+    render_mode : None or rgb_array
+    """
+
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+
+    def __init__(
+        self,
+        task: Task,
+        *,
+        scenario: Optional[str] = None,
+        world: Optional[PathLike] = None,
+        robot: PathLike = "tsv1_default",
+        control_period_s: float = 0.1,
+        seed_field: bool = True,
+        field_seed: int = 1,
+        randomise: Optional[Ranges] = None,
+        v_max_m_s: float = 0.8,
+        w_max_rad_s: float = 1.0,
+        render_mode: Optional[str] = None,
+    ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise ArdeeError(f"render_mode: found {render_mode!r}, expected None or rgb_array")
+        self.render_mode = render_mode
+        self.metadata = {**self.metadata, "render_fps": round(1 / control_period_s)}
+        self._task, self._period_s = task, control_period_s
+        self._limits = v_max_m_s, w_max_rad_s
+        self._ranges = dict(randomise or {})
+        check_ranges(self._ranges)
+        self._field_seed = field_seed
+        self._sim: Optional[Simulation] = None
+        self._scene: Optional[Scene] = None
+        self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
+        self._source = FieldSource(scenario, world)
+        self._sows = seed_field and self._source.is_sown
+        try:
+            if self._ranges and not self._sows:
+                raise ArdeeError("randomise: found ranges for a field that is not sown anew")
+            self._robot = self._source.folder / "robot.urdf"
+            self._robot.write_text(robot_text(robot))
+            self._probe(field_seed)
+        except BaseException:
+            self.close()
+            raise
+
+    def _probe(self, field_seed: int) -> None:
+        """Finds the steps of a period, the observations' space, and how long before its end sensors have to measure."""
+        numbers = {name: (low + high) / 2 for name, (low, high) in self._ranges.items()}
+        self._sow(field_seed, numbers)
+        assert self._sim is not None and self._sown is not None
+        steps = self._period_s * 1e9 / self._sim.step_ns
+        if steps < 1 or abs(steps - round(steps)) > 1e-6:
+            raise ArdeeError(
+                f"control_period_s: found {self._period_s}, expected a whole number of steps of "
+                f"{self._sim.step_ns * 1e-9:g} s"
+            )
+        self._steps = round(steps)
+        scene = self._place(self._task.start(self._sown, np.random.default_rng(0)), 0)
+        self._sim.demand(*self._task.topics, keep=1000)
+        self._sim.step(math.ceil(1e9 / self._sim.step_ns))
+        self._window = 1
+        for topic in self._task.topics:
+            stamps = [reading.stamp_ns for reading in self._sim.drain(topic)]
+            gaps_ns = np.diff(stamps) if len(stamps) > 1 else [self._period_s * 1e9]
+            self._window = max(self._window, math.ceil(max(gaps_ns) / self._sim.step_ns))
+        if self._window > self._steps:
+            raise ArdeeError(
+                f"control_period_s: found {self._period_s}, expected no less than the "
+                f"{self._window * self._sim.step_ns * 1e-9:g} s between readings"
+            )
+        self._sim.demand(*self._task.topics)
+        self.observation_space = self._task.space(scene)
+
+    def _sow(self, seed: int, numbers: Mapping[str, float]) -> None:
+        """Loads the field of a seed with drawn numbers; the simulation has no robot yet."""
+        if self._sim is not None:
+            self._sim.close()
+        self._sown: SownField = self._source.load(seed, numbers)
+        self._plants = frozenset(plant.name for plant in self._sown.world.plants())
+        self._sim = Simulation(self._sown.world)
+        self._empty = self._sim.snapshot()
+        self._present = seed, dict(numbers)
+
+    def _place(self, pose: Pose, noise_seed: int) -> Scene:
+        """Spawns the robot into the empty field and lets it come to rest.
+
+        Its name derives its random streams: so a kept field has a different noise each episode.
+        """
+        sim = self._simulation
+        sim.restore(self._empty)
+        name = f"robot_{noise_seed}"
+        xyz_m = (pose.x_m, pose.y_m, self._sown.trial.height_m(pose))
+        sim.spawn(name, self._robot, xyz_m=xyz_m, rpy_rad=(0.0, 0.0, pose.yaw_rad))
+        sim.contacts()
+        return Scene(sim, name, self._sown, self._plants)
+
+    @property
+    def world(self) -> World:
+        """The present world."""
+        return self._sown.world
+
+    @property
+    def _simulation(self) -> Simulation:
+        if self._sim is None:
+            raise RuntimeError("found a closed environment, expected an open one")
+        return self._sim
+
+    def _draw(self, given: Mapping[str, Any]) -> Episode:
+        """Draws an episode from np_random; `given` replaces parts of it."""
+        known = ("field_seed", "numbers", "noise_seed", "start_seed")
+        for name in given:
+            if name not in known:
+                raise ArdeeError(f"options: found '{name}', expected one of: {', '.join(known)}")
+        seeds = [int(seed) for seed in self.np_random.integers(2**31, size=3)]
+        numbers = {
+            name: float(self.np_random.uniform(*self._ranges[name])) for name in self._ranges
+        }
+        drawn = dict(field_seed=seeds[0], numbers=numbers, noise_seed=seeds[1], start_seed=seeds[2])
+        if not self._sows:
+            drawn["field_seed"] = self._field_seed
+        return {**drawn, **given}
+
+    def reset(
+        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
+    ) -> Tuple[Any, Dict[str, Any]]:
+        """Begins an episode; `options` = info["replay"] of an earlier reset repeats that one."""
+        super().reset(seed=seed)
+        self._simulation  # raises if closed
+        episode = self._draw(options or {})
+        if self._present != (episode["field_seed"], episode["numbers"]):
+            self._sow(episode["field_seed"], episode["numbers"])
+        rng = np.random.default_rng(np.random.SeedSequence(episode["start_seed"]))
+        scene = self._place(self._task.start(self._sown, rng), episode["noise_seed"])
+        self._scene = scene
+        scene.sim.command(COMMANDS, Twist())
+        settle = math.ceil(SETTLE_S / self._period_s) * self._steps
+        self._step_and_measure(scene, settle)
+        self._task.begin(scene)
+        return self._task.observe(scene), {"replay": episode}
+
+    def _step_and_measure(self, scene: Scene, steps: int) -> None:
+        """Steps; sensors measure only at the end."""
+        scene.sim.undemand(*self._task.topics)
+        scene.sim.step(steps - self._window)
+        scene.sim.demand(*self._task.topics)
+        scene.sim.step(self._window)
+
+    def step(self, action: Any) -> Tuple[Any, float, bool, bool, Dict[str, Any]]:
+        """Drives for a control period; info has the terms of the reward and, at the end, its reason."""
+        scene = self._scene
+        if scene is None:
+            raise RuntimeError("found a step before reset(), expected reset() first")
+        wanted = np.asarray(action, dtype=float)
+        if wanted.shape != (2,) or not np.isfinite(wanted).all():
+            raise ArdeeError(f"action: found {action!r}, expected 2 finite numbers")
+        v_m_s, w_rad_s = np.clip(wanted, -1.0, 1.0) * self._limits
+        scene.sim.command(COMMANDS, Twist(linear_x_m_s=v_m_s, angular_z_rad_s=w_rad_s))
+        self._step_and_measure(scene, self._steps)
+        terms = self._task.reward(scene)
+        reason, terms["end"] = self._task.end(scene)
+        info: Dict[str, Any] = {f"reward_{name}": value for name, value in terms.items()}
+        info["end_reason"] = reason
+        return self._task.observe(scene), float(sum(terms.values())), bool(reason), False, info
+
+    def render(self) -> Optional[np.ndarray]:
+        """Returns a picture, uint8[360, 480, 3], from behind and above the robot."""
+        if self.render_mode is None or self._scene is None:
+            return None
+        pose = self._scene.pose()
+        c, s = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
+        z_m = float(self._scene.state().xyz_m[2]) + 0.35
+        eye = (pose.x_m - 0.9 * c, pose.y_m - 0.9 * s, z_m)
+        pitch, half = 0.15, pose.yaw_rad / 2
+        up: List[float] = [
+            -math.sin(half) * math.sin(pitch / 2),
+            math.cos(half) * math.sin(pitch / 2),
+            math.sin(half) * math.cos(pitch / 2),
+            math.cos(half) * math.cos(pitch / 2),
+        ]
+        return self._scene.sim.render(eye, up, width_px=480, height_px=360, near_m=0.3)
+
+    def close(self) -> None:
+        """Ends the simulation and deletes the field."""
+        if self._sim is not None:
+            self._sim.close()
+        self._sim = self._scene = None
+        self._source.close()

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""Environments side by side, a process each; the numbers of environment i do not depend on how many there are."""
+
+from functools import partial
+from typing import Any, ClassVar
+
+import gymnasium
+from gymnasium.vector import AsyncVectorEnv
+
+
+class ArdeeVectorEnv(AsyncVectorEnv):
+    """Worker processes that share memory; environment i has the seed of reset() + i.
+
+    Processes are spawned, not forked: a simulation has threads.
+    """
+
+    env_id: ClassVar[str]
+
+    def __init__(self, num_envs: int = 1, **arguments: Any) -> None:
+        make = partial(gymnasium.make, f"ardee_sim.envs:{self.env_id}", **arguments)
+        super().__init__([make] * num_envs, context="spawn")
+
+
+class RowFollowVectorEnv(ArdeeVectorEnv):
+    """Environments of ardee/RowFollow-v0."""
+
+    env_id = "ardee/RowFollow-v0"
+
+
+class RowFollowCameraVectorEnv(ArdeeVectorEnv):
+    """Environments of ardee/RowFollowCamera-v0."""
+
+    env_id = "ardee/RowFollowCamera-v0"

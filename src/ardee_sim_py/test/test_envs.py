@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""Tests environments: Gymnasium's rules, repetition, ends, drawn fields, refusals."""
+import pickle
+import warnings
+from typing import Any, Callable, Dict, Iterator, List
+
+import ardee_sim.envs
+import gymnasium
+import numpy as np
+import pytest
+from ardee_sim.envs import FieldEnv
+from gymnasium.utils.env_checker import check_env
+
+IDS = ("RowFollow", "RowFollowCamera")
+AHEAD = np.array([0.6, 0.0], dtype=np.float32)
+Make = Callable[..., FieldEnv]
+
+
+@pytest.fixture
+def make() -> Iterator[Make]:
+    """Yields a function that makes an environment without wrappers; a small picture, a kept field."""
+    made: List[FieldEnv] = []
+
+    def one(name: str = "RowFollow", **arguments: Any) -> FieldEnv:
+        if "Camera" in name:
+            arguments = {"width_px": 32, "height_px": 24, **arguments}
+        env = gymnasium.make(f"ardee/{name}-v0", **{"seed_field": False, **arguments})
+        made.append(env.unwrapped)
+        return env.unwrapped
+
+    yield one
+    for env in made:
+        env.close()
+
+
+def rollout(env: gymnasium.Env, seed: int, steps: int = 40) -> bytes:
+    """Returns all bytes of an episode with random actions."""
+    observation, _ = env.reset(seed=seed)
+    rng, said = np.random.default_rng(seed), [observation.tobytes()]
+    for _ in range(steps):
+        action = rng.uniform([0.2, -0.3], [0.8, 0.3])
+        observation, reward, terminated, _, _ = env.step(action)
+        said.append(observation.tobytes() + np.float64(reward).tobytes())
+        if terminated:
+            break
+    return b"".join(said)
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_gymnasium_finds_nothing_to_complain_about(name: str, make: Make) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(make(name, render_mode="rgb_array"))
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_a_seed_repeats_all_bytes_in_any_instance_and_after_any_episode(
+    name: str, make: Make
+) -> None:
+    one, other = make(name), make(name)
+    first = rollout(one, 3)
+    assert rollout(one, 4) != first
+    assert rollout(other, 3) == first == rollout(one, 3)
+
+
+def test_an_episode_is_repeated_from_what_it_says(make: Make) -> None:
+    env = make(seed_field=True, randomise={"emergence": (0.5, 0.9)})
+    observation, info = env.reset(seed=1)
+    other, other_info = env.reset()
+    again, _ = env.reset(options=info["replay"])
+    assert not np.array_equal(observation, other) and np.array_equal(observation, again)
+    assert info["replay"]["numbers"] != other_info["replay"]["numbers"]
+    assert 0.5 <= info["replay"]["numbers"]["emergence"] <= 0.9
+
+
+def test_drawn_numbers_act(make: Make) -> None:
+    def plants(emergence: float) -> int:
+        env = make(seed_field=True, randomise={"emergence": (emergence, emergence)})
+        env.reset(seed=1)
+        return len(env.world.plants())
+
+    # 4 rows of 53 places; a binomial number stays within four standard deviations
+    assert plants(1.0) == 212 and plants(0.5) == pytest.approx(106, abs=4 * 7.3)
+
+
+def test_a_kept_field_has_other_noise_in_each_episode(make: Make) -> None:
+    env = make()
+    _, info = env.reset(seed=1)
+    first = env.reset(options=info["replay"])[0]
+    second = env.reset(options={**info["replay"], "noise_seed": 7})[0]
+    differences = np.abs(first - second)[(first < 1) & (second < 1)]
+    assert 0 < np.median(differences) < 0.01
+
+
+def test_driving_on_ends_at_the_rows_end_and_sums_its_terms(make: Make) -> None:
+    env = make()
+    env.reset(seed=1)
+    total, info = 0.0, {}  # type: float, Dict[str, Any]
+    for _ in range(200):
+        _, reward, terminated, truncated, info = env.step(AHEAD)
+        terms = [value for name, value in info.items() if name.startswith("reward_")]
+        assert reward == pytest.approx(sum(terms)) and not truncated
+        total += reward
+        if terminated:
+            break
+    assert info["end_reason"] == "row_end" and info["reward_end"] == 1.0
+    # 1 m of headland and 5 m of row, and 1 for the end, less the penalty for the offset
+    assert 6.0 < total < 7.1
+
+
+def test_driving_into_a_row_ends_in_it(make: Make) -> None:
+    env = make()
+    env.reset(seed=1)
+    for _ in range(20):  # to where stalks stand on both sides
+        assert not env.step(AHEAD)[2]
+    for _ in range(60):
+        _, _, terminated, _, info = env.step(np.array([0.4, 0.5]))
+        if terminated:
+            break
+    assert info["end_reason"] in ("collision", "row_lost") and info["reward_end"] == -1.0
+
+
+def test_pictures_are_of_their_kind(make: Make) -> None:
+    for picture, kind in (("rgb", np.uint8), ("depth", np.float32), ("labels", np.uint16)):
+        env = make("RowFollowCamera", picture=picture)
+        observation, _ = env.reset(seed=1)
+        assert observation.shape[:2] == (24, 32) and observation.dtype == kind
+        assert env.observation_space.contains(observation)
+    assert 0.1 < np.mean(observation == 1) < 1.0  # corn
+
+
+def test_several_sensors_are_a_dict(make: Make) -> None:
+    env = make(topics=("ardee/hokuyo", "ardee/imu/custom"))
+    observation, _ = env.reset(seed=1)
+    assert observation["hokuyo"].shape == (1081,) and env.observation_space.contains(observation)
+    sine, cosine = observation["custom"][:2]
+    assert np.hypot(sine, cosine) == pytest.approx(1.0) and cosine < -0.9  # yaw is about -3.14
+
+
+def test_workers_change_no_byte() -> None:
+    def run(num_envs: int) -> bytes:
+        envs = gymnasium.make_vec("ardee/RowFollow-v0", num_envs=num_envs, seed_field=False)
+        try:
+            said = [envs.reset(seed=5)[0][0].tobytes()]
+            for _ in range(20):
+                observations, rewards, *_ = envs.step(np.tile(AHEAD, (num_envs, 1)))
+                said.append(observations[0].tobytes() + rewards[0].tobytes())
+        finally:
+            envs.close()
+        return b"".join(said)
+
+    assert run(1) == run(2)
+
+
+def test_a_specification_survives_pickling() -> None:
+    spec = gymnasium.spec("ardee/RowFollow-v0")
+    assert pickle.loads(pickle.dumps(spec)) == spec and spec.max_episode_steps == 600
+
+
+def test_bad_arguments_are_refused_with_what_was_expected(make: Make) -> None:
+    for arguments, message in [
+        (dict(scenario="rice"), "scenario: found 'rice', nearest of 9: .*corn"),
+        (dict(robot="tsv9"), "found no robot 'tsv9'"),
+        (dict(control_period_s=0.012), "expected a whole number of steps of 0.005 s"),
+        (dict(control_period_s=0.01), "expected no less than the 0.025 s between readings"),
+        (dict(randomise={"emergence": (0, 1)}), "a field that is not sown anew"),
+        (dict(seed_field=True, randomise={"rain": (0, 1)}), "randomise: found 'rain'"),
+        (dict(seed_field=True, randomise={"lodging": (1, 0)}), "lodging: found"),
+        (dict(render_mode="human"), "render_mode"),
+        (dict(topics=("ardee/gps",)), "found a FixReading, expected scan, image or IMU"),
+        (dict(world="/nowhere.world"), "/nowhere.world: no such world"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            ardee_sim.envs.RowFollowEnv(**{"seed_field": False, **arguments})
+    with pytest.raises(ValueError, match="picture: found 'x', expected rgb, depth, labels"):
+        ardee_sim.envs.RowFollowCameraEnv(picture="x")
+
+
+def test_bad_calls_are_refused(make: Make) -> None:
+    env = make()
+    with pytest.raises(RuntimeError, match="step before reset"):
+        env.step(AHEAD)
+    env.reset(seed=1)
+    for action in ([0.1], [0.1, float("nan")], [[0.1, 0.2]]):
+        with pytest.raises(ValueError, match="expected 2 finite numbers"):
+            env.step(np.array(action))
+    with pytest.raises(ValueError, match="options: found 'field', expected one of: field_seed"):
+        env.reset(options={"field": 1})
+    env.close()
+    env.close()
+    with pytest.raises(RuntimeError, match="closed"):
+        env.reset()
