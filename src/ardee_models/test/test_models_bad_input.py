@@ -95,7 +95,7 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
     base = ["generate_crop", "--name", "x", "--output", str(tmp_path / "out")]
     monkeypatch.setattr(sys, "argv", base + arguments)
     with pytest.raises(SystemExit) as exit_:
-        generate_crop.generate_crop_main()
+        generate_crop.main()
     error = capsys.readouterr().err
     assert exit_.value.code == 2 and message in error and error.count("\n") == 1
     assert not (tmp_path / "out").exists()
@@ -103,7 +103,7 @@ def test_command_answers_in_one_line(tmp_path, monkeypatch, capsys, arguments, m
 
 def test_default_output_is_where_the_model_is_found(tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("GAZEBO_MODEL_PATH", f"/nowhere:{tmp_path}")
-    assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+    assert generate_crop.main(["--stage", "V3", "--name", "mine"]) == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "mine")
     assert crop_model("mine", [tmp_path]).label == 1
 
@@ -116,7 +116,7 @@ def test_default_output_is_no_folder_that_a_build_makes(tmp_path, monkeypatch, c
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     own = tmp_path / "home" / ".gazebo" / "models"
     for _ in range(2):  # the folder is made once
-        assert generate_crop.generate_crop_main(["--stage", "V3", "--name", "mine"]) == 0
+        assert generate_crop.main(["--stage", "V3", "--name", "mine"]) == 0
         assert capsys.readouterr().out.strip() == str(own / "mine")
     assert not list(built.iterdir())
     assert crop_model("mine", search_path()).label == 1

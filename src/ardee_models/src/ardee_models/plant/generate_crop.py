@@ -62,6 +62,6 @@ def _make(args: argparse.Namespace) -> Path:
     return path
 
 
-def generate_crop_main(arguments: Optional[Sequence[str]] = None) -> int:
+def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs `generate_crop --species corn --stage V8 --seed 7 --name my_corn`; prints the path written."""
     return run(_parser(), _make, arguments)
