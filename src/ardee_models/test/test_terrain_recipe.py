@@ -10,6 +10,7 @@ import pytest
 from ardee_common.errors import GeneratorError
 from ardee_models.terrain import generate_terrain
 from ardee_models.terrain.features import follow
+from ardee_models.terrain.ground import ground_model
 from ardee_models.terrain.recipe import (
     Clods,
     Ditch,
@@ -148,15 +149,31 @@ def test_surface_and_look_reach_the_model(command, tmp_path, hash_of):
     assert (tmp_path / "a/g/map.png").is_file()
 
 
+def test_a_recipe_of_form_mesh_is_the_same_ground_of_triangles(command, tmp_path):
+    text = GOOD.replace("look:", "# ").replace("samples: 257", "samples: 65")
+    (tmp_path / "r.yaml").write_text(text + "form: mesh\n")
+    assert command(tmp_path / "r.yaml", "--name", "g", "--output", tmp_path) == (0, "")
+    root = ElementTree.parse(tmp_path / "g/model.sdf").getroot()
+    assert root.findtext(".//collision//mesh/uri") == "model://g/meshes/g.obj"
+    assert root.findtext(".//surface//kp") == "200000.0" and root.find(".//heightmap") is None
+    x, y = np.random.default_rng(0).uniform(-9.9, 9.9, (2, 200))
+    expected = follow(read_recipe(tmp_path / "r.yaml")).height_at(x, y)
+    found = ground_model("g", [tmp_path]).height_at(x, y)
+    np.testing.assert_allclose(found, expected, atol=2e-6)  # six decimals in the file
+    assert np.ptp(found) > 0.05
+
+
 @pytest.mark.parametrize(
     "line, message",
     [
-        ("slop: {}", "r.yaml:12: unknown key 'slop', nearest of 11: slope, "),
+        ("slop: {}", "r.yaml:12: unknown key 'slop', nearest of 12: slope, "),
         ("ditches: [{depht_m: 1}]", "r.yaml:12: unknown key 'depht_m'"),
         ("ditches: [{depth_m: deep}]", "r.yaml:12: depth_m: found 'deep', expected 0 to 10 m"),
         ("ditches: {depth_m: 1}", "r.yaml:12: ditches: found"),
         ("slope: 3", "r.yaml:12: slope: found 3, expected a mapping"),
         ("slope: {grade_percent: .nan}", "r.yaml:12: grade_percent: found nan"),
+        ("form: mush", "r.yaml:12: form: found 'mush', expected one of heightmap, mesh"),
+        ("form: mesh", "terrain look: found one with form mesh"),
         ("size_m: 30", "r.yaml:12: found key 'size_m' a second time"),
     ],
 )

@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Dict, List, Sequence
 
 from ardee_common.cli import Parser, run
+from ardee_common.errors import GeneratorError
 from ardee_common.output import write_file
 from ardee_models.lookup import find_model
-from ardee_models.terrain.features import follow
 from ardee_models.terrain.recipe import read_recipe
-from ardee_models.terrain.terrain_model import write_terrain
+from ardee_models.terrain.recipe_model import write_recipe
 from ardee_world.clutter_models import MODELS, write_clutter_model
 from ardee_world.generate_field import make_configured
 from ardee_world.request import yaml_values
@@ -19,12 +19,9 @@ from ardee_world.urdf_file import EMPTY
 
 
 def build_terrains(recipes: Path, models: Path) -> None:
-    """Writes the heightmaps of all recipes in a folder."""
+    """Writes the terrains of all recipes in a folder."""
     for path in sorted(recipes.glob("*.yaml")):
-        recipe, name = read_recipe(path), path.stem
-        write_terrain(
-            follow(recipe), recipe.surface.mu, name, name, models, recipe.surface, recipe.look
-        )
+        write_recipe(read_recipe(path), path.stem, path.stem, models)
 
 
 def missing_models(values: Dict[str, object], folders: Sequence[Path]) -> List[str]:

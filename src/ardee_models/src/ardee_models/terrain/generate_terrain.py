@@ -14,11 +14,11 @@ from ardee_common.options import check
 from ardee_models.lookup import DEFAULT_OUTPUT, default_output
 from ardee_models.mesh_file import UP_RULE, UPS
 from ardee_models.terrain.elevation import UNITS_M, dem_terrain
-from ardee_models.terrain.features import follow
 from ardee_models.terrain.height_map import Terrain, TerrainParams, generate_terrain
 from ardee_models.terrain.image import image_terrain
 from ardee_models.terrain.mesh_terrain import centred, check_lies, read_mesh
 from ardee_models.terrain.recipe import Look, Surface, read_recipe
+from ardee_models.terrain.recipe_model import write_recipe
 from ardee_models.terrain.terrain_model import write_terrain
 from ardee_models.terrain.terrain_obj import write_mesh_terrain
 
@@ -167,20 +167,21 @@ def _plain_terrain(args: argparse.Namespace) -> Terrain:
 def make_terrain(args: argparse.Namespace) -> Path:
     """Writes the terrain that the arguments describe; returns its path."""
     plain = tuple(name for _, name, _ in _PLAIN)
-    surface, look = Surface(), Look()
+    felt = _surface(args, Surface())
     if args.mesh:
         _refuse(args, (*plain, "size_m", "samples", "seed"), "--mesh")
         ground = read_mesh(args.mesh, args.mesh_up, args.mesh_scale, _say)
         check_lies(ground, args.mesh)
-        return write_mesh_terrain(centred(ground), _surface(args, surface), args.name, args.output)
+        return write_mesh_terrain(centred(ground), felt, args.name, args.output)
     about: Any = "Field terrain, procedural heightmap"
     if args.recipe:
         _refuse(args, plain, "a recipe")
         recipe = read_recipe(args.recipe)
         given = {"size_m": args.size_m, "samples": args.samples, "seed": args.seed}
+        given["surface"] = _surface(args, recipe.surface)
         recipe = dataclasses.replace(recipe, **{k: v for k, v in given.items() if v is not None})
-        surface, look, terrain = recipe.surface, recipe.look, follow(recipe)
-    elif args.image:
+        return write_recipe(recipe, args.name, args.image_name, args.output)
+    if args.image:
         _refuse(args, (*plain, "seed"), "--image")
         terrain = image_terrain(args.image, _size(args), args.image_height_m, args.samples, _warn)
         about = "Field terrain, heightmap from an image"
@@ -190,10 +191,8 @@ def make_terrain(args: argparse.Namespace) -> Path:
         about = "Field terrain, heightmap from an elevation model"
     else:
         terrain = _plain_terrain(args)
-    felt = _surface(args, surface)
-    return write_terrain(
-        terrain, felt.mu, args.name, args.image_name, args.output, felt, look, description=about
-    )
+    names = args.name, args.image_name
+    return write_terrain(terrain, felt.mu, *names, args.output, felt, Look(), description=about)
 
 
 def _make(args: argparse.Namespace) -> Path:

@@ -117,6 +117,11 @@ class Look:
 class Recipe:
     """A square of ground about the origin. Every part may be left out but the surface and the look."""
 
+    form: str = option(
+        "heightmap",
+        "what is written: heights on a grid, or triangles",
+        choices=("heightmap", "mesh"),
+    )
     size_m: float = option(30.0, "side of the square", (1.0, 2000.0))
     samples: int = option(513, "pixels a side, 2^n + 1", (SAMPLES[0], SAMPLES[-1]))
     seed: int = option(0, "root of all random numbers", (0, 2**63))
@@ -151,6 +156,10 @@ class Recipe:
             )
         for texture in self.look.textures:
             check_name(texture)
+        if self.form == "mesh" and self.look != Look():
+            raise GeneratorError(
+                "terrain look: found one with form mesh, which has one texture, expected none"
+            )
 
 
 def read_recipe(path: Path) -> Recipe:

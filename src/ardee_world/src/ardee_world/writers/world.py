@@ -10,7 +10,7 @@ _HEAD = """<?xml version="1.0" ?>
     <!-- When Gazebo is loaded zoom into where the robot spawns -->
     <gui>
       <camera name="user_camera">
-        <pose>1.953330 -2.960521 2.117045 0 0.411456 1.892190</pose>
+        <pose>2.20 1.60 2.20 0 0.323 -2.834</pose>
       </camera>
     </gui>
 
