@@ -13,8 +13,10 @@ from ardee_common.ros_graph import RosGraph, wait_until
 LARGEST_RMS_M = 0.05
 
 
-def experiment(graph: RosGraph, output: pathlib.Path, *arguments: str) -> pathlib.Path:
-    command = ["rosrun", "ardee_navigation", "run_experiment", "--scenario", "artificial"]
+def experiment(
+    graph: RosGraph, output: pathlib.Path, *arguments: str, scenario: str = "artificial"
+) -> pathlib.Path:
+    command = ["rosrun", "ardee_navigation", "run_experiment", "--scenario", scenario]
     graph.run(*command, "--output", str(output), *arguments, timeout_s=120.0)
     return output
 
@@ -43,6 +45,18 @@ def test_artificial_row_in_lockstep(graph: RosGraph, tmp_path: pathlib.Path) -> 
     assert (first / "report.md").read_text().count(".png)") == 4
     for name in ("run_00_lidar.png", "run_00_errors.png"):
         assert (first / name).read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("scenario", ["corn", "sorghum"])
+def test_the_fields_of_the_thesis_are_driven_to_their_end(
+    graph: RosGraph, tmp_path: pathlib.Path, scenario: str
+) -> None:
+    """Sections 5.2.3 and 5.2.4: 5 m between mature plants, sown anew; a person may step in once."""
+    report = experiment(graph, tmp_path, "--seed", "51", "--runs", "1", scenario=scenario)
+    (run,) = rows(report / "runs.csv")
+    assert run["end"] == "end of the row" and int(run["interventions"]) <= 1
+    assert float(run["way_m"]) == pytest.approx(5.0, abs=0.6)  # less what it was carried
+    assert float(run["lateral_rms_m"]) < LARGEST_RMS_M
 
 
 def test_a_bad_scenario_is_one_line(graph: RosGraph) -> None:
