@@ -6,15 +6,25 @@ try:
 except ImportError as error:
     raise ImportError(f"{error}; expected: pip install gymnasium") from error
 
-from ardee_sim.envs.environments import RowFollowCameraEnv, RowFollowEnv
+from ardee_sim.envs.environments import GoToEnv, HeadlandTurnEnv, RowFollowCameraEnv, RowFollowEnv
 from ardee_sim.envs.field_env import FieldEnv
 from ardee_sim.envs.task import Scene, Task
 
-__all__ = ["FieldEnv", "RowFollowCameraEnv", "RowFollowEnv", "Scene", "Task"]
+__all__ = [
+    "FieldEnv",
+    "GoToEnv",
+    "HeadlandTurnEnv",
+    "RowFollowCameraEnv",
+    "RowFollowEnv",
+    "Scene",
+    "Task",
+]
 
 for _name, _env, _max_episode_steps in (
     ("RowFollow", RowFollowEnv, 600),
     ("RowFollowCamera", RowFollowCameraEnv, 600),
+    ("HeadlandTurn", HeadlandTurnEnv, 300),
+    ("GoTo", GoToEnv, 600),
 ):
     gymnasium.register(
         f"ardee/{_name}-v0",

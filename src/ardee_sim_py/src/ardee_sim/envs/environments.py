@@ -4,6 +4,8 @@
 from typing import Any, Dict, Tuple
 
 from ardee_sim.envs.field_env import FieldEnv
+from ardee_sim.envs.go_to import GoToTask
+from ardee_sim.envs.headland_turn import HeadlandTurnTask
 from ardee_sim.envs.row_follow import RowFollowCameraTask, RowFollowTask
 
 
@@ -115,6 +117,98 @@ class RowFollowCameraEnv(FieldEnv):
     ) -> None:
         task = RowFollowCameraTask(picture, width_px, height_px, horizontal_fov_rad, camera_link)
         super().__init__(task, **_in_corn(arguments))
+
+
+class HeadlandTurnEnv(FieldEnv):
+    """ardee/HeadlandTurn-v0: turn at the end of a lane into the lane beside it.
+
+    Description
+    -----------
+    A robot stands 0.3 m before the end of its lane and has to come into the next lane on the left or on the right.
+
+    Action Space
+    ------------
+    As ardee/RowFollow-v0.
+
+    Observation Space
+    -----------------
+    A Dict: `hokuyo`, `Box(0, 1, (1081,), float32)`, the last scan as in ardee/RowFollow-v0; `odom`,
+    `Box(-1, 1, (4,), float32)`, way ahead and to the left since the start / 5 m by wheel odometry, sine and cosine of
+    the turn; `side`, `Box(-1, 1, (1,), float32)`, 1: the lane on the left, -1: on the right.
+
+    Rewards
+    -------
+    | term in `info` | value |
+    |---|---|
+    | `reward_progress` | by how much the straight line to a point 0.5 m inside the lane became shorter [m] |
+    | `reward_end` | 1 in the lane, -1 at a collision or when lost, else 0 |
+
+    Starting State
+    --------------
+    In the middle of the lane before which the world's start pose is, displaced to the side (0.03 m) and turned
+    (0.05 rad) by normal deviates, at rest; the side is drawn.
+
+    Episode End
+    -----------
+    `info["end_reason"]`: `in_lane`, `collision`, `lost` (5 m from the goal). Truncated after 300 control periods.
+
+    Arguments
+    ---------
+    scenario="corn", and all others of FieldEnv
+
+    Version History
+    ---------------
+    v0 : first version
+    """
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(HeadlandTurnTask(), **_in_corn(arguments))
+
+
+class GoToEnv(FieldEnv):
+    """ardee/GoTo-v0: go to a place under the canopy by satellite position and IMU.
+
+    Description
+    -----------
+    A robot stands before a lane and has to go to a place in it, which it knows by its coordinates.
+
+    Action Space
+    ------------
+    As ardee/RowFollow-v0.
+
+    Observation Space
+    -----------------
+    `Box(-1, 1, (7,), float32)`: the goal's distance ahead and to the left / 20 m, from the last fix (5 a second) and
+    the IMU's yaw; sine and cosine of that yaw; angular velocities about x, y, z / 10 rad/s.
+
+    Rewards
+    -------
+    | term in `info` | value |
+    |---|---|
+    | `reward_progress` | by how much the robot came nearer to the goal [m] |
+    | `reward_end` | 1 at the goal, -1 at a collision or when lost, else 0 |
+
+    Starting State
+    --------------
+    0.5 m before the lane, displaced and turned as in ardee/HeadlandTurn-v0; the goal is drawn at 30 to 90 % of the
+    lane.
+
+    Episode End
+    -----------
+    `info["end_reason"]`: `arrived` (within 0.3 m), `collision`, `lost` (2 m farther away than at the start).
+    Truncated after 600 control periods.
+
+    Arguments
+    ---------
+    scenario="corn", and all others of FieldEnv
+
+    Version History
+    ---------------
+    v0 : first version
+    """
+
+    def __init__(self, **arguments: Any) -> None:
+        super().__init__(GoToTask(), **_in_corn(arguments))
 
 
 def _in_corn(arguments: Dict[str, Any]) -> Dict[str, Any]:

@@ -76,7 +76,7 @@ class FieldEnv(gymnasium.Env):
             raise
 
     def _probe(self, field_seed: int) -> None:
-        """Finds the steps of a period, the observations' space, and how long before its end sensors have to measure."""
+        """Finds the steps of a period, the observations' space, and how long the slowest sensor takes for a reading."""
         numbers = {name: (low + high) / 2 for name, (low, high) in self._ranges.items()}
         self._sow(field_seed, numbers)
         assert self._sim is not None and self._sown is not None
@@ -95,12 +95,8 @@ class FieldEnv(gymnasium.Env):
             stamps = [reading.stamp_ns for reading in self._sim.drain(topic)]
             gaps_ns = np.diff(stamps) if len(stamps) > 1 else [self._period_s * 1e9]
             self._window = max(self._window, math.ceil(max(gaps_ns) / self._sim.step_ns))
-        if self._window > self._steps:
-            raise ArdeeError(
-                f"control_period_s: found {self._period_s}, expected no less than the "
-                f"{self._window * self._sim.step_ns * 1e-9:g} s between readings"
-            )
         self._sim.demand(*self._task.topics)
+        self._task.begin(scene)
         self.observation_space = self._task.space(scene)
 
     def _sow(self, seed: int, numbers: Mapping[str, float]) -> None:
@@ -130,6 +126,12 @@ class FieldEnv(gymnasium.Env):
     def world(self) -> World:
         """The present world."""
         return self._sown.world
+
+    def pose(self) -> Pose:
+        """Returns the robot's true pose on the ground plan, which its task may hide."""
+        if self._scene is None:
+            raise RuntimeError("found no episode, expected reset() first")
+        return self._scene.pose()
 
     @property
     def _simulation(self) -> Simulation:
@@ -165,17 +167,19 @@ class FieldEnv(gymnasium.Env):
         scene = self._place(self._task.start(self._sown, rng), episode["noise_seed"])
         self._scene = scene
         scene.sim.command(COMMANDS, Twist())
-        settle = math.ceil(SETTLE_S / self._period_s) * self._steps
+        settle = max(math.ceil(SETTLE_S / self._period_s) * self._steps, self._window)
         self._step_and_measure(scene, settle)
         self._task.begin(scene)
         return self._task.observe(scene), {"replay": episode}
 
     def _step_and_measure(self, scene: Scene, steps: int) -> None:
-        """Steps; sensors measure only at the end."""
-        scene.sim.undemand(*self._task.topics)
-        scene.sim.step(steps - self._window)
-        scene.sim.demand(*self._task.topics)
-        scene.sim.step(self._window)
+        """Steps; sensors that are faster than a control period measure only at its end."""
+        last = min(self._window, steps)
+        if last < steps:
+            scene.sim.undemand(*self._task.topics)
+            scene.sim.step(steps - last)
+            scene.sim.demand(*self._task.topics)
+        scene.sim.step(last)
 
     def step(self, action: Any) -> Tuple[Any, float, bool, bool, Dict[str, Any]]:
         """Drives for a control period; info has the terms of the reward and, at the end, its reason."""

@@ -31,3 +31,15 @@ class RowFollowCameraVectorEnv(ArdeeVectorEnv):
     """Environments of ardee/RowFollowCamera-v0."""
 
     env_id = "ardee/RowFollowCamera-v0"
+
+
+class HeadlandTurnVectorEnv(ArdeeVectorEnv):
+    """Environments of ardee/HeadlandTurn-v0."""
+
+    env_id = "ardee/HeadlandTurn-v0"
+
+
+class GoToVectorEnv(ArdeeVectorEnv):
+    """Environments of ardee/GoTo-v0."""
+
+    env_id = "ardee/GoTo-v0"
