@@ -56,7 +56,8 @@ def profile_area(klig: float, s_wmax: float, tip_power: float) -> float:
 def midrib(blade: Blade, power: float, segments: int) -> tuple:
     """Points and tangents at segments + 1 stations; the angle from the vertical grows by curvature * s^power.
 
-    At `buckle_at` of its length the midrib has kinked, within a few per cent of it, by `buckle_rad`.
+    At `buckle_at` of its length the midrib has kinked, within a few per cent of it, by `buckle_rad`. From where it
+    reaches the ground it lies there, away from the stalk.
     """
     fine = np.linspace(0.0, 1.0, segments * _FINE_STEPS + 1)
     middle = (fine[1:] + fine[:-1]) / 2
@@ -70,9 +71,17 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
             (np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1
         )
 
-    steps = direction(middle) * (blade.length_m / len(middle))
-    path = np.concatenate((np.zeros((1, 3)), np.cumsum(steps, axis=0))) + blade.origin
-    return path[::_FINE_STEPS], direction(fine[::_FINE_STEPS])
+    step_m = blade.length_m / len(middle)
+    path = np.concatenate((np.zeros((1, 3)), np.cumsum(direction(middle) * step_m, axis=0)))
+    path += blade.origin
+    tangents = direction(fine)
+    aground = np.flatnonzero(path[:, 2] < 0.0)
+    if len(aground):
+        outward = np.array([np.cos(blade.azimuth_rad), np.sin(blade.azimuth_rad), 0.0])
+        last = path[aground[0] - 1] * (1.0, 1.0, 0.0)
+        path[aground[0] :] = last + np.arange(1, len(aground) + 1)[:, None] * step_m * outward
+        tangents[aground[0] :] = outward
+    return path[::_FINE_STEPS], tangents[::_FINE_STEPS]
 
 
 def _half_widths(blade: Blade, shape: Leaves, s: np.ndarray) -> np.ndarray:
