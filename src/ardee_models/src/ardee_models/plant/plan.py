@@ -43,17 +43,19 @@ def _tillers(
         turn += np.radians(rng.normal(137.5, 20.0))
         scale = float(np.clip(rng.normal(habit.size_mean, habit.size_sd), 0.3, 1.0))
         collared = max(main.collared - habit.fewer_leaves, 1)
+        lost = min(max(main.lost - 2, 0), collared - 1)
         size = ShootSize(
             number=max(main.number - habit.fewer_leaves, collared + main.young),
             collared=collared,
             young=main.young,
-            lost=min(max(main.lost - 2, 0), collared - 1),
+            lost=lost,
             dry=main.dry,
             maturity=main.maturity,
             height_m=main.height_m * scale,
             base_radius_m=main.base_radius_m * 0.75 * scale,
             top_radius_m=main.top_radius_m * scale,
             leaf_scale=scale * main.leaf_scale,
+            hanging=min(main.hanging, lost),
         )
         outward = np.array([np.cos(turn), np.sin(turn), 0.0])
         curve = Curve(
