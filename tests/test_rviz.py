@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Tests the saved rviz views of the README, drawn off-screen: every display is content, and the picture has colours."""
 import json
+import os
 import pathlib
+import signal
 import time
 from typing import Any, Dict
 
 import numpy as np
 import probes
+import pytest
 from bridge_bench import free_port
 from PIL import Image
 
-from ardee_common.ros_graph import RosGraph
+from ardee_common.ros_graph import RosGraph, wait_until
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 ROBOT_VIEW = ROOT / "src/terrasentia_description/config/rviz/waypoint_follower_paths.rviz"
@@ -39,6 +42,14 @@ def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
     return {display["name"]: display for display in found["displays"] if display["enabled"]}
 
 
+def child_of(pid: int) -> int:
+    """Returns the child of a picture's process in which rviz runs, not Xvfb."""
+    children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    names = {child: pathlib.Path(f"/proc/{child}/comm").read_text().strip() for child in children}
+    (found,) = [int(child) for child, name in names.items() if name != "Xvfb"]
+    return found
+
+
 def assert_content(displays: Dict[str, Any]) -> None:
     assert displays
     for name, display in displays.items():
@@ -63,6 +74,21 @@ def test_world_alone(graph: RosGraph) -> None:
     displays = draw(graph, WORLD_VIEW)
     assert displays["Scenery"]["status"] == "Ok"
     assert displays["Scenery"]["messages"] > 0
+
+
+@pytest.mark.parametrize("crashes, code", [(1, 0), (2, 1)])
+def test_a_crash_of_rviz_is_forgiven_once(graph: RosGraph, crashes: int, code: int) -> None:
+    picture = graph.folder / "again.png"
+    command = str(PICTURE), str(WORLD_VIEW), "--output", str(picture), "--timeout-s", "1"
+    process = graph.spawn(*command)
+    for count in range(crashes):
+        wait_until(lambda: process.output().count("OpenGl version") > count, "a window of rviz")
+        os.kill(child_of(process.pid), signal.SIGSEGV)
+    assert process.wait(60.0) == code
+    notes = [line for line in process.output().splitlines() if line.startswith("rviz_picture:")]
+    said = ["rviz_picture: rviz ended by signal 11 and is started again"]
+    assert notes == said + ["rviz_picture: rviz ended by signal 11"] * code
+    assert picture.exists() == (code == 0)
 
 
 def test_without_a_master_it_ends_in_time(graph: RosGraph) -> None:
