@@ -185,6 +185,22 @@ def plant_height(grass: Grass, collars: int) -> Bounds:
     )
 
 
+def leaf_height(grass: Grass) -> Bounds:
+    """Returns the mean height of a full-grown plant's leaf area, m: of each blade, its collar's and half its rise."""
+
+    def quantity(rise: float, sheath: float, height: float, **t: float) -> float:
+        lengths = blade_lengths(shape=grass.shape, **t)
+        internode = (height - grass.head) / (len(lengths) - grass.short)
+        areas = [length**2 for length in lengths]
+        heights = (
+            max(rank - grass.short, 0) * internode + (sheath + rise / 2) * length
+            for rank, length in enumerate(lengths, 1)
+        )
+        return sum(a * h for a, h in zip(areas, heights)) / sum(areas)
+
+    return spread(quantity, rise=RISE, sheath=SHEATH, height=grass.height, **_blades(grass))
+
+
 # Tobacco. CORESTA 2003: a leaf appears every 5-6 days to leaf 8, every 2-3 to leaf 18, every 1-2 after, and grows for
 # 37 days. A leaf of 1241 cm2 is the largest mean of a trial (PVH-1600), 800 cm2 a small one (nominal);
 # 18000-22000 plants/ha (Xingren).

@@ -16,10 +16,18 @@ class Mesh:
     texcoords: np.ndarray
     triangles: np.ndarray
 
+    def triangle_areas_m2(self) -> np.ndarray:
+        """Area of each triangle, one side."""
+        a, b, c = (self.vertices[self.triangles[:, i]] for i in range(3))
+        return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+    def triangle_centres(self) -> np.ndarray:
+        """Mean of each triangle's corners, (n, 3)."""
+        return self.vertices[self.triangles].mean(axis=1)
+
     def area_m2(self) -> float:
         """Sum of the triangles' areas, one side."""
-        a, b, c = (self.vertices[self.triangles[:, i]] for i in range(3))
-        return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+        return float(self.triangle_areas_m2().sum())
 
 
 @dataclass(frozen=True)
@@ -53,6 +61,10 @@ class Plant:
         """Triangles in all organs."""
         return int(sum(len(organ.mesh.triangles) for organ in self.organs))
 
+    def blades(self) -> Tuple[Mesh, ...]:
+        """Meshes of all blades."""
+        return tuple(organ.mesh for organ in self.organs if organ.name.startswith("Leaves"))
+
     def leaf_area_m2(self) -> float:
         """Area of one side of all blades."""
-        return sum(organ.mesh.area_m2() for organ in self.organs if organ.name.startswith("Leaves"))
+        return sum(mesh.area_m2() for mesh in self.blades())
