@@ -186,6 +186,20 @@ TEST(JointPosition, BadKeysRefuseTheRobot) {
   EXPECT_NE(complaint("").find("<joint>"), std::string::npos);
 }
 
+TEST(TorsionalSpring, WithItsJointAloneItHasTheDefaultsOfTheThesis) {
+  TestWorld world(free_space(0.0), kStep_s);
+  Entity& robot = world.spawn(
+      head("0 1 0", plugin("TorsionalSpringPlugin", "<joint_handle>neck</joint_handle>")), "head");
+  // Listing A.27: 100 N m/rad, 1 N m s/rad, reference 1 rad. Of 0.0005 kg m2 both roots of
+  // I s2 + c s + k are real, -106 and -1894 per second: the way left after 0.01 s is
+  // (1894 exp(-1.06) - 106 exp(-18.9)) / 1788.
+  world.run(0.01);
+  EXPECT_NEAR(angle(robot), 1.0 - 0.369, 0.02);
+  world.run(0.5);
+  EXPECT_NEAR(angle(robot), 1.0, 1e-6);
+  EXPECT_THROW(world.spawn(head("0 1 0", plugin("TorsionalSpringPlugin", "")), "other"), Error);
+}
+
 TEST(TorsionalSpring, ItsReferenceCanBeMoved) {
   TestWorld world(free_space(0.0), kStep_s);
   Entity& robot = world.spawn(
