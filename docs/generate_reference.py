@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Write the source of the documentation site: the pages of docs/ and reference pages made from the code."""
 import argparse
+import inspect
 import os
 import re
 import shutil
@@ -37,6 +38,7 @@ API = {
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",
 }
 NOT_PAGES = ("conf.py", "generate_reference.py", "yaml_keys.py", "markdown_text.py", "__pycache__")
+ENVIRONMENTS = "envs.environments"  # has a page of its own
 COMMANDS = """# Commands
 
 What each command prints with `-h`. The commands speak one language: an argument ends in its unit
@@ -60,6 +62,12 @@ LABELS = """# Labels
 The class of what a ray hits: in label images of cameras, the field `label` of lidar clouds, `truth.csv`,
 `clutter.csv`, and `<ardee:label>` of worlds.
 
+"""
+ENVIRONMENTS_HEAD = """# Environments
+
+`import gymnasium, ardee_sim.envs` registers them; needs Gymnasium (`scripts/setup` installs it for this workspace).
+Arguments of `gymnasium.make` that all of them take are those of
+[FieldEnv](python/ardee_sim.md). [Tutorial 8](../tutorials/8_learn_to_drive.md) uses one.
 """
 CPP_LIBRARY = """# C++ library
 
@@ -190,13 +198,28 @@ def python_api() -> Iterator[Tuple[str, str]]:
         for file in sorted((ROOT / folder).rglob("*.py")):
             name = ".".join(file.relative_to(ROOT / folder).with_suffix("").parts)
             is_private = file.name.startswith("_")
-            if not is_private and not name.endswith("build"):
+            if not is_private and not name.endswith("build") and name != ENVIRONMENTS:
                 modules.append(f"{package}.{name}")
         parts = [f"# {package}\n"]
         for module in modules:
             title = f"\n## {module}\n" if module != package else ""
             parts.append(f"{title}\n```{{eval-rst}}\n.. automodule:: {module}\n   :members:\n```\n")
         yield f"reference/python/{package.replace('.', '_')}.md", "".join(parts)
+
+
+def environments() -> str:
+    """The page of Gymnasium's environments: their docstrings, which are Markdown."""
+    from ardee_sim.envs import environments as module
+
+    parts = [ENVIRONMENTS_HEAD]
+    for env in vars(module).values():
+        text = inspect.getdoc(env) or ""
+        if text.startswith("ardee/"):
+            name, _, about = text.partition(": ")
+            parts.append(
+                re.sub(r"^(.+)\n-{3,}$", r"### \1", f"\n## {name}\n\n{about}\n", flags=re.M)
+            )
+    return "".join(parts)
 
 
 def cpp_library() -> str:
@@ -234,6 +257,7 @@ def main() -> int:
         "reference/yaml_keys.md": yaml_keys.page(),
         "reference/labels.md": labels(),
         "reference/cpp_library.md": cpp_library(),
+        "reference/environments.md": environments(),
     }
     for page, text in [*made.items(), *documents(), *python_api()]:
         (folder / page).parent.mkdir(parents=True, exist_ok=True)

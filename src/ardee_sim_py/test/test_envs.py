@@ -9,6 +9,7 @@ import gymnasium
 import numpy as np
 import pytest
 from ardee_sim.envs import FieldEnv
+from ardee_sim.examples import learn_to_follow
 from gymnasium.utils.env_checker import check_env
 
 IDS = ("RowFollow", "RowFollowCamera", "HeadlandTurn", "GoTo")
@@ -200,6 +201,13 @@ def test_workers_change_no_byte() -> None:
         return b"".join(said)
 
     assert run(1) == run(2)
+
+
+def test_a_reward_can_be_learnt_from(make: Make) -> None:
+    env = gymnasium.wrappers.TimeLimit(make(control_period_s=0.2), 60)
+    curve = learn_to_follow.learn(env)
+    # Who stands still gets nothing but the penalty of its offset.
+    assert -3.0 < curve[0] <= 0.0 and curve[-1] > 1.0
 
 
 def test_a_specification_survives_pickling() -> None:
