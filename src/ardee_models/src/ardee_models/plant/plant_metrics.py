@@ -26,7 +26,7 @@ def _stalk_diameter(stem: np.ndarray, cylinder: Cylinder) -> float:
 
 
 def mid_lane_share(distance_m: np.ndarray) -> np.ndarray:
-    """Share of the azimuths of a plant at which a point so far from its stalk is in the middle third of a lane beside."""
+    """Share of a plant's azimuths at which a point so far from its stalk is in the middle third of a lane beside it."""
     near, far = (
         np.arcsin(np.minimum(edge_m / np.maximum(distance_m, 1e-9), 1.0))
         for edge_m in (LANE_M / 3.0, 2.0 * LANE_M / 3.0)
