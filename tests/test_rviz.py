@@ -3,15 +3,19 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import time
-from typing import Any, Dict
+from typing import Any, Dict, Tuple
 
 import numpy as np
 import probes
 import pytest
+import rosgraph
+import rospy
 from bridge_bench import free_port
-from PIL import Image
+from PIL import Image as Picture
+from sensor_msgs.msg import Image
 
 from ardee_common.ros_graph import RosGraph, wait_until
 
@@ -37,7 +41,7 @@ def draw(graph: RosGraph, config: pathlib.Path) -> Dict[str, Any]:
         timeout_s=150,
     )
     found = json.loads(status.read_text())
-    pixels = np.asarray(Image.open(picture).convert("RGB").crop(found["view_3d_px"]))
+    pixels = np.asarray(Picture.open(picture).convert("RGB").crop(found["view_3d_px"]))
     assert len(np.unique(pixels.reshape(-1, 3), axis=0)) > MIN_COLOURS
     return {display["name"]: display for display in found["displays"] if display["enabled"]}
 
@@ -63,9 +67,51 @@ def test_robot_in_the_field(graph: RosGraph) -> None:
     graph.call(probes.clock_at_least, 0.2)
     graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
     graph.call(probes.wait_for_topics, ["/odom", "/ardee/hokuyo"], [])
+    graph.spawn("rosrun", "terrasentia_description", "camera_preview")
     displays = draw(graph, ROBOT_VIEW)
     assert_content(displays)
+    assert {"Front camera", "Left camera"} <= displays.keys()
     assert "URDF parsed OK" in displays["RobotModel"]["lines"].values()
+
+
+def preview_of(camera: str) -> Tuple[Tuple[int, int, str], int, int]:
+    """Returns size and encoding of a camera's preview, and the camera's subscribers then and 3 s later."""
+    rospy.init_node("probe", anonymous=True, disable_signals=True)
+    topic = f"/ardee/camera/{camera}"
+    image = rospy.wait_for_message(f"{topic}/preview", Image, timeout=30.0)
+    counts = []
+    for wait_s in (0.0, 3.0):
+        time.sleep(wait_s)
+        _, subscribed, _ = rosgraph.Master("/test").getSystemState()
+        counts.append(len(dict(subscribed).get(f"{topic}/image_raw", [])))
+    return (image.width, image.height, image.encoding), counts[0], counts[1]
+
+
+def test_a_preview_takes_pictures_only_while_it_is_looked_at(graph: RosGraph) -> None:
+    graph.launch("ardee_world", "custom_world.launch", "world:=farm.world")
+    graph.call(probes.clock_at_least, 0.2)
+    graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_rviz:=false")
+    node = graph.spawn("rosrun", "terrasentia_description", "camera_preview")
+    shape, _, later = graph.call(preview_of, "front")
+    assert shape == (320, 240, "rgb8") and later == 0
+    node.interrupt()
+    assert node.wait(20.0) == 0 and node.output() == ""
+
+
+def test_a_launch_with_rviz_prints_nothing_yellow_or_red(graph: RosGraph) -> None:
+    screen = graph.spawn("Xvfb", "-displayfd", "1", "-screen", "0", "1280x960x24")
+    number = wait_until(screen.output, "the display's number").strip()
+    graph.env.update(DISPLAY=f":{number}", LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
+    world = graph.launch("ardee_world", "custom_world.launch", "world:=farm.world", "gui:=true")
+    graph.call(probes.clock_at_least, 0.2)
+    robot = graph.launch("terrasentia_description", "launch_default_tsv1.launch", "use_joy:=false")
+    graph.call(probes.wait_for_topics, ["/odom", "/ardee/camera/front/preview"], [])
+    for launch in (robot, world):
+        launch.interrupt()
+        launch.wait(60.0)
+        assert "started roslaunch server" in launch.output()
+        bad = re.findall(r".*(?:\033\[3[13]m|WARN|ERROR|Traceback).*", launch.output())
+        assert not bad
 
 
 def test_world_alone(graph: RosGraph) -> None:

@@ -134,6 +134,8 @@ class Demo:
     def take_picture(self) -> Process:
         """Takes a picture of rviz with the robot launch file's configuration."""
         say("rviz draws a picture, off-screen")
+        if not os.environ.get("DISPLAY"):  # else the launch file has it
+            self.graph.spawn("rosrun", "terrasentia_description", "camera_preview")
         view = os.path.join(rospkg.RosPack().get_path("terrasentia_description"), RVIZ_CONFIG)
         command = ["rosrun", "ardee_bringup", "rviz_picture", view]
         return self.graph.spawn(*command, "--output", str(self.work / "rviz.png"))
