@@ -8,7 +8,6 @@ from typing import Callable, List, Optional, Tuple
 
 import numpy as np
 import pytest
-from sensor_msgs.msg import LaserScan
 
 from ardee_common.errors import GeneratorError
 from ardee_models.terrain.ground import LevelGround
@@ -21,6 +20,7 @@ from ardee_navigation.evaluation.experiment_report import (
 )
 from ardee_navigation.evaluation.record import COLUMNS, Record
 from ardee_navigation.evaluation.run_metrics import summarize
+from ardee_navigation.evaluation.scan import Scan
 from ardee_navigation.evaluation.trial import LARGEST_OFFSET_M, Judge, Seen
 from ardee_world.row_truth import Field, Pose, Stalks
 from ardee_world.trial import Trial
@@ -76,7 +76,7 @@ def test_returns_are_kept_at_their_own_places() -> None:
     post = np.array([4.18, 0.40])  # nearly abeam of the lidar, unlike the second beam
     x, y = post - lidar
     bearing, distance = math.atan2(y, x) - heading, math.hypot(x, y)
-    scan = LaserScan(angle_min=bearing, angle_increment=0.5, ranges=[distance, 0.4, math.inf])
+    scan = Scan(0.0, np.array([distance, 0.4, math.inf]), bearing, 0.5)
     judge.keep_scan(scan)
     ((along, across),) = judge.record.raw[0]
     assert along == pytest.approx(4.18)

@@ -40,6 +40,8 @@ def drop_if_empty(output: Path) -> None:
 
 def run(prog: str, experiment: Callable[[Path], None]) -> int:
     """Runs an experiment in a temporary folder; returns the exit code: 0 done, 1 the simulator failed, 2 bad input."""
+    from ardee_sim import ArdeeError
+
     from ardee_navigation.evaluation.simulation import SimulationError
 
     end_by_signals()
@@ -49,7 +51,7 @@ def run(prog: str, experiment: Callable[[Path], None]) -> int:
     except GeneratorError as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
-    except (SimulationError, OSError) as error:
+    except (SimulationError, ArdeeError, OSError) as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 1
     finally:

@@ -21,7 +21,8 @@ from std_srvs.srv import Empty
 from ardee_common.process import start_child, stop_child
 from ardee_navigation.evaluation.answers import Answers
 from ardee_navigation.evaluation.record import Record
-from ardee_navigation.evaluation.simulation import Simulation, SimulationError
+from ardee_navigation.evaluation.ros_simulation import RosSimulation
+from ardee_navigation.evaluation.simulation import SimulationError
 from ardee_navigation.evaluation.trial import Judge, Seen
 from ardee_navigation.lbirnt import Parameters
 from ardee_world.trial import Trial
@@ -119,10 +120,10 @@ def _seen(answer: dict) -> Seen:
     return Seen(answer["left_m"], answer["right_m"], valid, answer["state"])
 
 
-def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: float) -> object:
+def _look(simulation: RosSimulation, judge: Judge, follower: Follower, patience_s: float) -> object:
     """Judges the next scan if the follower answered it."""
     scan = simulation.scan()
-    now_s = scan.header.stamp.to_sec()
+    now_s = scan.time_s
     answer = follower.answer(now_s, patience_s)
     if answer is None:
         judge.record.unanswered += 1
@@ -133,15 +134,15 @@ def _look(simulation: Simulation, judge: Judge, follower: Follower, patience_s: 
     return back
 
 
-def _wait_for_first_answer(simulation: Simulation, follower: Follower) -> None:
+def _wait_for_first_answer(simulation: RosSimulation, follower: Follower) -> None:
     deadline = time.monotonic() + START_WITHIN_S
-    while follower.answer(simulation.scan().header.stamp.to_sec(), 0.02) is None:
+    while follower.answer(simulation.scan().time_s, 0.02) is None:
         if time.monotonic() > deadline:
             raise SimulationError(f"hil_row_follower answered no scan in {START_WITHIN_S:.0f} s")
 
 
 def drive(
-    simulation: Simulation,
+    simulation: RosSimulation,
     trial: Trial,
     parameters: Parameters,
     judge: Judge,
@@ -155,7 +156,7 @@ def drive(
 
 
 def _drive(
-    simulation: Simulation,
+    simulation: RosSimulation,
     trial: Trial,
     parameters: Path,
     judge: Judge,

@@ -129,7 +129,7 @@ def _one_run(
     trial = prepare(scenario, seed, work / "models")
     judge = Judge(trial, args.world, number, seed, scenario.parameters.lidar_ahead_m)
     recorder = Recorder(judge, args.scans, args.from_m)
-    with Simulation(trial.world, seed, trial.models, work / "simulator.log") as simulation:
+    with Simulation(trial.world, seed, trial.models) as simulation:
         simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
         with tqdm(
             total=args.scans, unit="scan", desc=f"run {number}", leave=False, disable=None
@@ -150,9 +150,9 @@ def _one_run(
 def _drive_all(args: argparse.Namespace, scenario: Scenario, report: Report, work: Path) -> None:
     """Drives the runs; the report is written anew after each, so that what was measured survives a Ctrl-C."""
     from ardee_navigation.evaluation.lane_figures import measure
-    from ardee_navigation.evaluation.simulation import Master, robot_urdf
+    from ardee_navigation.evaluation.simulation import robot_urdf
 
-    master, runs = Master(PROG), []  # type: Any, List[Any]
+    runs = []  # type: List[Any]
     try:
         urdf = robot_urdf(args.bot_model)
         for number in tqdm(range(args.runs), unit="run", desc=args.world, disable=None):
@@ -170,8 +170,6 @@ def _drive_all(args: argparse.Namespace, scenario: Scenario, report: Report, wor
         where = f"what had ended by then is in {report.path}" if runs else "no run had ended"
         tqdm.write(f"{PROG}: {where}", file=sys.stderr)
         raise
-    finally:
-        master.stop()
 
 
 def _judge(args: argparse.Namespace, command: str, work: Path) -> None:

@@ -6,7 +6,7 @@ import sys
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import List, Optional
+from typing import Any, List, Optional
 
 from tqdm import tqdm
 
@@ -64,19 +64,24 @@ def _one_run(
     scenario: Scenario, args: argparse.Namespace, number: int, urdf: str, work: Path
 ) -> Record:
     """Generates a field, starts the simulator, drives one run, ends the simulator."""
-    if args.hil:
-        from ardee_navigation.evaluation.hil import drive
-    else:
-        from ardee_navigation.evaluation.lockstep import drive
-    from ardee_navigation.evaluation.simulation import Simulation
     from ardee_navigation.evaluation.trial import Judge
 
     seed = args.seed + number
     trial = prepare(scenario, seed, work / "models")
     judge = Judge(trial, args.scenario, number, seed, scenario.parameters.lidar_ahead_m)
     length_m = judge.record.length_m
-    log = work / "simulator.log"
-    with Simulation(trial.world, seed, trial.models, log, realtime=args.hil) as simulation:
+    if args.hil:
+        from ardee_navigation.evaluation.hil import drive
+        from ardee_navigation.evaluation.ros_simulation import RosSimulation
+
+        log = work / "simulator.log"
+        simulation = RosSimulation(trial.world, seed, trial.models, log, realtime=True)  # type: Any
+    else:
+        from ardee_navigation.evaluation.lockstep import drive
+        from ardee_navigation.evaluation.simulation import Simulation
+
+        simulation = Simulation(trial.world, seed, trial.models)
+    with simulation:
         simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
         with tqdm(
             total=round(length_m, 1), unit="m", desc=f"run {number}", leave=False, disable=None
@@ -105,7 +110,7 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
         write_report,
         write_run,
     )
-    from ardee_navigation.evaluation.simulation import Master, robot_urdf
+    from ardee_navigation.evaluation.simulation import robot_urdf
 
     scenario = _scenario(args)
     seeds = range(args.seed, args.seed + args.runs)
@@ -113,10 +118,14 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
     output = args.output or Path("experiment_output") / usual
     make_folder(output)
     check_folder(output, args.scenario, seeds)
-    master = Master("run_experiment")
     records: List[Record] = []
     report: Optional[Path] = None
+    master: Any = None
     try:
+        if args.hil:
+            from ardee_navigation.evaluation.ros_simulation import Master
+
+            master = Master("run_experiment")
         urdf = robot_urdf(args.bot_model)
         for number in tqdm(range(args.runs), unit="run", desc=args.scenario, disable=None):
             folder = work / f"run_{number}"
@@ -135,7 +144,8 @@ def _experiment(args: argparse.Namespace, command: str, work: Path) -> None:
             tqdm.write("run_experiment: no run had ended, none is reported", file=sys.stderr)
         raise
     finally:
-        master.stop()
+        if master:
+            master.stop()
     print(table(records), end="")
     print(report)
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from typing import List, Tuple
 
 import numpy as np
-from sensor_msgs.msg import LaserScan
 
+from ardee_navigation.evaluation.scan import Scan
 from ardee_navigation.evaluation.trial import Judge
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower, State
 
@@ -44,28 +44,28 @@ class Recorder:
     judge: Judge
     wanted: int
     from_m: float  # along the lane
-    scans: List[LaserScan] = field(default_factory=list)
+    scans: List[Scan] = field(default_factory=list)
     answers: List[Tuple[float, ...]] = field(default_factory=list)
 
-    def watch(self, scan: LaserScan, output: Output) -> None:
+    def watch(self, scan: Scan, output: Output) -> None:
         """Takes a scan and its answer; call it after the judge's look at them."""
         record = self.judge.record
         along_m = record.samples[-1].along_m + record.lidar_ahead_m
         if output.state is not State.FOLLOWING or not self.from_m <= along_m <= record.length_m:
             return
         self.scans.append(scan)
-        self.answers.append((scan.header.stamp.to_sec(), *_answer(output)))
+        self.answers.append((scan.time_s, *_answer(output)))
         if len(self.scans) >= self.wanted:
             record.end = record.end or "enough scans"
 
     def result(self) -> Tuple[Scans, Perceived]:
         """Returns what was recorded, at least one scan."""
         first = self.scans[0]
-        ranges = np.array([scan.ranges for scan in self.scans])
+        ranges = np.array([scan.ranges_m for scan in self.scans])
         ranges[~(np.isfinite(ranges) & (ranges > 0.0))] = math.inf
         perceived = _perceived(self.answers)
         return (
-            Scans(perceived.time_s, ranges, first.angle_min, first.angle_increment),
+            Scans(perceived.time_s, ranges, first.angle_min_rad, first.increment_rad),
             perceived,
         )
 

@@ -1,218 +1,93 @@
 # SPDX-License-Identifier: MIT
-"""A private simulation: a ROS master on a port that the kernel picks, the simulator, one robot.
+"""The simulator in this process, on a world with one robot, driven step by step.
 
-In lockstep nothing depends on the machine's speed: a command has reached the simulator before the next step is
-asked for. It is written to its socket in the calling thread (no queue), and the pose is asked for between command
-and step: when that answer is there, the simulator has read the command, for it reads everything that has arrived
-before it serves a later request.
+Its numbers are those that sensor_msgs/LaserScan carries, so that a run over ROS (ros_simulation.py) is the same, byte
+for byte.
 """
 import math
-import os
-import queue
-import subprocess
-import time
-import warnings
 from pathlib import Path
-from typing import Callable, Dict, List, Optional
+from typing import List
 
-import rosgraph
-import rosmaster.master
-import rospy
-from geometry_msgs.msg import Pose as RosPose
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
+import ardee_sim
+import numpy as np
+from ardee_sim.packages import find_package
 
 from ardee_common.errors import GeneratorError
-from ardee_common.process import start_child, stop_child
-from ardee_msgs.srv import Step
+from ardee_navigation.evaluation.scan import Scan
 from ardee_world.row_truth import Pose
-from gazebo_msgs.msg import ModelState
-from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 
-ROBOT = "robot"
-_PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less
+ROBOT, SCANS, COMMANDS = "robot", "ardee/hokuyo", "cmd_vel"
+_MOST_SCANS = 1000  # that may wait to be read
 
 
 class SimulationError(RuntimeError):
     """Error of a simulator that did not do what was asked."""
 
 
-class Master:
-    """A ROS master in this process, and this process as a node of it. Once in a process."""
-
-    def __init__(self, node: str) -> None:
-        for name in ("ROS_HOSTNAME", "ROS_NAMESPACE"):
-            os.environ.pop(name, None)
-        os.environ.setdefault("ROS_IP", "127.0.0.1")
-        self._master = rosmaster.master.Master(0)
-        self._master.start()
-        os.environ["ROS_MASTER_URI"] = self._master.uri
-        rospy.init_node(node, disable_signals=True)
-
-    def stop(self) -> None:
-        """Leaves the ROS graph and ends the master."""
-        rospy.signal_shutdown("done")
-        self._master.stop()
-
-
 def robot_urdf(bot_model: str = "tsv1_default.urdf.xacro") -> str:
     """URDF of an assembly file in terrasentia_description/robots, or of a path."""
-    import rospkg
-
-    folder = Path(rospkg.RosPack().get_path("terrasentia_description")) / "robots"
-    command = ["rosrun", "xacro", "xacro", str(folder / bot_model), "ns:="]
-    made = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    if made.returncode:
-        why = (made.stderr.strip() or "no word of why").splitlines()[-1]
-        raise GeneratorError(f"--bot-model: found {bot_model!r}, of which xacro says: {why}")
-    return made.stdout
-
-
-def to_ros(pose: Pose, z_m: float) -> RosPose:
-    """A pose on the ground plan, level, at a height."""
-    made = RosPose()
-    made.position.x, made.position.y, made.position.z = pose.x_m, pose.y_m, z_m
-    made.orientation.z, made.orientation.w = math.sin(pose.yaw_rad / 2), math.cos(pose.yaw_rad / 2)
-    return made
-
-
-def from_ros(pose: RosPose) -> Pose:
-    """The pose on the ground plan."""
-    q = pose.orientation
-    yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-    return Pose(pose.position.x, pose.position.y, yaw)
-
-
-def _until(condition, what: str, patience_s: float = _PATIENCE_S) -> None:
-    deadline = time.monotonic() + patience_s
-    while not condition():
-        if time.monotonic() > deadline:
-            raise SimulationError(f"waited {patience_s:.0f} s in vain for {what}")
-        time.sleep(0.005)
+    try:
+        return ardee_sim.robot(find_package("terrasentia_description") / "robots" / bot_model)
+    except ardee_sim.ArdeeError as error:
+        why = str(error).splitlines()[-1]
+        raise GeneratorError(
+            f"--bot-model: found {bot_model!r}, of which xacro says: {why}"
+        ) from None
 
 
 class Simulation:
-    """The simulator on a world with one robot; a context manager, so that nothing outlives it."""
+    """A world with one robot; a context manager."""
 
-    def __init__(
-        self, world: Path, seed: int, models: List[Path], log: Path, realtime: bool = False
-    ) -> None:
-        folders = [*map(str, models), os.environ.get("GAZEBO_MODEL_PATH", "")]
-        environment = dict(os.environ, GAZEBO_MODEL_PATH=os.pathsep.join(folders))
-        factor = "1" if realtime else "0"
-        command = ["rosrun", "ardee_sim_cpp", "simulator", str(world), "--paused"]
-        command += ["--seed", str(seed), f"_real_time_factor:={factor}"]
-        self._log, self.scans = log, queue.Queue()  # type: Path, queue.Queue
-        self._services = {}  # type: Dict[str, rospy.ServiceProxy]
-        self._commands = None  # type: Optional[rospy.Publisher]
-        self._subscriber = None  # type: Optional[rospy.Subscriber]
-        self.on_scan = None  # type: Optional[Callable[[], None]]
-        self._process = start_child(command, environment, log)
+    def __init__(self, world: Path, seed: int, models: List[Path]) -> None:
+        self._sim = ardee_sim.Simulation(
+            ardee_sim.World.from_file(world, model_paths=models), seed=seed
+        )
+        self._scans = []  # type: List[ardee_sim.LidarReading]
 
     def __enter__(self) -> "Simulation":
-        try:
-            self._wait_for_service("/ardee/step")
-        except BaseException:
-            self.close()
-            raise
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Ends the simulator and leaves its topics."""
-        for service in self._services.values():
-            service.close()
-        for port in (self._commands, self._subscriber):
-            if port is not None:
-                port.unregister()
-        stop_child(self._process)
-
-    def _check_alive(self) -> None:
-        if self._process.poll() is not None:
-            last = self._log.read_text(errors="replace").strip().splitlines()[-3:]
-            raise SimulationError("the simulator has ended: " + " | ".join(last))
-
-    def _wait_for_service(self, name: str) -> None:
-        def there() -> bool:
-            self._check_alive()
-            try:
-                rospy.wait_for_service(name, timeout=0.2)
-                return True
-            except rospy.ROSException:
-                return False
-
-        _until(there, name)
-
-    def call(self, name: str, kind: type, *arguments: object, **fields: object):
-        """Calls a service; returns its answer, raises SimulationError unless it succeeds."""
-        if name not in self._services:
-            self._services[name] = rospy.ServiceProxy(name, kind, persistent=True)
-        try:
-            answer = self._services[name](*arguments, **fields)
-        except rospy.ServiceException as error:
-            self._check_alive()
-            raise SimulationError(f"{name}: {error}") from error
-        if not getattr(answer, "success", True):  # std_srvs/Empty has none
-            raise SimulationError(f"{name}: {answer.status_message}")
-        return answer
+        self._sim.close()
 
     def spawn(self, urdf: str, pose: Pose, z_m: float) -> None:
-        """Spawns the robot, with its scan and command topics connected."""
-        fields = (ROBOT, urdf, "/", to_ros(pose, z_m), "world")
-        self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
-        self._subscriber = rospy.Subscriber(
-            "/ardee/hokuyo", LaserScan, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
-        )
-        with warnings.catch_warnings():
-            warnings.simplefilter(
-                "ignore"
-            )  # it recommends a queue, whose thread would race the step
-            self._commands = rospy.Publisher("/cmd_vel", Twist, queue_size=None)
-        ports = (self._subscriber, self._commands)
-        _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
-
-    def wait_for_commander(self) -> None:
-        """Waits until another node than this one can command the robot, which would else stand and seem stuck."""
-
-        def there() -> bool:
-            self._check_alive()
-            publishers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[0])
-            return bool(set(publishers.get("/cmd_vel", [])) - {rospy.get_name()})
-
-        _until(there, "a node that commands the robot")
-
-    def _on_scan(self, scan: LaserScan) -> None:
-        if self.on_scan:
-            self.on_scan()
-        self.scans.put(scan)
+        """Spawns the robot."""
+        place = (pose.x_m, pose.y_m, z_m)
+        self._sim.spawn(ROBOT, urdf, xyz_m=place, rpy_rad=(0.0, 0.0, pose.yaw_rad))
+        self._sim.demand(SCANS, keep=_MOST_SCANS)
 
     def step(self, steps: int) -> float:
         """Takes this many physics steps; returns the simulated time [s] after them."""
-        return self.call("/ardee/step", Step, steps).sim_time.to_sec()
+        self._sim.step(steps)
+        self._scans += self._sim.drain(SCANS)
+        return self._sim.time_ns * 1e-9
 
-    def scan(self, patience_s: float = 20.0) -> LaserScan:
+    def scan(self) -> Scan:
         """Returns the next scan."""
-        try:
-            return self.scans.get(timeout=patience_s)
-        except queue.Empty:
-            self._check_alive()
-            raise SimulationError(f"no scan in {patience_s:.0f} s") from None
+        if not self._scans:
+            raise SimulationError(f"found no scan on {SCANS}, expected one of every lidar period")
+        reading = self._scans.pop(0)
+        seconds, nanoseconds = divmod(reading.stamp_ns, 10**9)
+        return Scan(
+            seconds + nanoseconds / 1e9,
+            reading.ranges_m,
+            float(np.float32(reading.angle_min_rad)),
+            float(np.float32(reading.angle_increment_rad)),
+        )
 
     def command(self, speed_m_s: float, turn_rad_s: float) -> Pose:
-        """Sends a command; when the pose is returned, the simulator has it."""
-        twist = Twist()
-        twist.linear.x, twist.angular.z = speed_m_s, turn_rad_s
-        self._commands.publish(twist)
+        """Commands the robot; returns its pose."""
+        twist = ardee_sim.Twist(linear_x_m_s=speed_m_s, angular_z_rad_s=turn_rad_s)
+        self._sim.command(COMMANDS, twist)
         return self.pose()
 
     def pose(self) -> Pose:
         """Returns the pose of the robot in the world frame."""
-        answer = self.call("/gazebo/get_model_state", GetModelState, ROBOT, "world")
-        return from_ros(answer.pose)
+        state = self._sim.state(ROBOT)
+        x_m, y_m, _ = (float(value) for value in state.xyz_m)
+        return Pose(x_m, y_m, state.yaw_rad)
 
     def set_pose(self, pose: Pose, z_m: float) -> None:
         """Sets the robot down at a pose, at rest."""
-        state = ModelState(model_name=ROBOT, pose=to_ros(pose, z_m), reference_frame="world")
-        self.call("/gazebo/set_model_state", SetModelState, state)
+        quat = (0.0, 0.0, math.sin(pose.yaw_rad / 2), math.cos(pose.yaw_rad / 2))
+        self._sim.set_state(ROBOT, xyz_m=(pose.x_m, pose.y_m, z_m), quat_xyzw=quat)

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Deque, Optional, Tuple
 
 import numpy as np
-from sensor_msgs.msg import LaserScan
 
 from ardee_navigation.evaluation.contacts import Contacts
 from ardee_navigation.evaluation.record import Intervention, Record, Sample
+from ardee_navigation.evaluation.scan import Scan
 from ardee_navigation.lbirnt.preprocess import to_cartesian
 from ardee_world.row_truth import Deviation, Lane, Pose, lane_of
 from ardee_world.trial import Trial
@@ -92,9 +92,9 @@ class Judge:
         y = pose.y_m + self.record.lidar_ahead_m * math.sin(pose.yaw_rad)
         return Pose(x, y, pose.yaw_rad)
 
-    def keep_scan(self, scan: LaserScan) -> None:
+    def keep_scan(self, scan: Scan) -> None:
         """Returns abeam of the lidar, each at its own place along the row, for the figures; call after `look`."""
-        points = to_cartesian(np.asarray(scan.ranges), scan.angle_min, scan.angle_increment)
+        points = to_cartesian(scan.ranges_m, scan.angle_min_rad, scan.increment_rad)
         beside = (np.abs(points[:, 0]) < BESIDE_M) & (np.abs(points[:, 1]) < RAW_WITHIN_M)
         ahead, lateral = points[beside].T
         here = self.record.samples[-1]
