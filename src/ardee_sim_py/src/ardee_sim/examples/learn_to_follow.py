@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Learns to follow a lane of corn: the cross-entropy method over a linear policy, a minute on one core."""
+"""Learns to follow a lane of corn: the cross-entropy method over a linear policy, half a minute on one core."""
 
 from typing import List
 
@@ -7,16 +7,19 @@ import ardee_sim.envs  # noqa: F401  registers the environments
 import gymnasium
 import numpy as np
 
-SECTORS = 8  # of the scan
+PAIRS = 4  # of sectors of the scan, one on the left, one on the right
 NEAR = 2 / 30  # ranges beyond 2 m of 30 m count as 2 m
-GENERATIONS, POPULATION, BEST = 6, 16, 4
+PARAMETERS = 2 + PAIRS
+GENERATIONS, POPULATION, BEST = 4, 16, 4
 
 
 def act(policy: np.ndarray, scan: np.ndarray) -> np.ndarray:
-    """Returns speed and turn rate, linear in the mean ranges of the scan's sectors."""
+    """Returns speed, linear in the range ahead, and turn rate, linear in how much freer the left is than the right."""
     near = np.minimum(scan / NEAR, 1.0)
-    ranges = [sector.mean() for sector in np.array_split(near, SECTORS)]
-    return np.tanh(policy.reshape(2, SECTORS + 1) @ np.array([*ranges, 1.0]))
+    ranges = np.array([sector.mean() for sector in np.array_split(near, 2 * PAIRS)])
+    right, left = ranges[:PAIRS], ranges[PAIRS:][::-1]
+    ahead = (right[-1] + left[-1]) / 2
+    return np.tanh(np.array([policy[0] + policy[1] * ahead, policy[2:] @ (left - right)]))
 
 
 def episode_return(env: gymnasium.Env, policy: np.ndarray, seed: int) -> float:
@@ -32,7 +35,7 @@ def episode_return(env: gymnasium.Env, policy: np.ndarray, seed: int) -> float:
 def learn(env: gymnasium.Env, seed: int = 0) -> List[float]:
     """Returns the mean return of each generation's best; the first is that of a robot that stands still."""
     rng = np.random.default_rng(seed)
-    mean, sd = np.zeros(2 * (SECTORS + 1)), np.ones(2 * (SECTORS + 1))
+    mean, sd = np.zeros(PARAMETERS), np.ones(PARAMETERS)
     curve = [episode_return(env, mean, seed)]
     for generation in range(GENERATIONS):
         policies = mean + sd * rng.standard_normal((POPULATION, mean.size))
