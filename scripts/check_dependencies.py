@@ -18,6 +18,7 @@ KEYS = {
     "mpl_toolkits": "python3-matplotlib",
     "numpy": "python3-numpy",
     "PIL": "python3-pil",
+    "pyarrow": "python3-pyarrow-pip",
     "pyproj": "python3-pyproj",
     "pytest": "python3-pytest",
     "rasterio": "python3-rasterio",

@@ -22,7 +22,8 @@ def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
     for name in ("scripts", "compat"):
         shutil.copytree(ROOT / name, folder / name)
     (folder / "src").mkdir()
-    (folder / "pydeps").symlink_to(ROOT / "pydeps")
+    for modules in ROOT.glob("pydeps*"):
+        (folder / modules.name).symlink_to(modules)
     return folder
 
 

@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: MIT
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(
+    **generate_distutils_setup(
+        packages=["ardee_campaigns"],
+        package_dir={"": "src"},
+    )
+)

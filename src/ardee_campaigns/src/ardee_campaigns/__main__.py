@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""Dispatches `python3 -m ardee_campaigns COMMAND ...`, which is `rosrun ardee_campaigns COMMAND ...` without ROS."""
+import importlib
+import sys
+from importlib.util import find_spec
+from typing import List, Optional
+
+from ardee_common.errors import known_names
+
+# Command to the module whose main(arguments) runs it and returns the exit code
+MODULES = {
+    "run_campaign": "ardee_campaigns.run_campaign",
+    "report": "ardee_campaigns.report.command",
+    "compare": "ardee_campaigns.report.compare",
+    "overlay": "ardee_campaigns.overlay.command",
+}
+
+
+def _is_there(module: str) -> bool:
+    try:
+        return find_spec(module) is not None
+    except ModuleNotFoundError:  # nor its package
+        return False
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Runs a command; returns its exit code."""
+    words = sys.argv[1:] if arguments is None else arguments
+    known = [name for name, module in MODULES.items() if _is_there(module)]
+    if words and words[0] in known:
+        return importlib.import_module(MODULES[words[0]]).main(words[1:])
+    if words and words[0] in ("-h", "--help"):
+        print(f"usage: python3 -m ardee_campaigns COMMAND ...\n\ncommands: {', '.join(known)}")
+        return 0
+    found = repr(words[0]) if words else "no command"
+    print(
+        f"ardee_campaigns: found {found}, {known_names(words[0] if words else '', known)}",
+        file=sys.stderr,
+    )
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())
