@@ -13,6 +13,8 @@ from typing import Iterator, List, Optional, Set, Tuple
 KEYS = {
     "ardee_sim": "ardee_sim_py",
     "collada": "python3-collada",
+    "dask": "python3-dask",
+    "distributed": "python3-distributed",
     "gymnasium": "python3-gymnasium-pip",
     "matplotlib": "python3-matplotlib",
     "mpl_toolkits": "python3-matplotlib",

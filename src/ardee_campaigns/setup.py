@@ -5,7 +5,8 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
     **generate_distutils_setup(
-        packages=["ardee_campaigns"],
+        packages=["ardee_campaigns", "ardee_campaigns.examples"],
         package_dir={"": "src"},
+        package_data={"ardee_campaigns.examples": ["*.yaml"]},
     )
 )

@@ -260,8 +260,13 @@ def write_samples(folder: Path, run_ids: Sequence[str]) -> Path:
 
 def read_runs(folder: Path) -> pa.Table:
     """Reads runs.parquet; factors are the columns factor_*, measures those after sim_s."""
-    with _readable(folder / RUNS):
-        return pq.read_table(folder / RUNS)
+    return read_table(folder / RUNS)
+
+
+def read_table(path: Path) -> pa.Table:
+    """Reads a table."""
+    with _readable(path):
+        return pq.read_table(path)
 
 
 def factors_of(schema: pa.Schema) -> List[str]:
@@ -276,8 +281,7 @@ def measures_of(schema: pa.Schema) -> List[str]:
 
 def read_timings(folder: Path) -> pa.Table:
     """Reads timings.parquet."""
-    with _readable(folder / TIMINGS):
-        return pq.read_table(folder / TIMINGS)
+    return read_table(folder / TIMINGS)
 
 
 def read_samples(

@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: MIT
+"""The file of a campaign: its keys, read with their lines; an unknown key or a value without meaning is refused."""
+import dataclasses
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, Optional, Tuple
+
+from ardee_common.config import Mapping, build, build_group, read_yaml_lines
+from ardee_common.errors import GeneratorError
+from ardee_common.options import bounded, converted, option
+
+_NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
+Value = Any  # of a factor: a number, a text or a truth value
+
+
+def _scalars(value: Any) -> Tuple[Value, ...]:
+    """Returns the values of a list of different numbers, texts or truth values."""
+    if not isinstance(value, list) or not value:
+        raise ValueError(value)
+    if not all(isinstance(v, (str, int, float)) and _is_finite(v) for v in value):
+        raise ValueError(value)
+    if len({(type(v) is bool, v) for v in value}) != len(value):
+        raise ValueError(value)
+    return tuple(value)
+
+
+def _is_finite(value: Value) -> bool:
+    return isinstance(value, str) or math.isfinite(value)
+
+
+@dataclass(frozen=True)
+class WorldKeys:
+    """Give one of the keys `scenario` and `field`, or `world` with or without `field`."""
+
+    scenario: Optional[str] = option(None, "name in `config/scenarios.yaml` of ardee_world")
+    world: Optional[str] = option(
+        None, "world file with its `.start.yaml` beside it, or the name of a shipped one"
+    )
+    field: Optional[str] = option(
+        None, "field recipe, sown anew for each replicate; alone it stands on its `terrain`"
+    )
+    options: Optional[dict] = option(None, "keys of the field recipe that are replaced")
+    params: Optional[dict] = option(
+        None, "controller to parameters that this world needs, over its own"
+    )
+
+    def __post_init__(self) -> None:
+        given = [key for key in ("scenario", "world", "field") if getattr(self, key)]
+        if given not in (["scenario"], ["world"], ["field"], ["world", "field"]):
+            found = " and ".join(given) or "none of the keys scenario, world, field"
+            raise GeneratorError(
+                f"found {found}, expected scenario, world, field, or world + field"
+            )
+        if self.options and given == ["world"]:
+            raise GeneratorError("options: found some for a world without field, expected a recipe")
+
+
+@dataclass(frozen=True)
+class RobotKeys:
+    """A robot is a model and what its topics are used for."""
+
+    model: str = option("tsv1_default", "shipped robot, or a `.urdf` or `.xacro` file")
+    xacro: Optional[dict] = option(None, "arguments of the `.xacro` file")
+    topics: Optional[dict] = option(
+        None,
+        "use to topic; `command` gets the commands, `battery` its state of charge, each other one is a key of the"
+        " controller's observation (default: command: cmd_vel, scan: ardee/hokuyo, battery: ardee/battery_state)",
+    )
+    pace: str = option("scan", "use whose readings the controller answers, one step each")
+    period_s: Optional[float] = option(
+        None, "control period instead of the pace of a sensor", (1e-4, 10.0)
+    )
+    stand_m: float = option(0.175, "height of its origin above the ground", (0.0, 10.0))
+    length_m: Optional[float] = option(
+        None, "of its outline, instead of the collision bodies'", (0.01, 20.0)
+    )
+    width_m: Optional[float] = option(None, "of its outline, likewise", (0.01, 20.0))
+
+    def __post_init__(self) -> None:
+        if (self.length_m is None) != (self.width_m is None):
+            raise GeneratorError("found one of length_m and width_m, expected both or none")
+
+
+@dataclass(frozen=True)
+class TaskKeys:
+    """Rules of a run: when a person steps in, and when it is over."""
+
+    kind: str = option(
+        "row",
+        "row: down the lane before the start, a person steps in; free: until the limit or the controller's end",
+        choices=("row", "free"),
+    )
+    largest_offset_m: float = bounded(0.01, 100.0, 0.38)  # beside the centre line: off the lane
+    stuck_after_s: float = bounded(0.1, 1000.0, 2.0)  # without moving
+    stuck_within_m: float = bounded(0.001, 10.0, 0.05)  # counts as not moving
+    row_end_m: float = bounded(0.0, 100.0, 0.5)  # a stop nearer to the row's end is its end
+    set_ahead_m: float = bounded(0.0, 100.0, 0.5)  # where a robot that stood is set down again
+    overrun_m: float = bounded(0.0, 1000.0, 5.0)  # behind the row's end: the run is over
+    most_interventions: int = bounded(1, 100_000, 100)  # then the run is given up
+    damage_penalty_m: float = bounded(0.0, 1000.0, 1.0)  # a damaged plant, in fre_score_m
+
+
+@dataclass(frozen=True)
+class ControllerKeys:
+    """A controller in Python: `make(params, robot, seed)` returns an object with `reset()` and `step()`."""
+
+    kind: str = option("python", "how it is reached", choices=("python",))
+    factory: str = option("", "module:function that makes it")
+    params: Optional[dict] = option(None, "its parameters")
+
+    def __post_init__(self) -> None:
+        if ":" not in self.factory:
+            raise GeneratorError(f"factory: found {self.factory!r}, expected module:function")
+
+
+@dataclass(frozen=True)
+class FactorKeys:
+    """What is varied. A list is short for `values` of a controller's parameter."""
+
+    of: str = option(
+        "controller",
+        "what has a parameter, field option or xacro argument of this name",
+        choices=("controller", "field", "robot"),
+    )
+    values: Optional[tuple] = converted(
+        _scalars, "a list of different numbers, texts or truth values that is not empty", None
+    )
+    low: Optional[float] = option(None, "least value, in a Latin hypercube")
+    high: Optional[float] = option(None, "greatest value, in a Latin hypercube")
+
+    def __post_init__(self) -> None:
+        is_range = self.low is not None and self.high is not None
+        if (self.values is None) != is_range or (self.low is None) != (self.high is None):
+            raise GeneratorError("expected either values, or low and high")
+        if is_range and not self.low < self.high:
+            raise GeneratorError(f"found low {self.low} and high {self.high}, expected low < high")
+
+
+@dataclass(frozen=True)
+class PlanKeys:
+    """Which combinations are run; worlds, robots and controllers are always combined with each other."""
+
+    kind: str = option(
+        "factorial",
+        "factorial: all values of the factors; latin_hypercube: `points` spread over them; until: all values, with more"
+        " replicates until the 95 % interval of `measure` is narrow",
+        choices=("factorial", "latin_hypercube", "until"),
+    )
+    points: Optional[int] = option(None, "of the Latin hypercube", (1, 1_000_000))
+    measure: str = option("", "measure whose mean is wanted")
+    half_width: Optional[float] = option(None, "of its 95 % interval, at most", (0.0, 1e300))
+    most_replicates: int = option(100, "even if the interval is still wider", (2, 1_000_000))
+
+    def __post_init__(self) -> None:
+        if (self.kind == "latin_hypercube") != (self.points is not None):
+            raise GeneratorError("points: expected for kind latin_hypercube, and for it alone")
+        is_until = self.kind == "until"
+        if is_until != bool(self.measure) or is_until != (self.half_width is not None):
+            raise GeneratorError("expected measure and half_width for kind until, and for it alone")
+
+
+@dataclass(frozen=True)
+class CampaignKeys:
+    """Keys of a campaign's file."""
+
+    name: str = option("", "of the campaign")
+    worlds: Optional[dict] = option(
+        None, "name to a world; a text is short for its scenario, `.world` or recipe `.yaml`"
+    )
+    controllers: Optional[dict] = option(None, "name to a controller; a text is its factory")
+    robots: Optional[dict] = option(
+        None, "name to a robot; a text is its model (default: tsv1: tsv1_default)"
+    )
+    seed: int = option(0, "root of all random numbers", (0, 2**63))
+    replicates: int = option(1, "runs of each combination; each has a seed", (1, 1_000_000))
+    workers: int = option(0, "processes; 0: one for each core", (0, 10_000))
+    limit_sim_s: float = option(120.0, "simulated time after which a run ends", (0.01, 1e6))
+    watchdog_wall_s: float = option(
+        900.0, "time after which a worker is taken for stalled and ended", (0.1, 1e6)
+    )
+    memory_mb: int = option(4000, "that a run may take", (100, 10_000_000))
+    task: TaskKeys = TaskKeys()
+    factors: Optional[dict] = option(None, "name to what is varied")
+    measures: Tuple[str, ...] = option((), "names, or module:function of your own")
+    plan: PlanKeys = PlanKeys()
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """A campaign as its file says, with entries by name."""
+
+    file: Path
+    keys: CampaignKeys
+    worlds: Dict[str, WorldKeys]
+    robots: Dict[str, RobotKeys]
+    controllers: Dict[str, ControllerKeys]
+    factors: Dict[str, FactorKeys]
+
+
+def plain(value: Any) -> Any:
+    """Returns the value of a file without the places of its mappings."""
+    if isinstance(value, dict):
+        return {key: plain(item) for key, item in value.items()}
+    return [plain(item) for item in value] if isinstance(value, list) else value
+
+
+def _world_text(text: str) -> str:
+    kinds = {".world": "world", ".sdf": "world", ".yaml": "field"}
+    return kinds.get(Path(text).suffix, "scenario")
+
+
+def _entries(cls: type, mapping: Mapping, key: str, short: Any) -> Dict[str, Any]:
+    """Returns the entries of a mapping of names; `short` names the key that an entry that is no mapping is for."""
+    named = mapping[key]
+    if not named:
+        raise mapping.error(key, f"{key}: found none, expected at least one")
+    made = {}
+    for name, value in named.items():
+        if not _NAME.fullmatch(name):
+            expected = "letters, digits and _, the first a letter"
+            raise named.error(name, f"{key}: found the name {name!r}, expected {expected}")
+        if not isinstance(value, dict):
+            long = Mapping(named.place, named.line[name])
+            long[short(value)] = value
+            long.line[short(value)] = named.line[name]
+            named[name] = long
+        made[name] = _without_places(build_group(cls, named, name))
+    return made
+
+
+def _without_places(group: Any) -> Any:
+    changed = {f.name: plain(getattr(group, f.name)) for f in dataclasses.fields(group)}
+    return dataclasses.replace(group, **changed)
+
+
+def read_campaign(file: Path) -> Campaign:
+    """Reads a campaign's file. Raises GeneratorError with file and line."""
+    mapping = read_yaml_lines(file)
+    keys = build(CampaignKeys, mapping)
+    for needed in ("name", "worlds", "controllers"):
+        if not getattr(keys, needed):
+            raise mapping.error(needed, f"{needed}: found none, expected some")
+    if not keys.measures:
+        raise mapping.error("measures", "measures: found none, expected at least one")
+    if "robots" not in mapping:
+        mapping["robots"] = Mapping(file)
+        mapping["robots"]["tsv1"] = Mapping(file)
+    factors = _factors(mapping) if keys.factors is not None else {}
+    is_hypercube = keys.plan.kind == "latin_hypercube"
+    for name, factor in factors.items():
+        if factor.values is None and not is_hypercube:
+            found = "low and high, which a Latin hypercube needs"
+            raise mapping["factors"].error(name, f"{name}: found {found}, expected values")
+    if is_hypercube and not factors:
+        raise mapping.error("plan", "plan: found a Latin hypercube without factors, expected some")
+    if keys.plan.kind == "until" and keys.plan.measure not in keys.measures:
+        known = ", ".join(keys.measures)
+        raise mapping.error("plan", f"plan: measure {keys.plan.measure!r}, expected one of {known}")
+    if keys.plan.kind == "until" and keys.replicates < 2:
+        raise mapping.error("replicates", "replicates: found 1, expected 2 or more for plan until")
+    worlds = _entries(WorldKeys, mapping, "worlds", _world_text)
+    robots = _entries(RobotKeys, mapping, "robots", lambda value: "model")
+    controllers = _entries(ControllerKeys, mapping, "controllers", lambda value: "factory")
+    for name, world in worlds.items():
+        for controller in world.params or {}:
+            if controller not in controllers:
+                known = ", ".join(controllers)
+                found = f"{name}: params: found controller {controller!r}"
+                raise mapping["worlds"].error(name, f"{found}, expected one of {known}")
+    return Campaign(file.resolve(), keys, worlds, robots, controllers, factors)
+
+
+def _factors(mapping: Mapping) -> Dict[str, FactorKeys]:
+    return _entries(FactorKeys, mapping, "factors", lambda value: "values")

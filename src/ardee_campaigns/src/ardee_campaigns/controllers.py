@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""Controllers: what `make(params, robot, seed)` returns, and what it answers to observations.
+
+A controller has `reset()` and `step(observation, time_s)`, which returns an ardee_sim.Twist, or speed [m/s] and turn
+rate [rad/s]. It may have `seen`, the distances (left_m, right_m) from its sensor to the rows that it perceives, and
+`is_finished`, whether it has come to its end.
+"""
+import hashlib
+import importlib
+import importlib.util
+import math
+from pathlib import Path
+from typing import Any, Callable, Mapping, Tuple
+
+import ardee_sim
+
+from ardee_campaigns.campaign_file import ControllerKeys
+from ardee_campaigns.robot import Robot
+from ardee_common.errors import GeneratorError
+
+Command = Tuple[float, float]
+
+
+def load_function(name: str, what: str) -> Callable[..., Any]:
+    """Returns the function of a module:function. Raises GeneratorError if there is none."""
+    module, _, function = name.partition(":")
+    try:
+        found = getattr(importlib.import_module(module), function)
+    except Exception as error:  # of any kind that its import raises
+        why = f"{type(error).__name__}: {error}"
+        raise GeneratorError(
+            f"{what}: found {name!r}, expected module:function on the Python path: {why}"
+        ) from None
+    if not callable(found):
+        raise GeneratorError(f"{what}: found {name!r}, which is no function")
+    return found
+
+
+def source_digest(name: str) -> str:
+    """Returns a hash of the file of a module:function, so that a changed one is run anew."""
+    spec = importlib.util.find_spec(name.partition(":")[0])
+    file = spec.origin if spec else None
+    if not file or not Path(file).is_file():
+        return ""
+    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
+
+
+def make(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot, seed: int) -> Any:
+    """Returns the controller."""
+    made = load_function(keys.factory, "factory")(dict(params), robot, seed)
+    for method in ("reset", "step"):
+        if not callable(getattr(made, method, None)):
+            found = f"a {type(made).__name__} without {method}()"
+            raise GeneratorError(f"factory {keys.factory}: found {found}, expected reset and step")
+    return made
+
+
+def checked(answer: Any) -> Command:
+    """Returns speed [m/s] and turn rate [rad/s] of a controller's answer."""
+    if isinstance(answer, ardee_sim.Twist):
+        answer = (answer.linear_x_m_s, answer.angular_z_rad_s)
+    try:
+        speed, turn = (float(value) for value in answer)
+    except (TypeError, ValueError):
+        found = type(answer).__name__
+        raise GeneratorError(
+            f"controller's command: found {found}, expected a Twist, or speed and turn rate"
+        ) from None
+    if not (math.isfinite(speed) and math.isfinite(turn)):
+        raise GeneratorError(f"controller's command: found {speed} and {turn}, expected finite")
+    return speed, turn
+
+
+def seen(controller: Any) -> Tuple[float, float]:
+    """Returns the distances [m] to the left and right row that a controller perceives; NaN if it does not say."""
+    left, right = getattr(controller, "seen", None) or (math.nan, math.nan)
+    return float(left), float(right)
+
+
+def is_finished(controller: Any) -> bool:
+    """Returns whether a controller says that it has come to its end."""
+    return bool(getattr(controller, "is_finished", False))

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""Works off the runs of a campaign on dask.distributed: processes of this machine, or those of a scheduler."""
+import contextlib
+import fcntl
+import logging
+import os
+from pathlib import Path
+from typing import Any, Callable, Iterator, List, Optional, Sequence
+
+import dask
+from distributed import Client, LocalCluster, as_completed
+from distributed.scheduler import KilledWorker
+
+from ardee_campaigns import tables
+from ardee_campaigns.attempts import Attempts
+from ardee_campaigns.plan import Job
+from ardee_campaigns.run import FULL, FullDisk, failed, work
+from ardee_common.errors import GeneratorError
+
+_MOST_LOSSES = 3  # of a run's workers: then it has failed
+_PATIENCE_S = 30.0  # for a scheduler and its first worker
+Told = Callable[[Job, str], None]
+
+
+class EngineError(Exception):
+    """Error of the cluster or the disk: the campaign cannot go on, what is finished stays."""
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Makes the folder of a campaign and keeps other campaigns out of it."""
+    try:
+        (folder / tables.FOLDER).mkdir(parents=True, exist_ok=True)
+        handle = os.open(folder, os.O_RDONLY)
+    except OSError as error:
+        raise GeneratorError(
+            f"--output: found {str(folder)!r}, expected a folder to write in: {error.strerror}"
+        ) from None
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise GeneratorError(
+            f"--output: found {str(folder)!r}, in which another campaign is at work, expected its end"
+        ) from None
+    else:
+        yield
+    finally:
+        os.close(handle)
+
+
+@contextlib.contextmanager
+def _client(address: Optional[str], workers: int) -> Iterator[Client]:
+    """Connects to a scheduler, or starts one with worker processes that end with this one."""
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    settings = {
+        "distributed.scheduler.allowed-failures": 0,  # _outcome() counts them, a run at a time
+        "distributed.scheduler.work-stealing": True,
+        "distributed.worker.memory.terminate": False,  # a run's own limit is in work()
+        "distributed.admin.tick.limit": "1h",
+        "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
+    }
+    with dask.config.set(settings), contextlib.ExitStack() as stack:
+        target: Any = address
+        if not address:
+            target = stack.enter_context(
+                LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    memory_limit=0,
+                    dashboard_address=None,
+                    host="127.0.0.1",
+                    silence_logs=logging.CRITICAL,
+                )
+            )
+        try:
+            client = stack.enter_context(Client(target, set_as_default=False))
+        except (OSError, TimeoutError, ValueError) as error:
+            why = " ".join(str(error).split())
+            raise GeneratorError(f"--scheduler: found {address!r}, no scheduler: {why}") from None
+        _check_workers(client, address)
+        yield client
+
+
+def _check_workers(client: Client, address: Optional[str]) -> None:
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE_S)
+    except TimeoutError:
+        raise EngineError(f"{address}: waited {_PATIENCE_S:.0f} s for a worker") from None
+    for name, info in client.scheduler_info()["workers"].items():
+        if info["nthreads"] != 1:
+            raise GeneratorError(
+                f"--scheduler: found worker {name} of {info['nthreads']} threads, expected"
+                " dask-worker --nthreads 1: a run is a process's only one"
+            )
+
+
+class Engine:
+    """Workers for the jobs of a campaign, as a context manager; each job's file is in the folder when it is done."""
+
+    def __init__(self, folder: Path, address: Optional[str], workers: int) -> None:
+        self._folder, self._address = folder, address
+        self._workers = workers or len(os.sched_getaffinity(0))
+        self._stack = contextlib.ExitStack()
+        self._opened: Optional[Client] = None
+
+    def __enter__(self) -> "Engine":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def _connected(self) -> Client:
+        if self._opened is None:
+            self._opened = self._stack.enter_context(_client(self._address, self._workers))
+        return self._opened
+
+    def work_off(self, jobs: Sequence[Job], told: Told) -> None:
+        """Does the jobs, in any order; `told` gets each one and its error. Raises EngineError if it cannot go on."""
+        if not jobs:
+            return
+        client, by_key = self._connected(), {}
+
+        def submit(job: Job, attempt: int = 0) -> Any:
+            key = f"{job.run_id}-{attempt}"
+            by_key[key] = job, attempt
+            return client.submit(work, job, self._folder, key=key, pure=False)
+
+        ended = as_completed([submit(job) for job in jobs], loop=client.loop)
+        for future in ended:
+            job, attempt = by_key.pop(future.key)
+            error = self._outcome(job, future)
+            if error is None:
+                ended.add(submit(job, attempt + 1))
+            else:
+                told(job, error)
+            future.release()
+
+    def _outcome(self, job: Job, future: Any) -> Optional[str]:
+        """Returns the error of a job that has ended, empty if it went well; None if it is to be tried again."""
+        if future.cancelled() or future.status == "lost":
+            raise EngineError("the scheduler was lost; start again to go on")
+        error = future.exception()
+        if error is None:
+            return future.result()
+        if isinstance(error, KilledWorker):  # dask blames all jobs that waited for the worker
+            lost = Attempts(self._folder, job.run_id).lost()
+            return self._give_up(job, lost[-1]) if len(lost) >= _MOST_LOSSES else None
+        if isinstance(error, FullDisk):
+            raise _full(error)
+        raise EngineError(f"run {job.run_id}: {type(error).__name__}: {error}")
+
+    def _give_up(self, job: Job, how: str) -> str:
+        attempts = Attempts(self._folder, job.run_id)
+        done = failed(job, f"lost each time it was tried: {how}")
+        tables.write_run(self._folder, attempts.counted(done, is_last_lost=True))
+        attempts.forget()
+        return done.row.error
+
+
+def collect(folder: Path, jobs: Sequence[Job], schema: Any) -> List[tables.RunRow]:
+    """Writes the tables of all runs that are done; returns their rows."""
+    there = set(tables.finished(folder))
+    heads = [tables.read_run_head(folder, job.run_id) for job in jobs if job.run_id in there]
+    try:
+        tables.write_samples(folder, [head.row.run_id for head in heads])
+        tables.write_timings(folder, [head.timing for head in heads])
+        tables.write_runs(folder, [head.row for head in heads], schema)
+    except OSError as error:
+        if error.errno not in FULL:
+            raise
+        raise _full(f"{folder}: {os.strerror(error.errno)}") from None
+    return [head.row for head in heads]
+
+
+def _full(text: object) -> EngineError:
+    return EngineError(f"{text}; free some and start again to go on")

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Controllers and campaigns to begin with."""

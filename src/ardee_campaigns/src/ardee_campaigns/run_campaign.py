@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: MIT
+"""Command `run_campaign`: works off a campaign's file, goes on where it stopped, writes tables."""
+import argparse
+import math
+import sys
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence
+
+import numpy as np
+
+from ardee_campaigns import measures, tables
+from ardee_campaigns.campaign_file import Campaign, read_campaign
+from ardee_campaigns.plan import Cell, Job, Planner, about
+from ardee_common.cli import Parser, say
+from ardee_common.errors import GeneratorError, known_names
+from ardee_common.process import Ended, end_by_signals
+
+PROG = "run_campaign"
+_PACE = 20.0  # simulated seconds a second, for an estimate before the first run (estimate)
+_ROBOTS = "robots"  # folder of descriptions
+
+
+def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
+    parser = Parser(
+        prog=PROG,
+        description="Do the runs of a campaign's file that are not done yet, and write tables of all. Ctrl-C ends it; "
+        "the same command goes on.",
+    )
+    parser.add_argument("file", type=Path, metavar="CAMPAIGN.yaml", help="file of the campaign")
+    parser.add_argument(
+        "--output", type=Path, help="folder of the tables (default: campaign_output/NAME)"
+    )
+    parser.add_argument(
+        "--list",
+        action="store_true",
+        help="print the plan and how long it takes at most; run nothing",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="tcp://HOST:PORT",
+        help="dask scheduler whose workers do the runs; the output folder has the same path on all of them",
+    )
+    parser.add_argument(
+        "--retry-failed", action="store_true", help="do the runs again that failed before"
+    )
+    parser.add_argument(
+        "--csv", action="store_true", help="write runs.csv and timings.csv beside the tables"
+    )
+    parser.add_argument(
+        "--replay",
+        metavar="RUN_ID",
+        help="do this run again by itself and write its samples as RUN_ID.csv; print where",
+    )
+    return parser.parse_args(argv)
+
+
+class Progress:
+    """A line for each run that has ended."""
+
+    def __init__(self, count: int) -> None:
+        self._count, self.done, self.failed = count, 0, 0
+
+    def __call__(self, job: Job, error: str) -> None:
+        """Tells of a run."""
+        self.done += 1
+        self.failed += bool(error)
+        cell = job.cell
+        what = f"{cell.world}, {cell.robot}, {cell.controller}, replicate {job.replicate}"
+        factors = "".join(f", {name} {value}" for name, value in cell.factors)
+        end = f"failed: {error}" if error else "ok"
+        say(PROG, f"{self.done} of {self._count}: {job.run_id} ({what}{factors}) {end}")
+
+
+class Session:
+    """A campaign, its plan and its folder."""
+
+    def __init__(self, campaign: Campaign, folder: Path) -> None:
+        self.campaign, self.folder = campaign, folder
+        self.planner = Planner(campaign)
+        self._jobs: Dict[Any, Job] = {}
+
+    def jobs(self, replicates: int, cells: Optional[Sequence[Cell]] = None) -> List[Job]:
+        """Returns the runs of the first replicates."""
+        chosen = self.planner.cells if cells is None else cells
+        return [self._job(cell, number) for cell in chosen for number in range(replicates)]
+
+    def _job(self, cell: Cell, replicate: int) -> Job:
+        key = cell, replicate
+        if key not in self._jobs:
+            self._jobs[key] = self.planner.job(cell, replicate, self.folder / _ROBOTS)
+        return self._jobs[key]
+
+    def all_jobs(self) -> List[Job]:
+        """Returns the runs that were planned so far."""
+        return list(self._jobs.values())
+
+    def open(self, jobs: Sequence[Job]) -> List[Job]:
+        """Returns the runs that are not done yet."""
+        there = set(tables.finished(self.folder))
+        return [job for job in jobs if job.run_id not in there]
+
+    def write_robots(self, jobs: Sequence[Job]) -> None:
+        """Writes the descriptions of the robots for the workers."""
+        for job in jobs:
+            if not job.urdf.is_file():
+                tables.write_file(job.urdf, self.planner.urdf(job.cell).encode())
+
+    def schema(self) -> Any:
+        """Returns the schema of runs.parquet."""
+        cells, kinds = self.planner.cells, {}
+        for number, name in enumerate(self.campaign.factors):
+            kinds[name] = tables.factor_type([cell.factors[number][1] for cell in cells])
+        names = [measures.column(name) for name in self.campaign.keys.measures]
+        return tables.runs_schema(kinds, names, about(self.campaign))
+
+    def too_wide(self) -> List[Cell]:
+        """Returns the combinations whose interval of the plan's measure is still too wide."""
+        keys, wide = self.campaign.keys, []
+        for cell in self.planner.cells:
+            done = [job for key, job in self._jobs.items() if key[0] == cell]
+            heads = [tables.read_run_head(self.folder, job.run_id).row for job in done]
+            column = measures.column(keys.plan.measure)
+            values = [row.measures.get(column, math.nan) for row in heads]
+            half = half_width([value for value in values if math.isfinite(value)])
+            if half > keys.plan.half_width and len(done) < keys.plan.most_replicates:
+                wide.append(cell)
+        return wide
+
+    def replicates_of(self, cell: Cell) -> int:
+        """Returns how many replicates of a combination were planned so far."""
+        return sum(key[0] == cell for key in self._jobs)
+
+
+def half_width(values: Sequence[float]) -> float:
+    """Returns half of the 95 % Student interval of the mean; infinite for less than two values."""
+    from scipy.stats import t
+
+    if len(values) < 2:
+        return math.inf
+    return float(t.ppf(0.975, len(values) - 1) * np.std(values, ddof=1) / math.sqrt(len(values)))
+
+
+def _list(session: Session) -> None:
+    keys = session.campaign.keys
+    jobs = session.jobs(keys.replicates)
+    left = session.open(jobs)
+    print("run_id,world,robot,controller,replicate,seed,is_done" + _header(session))
+    for job in jobs:
+        cell, is_done = job.cell, int(job not in left)
+        names = f"{job.run_id},{cell.world},{cell.robot},{cell.controller}"
+        factors = "".join(f",{value}" for _, value in cell.factors)
+        print(f"{names},{job.replicate},{job.seed},{is_done}{factors}")
+    workers = keys.workers or 1
+    wall_s, how = _wall_s(session, jobs)
+    hours = len(left) * wall_s / workers / 3600.0
+    more = " or more, until the interval is narrow" if keys.plan.kind == "until" else ""
+    say(PROG, f"{len(jobs)} runs{more}, {len(left)} of them to do: {hours:.2g} h, {how}")
+
+
+def _header(session: Session) -> str:
+    return "".join(f",factor_{name}" for name in session.campaign.factors)
+
+
+def _wall_s(session: Session, jobs: Sequence[Job]) -> Any:
+    """Returns the time that a run takes: of those that are done, or at most."""
+    there = set(tables.finished(session.folder))
+    done = [job.run_id for job in jobs if job.run_id in there]
+    if done:
+        walls = [tables.read_run_head(session.folder, run_id).timing.wall_s for run_id in done]
+        return float(np.nanmean(walls)), "as long a run as those that are done"
+    return session.campaign.keys.limit_sim_s / _PACE, f"at most, at {_PACE:g} x real time"
+
+
+def _work(session: Session, args: argparse.Namespace) -> int:
+    from ardee_campaigns import engine
+
+    keys, folder = session.campaign.keys, session.folder
+    jobs = session.jobs(keys.replicates)
+    with engine.locked(folder):
+        if args.retry_failed:
+            _forget_failed(session, jobs)
+        try:
+            with engine.Engine(folder, args.scheduler, keys.workers) as workers:
+                _rounds(session, workers, jobs)
+        finally:
+            rows = engine.collect(folder, session.all_jobs(), session.schema())
+            if args.csv:
+                _write_csv(folder)
+    failed = sum(row.status == tables.FAILED for row in rows)
+    say(PROG, f"{len(rows)} runs, {failed} of them failed")
+    print(folder / tables.RUNS)
+    return 0
+
+
+def _rounds(session: Session, workers: Any, jobs: List[Job]) -> None:
+    """Does the jobs, and further replicates as long as the plan wants them."""
+    keys = session.campaign.keys
+    while jobs:
+        left = session.open(jobs)
+        session.write_robots(left)
+        if len(left) < len(jobs):
+            say(PROG, f"{len(jobs) - len(left)} of {len(jobs)} runs are done already")
+        workers.work_off(left, Progress(len(left)))
+        jobs = []
+        for cell in session.too_wide() if keys.plan.kind == "until" else []:
+            more = session.replicates_of(cell) + keys.replicates
+            jobs += session.jobs(min(more, keys.plan.most_replicates), [cell])
+
+
+def _forget_failed(session: Session, jobs: Sequence[Job]) -> None:
+    for run_id in tables.finished(session.folder):
+        head = tables.read_run_head(session.folder, run_id)
+        if head.row.status == tables.FAILED:
+            tables.run_path(session.folder, run_id).unlink()
+
+
+def _write_csv(folder: Path) -> None:
+    import pyarrow.csv
+
+    for name in (tables.RUNS, tables.TIMINGS):
+        table = tables.read_table(folder / name)
+        pyarrow.csv.write_csv(table, (folder / name).with_suffix(".csv"))
+
+
+def _replay(session: Session, run_id: str) -> int:
+    """Does one run again in this process."""
+    import pyarrow.csv
+
+    from ardee_campaigns.run import run_one
+
+    jobs = session.jobs(session.campaign.keys.replicates)
+    job = next((job for job in jobs if job.run_id == run_id), None)
+    if job is None:
+        known = [job.run_id for job in jobs]
+        raise GeneratorError(f"--replay: found {run_id!r}, {known_names(run_id, known)}")
+    session.write_robots([job])
+    done = run_one(job)
+    samples = done.samples.select([name for name, _ in tables.SAMPLE_FIELDS])
+    path = session.folder / f"{run_id}.csv"
+    pyarrow.csv.write_csv(samples, path)
+    say(PROG, f"{done.row.status}, {done.row.error or done.row.end_reason}")
+    print(path)
+    return 0
+
+
+def _command(args: argparse.Namespace) -> int:
+    campaign = read_campaign(args.file)
+    folder = (args.output or Path("campaign_output") / campaign.keys.name).resolve()
+    session = Session(campaign, folder)
+    if args.list:
+        _list(session)
+        return 0
+    return _replay(session, args.replay) if args.replay else _work(session, args)
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Runs the command; returns the exit code: 0 all runs are done, 1 it could not go on, 2 bad input, 130 Ctrl-C."""
+    args = _arguments(argv)
+    end_by_signals()
+    try:
+        return _command(args)
+    except Ended as ended:
+        say(PROG, "interrupted; the same command goes on")
+        return int(ended.code or 1)
+    except (GeneratorError, OSError) as error:
+        print(f"{PROG}: {error}", file=sys.stderr)
+        return 2
+    except Exception as error:
+        if type(error).__name__ != "EngineError":
+            raise
+        print(f"{PROG}: {error}", file=sys.stderr)
+        return 1

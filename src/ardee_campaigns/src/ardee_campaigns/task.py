@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Judges a run while it goes: where in the lane, when a person steps in, when it is over."""
+import math
+from collections import deque
+from typing import Deque, Optional, Tuple
+
+from ardee_campaigns.campaign_file import TaskKeys
+from ardee_world.row_truth import Deviation, Lane, Pose
+
+GIVEN_UP, OUT_OF_TIME = "given up", "out of time"
+END_OF_ROW, WENT_ON, FINISHED = "end of the row", "went on after the row", "controller finished"
+
+
+class Judge:
+    """Decides after each observation; `end` says why the run is over, or is empty."""
+
+    def __init__(self, keys: TaskKeys, lane: Lane, limit_s: float) -> None:
+        self._keys, self._lane, self._limit_s = keys, lane, limit_s
+        self._track: Deque[Tuple[float, Pose]] = deque()
+        self._interventions = 0
+        self.end = ""
+
+    def look(
+        self, time_s: float, pose: Pose, here: Deviation, is_finished: bool
+    ) -> Tuple[str, Optional[Pose]]:
+        """Returns why a person steps in, or nothing, and where the robot is set down; time from the start [s]."""
+        if self._keys.kind == "free":
+            self.end = FINISHED if is_finished else OUT_OF_TIME if time_s > self._limit_s else ""
+            return "", None
+        why = self._why_step_in(time_s, pose, here, is_finished)
+        self._note_end(time_s, here, is_finished, why)
+        if not why or self.end:
+            return "", None
+        self._interventions += 1
+        self._track.clear()
+        ahead_m = 0.0 if why == "off the lane" else self._keys.set_ahead_m
+        return why, self._lane.centre.at(here.along_m + ahead_m)
+
+    def _why_step_in(self, time_s: float, pose: Pose, here: Deviation, is_finished: bool) -> str:
+        if here.along_m > self._lane.centre.length_m - self._keys.row_end_m:
+            return ""
+        if abs(here.lateral_m) > self._keys.largest_offset_m:
+            return "off the lane"
+        if self._stands(time_s, pose):
+            return "stuck"
+        return "stopped in the row" if is_finished else ""
+
+    def _stands(self, time_s: float, pose: Pose) -> bool:
+        """Returns whether the robot has not moved for a while."""
+        self._track.append((time_s, pose))
+        while time_s - self._track[0][0] > self._keys.stuck_after_s + 1e-9:
+            self._track.popleft()
+        since_s, then = self._track[0]
+        moved = math.hypot(pose.x_m - then.x_m, pose.y_m - then.y_m)
+        has_stood = time_s - since_s >= self._keys.stuck_after_s - 1e-6
+        return has_stood and moved < self._keys.stuck_within_m
+
+    def _note_end(self, time_s: float, here: Deviation, is_finished: bool, why: str) -> None:
+        if not why and is_finished:
+            self.end = END_OF_ROW
+        elif here.along_m > self._lane.centre.length_m + self._keys.overrun_m:
+            self.end = WENT_ON
+        elif time_s > self._limit_s:
+            self.end = OUT_OF_TIME
+        elif self._interventions >= self._keys.most_interventions:
+            self.end = GIVEN_UP

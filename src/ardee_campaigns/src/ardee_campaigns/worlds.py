@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""Worlds of a campaign: their files, and a field sown in one for a run."""
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, Mapping, Optional
+from xml.etree import ElementTree
+
+from ardee_sim import packages
+from ardee_sim.packages import find_package
+
+from ardee_campaigns.campaign_file import WorldKeys
+from ardee_common.errors import GeneratorError, known_names
+from ardee_world import trial
+from ardee_world.field_config import FieldConfig
+from ardee_world.generate_field import make_configured
+from ardee_world.request import all_fields, yaml_values
+from ardee_world.trial import Trial
+
+_STEP_S = 0.005
+_USUAL_STEP_S = 0.001  # of a world that gives none
+_WORLD = """<?xml version="1.0"?>
+<sdf version="1.5">
+  <world name="default">
+    <light name="sun" type="directional">
+      <pose>0 0 10 0 0 0</pose>
+      <direction>-0.3 0.4 -1.0</direction>
+    </light>
+    <physics type="ode">
+      <max_step_size>{step_s}</max_step_size>
+      <gravity>0 0 -9.8</gravity>
+    </physics>
+    <include><uri>model://{terrain}</uri></include>
+    <include>
+      <uri>model://{name}</uri>
+      <pose>{x_m} {y_m} 0 0 0 {yaw_rad}</pose>
+    </include>
+  </world>
+</sdf>
+"""
+
+
+@dataclass(frozen=True)
+class WorldFiles:
+    """What a world is made of: a world file and the recipe of its field, of which one may be missing."""
+
+    world: Optional[Path]
+    plan: Optional[Path]
+
+    def content(self) -> bytes:
+        """Returns the bytes of the files."""
+        return b"\0".join(file.read_bytes() for file in (self.world, self.plan) if file)
+
+    def step_s(self) -> float:
+        """Returns the time of a physics step."""
+        if not self.world:
+            return _STEP_S
+        try:
+            text = ElementTree.parse(self.world).findtext("world/physics/max_step_size", "")
+        except ElementTree.ParseError as error:
+            raise GeneratorError(f"{self.world}: not valid XML: {error}") from None
+        return float(text) if text.strip() else _USUAL_STEP_S
+
+
+def _found(name: str, folder: Path, shipped: Path, what: str) -> Path:
+    for file in (folder / Path(name).expanduser(), shipped / name):
+        if file.is_file():
+            return file.resolve()
+    known = [file.name for file in shipped.glob(f"*{Path(name).suffix}")]
+    raise GeneratorError(f"{what}: found {name!r}, no such file, and {known_names(name, known)}")
+
+
+def find_files(keys: WorldKeys, folder: Path) -> WorldFiles:
+    """Returns the files of a world; relative ones lie in `folder`, or are shipped."""
+    share = find_package("ardee_world")
+    if keys.scenario:
+        return WorldFiles(*trial.scenario_paths(share, keys.scenario))
+    world = keys.world and _found(keys.world, folder, share / "worlds", "world")
+    plan = keys.field and _found(keys.field, folder, share / "fields", "field")
+    return WorldFiles(world or None, plan or None)
+
+
+def check_options(keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any]) -> None:
+    """Raises GeneratorError for an option that no recipe has, or one that the recipe refuses."""
+    known = sorted(all_fields())
+    options = {**(keys.options or {}), **factors}
+    for name in options:
+        if name not in known:
+            raise GeneratorError(f"options: found {name!r}, {known_names(name, known)}")
+    if files.plan:
+        yaml_values(files.plan)
+    elif options:
+        found = f"options: found {', '.join(options)}"
+        raise GeneratorError(f"{found} for a world without field recipe, expected a recipe")
+
+
+def _options(keys: WorldKeys, factors: Mapping[str, Any]) -> Dict[str, Any]:
+    made = {**(keys.options or {}), **factors}
+    return {name: tuple(v) if isinstance(v, list) else v for name, v in made.items()}
+
+
+def sow(
+    keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any], seed: int, folder: Path
+) -> Trial:
+    """Returns the world of a run; its field is sown in a folder of models. `factors` are options of the recipe."""
+    options = _options(keys, factors)
+    shipped = [Path(name) for name in packages.model_folders()]
+    if files.world:
+        return trial.prepare(files.world, files.plan, seed, folder, options, shipped)
+    assert files.plan is not None
+    values = yaml_values(files.plan)
+    values.update(options)
+    name = files.plan.stem
+    values["model_path"] = (*values.get("model_path", ()), *map(str, shipped))
+    values.update(name=name, output=str(folder), seed=seed)
+    folder.mkdir(parents=True, exist_ok=True)
+    make_configured(values)
+    world = folder / name / f"{name}.world"
+    x_m, y_m, yaw_rad = values.get("world_pose", FieldConfig().world_pose)
+    terrain = values.get("terrain") or "ground_plane"
+    place = {"x_m": x_m, "y_m": y_m, "yaw_rad": yaw_rad}
+    world.write_text(_WORLD.format(step_s=_STEP_S, terrain=terrain, name=name, **place))
+    made = trial.prepare(world, None, seed, folder, more_models=[folder, *shipped])
+    return dataclasses.replace(made, models=[folder])

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""Tests the campaign's file, the plan that it gives, and what is refused before the first run."""
+import itertools
+import math
+from pathlib import Path
+from typing import Any, Dict
+
+import pytest
+import small_campaign
+
+from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.plan import Planner, cells, seed_of
+from ardee_campaigns.run_campaign import half_width
+from ardee_common.errors import GeneratorError
+
+
+def test_short_forms_stand_for_long_ones(tmp_path: Path) -> None:
+    worlds = {"a": "corn", "b": "my.world", "c": "tiny.yaml"}
+    file = small_campaign.write(tmp_path, worlds=worlds, factors={"speed_m_s": [0.2, 1]})
+    campaign = read_campaign(file)
+    assert campaign.worlds["a"].scenario == "corn"
+    assert campaign.worlds["b"].world == "my.world"
+    assert campaign.worlds["c"].field == "tiny.yaml"
+    assert campaign.factors["speed_m_s"].values == (0.2, 1)
+    assert campaign.robots["tsv1"].model == "tsv1_default"
+
+
+def test_a_factorial_plan_has_all_combinations(tmp_path: Path) -> None:
+    factors = {"speed_m_s": [0.2, 0.4], "turn_rad_s": {"values": [0, 1, 2]}}
+    found = cells(read_campaign(small_campaign.write(tmp_path, factors=factors)))
+    assert len(found) == len(set(found)) == 2 * 2 * 3
+    wanted = set(itertools.product([0.2, 0.4], [0, 1, 2]))
+    assert {tuple(value for _, value in cell.factors) for cell in found} == wanted
+
+
+def test_a_latin_hypercube_has_one_point_in_each_part_of_each_range(tmp_path: Path) -> None:
+    factors = {"speed_m_s": {"low": 0.2, "high": 1.0}, "turn_rad_s": [0, 1]}
+    plan = {"kind": "latin_hypercube", "points": 8}
+    file = small_campaign.write(tmp_path, factors=factors, plan=plan)
+    points = [dict(cell.factors) for cell in cells(read_campaign(file))][:8]
+    speeds = sorted(point["speed_m_s"] for point in points)
+    assert [math.floor((speed - 0.2) / 0.1) for speed in speeds] == list(range(8))
+    assert sorted(point["turn_rad_s"] for point in points) == [0] * 4 + [1] * 4
+    assert points == [dict(cell.factors) for cell in cells(read_campaign(file))][:8]
+
+
+def test_seeds_are_paired_and_runs_are_known_by_their_inputs(tmp_path: Path) -> None:
+    planner = Planner(read_campaign(small_campaign.write(tmp_path)))
+    jobs = [planner.job(cell, number, tmp_path) for cell in planner.cells for number in range(2)]
+    assert len({job.run_id for job in jobs}) == 4
+    assert [job.seed for job in jobs[:2]] == [job.seed for job in jobs[2:]]
+    assert len({job.seed for job in jobs}) == 2
+    changed = Planner(read_campaign(small_campaign.write(tmp_path, limit_sim_s=2)))
+    assert changed.job(changed.cells[0], 0, tmp_path).run_id != jobs[0].run_id
+    (tmp_path / "tiny.yaml").write_text((tmp_path / "tiny.yaml").read_text() + "seed: 4\n")
+    sown = Planner(read_campaign(tmp_path / "campaign.yaml"))
+    assert (
+        sown.job(sown.cells[0], 0, tmp_path).run_id
+        != changed.job(changed.cells[0], 0, tmp_path).run_id
+    )
+    assert seed_of(1, "a", 0) != seed_of(1, "b", 0) != seed_of(2, "b", 0)
+
+
+CONSTANT = "ardee_campaigns.examples.constant:make"
+REFUSED: Dict[str, Any] = {
+    "an unknown key": ({"replicate": 3}, "unknown key 'replicate'"),
+    "no controllers": ({"controllers": {}}, "controllers: found none"),
+    "an empty factor": ({"factors": {"speed_m_s": []}}, "speed_m_s|values: found []"),
+    "a value twice": ({"factors": {"speed_m_s": [1, 1.0]}}, "values: found [1, 1.0]"),
+    "a range in a factorial": (
+        {"factors": {"speed_m_s": {"low": 0.1, "high": 0.2}}},
+        "which a Latin hypercube needs",
+    ),
+    "an unknown measure": ({"measures": ["distance"]}, "did you mean 'distance_m'"),
+    "a measure that does not import": ({"measures": ["nowhere:slip"]}, "No module named 'nowhere'"),
+    "a factory that does not import": (
+        {"controllers": {"mine": "nowhere:make"}},
+        "No module named 'nowhere'",
+    ),
+    "a factory that is not there": (
+        {"controllers": {"mine": "ardee_campaigns.examples.constant:build"}},
+        "has no attribute 'build'",
+    ),
+    "an unknown parameter": ({"factors": {"sped_m_s": [1]}}, "sped_m_s"),
+    "an unknown scenario": ({"worlds": {"a": "korn"}}, "did you mean 'corn'"),
+    "a world without file": ({"worlds": {"a": "no.world"}}, "found 'no.world', no such file"),
+    "an unknown option of a recipe": (
+        {"worlds": {"a": {"field": "tiny.yaml", "options": {"row_spacing": 1}}}},
+        "did you mean 'row_spacing_m'",
+    ),
+    "two worlds in one": (
+        {"worlds": {"a": {"scenario": "corn", "field": "tiny.yaml"}}},
+        "found scenario and field",
+    ),
+    "an unknown topic": (
+        {"robots": {"a": {"topics": {"command": "cmd_vel", "scan": "ardee/hokuio"}}}},
+        "did you mean 'ardee/hokuyo'",
+    ),
+    "an unknown pace": ({"robots": {"a": {"pace": "odometry"}}}, "pace: found 'odometry'"),
+    "a period of no whole steps": (
+        {"robots": {"a": {"period_s": 0.012}}},
+        "found a control period of 0.012 s, expected whole steps of 0.005 s",
+    ),
+    "an unknown robot": ({"robots": {"a": "tsv9"}}, "found no robot 'tsv9'"),
+    "a plan without measure": ({"plan": {"kind": "until"}}, "expected measure and half_width"),
+    "a name with a blank": ({"controllers": {"a b": CONSTANT}}, "found the name 'a b'"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_before_the_first_run_is_refused(tmp_path: Path, case: str) -> None:
+    changes, said = REFUSED[case]
+    file = small_campaign.write(tmp_path, **changes)
+    with pytest.raises(GeneratorError) as caught:
+        Planner(read_campaign(file))
+    message = str(caught.value)
+    assert message.startswith(f"{file}:") and "\n" not in message
+    assert message[len(f"{file}:")].isdigit() or "missing" in message
+    assert any(part in message for part in said.split("|")), message
+
+
+def test_the_half_width_of_an_interval_is_students() -> None:
+    assert half_width([1.0, 2.0, 3.0]) == pytest.approx(4.302653 / math.sqrt(3.0), rel=1e-6)
+    assert half_width([1.0]) == math.inf

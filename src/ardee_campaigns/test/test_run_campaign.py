@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: MIT
+"""Tests the command on small campaigns: the same bytes however it is worked off, and what fails."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Callable, Dict, List
+
+import pytest
+import small_campaign
+from small_campaign import run, write
+
+from ardee_campaigns import engine, tables
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """Returns runs.parquet of the small campaign, worked off by one process."""
+    folder = tmp_path_factory.mktemp("reference")
+    run(write(folder), "--output", folder / "out")
+    return (folder / "out" / tables.RUNS).read_bytes()
+
+
+def rows(output: Path) -> List[dict]:
+    return tables.read_runs(output).to_pylist()
+
+
+@pytest.mark.parametrize("workers", [2, 4])
+def test_any_number_of_workers_gives_the_same_bytes(
+    tmp_path: Path, workers: int, reference: bytes
+) -> None:
+    done = run(write(tmp_path, workers=workers), "--output", tmp_path / "out", "--csv")
+    assert (tmp_path / "out" / tables.RUNS).read_bytes() == reference
+    assert done.stdout.strip() == str(tmp_path / "out" / tables.RUNS)
+    assert "4 runs, 0 of them failed" in done.stderr
+    found = rows(tmp_path / "out")
+    assert [row["status"] for row in found] == [tables.OK] * 4
+    assert all(0.3 < row["distance_m"] < 0.8 for row in found)
+    assert (tmp_path / "out" / "runs.csv").read_text().count("\n") == 5
+    again = run(tmp_path / "campaign.yaml", "--output", tmp_path / "out")
+    assert "4 of 4 runs are done already" in again.stderr
+
+
+def until(condition: Callable[[], object], what: str, seconds: float = 60.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"waited in vain for {what}"
+        time.sleep(0.02)
+
+
+def finished(output: Path) -> Dict[str, float]:
+    """Returns the finished runs and when their files were written."""
+    return {path.name: path.stat().st_mtime for path in (output / "runs").glob("[!.]*.parquet")}
+
+
+def begun(output: Path) -> List[str]:
+    return [path.name for path in (output / "attempts").glob("*.txt") if path.stat().st_size]
+
+
+@pytest.fixture
+def start() -> Callable[..., subprocess.Popen]:
+    """Returns a function that starts a child of the test; what is left of it is ended."""
+    children: List[subprocess.Popen] = []
+
+    def started(*words: object) -> subprocess.Popen:
+        made = subprocess.Popen(
+            [str(word) for word in words],
+            env=small_campaign.environment(),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        children.append(made)
+        return made
+
+    yield started
+    for child in children:
+        if child.poll() is None:
+            os.killpg(child.pid, signal.SIGKILL)
+        child.communicate()
+
+
+def worker_of(output: Path) -> int:
+    """Returns the process of the run that was begun."""
+    return int((output / "attempts" / begun(output)[0]).read_text().split()[1])
+
+
+def test_a_killed_worker_costs_its_run_a_retry_and_a_line(
+    tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
+) -> None:
+    output = tmp_path / "out"
+    child = start(*small_campaign.command(write(tmp_path), "--output", output))
+    until(lambda: begun(output), "the first run")
+    os.kill(worker_of(output), signal.SIGKILL)
+    assert child.wait(60) == 0
+    assert (output / tables.RUNS).read_bytes() == reference
+    timings = tables.read_timings(output).to_pylist()
+    assert sorted(timing["attempts"] for timing in timings) == [1, 1, 1, 2]
+    assert [timing["lost"] for timing in timings if timing["lost"]] == ["its worker ended"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_campaign_that_was_ended_goes_on(
+    tmp_path: Path, reference: bytes, number: int, start: Callable[..., subprocess.Popen]
+) -> None:
+    output, file = tmp_path / "out", write(tmp_path)
+    child = start(*small_campaign.command(file, "--output", output))
+    until(lambda: finished(output), "the first finished run")
+    os.kill(child.pid, number)
+    assert child.wait(30) == (130 if number == signal.SIGINT else -number)
+    kept = finished(output)
+    assert 0 < len(kept) < 4
+    run(file, "--output", output)
+    assert (output / tables.RUNS).read_bytes() == reference
+    assert kept.items() <= finished(output).items()
+
+
+def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
+    tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
+) -> None:
+    output, file = tmp_path / "out", write(tmp_path)
+
+    def cluster(name: str) -> List[object]:
+        place = tmp_path / name
+        dask = [sys.executable, "-m", "distributed.cli"]
+        scheduler = start(
+            *dask[:2], "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", 0,
+            "--no-dashboard", "--scheduler-file", place,
+        )  # fmt: skip
+        until(place.is_file, "the scheduler")
+        start(
+            *dask[:2], "distributed.cli.dask_worker", "--scheduler-file", place,
+            "--nthreads", 1, "--no-dashboard", "--local-directory", tmp_path,
+        )  # fmt: skip
+        address = json.loads(place.read_text())["address"]
+        return [scheduler, address]
+
+    scheduler, address = cluster("one")
+    child = start(*small_campaign.command(file, "--output", output, "--scheduler", address))
+    until(lambda: finished(output), "the first finished run")
+    scheduler.kill()
+    _, said = child.communicate(timeout=60)
+    assert child.returncode == 1
+    assert said.strip().splitlines()[-1].startswith("run_campaign: the scheduler was lost"), said
+    kept = finished(output)
+    _, address = cluster("other")
+    run(file, "--output", output, "--scheduler", address)
+    assert (output / tables.RUNS).read_bytes() == reference
+    assert kept.items() <= finished(output).items()
+
+
+def test_controllers_that_misbehave_fail_their_runs_and_the_rest_goes_on(tmp_path: Path) -> None:
+    ways = ("raises", "returns_nan", "returns_none", "eats_memory", "hangs", "dies", "dies_once")
+    controllers: dict = {
+        way: {"factory": "misbehaving:make", "params": {"how": way, "marks": str(tmp_path)}}
+        for way in ways
+    }
+    controllers["good"] = small_campaign.CAMPAIGN["controllers"]["straight"]
+    limits = {"watchdog_wall_s": 4, "memory_mb": 1000, "replicates": 1, "workers": 2}
+    measures = ["distance_m", "misbehaving:samples"]
+    file = write(tmp_path, controllers=controllers, measures=measures, **limits)
+    run(file, "--output", tmp_path / "out")
+    found = {row["controller"]: row for row in rows(tmp_path / "out")}
+    errors = {name: row["error"] for name, row in found.items() if row["status"] == "failed"}
+    assert errors == {
+        "raises": "KeyError: 'no such\\nrow'",
+        "returns_nan": "controller's command: found nan and 0.0, expected finite",
+        "returns_none": "controller's command: found NoneType, expected a Twist, or speed and"
+        " turn rate",
+        "eats_memory": "MemoryError",
+        "hangs": "lost each time it was tried: stalled: took longer than watchdog_wall_s",
+        "dies": "lost each time it was tried: its worker ended",
+    }
+    assert found["dies_once"]["samples"] == found["good"]["samples"] == 62
+    assert found["raises"]["sim_s"] == pytest.approx(0.075)  # 4 samples before it
+    timings = {row["run_id"]: row for row in tables.read_timings(tmp_path / "out").to_pylist()}
+    assert timings[found["dies_once"]["run_id"]]["attempts"] == 2
+    assert timings[found["hangs"]["run_id"]]["attempts"] == 3
+
+
+def test_a_world_or_measure_that_fails_is_a_failed_row(tmp_path: Path) -> None:
+    world = '<sdf version="1.6"><world name="w"><include>'
+    (tmp_path / "bad.world").write_text(f"{world}<uri>model://no</uri></include></world></sdf>")
+    worlds = {"bad": "bad.world", "tiny": "tiny.yaml"}
+    names = {"replicates": 1, "measures": ["misbehaving:endless"]}
+    run(write(tmp_path, worlds=worlds, **names), "--output", tmp_path / "out")
+    errors = {row["world"]: row["error"] for row in rows(tmp_path / "out")}
+    assert "bad.world: found 0 fields with truth.json" in errors["bad"]
+    assert errors["tiny"] == "ValueError: no measure"
+    assert all(row["status"] == tables.FAILED for row in rows(tmp_path / "out"))
+    again = run(tmp_path / "campaign.yaml", "--output", tmp_path / "out", "--retry-failed")
+    assert "4 runs, 4 of them failed" in again.stderr and "already" not in again.stderr
+
+
+def test_two_campaigns_do_not_share_a_folder(tmp_path: Path) -> None:
+    output = tmp_path / "out"
+    with engine.locked(output):
+        done = run(write(tmp_path), "--output", output, code=2)
+    assert done.stderr.count("\n") == 1 and "another campaign is at work" in done.stderr
+    assert not finished(output)
+
+
+def test_a_full_disk_ends_the_campaign_in_one_line(tmp_path: Path) -> None:
+    file, output = write(tmp_path), tmp_path / "out"
+    output.mkdir()
+    mount = ["unshare", "--mount", *(["--map-root-user"] * (os.geteuid() != 0)), "sh", "-ec"]
+    if subprocess.run([*mount, "true"], capture_output=True).returncode:
+        pytest.skip("this kernel lets no one mount")
+    words = " ".join(small_campaign.command(file, "--output", output))
+    script = f"mount -t tmpfs -o size=72k small {output}; exec {words}"
+    env = small_campaign.environment()
+    done = subprocess.run([*mount, script], env=env, capture_output=True, text=True, timeout=60)
+    last = done.stderr.strip().splitlines()[-1]
+    assert done.returncode == 1, done.stderr
+    assert "No space left on device; free some and start again" in last
+
+
+def test_the_plan_is_listed_and_nothing_run(tmp_path: Path) -> None:
+    done = run(
+        write(tmp_path, factors={"speed_m_s": [0.2, 0.5]}), "--output", tmp_path / "o", "--list"
+    )
+    lines = done.stdout.splitlines()
+    assert lines[0].endswith("replicate,seed,is_done,factor_speed_m_s") and len(lines) == 9
+    assert "8 runs, 8 of them to do" in done.stderr
+    assert not (tmp_path / "o").exists()
+
+
+def test_replicates_are_added_until_the_interval_is_narrow(tmp_path: Path) -> None:
+    plan = {"kind": "until", "measure": "lateral_rms_m", "half_width": 1e-12, "most_replicates": 3}
+    controllers = {"straight": small_campaign.CAMPAIGN["controllers"]["straight"]}
+    limit = {"limit_sim_s": 3.0}
+    file = write(tmp_path, plan=plan, controllers=controllers, **limit)
+    run(file, "--output", tmp_path / "out")
+    assert sorted(row["replicate"] for row in rows(tmp_path / "out")) == [0, 1, 2]
+    wide = {**plan, "half_width": 10.0}
+    run(write(tmp_path, plan=wide, controllers=controllers, **limit), "--output", tmp_path / "out")
+    assert sorted(row["replicate"] for row in rows(tmp_path / "out")) == [0, 1]
+
+
+def test_a_run_is_replayed_by_its_id(tmp_path: Path) -> None:
+    file, output = write(tmp_path, replicates=1), tmp_path / "out"
+    run(file, "--output", output)
+    run_id = rows(output)[0]["run_id"]
+    done = run(file, "--output", output, "--replay", run_id)
+    assert done.stdout.strip() == str(output / f"{run_id}.csv")
+    x_m = tables.read_run(output, run_id).samples.column("x_m").to_pylist()
+    lines = (output / f"{run_id}.csv").read_text().splitlines()[1:]
+    assert [float(line.split(",")[1]) for line in lines] == x_m
+    assert "known: " in run(file, "--output", output, "--replay", "x", code=2).stderr
