@@ -29,6 +29,8 @@ KEYS = {
     "tqdm": "python3-tqdm",
     "yaml": "python3-yaml",
 }
+# What no package needs: an example that imports one says how to install it.
+OF_THE_USER = {"stable_baselines3", "torch"}
 
 
 def modules(file: pathlib.Path) -> Iterator[Tuple[int, str]]:
@@ -58,7 +60,7 @@ def undeclared(file: pathlib.Path, ours: Set[str]) -> Iterator[str]:
         return
     is_test = "test" in file.relative_to(package).parts
     tags = ["depend", "exec_depend"] + ["test_depend"] * is_test
-    known = declared(package, tags) | ours | set(sys.stdlib_module_names)
+    known = declared(package, tags) | ours | OF_THE_USER | set(sys.stdlib_module_names)
     for line, module in modules(file):
         key = KEYS.get(module, module)
         if not {key, module} & known:

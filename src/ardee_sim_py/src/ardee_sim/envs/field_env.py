@@ -14,7 +14,7 @@ from ardee_sim.simulation import Simulation, Twist
 from ardee_sim.world import PathLike, World
 from gymnasium import spaces
 
-from ardee_world.row_truth import Pose
+from ardee_world.row_truth import Field, Pose
 
 SETTLE_S = 0.5  # in which a robot comes to rest on its springs
 COMMANDS = "cmd_vel"
@@ -126,6 +126,11 @@ class FieldEnv(gymnasium.Env):
     def world(self) -> World:
         """The present world."""
         return self._sown.world
+
+    @property
+    def field(self) -> Field:
+        """The truth of the present field: rows and stalks."""
+        return self._sown.trial.field
 
     def pose(self) -> Pose:
         """Returns the robot's true pose on the ground plan, which its task may hide."""
