@@ -35,6 +35,7 @@ API = {
     "ardee_common": "src/ardee_common/src/ardee_common",
     "ardee_models": "src/ardee_models/src/ardee_models",
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
+    "ardee_campaigns": "src/ardee_campaigns/src/ardee_campaigns",
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",
 }
 NOT_PAGES = ("conf.py", "generate_reference.py", "yaml_keys.py", "markdown_text.py", "__pycache__")
@@ -68,6 +69,13 @@ ENVIRONMENTS_HEAD = """# Environments
 `import gymnasium, ardee_sim.envs` registers them; needs Gymnasium (`scripts/setup` installs it for this workspace).
 Arguments of `gymnasium.make` that all of them take are those of
 [FieldEnv](python/ardee_sim.md). [Tutorial 8](../tutorials/8_learn_to_drive.md) uses one.
+"""
+CAMPAIGN_TABLES = """# Tables of a campaign
+
+Parquet files in the output folder of `rosrun ardee_campaigns run_campaign`, read by `ardee_campaigns.tables`, pandas and
+others. `runs.parquet` has a column `factor_NAME` for each factor before `replicate`, and one for each measure at its end.
+`runs/RUN_ID.parquet` is all that one run left: its samples without `run_id`, and the lidar's returns abeam, `raw_along_m`
+and `raw_lateral_m`. A number that is not known is NaN.
 """
 CPP_LIBRARY = """# C++ library
 
@@ -222,6 +230,27 @@ def environments() -> str:
     return "".join(parts)
 
 
+def campaign_tables() -> str:
+    """The page of a campaign's tables and measures."""
+    from ardee_campaigns import measures, tables
+
+    parts, source = [CAMPAIGN_TABLES], inspect.getsource(tables)
+    schemas = {
+        tables.RUNS: tables.runs_schema({}, (), {}),
+        tables.TIMINGS: tables.TIMING_SCHEMA,
+        tables.SAMPLES: tables.SAMPLE_SCHEMA,
+    }
+    for name, schema in schemas.items():
+        rows = []
+        for field in schema:
+            found = re.search(rf'\("{field.name}", .*?\),?  # (.*)$', source, re.MULTILINE)
+            rows.append((code(field.name), str(field.type), found[1] if found else ""))
+        parts.append(f"\n## {name}\n\n{table(('column', 'type', 'is'), rows)}")
+    shipped = ((code(name), meaning) for name, (_, meaning) in measures.MEASURES.items())
+    parts.append(f"\n## Measures\n\n{table(('name', 'is'), shipped)}")
+    return "".join(parts)
+
+
 def cpp_library() -> str:
     """The page of the C++ library's headers."""
     parts, base = [CPP_LIBRARY], ROOT / "src/ardee_sim_cpp/ardee_sim"
@@ -258,6 +287,7 @@ def main() -> int:
         "reference/labels.md": labels(),
         "reference/cpp_library.md": cpp_library(),
         "reference/environments.md": environments(),
+        "reference/campaign_tables.md": campaign_tables(),
     }
     for page, text in [*made.items(), *documents(), *python_api()]:
         (folder / page).parent.mkdir(parents=True, exist_ok=True)

@@ -9,6 +9,7 @@ from typing import Any, Iterator, Tuple
 from markdown_text import code, table
 
 from ardee_bridge.nodes import settings
+from ardee_campaigns import campaign_file
 from ardee_common.options import kind_of, range_text, unit_of
 from ardee_models.plant.species import SpeciesFile
 from ardee_models.terrain.recipe import Recipe
@@ -24,6 +25,11 @@ FILES = (
     ("Species", "`config/species/*.yaml` of ardee_models, with the numbers' sources", SpeciesFile),
     ("Row follower", "`parameters:=FILE` and `--parameters FILE`", Parameters),
     ("Scenario", "an entry of `config/scenarios.yaml` of ardee_world", Scenario),
+    ("Campaign", "a file of `rosrun ardee_campaigns run_campaign`", campaign_file.CampaignKeys),
+    ("A world of a campaign", "an entry of `worlds`", campaign_file.WorldKeys),
+    ("A robot of a campaign", "an entry of `robots`", campaign_file.RobotKeys),
+    ("A controller of a campaign", "an entry of `controllers`", campaign_file.ControllerKeys),
+    ("A factor of a campaign", "an entry of `factors`", campaign_file.FactorKeys),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
     ("A GPS of the sensor server", "an entry of `sources`", settings.GpsSource),
     ("A camera of the sensor server", "an entry of `sources`", settings.ImageSource),
@@ -31,7 +37,14 @@ FILES = (
     ("Controls client", "`config/controls_client.yaml` of ardee_bridge", settings.ControlSettings),
 )
 HEAD = ("key", "meaning", "values", "default")
-PLAIN = {str: "text", float: "number", int: "whole number", bool: "true or false", Any: "any"}
+PLAIN = {
+    str: "text",
+    float: "number",
+    int: "whole number",
+    bool: "true or false",
+    dict: "mapping",
+    Any: "any",
+}
 RATES = (("_m_s", "m/s"), ("_rad_s", "rad/s"), ("_hz", "1/s"), ("_s", "s"), ("_bytes", "bytes"))
 WITHOUT_END = 1e15  # a limit above it is none
 INTRODUCTION = """# Keys of YAML files

@@ -163,7 +163,7 @@ class PlanKeys:
 
 @dataclass(frozen=True)
 class CampaignKeys:
-    """Keys of a campaign's file."""
+    """Entries by name, limits, and what is varied and measured."""
 
     name: str = option("", "of the campaign")
     worlds: Optional[dict] = option(

@@ -26,7 +26,12 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         description="Do the runs of a campaign's file that are not done yet, and write tables of all. Ctrl-C ends it; "
         "the same command goes on.",
     )
-    parser.add_argument("file", type=Path, metavar="CAMPAIGN.yaml", help="file of the campaign")
+    parser.add_argument(
+        "file",
+        type=Path,
+        metavar="CAMPAIGN.yaml",
+        help="file of the campaign, or the name of a shipped one: " + ", ".join(_shipped()),
+    )
     parser.add_argument(
         "--output", type=Path, help="folder of the tables (default: campaign_output/NAME)"
     )
@@ -52,6 +57,12 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="do this run again by itself and write its samples as RUN_ID.csv; print where",
     )
     return parser.parse_args(argv)
+
+
+def _shipped() -> Dict[str, Path]:
+    """Returns the campaigns that ship, by name."""
+    files = (Path(__file__).resolve().parent / "examples").glob("*.yaml")
+    return {file.stem: file for file in sorted(files)}
 
 
 class Progress:
@@ -244,7 +255,7 @@ def _replay(session: Session, run_id: str) -> int:
 
 
 def _command(args: argparse.Namespace) -> int:
-    campaign = read_campaign(args.file)
+    campaign = read_campaign(_shipped().get(str(args.file), args.file))
     folder = (args.output or Path("campaign_output") / campaign.keys.name).resolve()
     session = Session(campaign, folder)
     if args.list:

@@ -31,14 +31,14 @@ _COMPRESSION = "zstd"
 Factor = Union[float, str, bool]
 
 _REQUIRED = (
-    ("run_id", pa.string()),
+    ("run_id", pa.string()),  # hash of all inputs of the run
     ("world", pa.string()),  # name in the campaign's file
     ("robot", pa.string()),
     ("controller", pa.string()),
 )
 _OUTCOME = (
     ("replicate", pa.int32()),
-    ("seed", pa.uint64()),
+    ("seed", pa.uint64()),  # the same for all robots, controllers and factors
     ("status", pa.string()),  # ok or failed
     ("error", pa.string()),  # one line; empty if status is ok
     ("end_reason", pa.string()),
@@ -47,7 +47,7 @@ _OUTCOME = (
 TIMING_SCHEMA = pa.schema(
     [
         ("run_id", pa.string()),
-        ("wall_s", pa.float64()),
+        ("wall_s", pa.float64()),  # real time of the last attempt
         ("host", pa.string()),
         ("attempts", pa.int32()),  # 1, and one more for each worker that was lost or stalled
         ("lost", pa.string()),  # why the attempts before the last one were lost, one line each
@@ -61,7 +61,7 @@ SAMPLE_FIELDS = (
     ("command_speed_m_s", pa.float64()),
     ("command_turn_rad_s", pa.float64()),
     ("along_m", pa.float64()),  # on the lane's centre line, from the rows' first place
-    ("lateral_m", pa.float64()),
+    ("lateral_m", pa.float64()),  # from the centre line, positive to the left
     ("heading_rad", pa.float64()),
     ("left_true_m", pa.float64()),  # from the sensor to the ideal line of the left row
     ("right_true_m", pa.float64()),
