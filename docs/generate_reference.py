@@ -72,10 +72,10 @@ Arguments of `gymnasium.make` that all of them take are those of
 """
 CAMPAIGN_TABLES = """# Tables of a campaign
 
-Parquet files in the output folder of `rosrun ardee_campaigns run_campaign`, read by `ardee_campaigns.tables`, pandas and
-others. `runs.parquet` has a column `factor_NAME` for each factor before `replicate`, and one for each measure at its end.
-`runs/RUN_ID.parquet` is all that one run left: its samples without `run_id`, and the lidar's returns abeam, `raw_along_m`
-and `raw_lateral_m`. A number that is not known is NaN.
+Parquet files in the output folder of `rosrun ardee_campaigns run_campaign`, read by `ardee_campaigns.tables`, pandas
+and others. `runs.parquet` has a column `factor_NAME` for each factor before `replicate`, and one for each measure at
+its end. `runs/RUN_ID.parquet` is all that one run left: its samples without `run_id`, and the lidar's returns abeam,
+`raw_along_m` and `raw_lateral_m`. A number that is not known is NaN.
 """
 CPP_LIBRARY = """# C++ library
 
