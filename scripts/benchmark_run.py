@@ -11,6 +11,7 @@ from typing import Any, Dict, List
 import benchmark_bridge
 import benchmark_field
 import benchmark_measure
+import benchmark_python
 import benchmark_table
 
 from ardee_common.cli import Parser, number_in, whole_in
@@ -18,7 +19,7 @@ from ardee_common.process import end_by_signals, ignore_end_signals
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FARM_WORLD = ROOT / "src" / "ardee_world" / "worlds" / "farm.world"
-KINDS = ("start", "physics", "lidar", "camera", "rtf", "bridge")
+KINDS = ("start", "physics", "lidar", "camera", "rtf", "bridge", "python")
 SIZES = [200, 2_000, 20_000, 200_000]
 
 
@@ -68,9 +69,10 @@ def options() -> argparse.Namespace:
     return found
 
 
-def measure_all(found: argparse.Namespace, work: pathlib.Path) -> Dict[int, Dict[str, Any]]:
+def measure_all(
+    found: argparse.Namespace, work: pathlib.Path, urdf: pathlib.Path
+) -> Dict[int, Dict[str, Any]]:
     """Measures every size in every repetition; returns medians by number of plants."""
-    urdf = benchmark_measure.make_urdf(work)
     results = {}  # type: Dict[int, Dict[str, Any]]
     for size in sorted(set(found.plants)):
         say(f"{size} plants: generate")
@@ -100,19 +102,26 @@ def main() -> int:
     work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_benchmark_"))
     try:
         about = benchmark_table.machine()
-        results = measure_all(found, work) if found.only != ["bridge"] else {}
+        urdf = benchmark_measure.make_urdf(work)
+        has_sizes = not set(found.only) <= {"bridge", "python"}
+        results = measure_all(found, work, urdf) if has_sizes else {}
+        python = {}  # type: Dict[str, float]
+        if "python" in found.only:
+            python = benchmark_python.measure(found.brief, found.repeat, urdf, say)
         bridge = {}  # type: Dict[str, Any]
         if "bridge" in found.only:
             bridge = benchmark_bridge.measure(found.window_s, found.loss_s, found.repeat, say)
         print(benchmark_table.header(about, found.repeat))
         if results:
             print(benchmark_table.table(results))
-        print("\n".join(benchmark_bridge.lines(bridge)))
+        lines = benchmark_python.lines(python) + benchmark_bridge.lines(bridge)
+        print("\n".join(lines))
         if found.json:
             figures = {
                 "machine": about,
                 "repeat": found.repeat,
                 "plants": results,
+                "python": python,
                 "bridge": bridge,
             }
             found.json.write_text(json.dumps(figures, indent=2) + "\n")

@@ -8,6 +8,7 @@ from typing import Dict
 
 import benchmark_bridge
 import benchmark_field
+import benchmark_python
 import benchmark_table
 from bench.capture import Capture
 
@@ -45,6 +46,10 @@ def test_every_figure_is_measured(tmp_path: pathlib.Path) -> None:
     # Rays of engine and Embree have equal hits.
     assert figures["lidar"]["flat_agreement"] > 0.99
     assert figures["engine"]["placements"] == 201
+    python = json.loads(path.read_text())["python"]
+    assert set(python) == set(benchmark_python.ROWS)
+    assert all(value > 0.0 for name, value in python.items() if name != "overhead_percent")
+    assert all(text in done.stdout for text, *_ in benchmark_python.ROWS.values())
     bridge = json.loads(path.read_text())["bridge"]
     for name, spread in bridge.items():
         assert 0.0 < spread["p50_ms"] <= spread["p99_ms"] <= spread["max_ms"], name
@@ -80,6 +85,14 @@ def test_medians_and_missed_budgets() -> None:
     assert start.cell(20_001, figures, figures) == "3.20 (<= 10.00)  "
     assert start.cell(200_001, figures, figures) == "3.20  "
     assert start.cell(200, {}, {}) == "-"
+
+
+def test_a_figure_of_python_that_misses_its_budget_is_marked() -> None:
+    slow, quick, late = benchmark_python.lines(
+        {"steps_per_s": 399.0, "camera_steps_per_s": 30.0, "reset_ms": 20.1}
+    )
+    assert slow.endswith("399 (>= 400) !") and quick.endswith("30 (>= 30)")
+    assert late.endswith("20.1 (<= 20.0) !")
 
 
 def spread_of(p99_ms: float, lost: int = 0) -> Dict[str, float]:
