@@ -7,6 +7,6 @@ setup(
     **generate_distutils_setup(
         packages=["ardee_sim", "ardee_sim.envs", "ardee_sim.examples"],
         package_dir={"": "src"},
-        package_data={"ardee_sim": ["py.typed", "examples/*.npz"]},
+        package_data={"ardee_sim": ["_core.pyi", "py.typed", "examples/*.npz"]},
     )
 )

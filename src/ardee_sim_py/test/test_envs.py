@@ -9,6 +9,7 @@ import gymnasium
 import numpy as np
 import pytest
 from ardee_sim.envs import FieldEnv
+from ardee_sim.envs.randomise import SCENE
 from ardee_sim.examples import learn_to_follow
 from gymnasium.utils.env_checker import check_env
 
@@ -79,6 +80,27 @@ def test_an_episode_is_repeated_from_what_it_says(make: Make) -> None:
     assert not np.array_equal(observation, other) and np.array_equal(observation, again)
     assert info["replay"]["numbers"] != other_info["replay"]["numbers"]
     assert 0.5 <= info["replay"]["numbers"]["emergence"] <= 0.9
+
+
+@pytest.mark.parametrize("name", list(SCENE))
+def test_numbers_of_the_scene_act_and_are_repeated(make: Make, name: str) -> None:
+    values = {"noise_scale": (0.0, 5.0), "ground_friction": (0.02, 0.6)}
+    low, high = values.get(name, SCENE[name])
+    is_light = name in ("sun_azimuth_rad", "sun_elevation_rad", "sun_intensity", "ambient")
+    env = make("RowFollowCamera" if is_light else "RowFollow", randomise={name: (low, high)})
+    _, info = env.reset(seed=1)
+    assert low <= info["replay"]["numbers"][name] <= high
+
+    def ahead(number: float) -> bytes:
+        observation, info = env.reset(
+            options={"numbers": {name: number}, "start_seed": 1, "noise_seed": 1}
+        )
+        for _ in range(5):
+            observation = env.step(AHEAD)[0]
+        return observation.tobytes()
+
+    middle = (low + 2 * high) / 3
+    assert ahead(low) != ahead(middle) == ahead(middle)
 
 
 def test_drawn_numbers_act(make: Make) -> None:
@@ -221,7 +243,11 @@ def test_bad_arguments_are_refused_with_what_was_expected(make: Make) -> None:
         (dict(robot="tsv9"), "found no robot 'tsv9'"),
         (dict(control_period_s=0.012), "expected a whole number of steps of 0.005 s"),
         (dict(randomise={"emergence": (0, 1)}), "a field that is not sown anew"),
-        (dict(seed_field=True, randomise={"rain": (0, 1)}), "randomise: found 'rain'"),
+        (
+            dict(randomise={"noise": (0, 1)}),
+            "randomise: found 'noise', .*did you mean 'noise_scale'",
+        ),
+        (dict(randomise={"ambient": (0, 2)}), "ambient: found .*, expected .* within 0 and 1"),
         (dict(seed_field=True, randomise={"lodging": (1, 0)}), "lodging: found"),
         (dict(render_mode="human"), "render_mode"),
         (dict(topics=("ardee/gps",)), "found a FixReading, expected scan, image or IMU"),

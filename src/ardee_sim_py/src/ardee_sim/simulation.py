@@ -9,10 +9,10 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Un
 
 import numpy as np
 from ardee_sim import _core
-from ardee_sim.readings import Reading, make_reading
+from ardee_sim.readings import make_reading
 from ardee_sim.world import World
 
-Vector = Sequence[float]
+Vector = Union[Sequence[float], np.ndarray]
 Command = Union["Twist", float, bool, Sequence[float], Mapping[str, Any]]
 
 
@@ -273,12 +273,12 @@ class Simulation:
         for topic in topics:
             self._core.undemand(topic)
 
-    def latest(self, topic: str) -> Optional[Reading]:
-        """Returns the last reading of a demanded topic, or None before the first."""
+    def latest(self, topic: str) -> Any:
+        """Returns the last reading of a demanded topic, of the class that topics() names; None before the first."""
         made = self._core.latest(topic)
         return None if made is None else make_reading(made)
 
-    def drain(self, topic: str) -> List[Reading]:
+    def drain(self, topic: str) -> List[Any]:
         """Returns the readings since the last call, in the order of time, up to the `keep` of demand()."""
         return [make_reading(made) for made in self._core.drain(topic)]
 
@@ -346,6 +346,7 @@ class Simulation:
         if not 0 <= near_m < math.inf:
             raise ValueError(f"found near_m={near_m}, expected 0 or more")
         wanted = (part == "rgb", part == "depth_m", part in ("labels", "instances"))
-        size = (width_px, height_px, horizontal_fov_rad, near_m)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
-        return self._core.picture(*pose, *size, *wanted)[part]
+        return self._core.picture(*pose, width_px, height_px, horizontal_fov_rad, near_m, *wanted)[
+            part
+        ]

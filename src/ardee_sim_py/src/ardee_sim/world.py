@@ -5,7 +5,7 @@ import csv
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 import yaml
@@ -15,6 +15,13 @@ from ardee_sim.errors import ArdeeError
 PathLike = Union[str, "os.PathLike[str]"]
 _MOST_MODELS = 16  # that stay loaded
 _SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
+
+
+class StartPose(TypedDict):
+    """Pose at which a robot starts, as arguments of Simulation.spawn()."""
+
+    xyz_m: Tuple[float, float, float]
+    rpy_rad: Tuple[float, float, float]
 
 
 @dataclass(frozen=True)
@@ -108,7 +115,7 @@ class World:
         return self._core.path()
 
     @property
-    def start(self) -> Dict[str, Tuple[float, float, float]]:
+    def start(self) -> StartPose:
         """Pose at which a robot starts, as Simulation.spawn() takes it; from NAME.start.yaml beside the world.
 
         Raises ArdeeError if the world has no such file.

@@ -6,7 +6,8 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import gymnasium
 import numpy as np
-from ardee_sim.envs.fields import FieldSource, Ranges, SownField, check_ranges
+from ardee_sim.envs.fields import FieldSource, SownField
+from ardee_sim.envs.randomise import Ranges, check_ranges, with_noise
 from ardee_sim.envs.task import Scene, Task
 from ardee_sim.errors import ArdeeError
 from ardee_sim.robots import robot as robot_text
@@ -29,12 +30,13 @@ class FieldEnv(gymnasium.Env):
     robot : name of a shipped robot, or a file, as ardee_sim.robot() takes it
     control_period_s : a whole number of the world's steps
     seed_field : sow a new field at each reset; else the field of `field_seed` stays
-    randomise : least and greatest values of a plan's numbers, drawn at each sowing
+    randomise : least and greatest values, drawn for each episode, of numbers of SCENE in ardee_sim.envs.randomise
+        (noise, light, friction), and with seed_field of a plan's numbers (emergence, stalk_spacing_m, lodging, ...)
     v_max_m_s, w_max_rad_s : speed and turn rate of an action of 1
     render_mode : None or rgb_array
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
+    metadata: Dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(
         self,
@@ -58,7 +60,6 @@ class FieldEnv(gymnasium.Env):
         self._task, self._period_s = task, control_period_s
         self._limits = v_max_m_s, w_max_rad_s
         self._ranges = dict(randomise or {})
-        check_ranges(self._ranges)
         self._field_seed = field_seed
         self._sim: Optional[Simulation] = None
         self._scene: Optional[Scene] = None
@@ -66,10 +67,9 @@ class FieldEnv(gymnasium.Env):
         self._source = FieldSource(scenario, world)
         self._sows = seed_field and self._source.is_sown
         try:
-            if self._ranges and not self._sows:
-                raise ArdeeError("randomise: found ranges for a field that is not sown anew")
+            check_ranges(self._ranges, self._sows)
             self._robot = self._source.folder / "robot.urdf"
-            self._robot.write_text(robot_text(robot))
+            self._robot_text = robot_text(robot)
             self._probe(field_seed)
         except BaseException:
             self.close()
@@ -93,8 +93,8 @@ class FieldEnv(gymnasium.Env):
         self._window = 1
         for topic in self._task.topics:
             stamps = [reading.stamp_ns for reading in self._sim.drain(topic)]
-            gaps_ns = np.diff(stamps) if len(stamps) > 1 else [self._period_s * 1e9]
-            self._window = max(self._window, math.ceil(max(gaps_ns) / self._sim.step_ns))
+            gap_ns = float(max(np.diff(stamps))) if len(stamps) > 1 else self._period_s * 1e9
+            self._window = max(self._window, math.ceil(gap_ns / self._sim.step_ns))
         self._sim.demand(*self._task.topics)
         self._task.begin(scene)
         self.observation_space = self._task.space(scene)
@@ -106,6 +106,7 @@ class FieldEnv(gymnasium.Env):
         self._sown: SownField = self._source.load(seed, numbers)
         self._plants = frozenset(plant.name for plant in self._sown.world.plants())
         self._sim = Simulation(self._sown.world)
+        self._robot.write_text(with_noise(self._robot_text, numbers.get("noise_scale", 1.0)))
         self._empty = self._sim.snapshot()
         self._present = seed, dict(numbers)
 
@@ -154,10 +155,14 @@ class FieldEnv(gymnasium.Env):
         numbers = {
             name: float(self.np_random.uniform(*self._ranges[name])) for name in self._ranges
         }
-        drawn = dict(field_seed=seeds[0], numbers=numbers, noise_seed=seeds[1], start_seed=seeds[2])
+        drawn: Episode = dict(
+            field_seed=seeds[0], numbers=numbers, noise_seed=seeds[1], start_seed=seeds[2]
+        )
         if not self._sows:
             drawn["field_seed"] = self._field_seed
-        return {**drawn, **given}
+        episode = {**drawn, **given}
+        check_ranges({name: (n, n) for name, n in episode["numbers"].items()}, self._source.is_sown)
+        return episode
 
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None

@@ -4,17 +4,15 @@
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, Mapping, Optional, Tuple
+from typing import Optional
 
 from ardee_sim import packages
+from ardee_sim.envs.randomise import Numbers, plan_values, with_scene
 from ardee_sim.errors import ArdeeError
 from ardee_sim.world import PathLike, World
 
 from ardee_common.errors import GeneratorError
-from ardee_world.request import all_fields
 from ardee_world.trial import Trial, prepare, scenario_paths
-
-Ranges = Mapping[str, Tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -23,33 +21,6 @@ class SownField:
 
     world: World
     trial: Trial
-
-
-def check_ranges(ranges: Ranges) -> None:
-    """Raises ArdeeError unless each name is `emergence` or a number of a field's plan, and each range is one."""
-    numbers = {name for name, (_, option) in all_fields().items() if _is_number(option.type)}
-    known = sorted(numbers - {"seed", "emergence_min", "emergence_max"} | {"emergence"})
-    for name, given in ranges.items():
-        if name not in known:
-            raise ArdeeError(f"randomise: found '{name}', expected one of: {', '.join(known)}")
-        if len(given) != 2 or not given[0] <= given[1]:
-            raise ArdeeError(f"randomise: {name}: found {given}, expected least and greatest value")
-
-
-def _is_number(kind: object) -> bool:
-    return kind in (int, float, Optional[float])
-
-
-def plan_values(drawn: Mapping[str, float]) -> Dict[str, object]:
-    """Returns options of a field's plan from drawn numbers; whole ones where the plan counts."""
-    values: Dict[str, object] = {}
-    for name, value in drawn.items():
-        if name == "emergence":
-            values.update(emergence_min=value, emergence_max=value)
-        else:
-            is_count = all_fields()[name][1].type is int
-            values[name] = round(value) if is_count else value
-    return values
 
 
 class FieldSource:
@@ -83,13 +54,14 @@ class FieldSource:
         """A folder of the environment's own, until close()."""
         return Path(self._folder.name)
 
-    def load(self, seed: int, drawn: Mapping[str, float]) -> SownField:
-        """Returns the field of a seed, with the drawn numbers in its plan."""
+    def load(self, seed: int, drawn: Numbers) -> SownField:
+        """Returns the field of a seed, with the drawn numbers in its plan, light and ground."""
         models = [Path(name) for name in packages.model_folders()]
         try:
             trial = prepare(
                 self._world, self._plan, seed, self.folder / "models", plan_values(drawn), models
             )
+            trial = with_scene(trial, drawn, self.folder, models)
         except GeneratorError as error:
             raise ArdeeError(str(error)) from error
         return SownField(World.from_file(trial.world, model_paths=trial.models), trial)

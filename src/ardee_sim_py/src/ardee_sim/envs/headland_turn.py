@@ -54,7 +54,7 @@ class HeadlandTurnTask:
 
     def space(self, scene: Scene) -> spaces.Space:
         """Returns the space of scan, odometry and side."""
-        made = {
+        made: Dict[str, spaces.Space] = {
             "hokuyo": space_of(as_array(scene.reading(SCAN))),
             "odom": spaces.Box(-1.0, 1.0, (4,), np.float32),
             "side": spaces.Box(-1.0, 1.0, (1,), np.float32),

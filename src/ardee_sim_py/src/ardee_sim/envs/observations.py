@@ -51,7 +51,8 @@ def observation(readings: Dict[str, Reading]) -> Any:
     parts = {topic.rsplit("/", 1)[-1]: as_array(reading) for topic, reading in readings.items()}
     if len(parts) != len(readings):
         raise ArdeeError(f"topics: found {', '.join(readings)}, expected different last parts")
-    return parts if len(parts) > 1 else next(iter(parts.values()))
+    only, *others = parts.values()
+    return parts if others else only
 
 
 def observation_space(readings: Dict[str, Reading]) -> spaces.Space:

@@ -77,7 +77,7 @@ class RowFollowCameraTask(RowFollowTask):
         if picture not in self.PICTURES:
             raise ArdeeError(f"picture: found '{picture}', expected {', '.join(self.PICTURES)}")
         self._picture, self._link = picture, camera_link
-        self._lens = dict(
+        self._lens: Dict[str, Any] = dict(
             width_px=width_px,
             height_px=height_px,
             horizontal_fov_rad=horizontal_fov_rad,
@@ -91,9 +91,9 @@ class RowFollowCameraTask(RowFollowTask):
     def observe(self, scene: Scene) -> Any:
         """Returns the picture of a pinhole camera without noise."""
         camera = scene.sim.state(f"{scene.robot}::{self._link}")
-        place = camera.xyz_m, camera.quat_xyzw
+        xyz_m, quat_xyzw = camera.xyz_m, camera.quat_xyzw
         if self._picture == "rgb":
-            return scene.sim.render(*place, **self._lens)
+            return scene.sim.render(xyz_m, quat_xyzw, **self._lens)
         if self._picture == "labels":
-            return scene.sim.label_image(*place, **self._lens)
-        return scaled_depths(scene.sim.depth_image(*place, **self._lens))
+            return scene.sim.label_image(xyz_m, quat_xyzw, **self._lens)
+        return scaled_depths(scene.sim.depth_image(xyz_m, quat_xyzw, **self._lens))

@@ -7,7 +7,6 @@ from typing import Any, Dict, FrozenSet, Protocol, Tuple
 
 import numpy as np
 from ardee_sim.envs.fields import SownField
-from ardee_sim.readings import Reading
 from ardee_sim.simulation import Simulation, State
 from gymnasium import spaces
 
@@ -32,8 +31,8 @@ class Scene:
         state = self.state()
         return Pose(float(state.xyz_m[0]), float(state.xyz_m[1]), state.yaw_rad)
 
-    def reading(self, topic: str) -> Reading:
-        """Returns the last reading of a topic of the task."""
+    def reading(self, topic: str) -> Any:
+        """Returns the last reading of a topic of the task; its class is that of the topic."""
         reading = self.sim.latest(topic)
         if reading is None:
             raise RuntimeError(f"{topic}: found no reading in a control period, expected one")
@@ -55,9 +54,11 @@ def _model(collision: str) -> str:
 
 
 class Task(Protocol):
-    """What an environment asks of its task. `topics` are demanded for the end of each control period."""
+    """What an environment asks of its task."""
 
-    topics: Tuple[str, ...]
+    @property
+    def topics(self) -> Tuple[str, ...]:
+        """Topics that are demanded for the end of each control period."""
 
     def start(self, sown: SownField, rng: np.random.Generator) -> Pose:
         """Returns where the robot starts, drawn from `rng`."""

@@ -28,7 +28,7 @@ def episode_return(env: gymnasium.Env, policy: np.ndarray, seed: int) -> float:
     total, is_over = 0.0, False
     while not is_over:
         scan, reward, terminated, truncated, _ = env.step(act(policy, scan))
-        total, is_over = total + reward, terminated or truncated
+        total, is_over = total + float(reward), terminated or truncated
     return total
 
 

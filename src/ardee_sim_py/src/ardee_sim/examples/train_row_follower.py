@@ -76,7 +76,7 @@ def follower_of(model: PPO, curve: np.ndarray, made_by: Mapping[str, Any]) -> Fo
     """Returns the policy's mean as plain arrays."""
     linear = [layer for layer in model.policy.mlp_extractor.policy_net if hasattr(layer, "bias")]
     layers = [
-        tuple(values.detach().numpy() for values in (layer.weight, layer.bias))
+        (layer.weight.detach().numpy(), layer.bias.detach().numpy())
         for layer in (*linear, model.policy.action_net)
     ]
     return Follower(layers, made_by, curve)

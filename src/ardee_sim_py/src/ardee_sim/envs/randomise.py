@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""Domain randomisation: the names of what may be drawn for an episode, and what scene numbers change."""
+
+import math
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+from typing import Dict, Mapping, Optional, Sequence, Tuple
+from xml.etree import ElementTree
+
+from ardee_sim.errors import ArdeeError
+
+from ardee_common.errors import known_names
+from ardee_models.lookup import find_model, search_path
+from ardee_world.request import all_fields
+from ardee_world.trial import Trial, field_and_terrain
+
+Ranges = Mapping[str, Tuple[float, float]]
+Numbers = Mapping[str, float]
+
+# Numbers of the scene, with their bounds; all others are numbers of a field's plan.
+SCENE = {
+    "noise_scale": (0.0, 100.0),  # factor of standard deviations and drifts of the robot's sensors
+    "sun_azimuth_rad": (-2 * math.pi, 2 * math.pi),  # where the light comes from, from x to y
+    "sun_elevation_rad": (0.01, math.pi / 2),
+    "sun_intensity": (0.0, 10.0),  # factor of the sun's colour
+    "ambient": (0.0, 1.0),  # grey level of the light from everywhere
+    "ground_friction": (0.0, 10.0),  # Coulomb's coefficient; the lesser one of two surfaces acts
+}
+_NOISE = re.compile(
+    r"(<(?:stddev|bias_stddev|dynamic_bias_stddev|noiseGrowth|\w*[gG]aussianNoise|\w*[dD]rift)>)([^<]+)(?=</)"
+)
+
+
+def plan_names() -> Sequence[str]:
+    """Returns the names of the numbers of a field's plan; `emergence` sets both of its bounds."""
+    numbers = {
+        name
+        for name, (_, option) in all_fields().items()
+        if option.type in (int, float, Optional[float])
+    }
+    return sorted(numbers - {"seed", "emergence_min", "emergence_max"} | {"emergence"})
+
+
+def check_ranges(ranges: Ranges, is_sown: bool) -> None:
+    """Raises ArdeeError unless each name is one of SCENE or of a sown field's plan, and each range is one."""
+    known = [*SCENE, *plan_names()]
+    for name, given in ranges.items():
+        if name not in known:
+            raise ArdeeError(f"randomise: found '{name}', {known_names(name, known)}")
+        if name not in SCENE and not is_sown:
+            raise ArdeeError(f"randomise: found '{name}' for a field that is not sown anew")
+        least, greatest = SCENE.get(name, (-math.inf, math.inf))
+        if len(given) != 2 or not least <= given[0] <= given[1] <= greatest:
+            bounds = f" within {least:g} and {greatest:g}" if name in SCENE else ""
+            raise ArdeeError(
+                f"randomise: {name}: found {given}, expected least and greatest value{bounds}"
+            )
+
+
+def plan_values(drawn: Numbers) -> Dict[str, object]:
+    """Returns options of a field's plan from drawn numbers; whole ones where the plan counts."""
+    values: Dict[str, object] = {}
+    for name, value in drawn.items():
+        if name == "emergence":
+            values.update(emergence_min=value, emergence_max=value)
+        elif name not in SCENE:
+            is_count = all_fields()[name][1].type is int
+            values[name] = round(value) if is_count else value
+    return values
+
+
+def with_noise(robot: str, scale: float) -> str:
+    """Returns a robot's description whose sensors have `scale` times the standard deviations and drifts."""
+
+    def scaled(found: "re.Match[str]") -> str:
+        return found[1] + " ".join(str(float(value) * scale) for value in found[2].split())
+
+    return robot if scale == 1.0 else _NOISE.sub(scaled, robot)
+
+
+def with_scene(trial: Trial, drawn: Numbers, folder: Path, models: Sequence[Path]) -> Trial:
+    """Returns the trial with another sun and another ground, in files of `folder`, as drawn numbers say."""
+    if "ground_friction" in drawn:
+        ground = _ground(trial, drawn["ground_friction"], folder / "ground", models)
+        trial = replace(trial, models=[ground, *trial.models])
+    if not {"sun_azimuth_rad", "sun_elevation_rad", "sun_intensity", "ambient"} & set(drawn):
+        return trial
+    tree = ElementTree.parse(trial.world)
+    _change_light(tree, drawn, trial.world)
+    world = folder / "drawn.world"
+    tree.write(world)
+    shutil.copyfile(trial.world.with_suffix(".start.yaml"), world.with_suffix(".start.yaml"))
+    return replace(trial, world=world)
+
+
+def _change_light(tree: ElementTree.ElementTree, drawn: Numbers, file: Path) -> None:
+    sun, scene = tree.find("world/light[@type='directional']"), tree.find("world/scene")
+    if sun is None or scene is None:
+        raise ArdeeError(f"{file}: found no directional <light> or no <scene>, expected both")
+    direction = _child(sun, "direction", "0 0 -1")
+    x, y, z = (float(value) for value in (direction.text or "").split())
+    azimuth = drawn.get("sun_azimuth_rad", math.atan2(-y, -x))
+    elevation = drawn.get("sun_elevation_rad", math.atan2(-z, math.hypot(x, y)))
+    flat = -math.cos(elevation)
+    direction.text = f"{flat * math.cos(azimuth)} {flat * math.sin(azimuth)} {-math.sin(elevation)}"
+    colour = _child(sun, "diffuse", "1 1 1 1")
+    *rgb, alpha = (float(value) for value in (colour.text or "").split())
+    bright = drawn.get("sun_intensity", 1.0)
+    colour.text = " ".join(str(value) for value in (*(bright * each for each in rgb), alpha))
+    if "ambient" in drawn:
+        _child(scene, "ambient", "").text = " ".join([str(drawn["ambient"])] * 3 + ["1"])
+
+
+def _ground(trial: Trial, friction: float, folder: Path, models: Sequence[Path]) -> Path:
+    """Returns the folder of a copy of the terrain's model that has another friction."""
+    folders = search_path([*trial.models, *models])
+    terrain = field_and_terrain(trial.world, folders)[1]
+    source, copy = find_model(terrain, folders), folder / terrain
+    if not copy.is_dir():
+        copy.mkdir(parents=True)
+        for entry in source.iterdir():
+            if entry.name != "model.sdf":
+                (copy / entry.name).symlink_to(entry.resolve())
+    tree = ElementTree.parse(source / "model.sdf")
+    for collision in tree.iter("collision"):
+        node = collision
+        for name in ("surface", "friction", "ode"):
+            node = _child(node, name, "")
+        for name in ("mu", "mu2"):
+            _child(node, name, "").text = str(friction)
+    tree.write(copy / "model.sdf")
+    return folder
+
+
+def _child(parent: ElementTree.Element, name: str, text: str) -> ElementTree.Element:
+    """Returns the child of that name, made with `text` if there is none."""
+    found = parent.find(name)
+    if found is None:
+        found = ElementTree.SubElement(parent, name)
+        found.text = text
+    return found

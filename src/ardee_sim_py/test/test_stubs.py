@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""Tests that the types of the extension, _core.pyi, name what it has."""
+import os
+import pathlib
+import subprocess
+import sys
+
+# pybind11 gives its classes a metaclass, and those that Python cannot make an __init__ that raises.
+ALLOWED = ("Model", "Simulation", "World", "Model.__init__", "World.__init__")
+
+
+SOURCES = str(pathlib.Path(__file__).resolve().parents[1] / "src")
+
+
+def test_the_stubs_agree_with_the_extension(tmp_path: pathlib.Path) -> None:
+    allowed = tmp_path / "allowed"
+    allowed.write_text("".join(f"ardee_sim._core.{name}\n" for name in ALLOWED))
+    command = [sys.executable, "-m", "mypy.stubtest", "ardee_sim._core", "--allowlist", allowed]
+    env = {**os.environ, "MYPYPATH": SOURCES}
+    pipes = dict(stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(command, env=env, **pipes)
+    assert done.returncode == 0, done.stdout
