@@ -104,13 +104,29 @@ class TaskKeys:
 
 @dataclass(frozen=True)
 class ControllerKeys:
-    """A controller in Python: `make(params, robot, seed)` returns an object with `reset()` and `step()`."""
+    """In Python `make(params, robot, seed)` returns an object with `reset()` and `step()`."""
 
-    kind: str = option("python", "how it is reached", choices=("python",))
-    factory: str = option("", "module:function that makes it")
+    kind: str = option(
+        "python",
+        "python: a factory; udp: a program that speaks the bridge's wire format, in real time",
+        choices=("python", "udp"),
+    )
+    factory: str = option("", "module:function that makes it, of kind python")
+    command: Tuple[str, ...] = option(
+        (),
+        "words of the program's command, of kind udp: `{bind}` where it listens for scans, `{sensors}` whence they"
+        " come, `{controls}` whither it sends commands, `{NAME}` a parameter",
+    )
     params: Optional[dict] = option(None, "its parameters")
 
     def __post_init__(self) -> None:
+        if self.kind == "udp":
+            if self.factory or not self.command:
+                found = "found factory and kind udp" if self.factory else "command: found none"
+                raise GeneratorError(f"{found}, expected the command of a program")
+            return
+        if self.command:
+            raise GeneratorError("command: found some for kind python, expected a factory")
         if ":" not in self.factory:
             raise GeneratorError(f"factory: found {self.factory!r}, expected module:function")
 

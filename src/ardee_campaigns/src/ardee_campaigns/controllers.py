@@ -2,8 +2,8 @@
 """Controllers: what `make(params, robot, seed)` returns, and what it answers to observations.
 
 A controller has `reset()` and `step(observation, time_s)`, which returns an ardee_sim.Twist, or speed [m/s] and turn
-rate [rad/s]. It may have `seen`, the distances (left_m, right_m) from its sensor to the rows that it perceives, and
-`is_finished`, whether it has come to its end.
+rate [rad/s]. It may have `close()`, called at its run's end, `seen`, the distances (left_m, right_m) from its sensor to
+the rows that it perceives, and `is_finished`, whether it has come to its end.
 """
 import hashlib
 import importlib
@@ -16,6 +16,7 @@ import ardee_sim
 
 from ardee_campaigns.campaign_file import ControllerKeys
 from ardee_campaigns.robot import Robot
+from ardee_campaigns.udp import UdpController
 from ardee_common.errors import GeneratorError
 
 Command = Tuple[float, float]
@@ -38,6 +39,8 @@ def load_function(name: str, what: str) -> Callable[..., Any]:
 
 def source_digest(name: str) -> str:
     """Returns a hash of the file of a module:function, so that a changed one is run anew."""
+    if not name:
+        return ""
     spec = importlib.util.find_spec(name.partition(":")[0])
     file = spec.origin if spec else None
     if not file or not Path(file).is_file():
@@ -47,6 +50,8 @@ def source_digest(name: str) -> str:
 
 def make(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot, seed: int) -> Any:
     """Returns the controller."""
+    if keys.kind == "udp":
+        return UdpController(keys.command, params, robot)
     made = load_function(keys.factory, "factory")(dict(params), robot, seed)
     for method in ("reset", "step"):
         if not callable(getattr(made, method, None)):

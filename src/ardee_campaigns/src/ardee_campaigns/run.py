@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One run of a campaign: a pure function of its job, and the task of a worker process that writes its file."""
+import contextlib
 import errno
 import faulthandler
 import math
@@ -77,8 +78,11 @@ class Run:
             controller = controllers.make(
                 campaign.controllers[cell.controller], params_of(campaign, cell), robot, job.seed
             )
-            controller.reset()
-            self._loop(sim, driven, controller, judge, lane, trial, watch)
+            with contextlib.ExitStack() as ends:
+                if hasattr(controller, "close"):
+                    ends.callback(controller.close)
+                controller.reset()
+                self._loop(sim, driven, controller, judge, lane, trial, watch)
         self.end = judge.end
         recorded = measures.Recorded(
             self._recorder.columns(),

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""A controller that is another program, in real time: scans and commands are UDP datagrams of the bridge's format."""
+import ctypes
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from types import SimpleNamespace
+from typing import Any, Mapping, Optional, Sequence, Tuple
+
+from ardee_bridge.nodes import convert
+from ardee_bridge.wire import codec
+from ardee_bridge.wire.pairing import Pairer
+from ardee_campaigns.robot import Observation, Robot
+from ardee_common.errors import GeneratorError
+from ardee_common.process import start_child, stop_child
+
+START_WITHIN_S = 30.0  # from the start of the program to its first answer
+ASK_EVERY_S = 0.2  # until then the scan is sent again
+_LARGEST = 65535
+_PR_SET_PDEATHSIG = 1
+Command = Tuple[float, float]
+
+
+def _end_with_parent() -> None:
+    """Makes the kernel end this child with the worker that started it, however that ends."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def _socket() -> socket.socket:
+    made = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    made.bind(("127.0.0.1", 0))
+    return made
+
+
+def _address(made: socket.socket) -> str:
+    return "{}:{}".format(*made.getsockname())
+
+
+class UdpController:
+    """Sends each scan at its time, and takes the answer that comes before the next one; without one the last holds.
+
+    command : words of the program's command; `{bind}` is the HOST:PORT at which it is to listen, `{sensors}` whence
+        scans come, `{controls}` whither it sends motion commands, `{NAME}` a parameter
+    """
+
+    def __init__(self, command: Sequence[str], params: Mapping[str, Any], robot: Robot) -> None:
+        unused = [name for name in params if not any(f"{{{name}}}" in word for word in command)]
+        if unused:
+            raise GeneratorError(
+                f"params: found {unused[0]!r}, expected {{{unused[0]}}} in command"
+            )
+        self._words = [self._filled(word, params, ("", "", "")) for word in command]
+        if not shutil.which(self._words[0]):
+            raise GeneratorError(f"command: found no program {self._words[0]!r}, expected one")
+        self._command, self._params, self._period_s = command, params, robot.period_s
+        self._child: Optional[subprocess.Popen] = None
+        self._sockets: Tuple[socket.socket, ...] = ()
+        self.unanswered = 0
+
+    @staticmethod
+    def _filled(word: str, params: Mapping[str, Any], places: Tuple[str, str, str]) -> str:
+        bind, sensors, controls = places
+        try:
+            return word.format(bind=bind, sensors=sensors, controls=controls, **params)
+        except (KeyError, IndexError, ValueError) as error:
+            expected = "{bind}, {sensors}, {controls} or a parameter"
+            raise GeneratorError(
+                f"command: found {word!r} ({error!r}), expected {expected}"
+            ) from None
+
+    def reset(self) -> None:
+        """Starts the program anew."""
+        self.close()
+        free, self._sensors, self._controls = self._sockets = tuple(_socket() for _ in range(3))
+        self._target = free.getsockname()
+        places = (_address(free), _address(self._sensors), _address(self._controls))
+        free.close()  # the program's from now on
+        words = [self._filled(word, self._params, places) for word in self._command]
+        self._child = start_child(words, preexec_fn=_end_with_parent)
+        self._pairer, self._latest = Pairer(), (0.0, 0.0)
+        self._began: Optional[Tuple[float, float]] = None
+
+    def step(self, observation: Observation, time_s: float) -> Command:
+        """Returns the program's answer to the LidarReading of use `scan`."""
+        parts = _scan(observation["scan"])
+        if self._began is None:
+            self._wait_for_first_answer(parts)
+            self._began = time.monotonic(), time_s
+            return self._latest
+        due = self._began[0] + time_s - self._began[1]
+        time.sleep(max(due - time.monotonic(), 0.0))
+        self._send(parts)
+        if not self._receive(due + self._period_s):
+            self.unanswered += 1
+        return self._latest
+
+    def _wait_for_first_answer(self, parts: codec.Datagrams) -> None:
+        end = time.monotonic() + START_WITHIN_S
+        while True:
+            self._send(parts)
+            if self._receive(time.monotonic() + ASK_EVERY_S):
+                return
+            if time.monotonic() > end:
+                raise GeneratorError(f"{self._words[0]} answered no scan in {START_WITHIN_S:.0f} s")
+
+    def _send(self, parts: codec.Datagrams) -> None:
+        assert self._child is not None
+        if self._child.poll() is not None:
+            code = self._child.returncode
+            raise GeneratorError(f"{self._words[0]} has ended with exit code {code}")
+        for part in parts:
+            self._sensors.sendto(part, self._target)
+
+    def _receive(self, until_s: float) -> bool:
+        """Takes motion commands until one has come, or until a time; returns whether one has come."""
+        while True:
+            self._controls.settimeout(max(until_s - time.monotonic(), 1e-4))
+            try:
+                datagram, sender = self._controls.recvfrom(_LARGEST)
+            except socket.timeout:
+                return False
+            message = self._pairer.feed(sender, datagram, time.monotonic())
+            if message and codec.data_struct(message.header) is codec.MotionCommands:
+                self._latest = _motion(codec.MotionCommands.unpack(message.data))
+                return True
+
+    def close(self) -> None:
+        """Ends the program."""
+        if self._child is not None:
+            stop_child(self._child)
+        for made in self._sockets:
+            made.close()
+        self._child, self._sockets = None, ()
+
+
+def _scan(reading: Any) -> codec.Datagrams:
+    """Returns a LidarReading as a message of the wire."""
+    message = SimpleNamespace(
+        angle_min=reading.angle_min_rad,
+        angle_max=reading.angle_max_rad,
+        angle_increment=reading.angle_increment_rad,
+        time_increment=reading.time_increment_s,
+        scan_time=reading.scan_time_s,
+        range_min=reading.range_min_m,
+        range_max=reading.range_max_m,
+        ranges=reading.ranges_m.tolist(),
+        intensities=reading.intensities.tolist(),
+    )
+    made = convert.lidar(message)
+    return codec.encode(codec.DataType.LIDAR, 0, made.data, made.count)
+
+
+def _motion(data: codec.MotionCommands) -> Command:
+    """Returns speed [m/s] and turn rate [rad/s] of a motion command."""
+    return (
+        data.normalized_speed / data.multiplier * codec.MAX_SPEED_M_S,
+        data.normalized_yaw_rate / data.multiplier * codec.MAX_YAW_RATE_RAD_S,
+    )
