@@ -12,11 +12,11 @@ import time
 from typing import Any, Dict, Optional, Sequence
 
 import rospy
-from gazebo_msgs.srv import SpawnModel
 from geometry_msgs.msg import Pose, Twist
 from nav_msgs.msg import Odometry
 
 from ardee_common.cli import Parser
+from gazebo_msgs.srv import SpawnModel
 
 SPAWN = "/gazebo/spawn_urdf_model"
 SCAN, ODOM, JOINTS, COMMAND = "/ardee/hokuyo", "/odom", "/joint_states", "/cmd_vel"

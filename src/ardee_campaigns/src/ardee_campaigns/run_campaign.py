@@ -2,6 +2,7 @@
 """Command `run_campaign`: works off a campaign's file, goes on where it stopped, writes tables."""
 import argparse
 import math
+import os
 import sys
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence
@@ -154,14 +155,14 @@ def half_width(values: Sequence[float]) -> float:
 def _list(session: Session) -> None:
     keys = session.campaign.keys
     jobs = session.jobs(keys.replicates)
-    left = session.open(jobs)
+    left = {job.run_id for job in session.open(jobs)}
     print("run_id,world,robot,controller,replicate,seed,is_done" + _header(session))
     for job in jobs:
-        cell, is_done = job.cell, int(job not in left)
+        cell, is_done = job.cell, int(job.run_id not in left)
         names = f"{job.run_id},{cell.world},{cell.robot},{cell.controller}"
         factors = "".join(f",{value}" for _, value in cell.factors)
         print(f"{names},{job.replicate},{job.seed},{is_done}{factors}")
-    workers = keys.workers or 1
+    workers = keys.workers or len(os.sched_getaffinity(0))
     wall_s, how = _wall_s(session, jobs)
     hours = len(left) * wall_s / workers / 3600.0
     more = " or more, until the interval is narrow" if keys.plan.kind == "until" else ""
