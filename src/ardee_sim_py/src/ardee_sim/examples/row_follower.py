@@ -197,9 +197,11 @@ def draw(follower: Follower, drives: Sequence[Drive], path: Path) -> None:
     above.plot(*shown.stalks.T, ".", color="C2", markersize=2)
     above.plot(*shown.track.T, color="C0", linewidth=1)
     above.set(xlabel="along the lane [m]", ylabel="to the left [m]", ylim=(-1, 1))
-    above.set_title(f"seed {shown.seed} from above, stretched across: its middle's track, stalks")
+    above.set_title(
+        f"seed {shown.seed} from above, stretched across: track of the robot's middle, stalks"
+    )
     for run in drives:
-        aside.plot(*run.track.T, linewidth=0.7, label=f"{run.seed}")
+        aside.plot(*run.track.T, linewidth=0.7)
     aside.set(xlabel="along the lane [m]", ylabel="to the left [m]")
     aside.set_title(f"{len(drives)} fields not trained on: distance from the lane's middle")
     figure.savefig(path, dpi=80)
