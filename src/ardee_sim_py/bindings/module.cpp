@@ -133,6 +133,7 @@ void bind_readings(py::class_<BoundSimulation>& bound) {
       .def("dropped", &BoundSimulation::dropped)
       .def("want_contacts", &BoundSimulation::want_contacts)
       .def("contacts", &BoundSimulation::contacts)
+      .def("take_touches", &BoundSimulation::take_touches)
       .def("picture",
            [](BoundSimulation& sim, const Eigen::Vector3d& xyz_m, const Eigen::Vector4d& quat_xyzw,
               int width, int height, double horizontal_fov_rad, double near_m, bool light,
@@ -167,6 +168,7 @@ PYBIND11_MODULE(_core, module) {
       .def("close", &BoundSimulation::close)
       .def("step", &BoundSimulation::step)
       .def("reset", &BoundSimulation::reset)
+      .def("set_noise_seed", &BoundSimulation::set_noise_seed)
       .def("command", &BoundSimulation::command)
       .def("call", &BoundSimulation::call)
       .def("entities", &BoundSimulation::entities)

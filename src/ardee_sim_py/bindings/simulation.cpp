@@ -101,6 +101,9 @@ void BoundSimulation::step(std::uint64_t count) {
   for (std::uint64_t i = 0; i < count; ++i) {
     if (wants_contacts_) use->want_contacts();
     use->step();
+    for (const physics::Contact& each : use->contacts()) {
+      touches_.emplace(each.collision1, each.collision2);
+    }
     if (fault_) throw PhysicsFault(*fault_);
     if (std::chrono::steady_clock::now() < look_at) continue;
     const py::gil_scoped_acquire held;
@@ -112,6 +115,13 @@ void BoundSimulation::step(std::uint64_t count) {
 void BoundSimulation::reset() {
   const Use use(*this);
   use->reset_simulation();
+  inbox_.clear();
+  touches_.clear();
+}
+
+void BoundSimulation::set_noise_seed(std::uint64_t seed) {
+  const Use use(*this);
+  use->set_noise_seed(seed);
   inbox_.clear();
 }
 
@@ -222,6 +232,14 @@ py::list BoundSimulation::contacts() {
   const Use use(*this);
   py::list found;
   for (const physics::Contact& contact : use->contacts()) found.append(contact_fields(contact));
+  return found;
+}
+
+py::list BoundSimulation::take_touches() {
+  const Use use(*this);
+  py::list found;
+  for (const auto& [one, other] : touches_) found.append(py::make_tuple(one, other));
+  touches_.clear();
   return found;
 }
 

@@ -7,7 +7,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ardee_sim/simulation/simulation.h"
@@ -62,6 +64,7 @@ class BoundSimulation {
   /// Steps without the GIL; a signal such as Ctrl-C ends it between two steps.
   void step(std::uint64_t count);
   void reset();
+  void set_noise_seed(std::uint64_t seed);
   py::bytes snapshot();
   void restore(const std::string& bytes);
 
@@ -78,6 +81,8 @@ class BoundSimulation {
   std::size_t dropped(const std::string& topic);
   void want_contacts() { wants_contacts_ = true; }
   py::list contacts();
+  /// Returns the pairs of names of collisions that touched in any step since the last call.
+  py::list take_touches();
   /// Returns a dict with the requested parts of rgb, depth_m, labels, instances.
   py::dict picture(const render::Camera& camera, const render::FrameParts& parts);
 
@@ -107,6 +112,7 @@ class BoundSimulation {
   Inbox inbox_;
   std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;  // by name
   std::atomic<bool> wants_contacts_{false};
+  std::set<std::pair<std::string, std::string>> touches_;
   std::atomic<bool> in_use_{false};
   std::unique_ptr<Simulation> simulation_;
 };

@@ -9,7 +9,7 @@
 namespace ardee::python {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 void serialize(StateArchive& archive, PhysicsParams& p) {
   archive(p.step_s, p.real_time_update_rate_hz, p.gravity_m_per_s2, p.solver, p.iterations, p.sor,
@@ -52,8 +52,8 @@ void BoundSimulation::save_entity(StateArchive& archive, SimulationState::Entity
   std::vector<std::pair<std::string, double>> joints(entity.joint_positions.begin(),
                                                      entity.joint_positions.end());
   archive(instance.name, text, file, instance.pose, instance.scale, instance.label,
-          instance.is_static, entity.robot_namespace, joints, entity.number, entity.X_WM,
-          entity.devices);
+          instance.is_static, entity.robot_namespace, joints, entity.number, entity.noise_seed,
+          entity.X_WM, entity.devices);
   if (!archive.is_restoring()) return;
   entity.joint_positions = {joints.begin(), joints.end()};
   instance.model = model_of(instance.name, text, file);
@@ -99,6 +99,7 @@ void BoundSimulation::restore(const std::string& bytes) {
   serialize(archive, state);
   use->restore(state);
   inbox_.clear();
+  touches_.clear();
   apply_demands();
 }
 

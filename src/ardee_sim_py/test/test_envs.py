@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests environments: Gymnasium's rules, repetition, ends, drawn fields, refusals."""
+import concurrent.futures
 import pickle
 import warnings
 from typing import Any, Callable, Dict, Iterator, List
@@ -15,6 +16,7 @@ from gymnasium.utils.env_checker import check_env
 
 IDS = ("RowFollow", "RowFollowCamera", "HeadlandTurn", "GoTo")
 AHEAD = np.array([0.6, 0.0], dtype=np.float32)
+STEPS = 300
 Make = Callable[..., FieldEnv]
 
 
@@ -70,6 +72,21 @@ def test_a_seed_repeats_all_bytes_in_any_instance_and_after_any_episode(
     first = rollout(one, 3)
     assert rollout(one, 4) != first
     assert rollout(other, 3) == first == rollout(one, 3)
+
+
+@pytest.mark.parametrize("name", ["RowFollow", "GoTo"])
+def test_a_touch_between_two_observations_counts(name: str, make: Make) -> None:
+    env = make(name)
+    env.reset(seed=1)
+    sim, plant = env._scene.sim, next(iter(env._scene.plants))
+    sim.touched()
+    foot = next(each for each in env.world.plants() if each.name == plant)
+    away = sim.state("robot").xyz_m
+    sim.set_state("robot", xyz_m=(*foot.xyz_m[:2], away[2] + 0.05))
+    sim.step(1)
+    sim.set_state("robot", xyz_m=away)
+    sim.step(1)
+    assert env._scene.touches_plant() and not env._scene.touches_plant()
 
 
 def test_an_episode_is_repeated_from_what_it_says(make: Make) -> None:
@@ -210,19 +227,42 @@ def test_several_sensors_are_a_dict(make: Make) -> None:
     assert np.hypot(sine, cosine) == pytest.approx(1.0) and cosine < -0.9  # yaw is about -3.14
 
 
-def test_workers_change_no_byte() -> None:
+def to_and_fro(number: int) -> np.ndarray:
+    """Returns the action of a step, so that an episode of any length does not end."""
+    return np.array([0.4 if number % 40 < 20 else -0.4, 0.0], dtype=np.float32)
+
+
+def long_rollout(env: FieldEnv) -> bytes:
+    """Returns all bytes of STEPS steps."""
+    said = [env.reset(seed=5)[0].tobytes()]
+    for number in range(STEPS):
+        observation, reward, terminated, *_ = env.step(to_and_fro(number))
+        assert not terminated
+        said.append(observation.tobytes() + np.float64(reward).tobytes())
+    return b"".join(said)
+
+
+def test_workers_change_no_byte(make: Make) -> None:
     def run(num_envs: int) -> bytes:
         envs = gymnasium.make_vec("ardee/RowFollow-v0", num_envs=num_envs, seed_field=False)
         try:
             said = [envs.reset(seed=5)[0][0].tobytes()]
-            for _ in range(20):
-                observations, rewards, *_ = envs.step(np.tile(AHEAD, (num_envs, 1)))
+            for number in range(STEPS):
+                observations, rewards, *_ = envs.step(np.tile(to_and_fro(number), (num_envs, 1)))
                 said.append(observations[0].tobytes() + rewards[0].tobytes())
         finally:
             envs.close()
         return b"".join(said)
 
-    assert run(1) == run(2)
+    env = make()
+    assert long_rollout(env) == long_rollout(env) == run(2) == run(4)
+
+
+def test_threads_change_no_byte(make: Make) -> None:
+    envs = [make(), make(), make()]
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        one, other = pool.map(long_rollout, envs[:2])
+    assert one == other == long_rollout(envs[2])
 
 
 def test_a_reward_can_be_learnt_from(make: Make) -> None:

@@ -59,6 +59,15 @@ def test_a_ball_falls_as_galilei_says_and_tells_whom_it_touches() -> None:
         sim.step(200)  # it lies, and does not sleep yet
         (contact,) = sim.contacts()
         assert {contact.collision1, contact.collision2} == {"ball::link::c", "ground::link::c"}
+        sim.touched()
+        sim.set_state("ball", xyz_m=(0, 0, 0.101), v_m_s=(0, 0, -1.0))
+        sim.step(5)
+        sim.set_state("ball", xyz_m=(0, 0, 1.0))
+        sim.step(5)
+        assert sim.contacts() == [] and [set(pair) for pair in sim.touched()] == [
+            {"ball::link::c", "ground::link::c"}
+        ]
+        assert sim.touched() == []
         assert abs(contact.force_n[2]) == pytest.approx(9.8, rel=0.01)
 
 
@@ -133,6 +142,29 @@ def test_a_reset_repeats_all_bytes(sim: ardee_sim.Simulation) -> None:
     sim.reset()
     assert sim.time_ns == 0
     assert drive(sim, 300) == first
+
+
+def test_a_noise_seed_changes_the_noise_alone_and_is_part_of_a_snapshot(
+    sim: ardee_sim.Simulation,
+) -> None:
+    beginning = sim.snapshot()
+
+    def run(noise_seed: int) -> bytes:
+        sim.restore(beginning)
+        sim.set_noise_seed(noise_seed)
+        return drive(sim, 100)
+
+    plain = drive(sim, 100)
+    assert run(0) == plain != run(1) and run(1) != run(2)
+    place = 24  # bytes of the last pose
+    assert run(1)[-place:] == plain[-place:]
+    sim.set_noise_seed(7)
+    moment, ahead = sim.snapshot(), drive(sim, 100)
+    sim.set_noise_seed(8)
+    sim.restore(moment)
+    assert drive(sim, 100) == ahead
+    with pytest.raises(ValueError, match="found the noise seed -1"):
+        sim.set_noise_seed(-1)
 
 
 RESTORED_ELSEWHERE = """

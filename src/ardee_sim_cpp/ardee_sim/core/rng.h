@@ -46,6 +46,11 @@ class CounterRng {
   std::uint64_t key_;
 };
 
+/// The key of a stream under another noise seed; under 0 it stays as it is.
+inline std::uint64_t reseeded(std::uint64_t key, std::uint64_t noise_seed) {
+  return noise_seed == 0 ? key : CounterRng(key).bits(noise_seed - 1);
+}
+
 /// A sequence of random numbers, for state that evolves in one fixed order (a drift, a bias walk).
 class Rng {
  public:

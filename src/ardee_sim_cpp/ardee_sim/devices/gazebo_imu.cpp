@@ -67,8 +67,8 @@ GazeboImu::GazeboImu(const std::string& name, const Params& params,
 
 void GazeboImu::reset(TimeNs now_ns) {
   InertialSensor::reset(now_ns);
-  accel_.reset(now_ns);
-  rate_.reset(now_ns);
+  accel_.reset(now_ns, noise_seed());
+  rate_.reset(now_ns, noise_seed());
   if (params_.initial_orientation_is_reference) q_RW_ = pose().q.conjugate();
 }
 

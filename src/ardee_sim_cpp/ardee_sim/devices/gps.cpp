@@ -56,8 +56,8 @@ void Gps::set_reference(const GeoPose& pose) {
 
 void Gps::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
-  position_.reset(now_ns);
-  velocity_.reset(now_ns);
+  position_.reset(now_ns, noise_seed());
+  velocity_.reset(now_ns, noise_seed());
   frame_on_earth_ = initial_frame_on_earth_;
   status_ = initial_status_;
   service_ = initial_service_;

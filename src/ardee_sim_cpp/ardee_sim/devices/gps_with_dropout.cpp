@@ -81,7 +81,9 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
 
 void GpsWithDropout::reset(TimeNs now_ns) {
   Gps::reset(now_ns);
-  random_ = Rng(key_, now_ns);
+  const std::uint64_t key = reseeded(key_, noise_seed());
+  random_ = Rng(key, now_ns);
+  periods_ = CounterRng(mix_bits(key));
   for (int axis = 0; axis < 3; ++axis) unit_error_[axis] = random_.normal();
   has_fix_ = true;
   loss_duration_s_ = 0.0;

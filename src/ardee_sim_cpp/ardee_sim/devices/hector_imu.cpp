@@ -77,8 +77,8 @@ HectorImu::HectorImu(const std::string& name, const Params& params,
 
 void HectorImu::reset(TimeNs now_ns) {
   InertialSensor::reset(now_ns);
-  for (SensorModel* model : {&accel_, &rate_, &yaw_}) model->reset(now_ns);
-  if (vibration_) vibration_->reset(now_ns);
+  for (SensorModel* model : {&accel_, &rate_, &yaw_}) model->reset(now_ns, noise_seed());
+  if (vibration_) vibration_->reset(now_ns, noise_seed());
   take_vibration();
   followed_ns_ = now_ns;
 }

@@ -49,7 +49,7 @@ Magnetometer::Magnetometer(const std::string& name, const Params& params)
 
 void Magnetometer::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
-  model_.reset(now_ns);
+  model_.reset(now_ns, noise_seed());
 }
 
 void Magnetometer::sample(TimeNs now_ns, const CounterRng& /*noise*/, ReadingSink& sink) {

@@ -79,7 +79,7 @@ RangeFinder::RangeFinder(const std::string& name, const Mount& mount, const Para
 
 void RangeFinder::reset(TimeNs now_ns) {
   Sensor::reset(now_ns);
-  model_.reset(now_ns);
+  model_.reset(now_ns, noise_seed());
 }
 
 double RangeFinder::nearest_m(const CounterRng& noise) {

@@ -23,6 +23,11 @@ class Robot {
   /// Number of the robot in the ray scenes.
   std::uint32_t entity() const { return entity_; }
 
+  /// Seed of the noise of the robot's sensors, beside that of their streams; 0: no other.
+  std::uint64_t noise_seed() const { return noise_seed_; }
+  /// Takes effect when the devices are reset.
+  void set_noise_seed(std::uint64_t seed) { noise_seed_ = seed; }
+
   bool is_dynamic() const { return dynamics_ != nullptr; }
   /// Throws Error if the model is static.
   physics::PhysicsModel& dynamics() const;
@@ -51,6 +56,7 @@ class Robot {
   std::uint32_t entity_;
   physics::PhysicsModel* dynamics_ = nullptr;
   Pose fixed_pose_;
+  std::uint64_t noise_seed_ = 0;
 };
 
 }  // namespace ardee::devices

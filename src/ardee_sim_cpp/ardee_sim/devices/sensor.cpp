@@ -28,6 +28,7 @@ void Sensor::after_step(TimeNs now_ns, ReadingSink& sink) {
 
 void Sensor::reset(TimeNs now_ns) {
   timer_.start_at(now_ns + 1);
+  stream_ = CounterRng(reseeded(stream_key(mount_.seed, name()), noise_seed()));
   last_ns_ = now_ns;
 }
 

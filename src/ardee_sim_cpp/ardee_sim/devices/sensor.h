@@ -38,6 +38,7 @@ class Sensor : public Device {
   virtual void follow(TimeNs /*now_ns*/) {}
   Pose pose() const { return mount_.robot.link_pose(mount_.link) * mount_.X_LS; }
   const Mount& mount() const { return mount_; }
+  std::uint64_t noise_seed() const { return mount_.robot.noise_seed(); }
   /// Linear velocity of the sensor's origin and angular velocity, in world axes.
   Twist twist() const;
   /// Time since the previous sample, or the reset; for use in sample().

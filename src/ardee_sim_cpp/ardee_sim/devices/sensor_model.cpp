@@ -71,9 +71,9 @@ SensorModel::SensorModel(const SensorErrors& errors, int axes, std::uint64_t key
   reset(0);
 }
 
-void SensorModel::reset(TimeNs now_ns) {
+void SensorModel::reset(TimeNs now_ns, std::uint64_t noise_seed) {
   errors_ = initial_errors_;
-  random_ = Rng(key_, now_ns);
+  random_ = Rng(reseeded(key_, noise_seed), now_ns);
   drift_.setZero();
   for (int axis = 0; axis < axes_; ++axis) drift_[axis] = errors_.drift[axis] * random_.normal();
 }

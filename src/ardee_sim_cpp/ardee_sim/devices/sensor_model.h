@@ -52,9 +52,9 @@ class SensorModel {
   /// `key` is that of its random stream, see stream_key(); `axes` is 1 or 3.
   SensorModel(const SensorErrors& errors, int axes, std::uint64_t key);
 
-  /// Draws the drift anew, by the errors as they were before any tuning; each time of reset has
-  /// different errors.
-  void reset(TimeNs now_ns);
+  /// Draws the drift anew, by the errors as they were before any tuning; each time of reset, and
+  /// each noise seed, has different errors.
+  void reset(TimeNs now_ns, std::uint64_t noise_seed = 0);
   void serialize(StateArchive& state) { state(errors_, random_, drift_); }
   /// Sets the drift, which continues from there.
   void set_drift(const Eigen::Vector3d& drift) { drift_ = drift; }

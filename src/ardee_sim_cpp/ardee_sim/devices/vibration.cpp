@@ -90,8 +90,8 @@ Vibration::Vibration(const VibrationParams& params, std::uint64_t key)
       noise_{BandNoise(params.low_hz, params.high_hz), BandNoise(params.low_hz, params.high_hz),
              BandNoise(params.low_hz, params.high_hz)} {}
 
-void Vibration::reset(TimeNs now_ns) {
-  random_ = Rng(key_, now_ns);
+void Vibration::reset(TimeNs now_ns, std::uint64_t noise_seed) {
+  random_ = Rng(reseeded(key_, noise_seed), now_ns);
   unit_.setZero();
   for (BandNoise& each : noise_) each.reset();
 }

@@ -61,7 +61,7 @@ class Vibration {
  public:
   Vibration(const VibrationParams& params, std::uint64_t key);
 
-  void reset(TimeNs now_ns);
+  void reset(TimeNs now_ns, std::uint64_t noise_seed = 0);
   void serialize(StateArchive& state) { state(random_, unit_, noise_); }
   void step(double dt_s);
   /// Acceleration in m/s^2 at a speed.

@@ -29,7 +29,8 @@ SimulationState Simulation::save() {
     StateArchive devices;
     serialize_devices(devices, *entity);
     state.entities.push_back({entity->instance, entity->robot_namespace, entity->joint_positions,
-                              entity->robot->entity(), entity->robot->pose(), devices.bytes()});
+                              entity->robot->entity(), entity->robot->noise_seed(),
+                              entity->robot->pose(), devices.bytes()});
   }
   StateArchive dynamics, commands;
   dynamics(physics_);
@@ -87,6 +88,9 @@ void Simulation::restore(const SimulationState& state) {
   set_physics(state.physics);
   keep_only(state.entities);
   next_entity_ = state.next_entity;
+  for (std::size_t i = 0; i < entities_.size(); ++i) {
+    entities_[i]->robot->set_noise_seed(state.entities[i].noise_seed);
+  }
   reset_entities();
   StateArchive dynamics(state.dynamics), commands(state.commands);
   dynamics(physics_);

@@ -320,6 +320,14 @@ render::Frame Simulation::take_picture(const render::Camera& camera,
   return pictures_.take(camera, parts);
 }
 
+void Simulation::set_noise_seed(std::uint64_t seed) {
+  for (const auto& entity : entities_) {
+    entity->robot->set_noise_seed(seed);
+    for (const auto& device : entity->devices) device->reset(now_ns_);
+  }
+  latest_.clear();
+}
+
 void Simulation::reset_world() { reset_entities(); }
 
 void Simulation::reset_simulation() {

@@ -135,6 +135,12 @@ class Simulation {
   /// loaded again; then only another restore() or a reset gives a valid state.
   void restore(const SimulationState& state);
 
+  /// Draws the noise of all sensors from other random streams from now on, as another seed of the
+  /// simulation would, and resets all devices; models stay where they are, resets keep the seed.
+  /// Under 0, the streams are those of the simulation's own seed. What was drawn when a device was
+  /// made, such as the fixed bias of an SDF <imu>, stays.
+  void set_noise_seed(std::uint64_t seed);
+
   const World& world() const { return *world_; }
   /// The present lights: those of the world, and all changes by the calls below.
   const std::vector<Light>& lights() const { return lights_; }

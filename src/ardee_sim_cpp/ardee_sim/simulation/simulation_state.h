@@ -18,8 +18,9 @@ struct SimulationState {
     std::string robot_namespace;
     std::map<std::string, double> joint_positions;  // at the spawn
     std::uint32_t number = 0;                       // in the ray scenes
-    Pose X_WM;                                      // of a static model
-    std::string devices;                            // of a StateArchive, as are the next
+    std::uint64_t noise_seed = 0;
+    Pose X_WM;            // of a static model
+    std::string devices;  // of a StateArchive, as are the next
   };
   TimeNs now_ns = 0;
   std::uint64_t step_count = 0;

@@ -178,6 +178,15 @@ class Simulation:
         """Puts the clock to 0 and all models where they were spawned; what follows repeats the first run."""
         self._core.reset()
 
+    def set_noise_seed(self, seed: int) -> None:
+        """Draws the noise of all sensors from other random streams, and resets all devices; models stay in place.
+
+        Under 0 the streams are those of the simulation's own seed. A reset keeps the noise seed; snapshots hold it.
+        """
+        if not 0 <= seed < 2**64:
+            raise ValueError(f"found the noise seed {seed}, expected 0 to 2^64 - 1")
+        self._core.set_noise_seed(seed)
+
     @property
     def time_ns(self) -> int:
         """Simulated time."""
@@ -298,6 +307,14 @@ class Simulation:
         """Returns the contacts of the last step; the first call is empty and asks for them from the next step on."""
         self._core.want_contacts()
         return [Contact(**made) for made in self._core.contacts()]
+
+    def touched(self) -> List[Tuple[str, str]]:
+        """Returns the pairs of collisions that touched in any step since the last call, by name.
+
+        The first call is empty and asks for them from the next step on. A reset or a restore forgets them.
+        """
+        self._core.want_contacts()
+        return self._core.take_touches()
 
     def log(self) -> List[LogLine]:
         """Returns the engine's messages since the last call; at the first, also those of reading the world."""

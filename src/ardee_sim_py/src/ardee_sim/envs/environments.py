@@ -47,7 +47,7 @@ class RowFollowEnv(FieldEnv):
 
     Episode End
     -----------
-    `info["end_reason"]`: `row_end`, `collision` (a plant is touched at the end of a control period), `row_lost` (the
+    `info["end_reason"]`: `row_end`, `collision` (a plant was touched in the control period), `row_lost` (the
     robot's middle is beyond a row, or the robot turned round). Truncated after 600 control periods.
 
     Arguments

@@ -19,6 +19,7 @@ from ardee_world.row_truth import Field, Pose
 
 SETTLE_S = 0.5  # in which a robot comes to rest on its springs
 COMMANDS = "cmd_vel"
+ROBOT = "robot"
 Episode = Dict[str, Any]
 
 
@@ -100,28 +101,26 @@ class FieldEnv(gymnasium.Env):
         self.observation_space = self._task.space(scene)
 
     def _sow(self, seed: int, numbers: Mapping[str, float]) -> None:
-        """Loads the field of a seed with drawn numbers; the simulation has no robot yet."""
+        """Loads the field of a seed with drawn numbers, and spawns the robot in its origin."""
         if self._sim is not None:
             self._sim.close()
         self._sown: SownField = self._source.load(seed, numbers)
         self._plants = frozenset(plant.name for plant in self._sown.world.plants())
         self._sim = Simulation(self._sown.world)
         self._robot.write_text(with_noise(self._robot_text, numbers.get("noise_scale", 1.0)))
-        self._empty = self._sim.snapshot()
+        self._sim.spawn(ROBOT, self._robot)
+        self._first = self._sim.snapshot()
         self._present = seed, dict(numbers)
 
     def _place(self, pose: Pose, noise_seed: int) -> Scene:
-        """Spawns the robot into the empty field and lets it come to rest.
-
-        Its name derives its random streams: so a kept field has a different noise each episode.
-        """
+        """Puts the robot, as it was spawned, to its start, with the noise of an episode."""
         sim = self._simulation
-        sim.restore(self._empty)
-        name = f"robot_{noise_seed}"
+        sim.restore(self._first)
+        half = pose.yaw_rad / 2
         xyz_m = (pose.x_m, pose.y_m, self._sown.trial.height_m(pose))
-        sim.spawn(name, self._robot, xyz_m=xyz_m, rpy_rad=(0.0, 0.0, pose.yaw_rad))
-        sim.contacts()
-        return Scene(sim, name, self._sown, self._plants)
+        sim.set_state(ROBOT, xyz_m=xyz_m, quat_xyzw=(0.0, 0.0, math.sin(half), math.cos(half)))
+        sim.set_noise_seed(noise_seed)
+        return Scene(sim, ROBOT, self._sown, self._plants)
 
     @property
     def world(self) -> World:
@@ -179,6 +178,7 @@ class FieldEnv(gymnasium.Env):
         scene.sim.command(COMMANDS, Twist())
         settle = max(math.ceil(SETTLE_S / self._period_s) * self._steps, self._window)
         self._step_and_measure(scene, settle)
+        scene.sim.touched()  # what it touched as it settled is not the driver's
         self._task.begin(scene)
         return self._task.observe(scene), {"replay": episode}
 

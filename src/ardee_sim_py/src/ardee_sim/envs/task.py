@@ -39,9 +39,8 @@ class Scene:
         return reading
 
     def touches_plant(self) -> bool:
-        """Returns whether the robot touches a plant at the end of the control period."""
-        for contact in self.sim.contacts():
-            names = (contact.collision1, contact.collision2)
+        """Returns whether the robot has touched a plant since the last call."""
+        for names in self.sim.touched():
             mine = [name.startswith(f"{self.robot}::") for name in names]
             others = (name for name, is_mine in zip(names, mine) if not is_mine)
             if any(mine) and any(_model(name) in self.plants for name in others):

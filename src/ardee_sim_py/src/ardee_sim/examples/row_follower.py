@@ -32,7 +32,7 @@ class ReturnsInCells(gymnasium.ObservationWrapper):
 
     def __init__(self, env: gymnasium.Env) -> None:
         super().__init__(env)
-        beams = env.observation_space.shape[0]
+        beams = int(np.prod(env.observation_space.shape or ()))
         angles = np.linspace(-BEAM_MAX_RAD, BEAM_MAX_RAD, beams)
         self._ahead, self._left = np.cos(angles), np.sin(angles)
         highest = np.log1p(beams) / 2.0
@@ -69,7 +69,8 @@ class KeepField(gymnasium.Wrapper):
     ) -> Tuple[Any, Dict[str, Any]]:
         """Begins an episode, in the last field unless that is used up, or a seed or options are given."""
         is_new = seed is not None or options is not None or self._steps >= self._least
-        observation, info = self.env.reset(seed=seed, options=options if is_new else self._field)
+        chosen = dict(options or {}) if is_new else self._field
+        observation, info = self.env.reset(seed=seed, options=chosen)
         self._steps = 0 if is_new else self._steps
         self._field = {name: info["replay"][name] for name in ("field_seed", "numbers")}
         return observation, info
