@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests simulations: motion, readings, snapshots, threads, refusals."""
+import pathlib
 import signal
 import subprocess
 import sys
@@ -288,6 +289,31 @@ def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia:
     ]:
         with pytest.raises(error, match=text):
             call()
+    sim.step()
+
+
+def test_a_robot_that_is_refused_says_where_and_leaves_nothing(
+    sim: ardee_sim.Simulation, tmp_path: pathlib.Path
+) -> None:
+    file = tmp_path / "bad.urdf"
+    file.write_text("<robot name='r'>\n<link name='a'>\n<inertial><mass value='nan'/></inertial>")
+    before = sim.entities()
+    for text, line in [
+        ("</link></robot>", 3),  # no inertia
+        ("</link>", 3),  # not closed
+    ]:
+        broken = tmp_path / "broken.urdf"
+        broken.write_text(file.read_text() + text)
+        with pytest.raises(ardee_sim.ArdeeError) as caught:
+            sim.spawn("other", broken)
+        assert caught.value.file == str(broken) and 1 <= (caught.value.line or 0) <= line
+    with pytest.raises(ardee_sim.ArdeeError, match="nowhere.urdf"):
+        sim.spawn("other", tmp_path / "nowhere.urdf")
+    with pytest.raises(ardee_sim.ArdeeError, match="found a folder"):
+        ardee_sim.World.from_file(tmp_path)
+    with pytest.raises(ardee_sim.ArdeeError, match="found seed=-1"):
+        ardee_sim.Simulation(sim.world, seed=-1)
+    assert sim.entities() == before
     sim.step()
 
 

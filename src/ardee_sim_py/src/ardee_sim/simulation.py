@@ -9,8 +9,9 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Un
 
 import numpy as np
 from ardee_sim import _core
+from ardee_sim.errors import ArdeeError
 from ardee_sim.readings import make_reading
-from ardee_sim.world import World
+from ardee_sim.world import World, read_text
 
 Vector = Union[Sequence[float], np.ndarray]
 Command = Union["Twist", float, bool, Sequence[float], Mapping[str, Any]]
@@ -111,6 +112,8 @@ class Simulation:
     """
 
     def __init__(self, world: World, *, seed: int = 0, ray_threads: int = 1) -> None:
+        if not 0 <= seed < 2**64:
+            raise ArdeeError(f"found seed={seed}, expected 0 to 2^64 - 1")
         self.world = world
         self.seed = seed
         self._core = _core.Simulation(world._core, seed, ray_threads)
@@ -154,7 +157,7 @@ class Simulation:
 
         Raises ArdeeError, and then nothing is left behind.
         """
-        text, file = (model.read_text(), str(model)) if isinstance(model, Path) else (model, name)
+        text, file = (model, name) if isinstance(model, str) else (read_text(model), str(model))
         loaded = self.world.load_model(text, file)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(rpy_rad, 3, "rpy_rad")
         places = dict(joint_positions or {})
@@ -184,7 +187,7 @@ class Simulation:
         Under 0 the streams are those of the simulation's own seed. A reset keeps the noise seed; snapshots hold it.
         """
         if not 0 <= seed < 2**64:
-            raise ValueError(f"found the noise seed {seed}, expected 0 to 2^64 - 1")
+            raise ArdeeError(f"found the noise seed {seed}, expected 0 to 2^64 - 1")
         self._core.set_noise_seed(seed)
 
     @property

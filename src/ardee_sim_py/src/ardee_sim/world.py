@@ -17,6 +17,14 @@ _MOST_MODELS = 16  # that stay loaded
 _SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
 
 
+def read_text(file: Path) -> str:
+    """Returns a file's text. Raises ArdeeError if it cannot be read."""
+    try:
+        return file.read_text()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ArdeeError(f"{file}: {error}, expected a text file") from None
+
+
 class StartPose(TypedDict):
     """Pose at which a robot starts, as arguments of Simulation.spawn()."""
 
@@ -89,6 +97,8 @@ class World:
 
         Raises ArdeeError with file, line and element if the file, or one that it refers to, cannot be read.
         """
+        if os.path.isdir(path):
+            raise ArdeeError(f"{path}: found a folder, expected a world's file")
         return cls(_core.World.from_file(os.fspath(path), *cls._folders(model_paths)))
 
     @classmethod
