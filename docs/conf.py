@@ -22,6 +22,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "description"
 autodoc_typehints_description_target = "documented"
 autodoc_preserve_defaults = True
+autodoc_mock_imports = ["stable_baselines3", "torch"]  # of an example; its user installs them
 
 
 def _as_restructured_text(
