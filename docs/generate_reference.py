@@ -35,6 +35,7 @@ API = {
     "ardee_common": "src/ardee_common/src/ardee_common",
     "ardee_models": "src/ardee_models/src/ardee_models",
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
+    "ardee_datasets": "src/ardee_datasets/src/ardee_datasets",
     "ardee_campaigns": "src/ardee_campaigns/src/ardee_campaigns",
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",
 }

@@ -11,6 +11,7 @@ from markdown_text import code, table
 from ardee_bridge.nodes import settings
 from ardee_campaigns import campaign_file
 from ardee_common.options import kind_of, range_text, unit_of
+from ardee_datasets import recipe as dataset
 from ardee_models.plant.species import SpeciesFile
 from ardee_models.terrain.recipe import Recipe
 from ardee_navigation.evaluation.scenario_files import Scenario
@@ -30,6 +31,9 @@ FILES = (
     ("A robot of a campaign", "an entry of `robots`", campaign_file.RobotKeys),
     ("A controller of a campaign", "an entry of `controllers`", campaign_file.ControllerKeys),
     ("A factor of a campaign", "an entry of `factors`", campaign_file.FactorKeys),
+    ("Data set", "a recipe of `rosrun ardee_datasets generate_dataset`", dataset.Recipe),
+    ("Fields of a data set", "an entry of `fields`", dataset.FieldKeys),
+    ("A camera of a data set", "an entry of `cameras`", dataset.CameraKeys),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
     ("A GPS of the sensor server", "an entry of `sources`", settings.GpsSource),
     ("A camera of the sensor server", "an entry of `sources`", settings.ImageSource),

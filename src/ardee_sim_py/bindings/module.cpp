@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "ardee_sim/description/scenery.h"
 #include "simulation.h"
@@ -49,7 +51,11 @@ py::tuple tuple_of(const RelativeState& state) {
 py::list placements_of(const LoadedWorld& loaded) {
   py::list made;
   std::int64_t instance_number = 1;
-  for (const Instance& each : loaded.world()->models) {
+  // A simulation numbers a world's models in the order of their names.
+  std::map<std::string, Instance> models;
+  for (const Instance& each : loaded.world()->models) models.emplace(each.name, each);
+  for (auto& [_, each] : models) {
+    each.is_static |= each.model->is_static || each.model->links.empty();
     const auto placements = each.is_static ? flatten_scenery(each) : std::vector<Placement>();
     const PlacementNames name = placement_names(each);
     for (std::size_t k = 0; k < placements.size(); ++k) {

@@ -266,6 +266,13 @@ def test_pictures_agree_with_each_other_and_with_the_plants(
     plants = {plant.instance: plant for plant in corn.plants()}
     crop = instances[labels == 1]
     assert crop.size > 500 and set(crop) <= set(plants)
+    label_of = {placement.instance: placement.label for placement in corn.placements()}
+    assert {10, 11} <= set(labels.flat)
+    has_label = labels > 0
+    assert [label_of[i] for i in instances[has_label]] == list(labels[has_label])
+    layers = sim.picture(**eye)
+    for name, layer in dict(rgb=rgb, depth_m=depth_m, labels=labels, instances=instances).items():
+        assert np.array_equal(layers[name], layer)
     far = sim.depth_image(**eye, near_m=1.0)
     assert far.min() >= 1.0 > depth_m.min()
     # The middle of the picture looks along the world's -x: a plant's depth is about its distance in x.

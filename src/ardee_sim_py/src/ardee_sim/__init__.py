@@ -44,7 +44,7 @@ from ardee_sim.simulation import (
     TopicInfo,
     Twist,
 )
-from ardee_sim.world import Plant, World
+from ardee_sim.world import Placement, Plant, World
 
 __all__ = [
     "ArdeeError",
@@ -68,6 +68,7 @@ __all__ = [
     "MagneticFieldReading",
     "OdometryReading",
     "PhysicsError",
+    "Placement",
     "Plant",
     "PointCloudReading",
     "RangeReading",

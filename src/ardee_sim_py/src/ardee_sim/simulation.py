@@ -328,45 +328,50 @@ class Simulation:
 
         lens : width_px=640, height_px=480, horizontal_fov_rad=1.2, near_m=0 (what is nearer is invisible)
         """
-        return self._picture(xyz_m, quat_xyzw, "rgb", **lens)
+        return self._picture(xyz_m, quat_xyzw, ("rgb",), **lens)["rgb"]
 
     def depth_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns depths along the camera's axis, float32[h, w] in m, +inf where nothing is met. As render()."""
-        return self._picture(xyz_m, quat_xyzw, "depth_m", **lens)
+        return self._picture(xyz_m, quat_xyzw, ("depth_m",), **lens)["depth_m"]
 
     def label_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns classes, uint16[h, w]: 0 nothing, 1 corn, 2 sorghum, 3 tobacco, 10 weed, ... As render()."""
-        return self._picture(xyz_m, quat_xyzw, "labels", **lens)
+        return self._picture(xyz_m, quat_xyzw, ("labels",), **lens)["labels"]
 
     def instance_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns numbers of models, int32[h, w]: 0 nothing, Plant.instance, ... As render()."""
-        return self._picture(xyz_m, quat_xyzw, "instances", **lens)
+        return self._picture(xyz_m, quat_xyzw, ("instances",), **lens)["instances"]
+
+    def picture(
+        self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
+    ) -> Dict[str, np.ndarray]:
+        """Returns the layers "rgb", "depth_m", "labels" and "instances" of one picture. As render()."""
+        return self._picture(xyz_m, quat_xyzw, ("rgb", "depth_m", "labels", "instances"), **lens)
 
     def _picture(
         self,
         xyz_m: Vector,
         quat_xyzw: Vector,
-        part: str,
+        parts: Sequence[str],
         *,
         width_px: int = 640,
         height_px: int = 480,
         horizontal_fov_rad: float = 1.2,
         near_m: float = 0.0,
-    ) -> np.ndarray:
+    ) -> Dict[str, np.ndarray]:
         if not (1 <= width_px <= 10_000 and 1 <= height_px <= 10_000):
             raise ValueError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
         if not 0 < horizontal_fov_rad < math.pi:
             raise ValueError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
         if not 0 <= near_m < math.inf:
             raise ValueError(f"found near_m={near_m}, expected 0 or more")
-        wanted = (part == "rgb", part == "depth_m", part in ("labels", "instances"))
+        wanted = ("rgb" in parts, "depth_m" in parts, "labels" in parts or "instances" in parts)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
-        return self._core.picture(*pose, width_px, height_px, horizontal_fov_rad, near_m, *wanted)[
-            part
-        ]
+        size = width_px, height_px
+        return self._core.picture(*pose, *size, horizontal_fov_rad, near_m, *wanted)

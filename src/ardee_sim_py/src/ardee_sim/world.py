@@ -53,6 +53,15 @@ class Plant:
     height_m: Optional[float] = None
 
 
+@dataclass(frozen=True)
+class Placement:
+    """A static model of the world, such as corn-field::plant_7; label and instance are its numbers in pictures."""
+
+    name: str
+    label: int
+    instance: int
+
+
 def _truth_beside(file: str) -> Dict[int, Dict[str, str]]:
     path = Path(file).parent / "truth.csv"
     if not path.is_file():
@@ -139,6 +148,10 @@ class World:
         except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
             raise ArdeeError(f"{file}: {error}, expected x_m, y_m, z_m, yaw_rad") from None
         return {"xyz_m": (x, y, z), "rpy_rad": (0.0, 0.0, yaw)}
+
+    def placements(self) -> List[Placement]:
+        """Returns all static models, in the order of their instance numbers."""
+        return [Placement(made[0], made[5], made[6]) for made in self._core.placements()]
 
     def plants(self) -> List[Plant]:
         """Returns all crop plants, in the order of their instance numbers."""

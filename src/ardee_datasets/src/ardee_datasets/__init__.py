@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Labelled pictures of generated fields; no ROS."""

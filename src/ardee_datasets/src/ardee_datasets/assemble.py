@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: MIT
+"""Puts the finished samples of a data set together: annotations, poses, card, manifest."""
+
+import csv
+import hashlib
+import io
+import json
+from pathlib import Path
+from typing import Any, Dict, List
+
+from ardee_common.output import write_file
+from ardee_datasets.recipe import SPLITS, Recipe
+from ardee_datasets.sample import json_bytes
+
+CATEGORIES = (
+    {"id": 1, "name": "corn", "supercategory": "crop"},
+    {"id": 2, "name": "sorghum", "supercategory": "crop"},
+    {"id": 3, "name": "tobacco", "supercategory": "crop"},
+    {"id": 10, "name": "weed", "supercategory": "weed"},
+    {"id": 11, "name": "stone", "supercategory": "clutter"},
+    {"id": 12, "name": "litter", "supercategory": "clutter"},
+)
+_POSE = ("x_m", "y_m", "z_m")
+_CARD = """# {name}
+
+Labelled pictures of simulated crop fields, made by ARDEE from dataset.yaml (seed {seed}). Licence: {licence}.
+
+| split | fields | pictures | annotated objects |
+|---|---|---|---|
+{rows}
+
+| category | objects | pixels |
+|---|---|---|
+{categories}
+
+Files of a split, by the id of a sample, SCENE_FRAME:
+- rgb/*.png; labels/*.png, 16 bit: category ids; instances/*.png, 16 bit: 1 to n in each picture, in the order of its
+  annotations; depth/*.tiff: float32, metres along the optical axis; 0 is nothing in each of the last three.
+- samples/*.json: K (a pixel's centre lies at its whole number), X_WC (optical frame in the world: x right, y down, z
+  ahead), seeds, and the number in instances/ to the id in truth/SCENE.
+- annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv.
+- poses.csv: positions of the cameras.
+
+A field's pictures all belong to one split. manifest.json lists the sha256 of every file.
+The pictures are simulated: nothing moves in the wind, and each picture has the same sun.
+"""
+
+
+def _samples(folder: Path, split: str) -> List[Dict[str, Any]]:
+    return [
+        json.loads(path.read_text()) for path in sorted((folder / split / "samples").glob("*.json"))
+    ]
+
+
+def coco(samples: List[Dict[str, Any]], licence: str) -> Dict[str, Any]:
+    """Returns a COCO data set of samples; images and annotations are numbered from 1."""
+    images, annotations = [], []
+    for image_id, sample in enumerate(samples, 1):
+        images.append(
+            {
+                "id": image_id,
+                "file_name": f"rgb/{sample['id']}.png",
+                "width": sample["width_px"],
+                "height": sample["height_px"],
+                "license": 1,
+            }
+        )
+        for made in sample["annotations"]:
+            annotations.append({"id": len(annotations) + 1, "image_id": image_id, **made})
+    return {
+        "info": {"description": "simulated by ARDEE"},
+        "licenses": [{"id": 1, "name": licence}],
+        "images": images,
+        "annotations": annotations,
+        "categories": list(CATEGORIES),
+    }
+
+
+def _poses(samples: List[Dict[str, Any]]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
+    writer.writerow(("id", "camera", *_POSE, *names))
+    for sample in samples:
+        X_WC = sample["X_WC"]
+        rotation = [value for row in X_WC[:3] for value in row[:3]]
+        writer.writerow((sample["id"], sample["camera"], *(row[3] for row in X_WC[:3]), *rotation))
+    return text.getvalue()
+
+
+def _card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]]]) -> str:
+    rows, objects, pixels = [], {}, {}
+    for split, samples in by_split.items():
+        fields = len({sample["scene"] for sample in samples})
+        made = [one for sample in samples for one in sample["annotations"]]
+        rows.append(f"| {split} | {fields} | {len(samples)} | {len(made)} |")
+        for one in made:
+            category = one["category_id"]
+            objects[category] = objects.get(category, 0) + 1
+            pixels[category] = pixels.get(category, 0) + one["area"]
+    categories = [
+        f"| {c['name']} | {objects[c['id']]} | {pixels[c['id']]} |"
+        for c in CATEGORIES
+        if c["id"] in objects
+    ]
+    return _CARD.format(
+        name=name,
+        seed=recipe.seed,
+        licence=recipe.licence,
+        rows="\n".join(rows),
+        categories="\n".join(categories),
+    )
+
+
+def _manifest(folder: Path) -> Dict[str, str]:
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in files
+        if path.name != "manifest.json" and not path.name.startswith(".")
+    }
+
+
+def assemble(folder: Path, recipe: Recipe) -> None:
+    """Writes all that needs every sample; manifest.json is last."""
+    by_split = {split: samples for split in SPLITS if (samples := _samples(folder, split))}
+    for split, samples in by_split.items():
+        annotations = json.dumps(coco(samples, recipe.licence), sort_keys=True)
+        write_file(folder / split / "annotations.json", annotations.encode())
+        write_file(folder / split / "poses.csv", _poses(samples).encode())
+    write_file(folder / "categories.json", json_bytes(list(CATEGORIES)))
+    write_file(folder / "README.md", _card("Data set", recipe, by_split).encode())
+    write_file(folder / "manifest.json", json_bytes(_manifest(folder)))

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Recipes that come with the package."""

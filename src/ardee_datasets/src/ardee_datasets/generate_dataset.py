@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""The command `generate_dataset`: labelled pictures of the fields of a recipe."""
+
+import argparse
+import fcntl
+import multiprocessing
+import os
+import signal
+import tempfile
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+from typing import Optional, Sequence
+
+from ardee_sim import ArdeeError
+
+from ardee_common.cli import Parser, run, say, whole_in
+from ardee_common.errors import GeneratorError
+from ardee_common.output import output_folder, write_file
+from ardee_datasets.assemble import assemble
+from ardee_datasets.plan import Scene, Shot, scenes, shots
+from ardee_datasets.recipe import Recipe, read_recipe
+from ardee_datasets.sample import take
+from ardee_datasets.scenery import Scenery
+
+_TRUTH = ("truth.csv", "truth.json", "clutter.csv")
+
+
+def _is_done(folder: Path, scene: Scene, shot: Shot) -> bool:
+    return (folder / scene.keys.split / "samples" / f"{shot.id}.json").is_file()
+
+
+def is_complete(folder: Path, recipe: Recipe, scene: Scene) -> bool:
+    """Returns whether all pictures of a scene are there."""
+    return all(_is_done(folder, scene, shot) for shot in shots(recipe, scene))
+
+
+def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
+    """Sows the field of a scene and takes its pictures; returns the name of the scene.
+
+    All in order, also those that are there: a picture may depend on the ones that its simulation took before.
+    """
+    try:
+        with tempfile.TemporaryDirectory(prefix="ardee_dataset_") as temporary:
+            scenery = Scenery(scene, Path(temporary))
+            for name in _TRUTH:
+                if (scenery.folder / name).is_file():
+                    truth = (scenery.folder / name).read_bytes()
+                    write_file(folder / "truth" / scene.name / name, truth)
+            for shot in shots(recipe, scene):
+                take(scene, shot, recipe.cameras[shot.camera], scenery, folder)
+    except (GeneratorError, ArdeeError) as error:
+        raise GeneratorError(f"{scene.name}: {error}") from None
+    return scene.name
+
+
+def _start_worker(parent: int) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's, which ends the pool
+    if os.getppid() != parent:
+        os._exit(1)
+
+
+def _work_off(folder: Path, recipe: Recipe, todo: Sequence[Scene], workers: int) -> None:
+    if workers == 1:
+        for number, scene in enumerate(todo, 1):
+            make_scene(folder, recipe, scene)
+            say("generate_dataset", f"{scene.name}: {number} of {len(todo)} fields")
+        return
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, context, _start_worker, (os.getpid(),)) as pool:
+        futures = [pool.submit(make_scene, folder, recipe, scene) for scene in todo]
+        try:
+            for number, future in enumerate(as_completed(futures), 1):
+                say("generate_dataset", f"{future.result()}: {number} of {len(todo)} fields")
+        except BrokenProcessPool:
+            raise GeneratorError("a worker ended; start again to go on") from None
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def _check_same(folder: Path, recipe_file: Path) -> None:
+    """Refuses a folder that holds another data set, or something else."""
+    kept = folder / "dataset.yaml"
+    text = recipe_file.read_bytes()
+    if kept.is_file():
+        if kept.read_bytes() != text:
+            raise GeneratorError(
+                f"--output: found {folder} of another recipe, expected {recipe_file}"
+            )
+    elif any(folder.iterdir()):
+        raise GeneratorError(f"--output: found files in {folder}, expected an empty folder")
+    else:
+        write_file(kept, text)
+
+
+def plan_text(recipe: Recipe) -> str:
+    """Returns the plan of a recipe in words: a line for each field, and the count."""
+    planned = scenes(recipe)
+    lines = [
+        f"{scene.name}  {scene.keys.split}  {len(list(shots(recipe, scene)))} pictures"
+        for scene in planned
+    ]
+    count = sum(len(list(shots(recipe, scene))) for scene in planned)
+    return "\n".join((*lines, f"{len(planned)} fields, {count} pictures"))
+
+
+def _lock(folder: Path) -> int:
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(handle)
+        raise GeneratorError(
+            f"--output: found {folder}, in which another generate_dataset works, expected its end"
+        ) from None
+    return handle
+
+
+def generate(args: argparse.Namespace) -> Optional[str]:
+    """Writes the data set that the arguments ask for, or the rest of it."""
+    recipe = read_recipe(args.recipe)
+    if args.list:
+        return plan_text(recipe)
+    if args.output is None:
+        raise GeneratorError("found no --output, expected a folder for the data set")
+    with output_folder(args.output) as folder:
+        handle = _lock(folder)
+        try:
+            _check_same(folder, args.recipe)
+            todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
+            _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
+            assemble(folder, recipe)
+        finally:
+            os.close(handle)
+    return str(args.output)
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Makes the parser of generate_dataset."""
+    parser = Parser(
+        prog="generate_dataset",
+        description="Write a data set of labelled pictures; one that was interrupted goes on.",
+    )
+    parser.add_argument("recipe", type=Path, metavar="RECIPE.yaml", help="recipe of the data set")
+    parser.add_argument("--output", type=Path, metavar="DIR", help="folder of the data set")
+    parser.add_argument("--list", action="store_true", help="print the plan and write nothing")
+    parser.add_argument(
+        "--workers",
+        type=whole_in(1, 1024),
+        default=len(os.sched_getaffinity(0)),
+        metavar="N",
+        help="number of processes, which share the fields (default: that of the processors)",
+    )
+    return parser
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """Runs `generate_dataset RECIPE.yaml --output DIR`."""
+    return run(make_parser(), generate, arguments)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""The plan of a data set: its scenes with their seeds, and the random streams of each."""
+
+import hashlib
+from dataclasses import dataclass
+from typing import Any, Dict, Iterator, List
+
+import numpy as np
+
+from ardee_datasets.recipe import FieldKeys, Recipe
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A field of the data set, whose pictures one task takes."""
+
+    name: str
+    keys: FieldKeys
+    seed: int
+
+    def options(self) -> Dict[str, Any]:
+        """Returns the options of its field: the fixed ones, and those drawn from ranges."""
+        made = dict(self.keys.options or {})
+        for key, (low, high) in sorted((self.keys.ranges or {}).items()):
+            rng = stream(self.seed, key)
+            if isinstance(low, int) and isinstance(high, int):
+                made[key] = int(rng.integers(low, high + 1))
+            else:
+                made[key] = round(float(rng.uniform(low, high)), 6)
+        return made
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A picture to be taken; its id is unique in the data set."""
+
+    id: str
+    camera: str
+    seed: int
+
+
+def child_seed(seed: int, *names: object) -> int:
+    """Returns the seed of a named stream below another seed."""
+    text = "/".join(map(str, (seed, *names)))
+    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "little")
+
+
+def stream(seed: int, *names: object) -> np.random.Generator:
+    """Returns the random stream of this name."""
+    return np.random.default_rng(child_seed(seed, *names))
+
+
+def scenes(recipe: Recipe) -> List[Scene]:
+    """Returns all scenes, in the order of their names."""
+    made = []
+    for name, keys in sorted(recipe.fields.items()):
+        for number in range(keys.fields):
+            scene = f"{name}_{number:04d}"
+            made.append(Scene(scene, keys, child_seed(recipe.seed, "field", scene)))
+    return made
+
+
+def shots(recipe: Recipe, scene: Scene) -> Iterator[Shot]:
+    """Yields the pictures of a scene, in the order of their ids."""
+    frame = 0
+    for camera in sorted(recipe.cameras):
+        for _ in range(scene.keys.frames):
+            seed = child_seed(scene.seed, "shot", frame)
+            yield Shot(f"{scene.name}_{frame:06d}", camera, seed)
+            frame += 1

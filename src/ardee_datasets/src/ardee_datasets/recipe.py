@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""The recipe of a data set: which fields, seen by which cameras, how often."""
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Dict, Optional, Tuple
+
+import yaml
+from ardee_sim.packages import find_package
+
+from ardee_common.config import Mapping, build, read_yaml_lines, unknown_key, value_of
+from ardee_common.errors import GeneratorError, known_names
+from ardee_common.options import kind_of, option
+from ardee_world.request import all_fields
+
+SPLITS = ("train", "val", "test")
+_SOURCE_KEYS = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
+_HEIGHT_M = (0.05, 20.0)
+_COUNT = (1, 100_000)
+Range = Tuple[float, float]
+
+
+@dataclass(frozen=True)
+class FieldKeys:
+    """Fields of one kind; each is sown anew, and all its pictures belong to one split."""
+
+    split: str = option("train", "part of the data set", choices=SPLITS)
+    fields: int = option(1, "number of fields", _COUNT)
+    frames: int = option(10, "number of pictures that each camera takes in a field", _COUNT)
+    options: Optional[dict] = option(None, "options of generate_field, as in a field's YAML file")
+    ranges: Optional[dict] = option(
+        None, "options of generate_field that each field draws from [least, most]"
+    )
+
+
+@dataclass(frozen=True)
+class CameraKeys:
+    """A camera that looks along the rows; a pose is drawn for each picture."""
+
+    sensor: Optional[str] = option(None, "camera of ardee_sensors, such as realsense_d435")
+    width_px: Optional[int] = option(None, "width of the picture", (8, 8192))
+    height_px: Optional[int] = option(None, "height of the picture", (8, 8192))
+    horizontal_fov_deg: Optional[float] = option(None, "horizontal field of view", (1.0, 170.0))
+    height_m: Range = option((0.5, 0.5), "height above the ground", _HEIGHT_M)
+    pitch_deg: Range = option((0.0, 0.0), "tilt below the horizon", (-90.0, 90.0))
+    yaw_deg: Range = option((0.0, 0.0), "turn to the left of the lane", (-180.0, 180.0))
+    offset_m: Range = option((0.0, 0.0), "offset to the left of the lane's middle", (-10.0, 10.0))
+
+    def __post_init__(self) -> None:
+        for key in ("height_m", "pitch_deg", "yaw_deg", "offset_m"):
+            low, high = getattr(self, key)
+            if low > high:
+                raise GeneratorError(f"{key}: found [{low}, {high}], expected [least, most]")
+        numbers = ("width_px", "height_px", "horizontal_fov_deg")
+        missing = [key for key in numbers if getattr(self, key) is None]
+        if not self.sensor and missing:
+            raise GeneratorError(f"found neither sensor nor {', '.join(missing)}, expected one")
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A data set; the same recipe gives the same bytes."""
+
+    fields: dict = option(dataclasses.MISSING, "kinds of fields, by name")
+    cameras: dict = option(dataclasses.MISSING, "cameras, by name")
+    seed: int = option(0, "root of all random numbers", (0, 2**63))
+    licence: str = option("CC0-1.0", "licence of the data set, an SPDX identifier")
+
+
+def _named(cls: type, given: Mapping, what: str) -> Dict[str, Any]:
+    """Returns the groups of options below names that are safe in file names."""
+    made = {}
+    for name, keys in given.items():
+        if not name.replace("_", "").isalnum() or not name.isascii():
+            raise given.error(name, f"{what} {name!r}: expected letters, digits and '_'")
+        if not isinstance(keys, Mapping):
+            raise given.error(name, f"{name}: found {keys!r}, expected a mapping of keys to values")
+        made[name] = build(cls, keys)
+    if not made:
+        raise given.error("", f"{what}: found none, expected some")
+    return made
+
+
+def _option(given: Mapping, key: str) -> dataclasses.Field:
+    known = {name: pair for name, pair in all_fields().items() if name not in _SOURCE_KEYS}
+    if key not in known:
+        raise unknown_key(given, key, sorted(known))
+    return known[key]
+
+
+def _check_options(keys: FieldKeys) -> FieldKeys:
+    """Returns the keys with plain values; each option is checked as generate_field checks it."""
+    options, ranges = {}, {}
+    for key in keys.options or ():
+        cls, field = _option(keys.options, key)
+        options[key] = value_of(cls, field, keys.options, key)
+    for key, limits in (keys.ranges or {}).items():
+        cls, field = _option(keys.ranges, key)
+        if kind_of(cls, field) not in (int, float):
+            raise keys.ranges.error(
+                key, f"{key}: found a range, expected an option that is a number"
+            )
+        if key in options:
+            raise keys.ranges.error(key, f"{key}: found it in options too, expected it once")
+        if not isinstance(limits, list) or len(limits) != 2:
+            raise keys.ranges.error(key, f"{key}: found {limits!r}, expected [least, most]")
+        ranges[key] = tuple(_checked(keys.ranges, key, value) for value in limits)
+        if ranges[key][0] > ranges[key][1]:
+            raise keys.ranges.error(key, f"{key}: found {limits!r}, expected [least, most]")
+    if not options.get("models"):
+        raise GeneratorError("options: found no models, expected names of crop models")
+    return dataclasses.replace(keys, options=options, ranges=ranges)
+
+
+def _checked(given: Mapping, key: str, value: Any) -> Any:
+    one = Mapping(given.place)
+    one.line[key] = given.line[key]
+    one[key] = value
+    return value_of(*_option(given, key), one, key)
+
+
+def _with_sensor(keys: CameraKeys, given: Mapping, name: str) -> CameraKeys:
+    """Returns the keys with the numbers of a shipped camera where they are not given."""
+    if not keys.sensor:
+        return keys
+    folder = find_package("ardee_sensors") / "config"
+    numbers = {}
+    for file in sorted(folder.glob("*.yaml")):
+        read = yaml.safe_load(file.read_text())
+        if {"width_px", "height_px", "horizontal_fov_deg"} <= set(read):
+            numbers[file.stem] = read
+    if keys.sensor not in numbers:
+        raise given.error(
+            "sensor", f"sensor: found {keys.sensor!r}, {known_names(keys.sensor, list(numbers))}"
+        )
+    read = numbers[keys.sensor]
+    changes = {
+        key: read[key]
+        for key in ("width_px", "height_px", "horizontal_fov_deg")
+        if getattr(keys, key) is None
+    }
+    return dataclasses.replace(keys, **changes)
+
+
+def read_recipe(path: Path) -> Recipe:
+    """Reads and checks a recipe. Raises GeneratorError with file and line."""
+    given = read_yaml_lines(path)
+    recipe = build(Recipe, given)
+    fields = {}
+    for name, keys in _named(FieldKeys, recipe.fields, "fields").items():
+        try:
+            fields[name] = _check_options(keys)
+        except GeneratorError as error:
+            at = recipe.fields.error(name, "")
+            text = str(error)
+            raise error if text.startswith(str(path)) else GeneratorError(f"{at}{name}: {text}")
+    cameras = {
+        name: _with_sensor(keys, recipe.cameras[name], name)
+        for name, keys in _named(CameraKeys, recipe.cameras, "cameras").items()
+    }
+    return dataclasses.replace(recipe, fields=fields, cameras=cameras)

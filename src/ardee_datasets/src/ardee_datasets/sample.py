@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""One sample: the layers of a picture and the description of what is in it."""
+
+import io
+import json
+import math
+from pathlib import Path
+from typing import Any, Dict, List, Tuple
+
+import numpy as np
+from PIL import Image
+
+from ardee_common.output import write_file
+from ardee_datasets import rle
+from ardee_datasets.plan import Scene, Shot
+from ardee_datasets.recipe import CameraKeys
+from ardee_datasets.scenery import Item, Scenery
+
+# Layer to the ending of its files
+LAYERS = {"rgb": "png", "labels": "png", "instances": "png", "depth": "tiff"}
+
+
+def json_bytes(data: Any) -> bytes:
+    """Returns JSON text that depends on nothing but the data."""
+    return (json.dumps(data, indent=1, sort_keys=True) + "\n").encode()
+
+
+def intrinsics(keys: CameraKeys) -> np.ndarray:
+    """Returns K, 3x3, of a pinhole camera with square pixels; pixel centres are whole numbers."""
+    assert keys.width_px and keys.height_px and keys.horizontal_fov_deg
+    focal = keys.width_px / 2 / math.tan(math.radians(keys.horizontal_fov_deg) / 2)
+    u, v = (keys.width_px - 1) / 2, (keys.height_px - 1) / 2
+    return np.array([[focal, 0.0, u], [0.0, focal, v], [0.0, 0.0, 1.0]])
+
+
+def numbered(instances: np.ndarray, items: Dict[int, Item]) -> Tuple[np.ndarray, List[int]]:
+    """Returns the picture with its own numbers 1..n, 0 for what has no label, and the n instances in order."""
+    seen = [int(i) for i in np.unique(instances) if int(i) in items]
+    table = np.zeros(int(instances.max()) + 1, dtype=np.uint16)
+    table[seen] = np.arange(1, len(seen) + 1)
+    return table[instances], seen
+
+
+def annotation(mask: np.ndarray, item: Item) -> Dict[str, Any]:
+    """Returns the COCO annotation of a mask, without its ids."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    x, y = int(columns[0]), int(rows[0])
+    area = int(mask.sum())
+    return {
+        "category_id": item.label,
+        "segmentation": {"size": list(mask.shape), "counts": rle.encode(mask)},
+        "area": area,
+        "visible_px": area,
+        "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
+        "iscrowd": 0,
+        "truth_id": item.truth_id,
+        "kind": item.truth_id.rpartition("_")[0],
+    }
+
+
+def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
+    stream = io.BytesIO()
+    if ending == "tiff":
+        Image.fromarray(array).save(stream, "TIFF", compression="tiff_lzw")
+    else:
+        Image.fromarray(array).save(stream, "PNG", compress_level=1)
+    return stream.getvalue()
+
+
+def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: Path) -> None:
+    """Takes a picture and writes its layers into folder/<split>; samples/<id>.json is last: with it, all is there."""
+    assert keys.width_px and keys.height_px and keys.horizontal_fov_deg
+    pose = scenery.draw_pose(keys, shot.seed)
+    taken = scenery.simulation.picture(
+        pose.xyz_m,
+        pose.rotation.as_quat(),
+        width_px=keys.width_px,
+        height_px=keys.height_px,
+        horizontal_fov_rad=math.radians(keys.horizontal_fov_deg),
+    )
+    own, seen = numbered(taken["instances"], scenery.items)
+    depth = taken["depth_m"]
+    layers = {
+        "rgb": taken["rgb"],
+        "labels": taken["labels"],
+        "instances": own,
+        "depth": np.where(np.isfinite(depth), depth, np.float32(0.0)),
+    }
+    split = folder / scene.keys.split
+    for layer, ending in LAYERS.items():
+        write_file(split / layer / f"{shot.id}.{ending}", _picture_bytes(layers[layer], ending))
+    items = [scenery.items[instance] for instance in seen]
+    sample = {
+        "id": shot.id,
+        "scene": scene.name,
+        "split": scene.keys.split,
+        "camera": shot.camera,
+        "width_px": keys.width_px,
+        "height_px": keys.height_px,
+        "K": intrinsics(keys).tolist(),
+        "X_WC": pose.matrix().tolist(),
+        "stamp_ns": 0,
+        "field_seed": scene.seed,
+        "shot_seed": shot.seed,
+        "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},
+        "annotations": [annotation(own == n, item) for n, item in enumerate(items, 1)],
+    }
+    write_file(split / "samples" / f"{shot.id}.json", json_bytes(sample))

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""The field of a scene: sown in a folder, opened as a simulation, with poses for cameras in its lanes."""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Dict, List, Tuple
+
+import numpy as np
+from ardee_sim import Simulation, World, packages
+from scipy.spatial.transform import Rotation
+
+from ardee_common.errors import GeneratorError
+from ardee_datasets.plan import Scene, stream
+from ardee_datasets.recipe import CameraKeys, Range
+from ardee_models.lookup import search_path
+from ardee_models.terrain.ground import ground_model
+from ardee_world.generate_field import make_configured
+from ardee_world.row_truth import Polyline, read_field
+from ardee_world.writers.world import world_text
+
+_TERRAIN = "heightmap_ground"
+# Axes of the optical frame (x right, y down, z ahead) in those of a body (x ahead, y left, z up), REP 103
+_OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
+_WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of plots
+
+
+@dataclass(frozen=True)
+class CameraPose:
+    """Pose of a camera in the world, x ahead, y left, z up."""
+
+    xyz_m: np.ndarray
+    rotation: Rotation
+
+    def matrix(self) -> np.ndarray:
+        """Returns X_WC, 4x4: the optical frame (x right, y down, z ahead) in the world."""
+        made = np.eye(4)
+        made[:3, :3] = self.rotation.as_matrix() @ _OPTICAL
+        made[:3, 3] = self.xyz_m
+        return made
+
+
+@dataclass(frozen=True)
+class Item:
+    """A plant or a piece of clutter: its name in the truth (plant_7, weed_0) and its label."""
+
+    truth_id: str
+    label: int
+
+
+class Scenery:
+    """A sown field with its simulation."""
+
+    def __init__(self, scene: Scene, folder: Path) -> None:
+        options = scene.options()
+        shipped = [Path(name) for name in packages.model_folders()]
+        terrain = options.setdefault("terrain", _TERRAIN)
+        values = {
+            **options,
+            "name": "field",
+            "output": str(folder),
+            "seed": scene.seed,
+            "format": "sdf",
+            "model_path": tuple(map(str, shipped)),
+        }
+        self.folder = make_configured(values)
+        self._ground = ground_model(terrain, search_path(shipped))
+        text = world_text(terrain, "field")
+        world = World.from_string(text, base_dir=folder, model_paths=[folder, *shipped])
+        self.items: Dict[int, Item] = {
+            placement.instance: Item(placement.name.rpartition("::")[2], placement.label)
+            for placement in world.placements()
+            if placement.label
+        }
+        self.simulation = Simulation(world, seed=scene.seed)
+        self._lanes = self._find_lanes()
+
+    def _find_lanes(self) -> List[Tuple[np.ndarray, np.ndarray]]:
+        """Returns the pairs of neighbouring rows that run side by side, as polylines [n, 2]."""
+        rows = read_field(self.folder / "truth.json").rows
+        lanes = []
+        for left, right in zip(rows, rows[1:]):
+            a, b = Polyline(left), Polyline(right)
+            middle = a.at(a.length_m / 2)
+            seen = b.project(middle.x_m, middle.y_m)
+            is_beside = abs(math.sin(seen.direction_rad - middle.yaw_rad)) < 0.5
+            if is_beside and abs(seen.left_m) < _WIDEST_LANE_M:
+                lanes.append((left, right))
+        if not lanes:
+            raise GeneratorError("found no two rows side by side, expected a lane for the camera")
+        return lanes
+
+    def draw_pose(self, keys: CameraKeys, seed: int) -> CameraPose:
+        """Returns a pose in a lane, looking along it either way."""
+        rng = stream(seed, "pose")
+
+        def within(limits: Range) -> float:
+            return float(rng.uniform(*limits))
+
+        one, other = (Polyline(row) for row in self._lanes[rng.integers(len(self._lanes))])
+        at = one.at(float(rng.uniform(0.0, one.length_m)))
+        left_m = other.project(
+            at.x_m, at.y_m
+        ).left_m  # of the place on one row, seen from the other
+        offset = within(keys.offset_m)
+        yaw = at.yaw_rad + (math.pi if rng.integers(2) else 0.0)
+        side = at.yaw_rad - math.pi / 2
+        x = at.x_m + left_m / 2 * math.cos(side) - offset * math.sin(yaw)
+        y = at.y_m + left_m / 2 * math.sin(side) + offset * math.cos(yaw)
+        z = float(self._ground.height_at(np.array([x]), np.array([y]))[0]) + within(keys.height_m)
+        turn = math.degrees(yaw) + within(keys.yaw_deg)
+        turned = Rotation.from_euler("ZY", (turn, within(keys.pitch_deg)), degrees=True)
+        return CameraPose(np.array([x, y, z]), turned)

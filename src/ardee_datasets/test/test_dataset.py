@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: MIT
+"""Data sets of a small recipe: what is written agrees with the pictures, and does not depend on how it was made."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from ardee_datasets import rle
+from ardee_datasets.generate_dataset import main
+from ardee_datasets.recipe import read_recipe
+
+RECIPE = """
+seed: 3
+fields:
+  corn:
+    fields: 2
+    frames: 2
+    options: {models: [corn_variant_1], row_length_m: 3.0, weed_density_per_m2: 2.0}
+    ranges: {row_spacing_m: [0.7, 0.8]}
+  late:
+    split: test
+    frames: 1
+    options: {models: [corn_variant_7], row_length_m: 3.0}
+cameras:
+  front: {width_px: 96, height_px: 72, horizontal_fov_deg: 70, height_m: [0.4, 0.6], pitch_deg: [10, 30]}
+"""
+
+
+def pixels(path: Path) -> np.ndarray:
+    return np.asarray(Image.open(path))
+
+
+def command(recipe: Path, folder: Path, workers: int) -> list:
+    words = ["generate_dataset", str(recipe), "--output", str(folder), "--workers", str(workers)]
+    return [sys.executable, "-m", "ardee_datasets", *words]
+
+
+@pytest.fixture(scope="module")
+def recipe(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("recipe") / "recipe.yaml"
+    path.write_text(RECIPE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def made(recipe: Path) -> Path:
+    folder = recipe.parent / "made"
+    assert main([str(recipe), "--output", str(folder), "--workers", "1"]) == 0
+    return folder
+
+
+def test_annotations_agree_with_the_pictures(made: Path) -> None:
+    count = 0
+    for split in ("train", "test"):
+        coco = json.loads((made / split / "annotations.json").read_text())
+        assert [image["id"] for image in coco["images"]] == list(range(1, len(coco["images"]) + 1))
+        for image in coco["images"]:
+            stem = Path(image["file_name"]).stem
+            own = pixels(made / split / "instances" / f"{stem}.png")
+            labels = pixels(made / split / "labels" / f"{stem}.png")
+            found = [a for a in coco["annotations"] if a["image_id"] == image["id"]]
+            assert len(found) == own.max() and np.array_equal(own > 0, labels > 0)
+            for number, one in enumerate(found, 1):
+                mask = own == number
+                x, y, width, height = one["bbox"]
+                assert one["area"] == mask.sum() == mask[y : y + height, x : x + width].sum()
+                assert mask[y].any() and mask[:, x + width - 1].any()
+                assert set(labels[mask]) == {one["category_id"]}
+                assert one["segmentation"]["counts"] == rle.encode(mask)
+            count += len(found)
+    assert count > 20
+
+
+def test_instances_lead_to_the_truth(made: Path) -> None:
+    """A plant's nearest visible pixel, carried into the world by K, X_WC and its depth, lies at the plant's place."""
+    checked = 0
+    for path in sorted((made / "train" / "samples").glob("*.json")):
+        sample = json.loads(path.read_text())
+        truth = json.loads((made / "truth" / sample["scene"] / "truth.json").read_text())["plants"]
+        place = dict(zip(truth["id"], zip(truth["world_x_m"], truth["world_y_m"])))
+        own = pixels(made / "train" / "instances" / f"{path.stem}.png")
+        depth_m = pixels(made / "train" / "depth" / f"{path.stem}.tiff")
+        for number, truth_id in sample["instances"].items():
+            if not truth_id.startswith("plant_"):
+                continue
+            v, u = np.argwhere(own == int(number)).T
+            rays = np.linalg.inv(sample["K"]) @ np.stack((u, v, np.ones(len(u))))
+            X_WC = np.array(sample["X_WC"])
+            points = X_WC[:3, :3] @ (rays * depth_m[v, u]) + X_WC[:3, 3:]
+            x, y = place[int(truth_id[len("plant_") :])]
+            assert math.hypot(points[0].mean() - x, points[1].mean() - y) < 0.35
+            checked += 1
+    assert checked > 10
+
+
+def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:
+    folder = recipe.parent / "killed"
+    first = subprocess.Popen(command(recipe, folder, 2), stderr=subprocess.DEVNULL, process_group=0)
+    limit = time.monotonic() + 60
+    while not list(folder.glob("*/samples/*.json")) and time.monotonic() < limit:
+        time.sleep(0.01)
+    os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    assert not (folder / "manifest.json").exists()
+    assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
+    assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "old, new, message",
+    [
+        ("frames: 2", "framse: 2", "recipe.yaml:6: unknown key 'framse'.*frames"),
+        ("row_length_m: 3.0,", "row_lenght_m: 3.0,", "recipe.yaml:7: unknown key.*row_length_m"),
+        ("[0.7, 0.8]", "[0.8, 0.7]", "recipe.yaml:8: row_spacing_m: found.*least, most"),
+        ("height_px: 72, ", "", "recipe.yaml:14: found neither sensor nor height_px"),
+        ("width_px: 96", "sensor: reelsense_d435", "recipe.yaml:14: sensor: .*realsense_d435"),
+        ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
+    ],
+)
+def test_a_bad_recipe_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
+    path = tmp_path / "recipe.yaml"
+    path.write_text(RECIPE.replace(old, new, 1))
+    with pytest.raises(Exception, match=message):
+        read_recipe(path)
+
+
+def test_the_encoding_is_that_of_pycocotools() -> None:
+    mask = pytest.importorskip("pycocotools.mask")
+    rng = np.random.default_rng(0)
+    for density in (0.0, 0.01, 0.5, 1.0):
+        picture = (rng.random((60, 47)) < density).astype(np.uint8)
+        assert rle.encode(picture) == mask.encode(np.asfortranarray(picture))["counts"].decode()
+
+
+def test_the_encoding_of_a_known_mask() -> None:
+    """Columns 0 1 1 | 1 0 0: runs 1, 3, 2."""
+    assert rle.encode(np.array([[0, 1], [1, 0], [1, 0]])) == "132"
