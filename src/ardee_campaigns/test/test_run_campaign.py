@@ -144,7 +144,7 @@ def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     until(lambda: finished(output), "the first finished run")
     scheduler.kill()
     _, said = child.communicate(timeout=60)
-    assert child.returncode == 1
+    assert child.returncode == 1, said
     assert said.strip().splitlines()[-1].startswith("run_campaign: the scheduler was lost"), said
     kept = finished(output)
     _, address = cluster("other")

@@ -9,6 +9,7 @@ from typing import Any, Callable, Iterator, List, Optional, Sequence
 
 import dask
 from distributed import Client, LocalCluster, as_completed
+from distributed.comm import CommClosedError
 from distributed.scheduler import KilledWorker
 
 from ardee_campaigns import tables
@@ -24,6 +25,9 @@ Told = Callable[[Job, str], None]
 
 class EngineError(Exception):
     """Error of the cluster or the disk: the campaign cannot go on, what is finished stays."""
+
+
+_LOST = EngineError("the scheduler was lost; start again to go on")
 
 
 @contextlib.contextmanager
@@ -108,7 +112,8 @@ class Engine:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._stack.close()
+        with contextlib.suppress(CommClosedError):  # of a scheduler that is lost already
+            self._stack.close()
 
     def _connected(self) -> Client:
         if self._opened is None:
@@ -119,6 +124,12 @@ class Engine:
         """Does the jobs, in any order; `told` gets each one and its error. Raises EngineError if it cannot go on."""
         if not jobs:
             return
+        try:
+            self._work_off(jobs, told)
+        except CommClosedError:
+            raise _LOST from None
+
+    def _work_off(self, jobs: Sequence[Job], told: Told) -> None:
         client, by_key = self._connected(), {}
 
         def submit(job: Job, attempt: int = 0) -> Any:
@@ -139,8 +150,10 @@ class Engine:
     def _outcome(self, job: Job, future: Any) -> Optional[str]:
         """Returns the error of a job that has ended, empty if it went well; None if it is to be tried again."""
         if future.cancelled() or future.status == "lost":
-            raise EngineError("the scheduler was lost; start again to go on")
+            raise _LOST
         error = future.exception()
+        if isinstance(error, CommClosedError):
+            raise _LOST
         if error is None:
             return future.result()
         if isinstance(error, KilledWorker):  # dask blames all jobs that waited for the worker
