@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+import ardee_datasets
 from ardee_datasets import rle
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
@@ -144,3 +145,11 @@ def test_the_encoding_is_that_of_pycocotools() -> None:
 def test_the_encoding_of_a_known_mask() -> None:
     """Columns 0 1 1 | 1 0 0: runs 1, 3, 2."""
     assert rle.encode(np.array([[0, 1], [1, 0], [1, 0]])) == "132"
+
+
+def test_the_example_makes_twenty_samples(tmp_path: Path) -> None:
+    recipe = Path(ardee_datasets.__file__).parent / "examples" / "small.yaml"
+    assert main([str(recipe), "--output", str(tmp_path / "set"), "--workers", "1"]) == 0
+    manifest = json.loads((tmp_path / "set" / "manifest.json").read_text())
+    for layer in ("rgb", "labels", "instances", "depth", "samples"):
+        assert sum(f"/{layer}/" in name for name in manifest) == 20
