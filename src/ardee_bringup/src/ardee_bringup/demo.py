@@ -13,10 +13,9 @@ import rospkg
 
 from ardee_bringup import field, report
 from ardee_common.cli import Parser, number_in, seed_number
-from ardee_common.process import end_by_signals, ignore_end_signals
+from ardee_common.process import end_by_signals, end_if_told, ignore_end_signals
 from ardee_common.ros_graph import Process, RosGraph, wait_until
 
-ENDED = []  # type: List[int]  # exit codes that signals asked for
 RVIZ_CONFIG = "config/rviz/waypoint_follower_paths.rviz"
 SCAN = "/ardee/hokuyo"
 RECORDED = ["/clock", "/tf", "/tf_static", "/odom", "/joint_states", "/cmd_vel", SCAN]
@@ -43,8 +42,7 @@ class Demo:
         """Returns the first true value of the condition; raises an error if a process that it needs ends before."""
 
         def checked() -> Any:
-            if ENDED:  # Python drops an exception that a signal raises during a fork
-                raise SystemExit(ENDED[0])
+            end_if_told()
             for process in self.needed:
                 if process.exit_code() is not None:
                     raise RuntimeError(f"{' '.join(process.command[:3])} has ended")
@@ -183,7 +181,7 @@ def options() -> argparse.Namespace:
 def main() -> int:
     """Runs the demo; returns its exit code."""
     found = options()
-    end_by_signals(ENDED)
+    end_by_signals()
     work = pathlib.Path(tempfile.mkdtemp(prefix="ardee_demo_"))
     demo = None  # type: Optional[Demo]
     try:

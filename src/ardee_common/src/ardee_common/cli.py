@@ -13,7 +13,7 @@ from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
 
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import range_text
-from ardee_common.process import Ended, end_by_signals
+from ardee_common.process import Ended, end_by_signals, end_if_told
 
 PROGRESS_S = 3.0  # longest time that a command works without a word
 _CLEAR_LINE = "\r\033[K"  # of a terminal
@@ -140,6 +140,7 @@ def steps(
     """Yields the items of some long work, and says every few seconds at which it is."""
     said = clock()
     for number, item in enumerate(items, 1):
+        end_if_told()
         now = clock()
         if now - said >= PROGRESS_S:
             say(prog, f"{number} of {len(items)}: {item}")

@@ -19,20 +19,25 @@ class Ended(SystemExit, KeyboardInterrupt):
     """Ends the program with its code; rospy's wait_for_service lets nothing through but a KeyboardInterrupt."""
 
 
-def end_by_signals(codes: Optional[List[int]] = None) -> None:
-    """Makes Ctrl-C, SIGTERM and SIGHUP raise Ended with code 128 + number, so that the program cleans up.
+_told: List[int] = []  # exit codes that signals asked for
 
-    The code is also appended to `codes`, because Python drops an exception that a signal raises during a fork.
-    """
+
+def end_by_signals() -> None:
+    """Makes Ctrl-C, SIGTERM and SIGHUP raise Ended with code 128 + number, so that the program cleans up."""
 
     def end(number: int, _frame: Any) -> NoReturn:
-        if codes is not None:
-            codes.append(128 + number)
+        _told.append(128 + number)
         raise Ended(128 + number)
 
     for number in END_SIGNALS:
         if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # nohup's wish
             signal.signal(number, end)
+
+
+def end_if_told() -> None:
+    """Raises Ended again if a signal has raised it and it was lost: in a fork, or in a library's bare `except`."""
+    if _told:
+        raise Ended(_told[0])
 
 
 def ignore_end_signals() -> None:
