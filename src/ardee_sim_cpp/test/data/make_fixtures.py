@@ -30,6 +30,14 @@ def pictures(folder: pathlib.Path) -> None:
     rgba[..., 3] = np.where(index == 5, 0, 255)
     Image.fromarray(rgba).save(folder / "rgba.png")
     Image.fromarray(rgba[..., :3]).save(folder / "rgb.png")
+    for name in ("rgba.tga", "rgba.tif"):
+        Image.fromarray(rgba).save(folder / name)
+    for name in ("rgb.bmp", "rgb.tga", "rgb.tif"):
+        Image.fromarray(rgba[..., :3]).save(folder / name)
+    Image.fromarray(rgba[..., :3]).quantize(12).save(folder / "palette.png")
+    flat = Image.new("RGB", (4, 3), (200, 100, 50))
+    flat.save(folder / "flat.jpg", quality=100)
+    flat.convert("CMYK").save(folder / "cmyk.jpg", quality=100)
 
 
 def stl(scale: float, nan: bool = False) -> bytes:

@@ -61,6 +61,24 @@ TEST(Image, ReadsColourAndOpacity) {
   EXPECT_EQ(read_color_image(picture("grey8.png"), {}).samples8[4], 20);
 }
 
+TEST(Image, ReadsColourOfEachFormat) {
+  const Image expected = read_color_image(picture("rgba.png"), {});
+  for (const char* name : {"rgba.tga", "rgba.tif"}) {
+    EXPECT_EQ(read_color_image(picture(name), {}).samples8, expected.samples8) << name;
+  }
+  const Image opaque = read_color_image(picture("rgb.png"), {});
+  for (const char* name : {"rgb.bmp", "rgb.tga", "rgb.tif", "palette.png"}) {
+    EXPECT_EQ(read_color_image(picture(name), {}).samples8, opaque.samples8) << name;
+  }
+  for (const char* name : {"flat.jpg", "cmyk.jpg"}) {
+    const Image image = read_color_image(picture(name), {});
+    EXPECT_NEAR(image.samples8.at(0), 200, 2) << name;
+    EXPECT_NEAR(image.samples8.at(1), 100, 2) << name;
+    EXPECT_NEAR(image.samples8.at(2), 50, 2) << name;
+    EXPECT_EQ(image.samples8.at(3), 255) << name;
+  }
+}
+
 TEST(Image, HoldsALargeGreyOne) {
   const Image image = read_gray_image(picture("black8000.png"), {});
   EXPECT_EQ(image.width, 8000);
