@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-import ardee_datasets
 from ardee_datasets import rle
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
@@ -148,7 +147,7 @@ def test_the_encoding_of_a_known_mask() -> None:
 
 
 def test_the_example_makes_twenty_samples(tmp_path: Path) -> None:
-    recipe = Path(ardee_datasets.__file__).parent / "examples" / "small.yaml"
+    recipe = Path(__file__).parents[1] / "src" / "ardee_datasets" / "examples" / "small.yaml"
     assert main([str(recipe), "--output", str(tmp_path / "set"), "--workers", "1"]) == 0
     manifest = json.loads((tmp_path / "set" / "manifest.json").read_text())
     for layer in ("rgb", "labels", "instances", "depth", "samples"):

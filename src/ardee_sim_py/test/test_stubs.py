@@ -9,7 +9,8 @@ import sys
 ALLOWED = ("Model", "Simulation", "World", "Model.__init__", "World.__init__")
 
 
-SOURCES = str(pathlib.Path(__file__).resolve().parents[1] / "src")
+PACKAGES = pathlib.Path(__file__).resolve().parents[2]
+SOURCES = os.pathsep.join(str(PACKAGES / name / "src") for name in ("ardee_sim_py", "ardee_common"))
 
 
 def test_the_stubs_agree_with_the_extension(tmp_path: pathlib.Path) -> None:

@@ -11,6 +11,7 @@ from typing import List, Sequence
 import numpy as np
 from PIL import Image
 
+from ardee_common import data
 from ardee_common.errors import GeneratorError, known_names
 from ardee_models.plant.crop_files import METRICS_FILE
 from ardee_models.terrain.height_map import Terrain
@@ -36,17 +37,25 @@ def own_models() -> Path:
 
 
 def search_path(extra: Sequence[Path] = ()) -> List[Path]:
-    """Folders of models: `extra`, then GAZEBO_MODEL_PATH, then the one in the user's home."""
+    """Folders of models: `extra`, GAZEBO_MODEL_PATH, the one in the user's home, those of a wheel."""
     entries = os.environ.get("GAZEBO_MODEL_PATH", "").split(":")
-    return [*extra, *(Path(entry) for entry in entries if entry), own_models()]
+    return [
+        *extra,
+        *(Path(entry) for entry in entries if entry),
+        own_models(),
+        *data.model_folders(),
+    ]
 
 
 def default_output() -> Path:
     """The first writable folder of GAZEBO_MODEL_PATH that no build made, else the one in the user's home.
 
-    Models are found in both at once. A catkin space, marked by its file .catkin, goes when it is built anew.
+    Models are found in both at once. A catkin space, marked by its file .catkin, goes when it is built anew,
+    and a wheel's folder when it is installed anew.
     """
     for folder in search_path():
+        if folder in data.model_folders():
+            continue
         is_built = any((parent / ".catkin").exists() for parent in folder.resolve().parents)
         if folder.is_dir() and os.access(folder, os.W_OK) and not is_built:
             return folder

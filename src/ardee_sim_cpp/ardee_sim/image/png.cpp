@@ -41,8 +41,7 @@ std::vector<std::uint16_t> first_of_16(png_image& png, const ImageFile& file) {
   first.reserve(samples.size() / step);
   for (std::size_t at = 0; at < samples.size(); at += step) {
     const std::uint32_t opacity = has_opacity ? samples[at + step - 1] : 65535u;
-    const std::uint32_t whole =
-        opacity == 0 ? 0 : (samples[at] * 65535u + opacity / 2) / opacity;
+    const std::uint32_t whole = opacity == 0 ? 0 : (samples[at] * 65535u + opacity / 2) / opacity;
     first.push_back(static_cast<std::uint16_t>(std::min(65535u, whole)));
   }
   return first;

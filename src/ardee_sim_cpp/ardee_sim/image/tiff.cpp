@@ -23,7 +23,8 @@ std::vector<std::uint16_t> first_of_16(TiffFile& tiff, const ImageFile& file) {
     const std::size_t x = is_mirrored ? last_column - column : column;
     const std::size_t y = is_upside_down ? last_row - row : row;
     const auto sample = static_cast<std::uint16_t>(value);
-    samples[y * tiff.width() + x] = is_inverted ? static_cast<std::uint16_t>(65535 - sample) : sample;
+    samples[y * tiff.width() + x] =
+        is_inverted ? static_cast<std::uint16_t>(65535 - sample) : sample;
   });
   return samples;
 }

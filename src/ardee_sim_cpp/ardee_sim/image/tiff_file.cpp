@@ -71,8 +71,7 @@ std::vector<std::uint8_t> TiffFile::read_colors() {
   return colors;
 }
 
-void TiffFile::read_samples(
-    const std::function<void(std::uint32_t, std::uint32_t, double)>& take) {
+void TiffFile::read_samples(const std::function<void(std::uint32_t, std::uint32_t, double)>& take) {
   check_samples();
   const std::size_t step =
       bits_ / 8u * (planes_ == PLANARCONFIG_CONTIG ? std::size_t{channels_} : 1u);
@@ -134,9 +133,7 @@ double TiffFile::value(const std::uint8_t* bytes) const {
   if (format_ == SAMPLEFORMAT_INT) {
     return bits_ == 8 ? as(std::int8_t{}) : bits_ == 16 ? as(std::int16_t{}) : as(std::int32_t{});
   }
-  return bits_ == 8    ? as(std::uint8_t{})
-         : bits_ == 16 ? as(std::uint16_t{})
-                       : as(std::uint32_t{});
+  return bits_ == 8 ? as(std::uint8_t{}) : bits_ == 16 ? as(std::uint16_t{}) : as(std::uint32_t{});
 }
 
 }  // namespace ardee

@@ -8,24 +8,23 @@ from typing import Iterator, List
 
 from ardee_sim.errors import ArdeeError
 
-_WHEEL_DATA = Path(__file__).resolve().parent / "share"  # packages in a wheel
+from ardee_common import data
 
 
 def package_folders() -> List[str]:
     """Returns folders that hold packages, besides those of ROS_PACKAGE_PATH."""
-    return [str(_WHEEL_DATA)] if _WHEEL_DATA.is_dir() else []
+    return [str(data.SHARE)] if data.SHARE.is_dir() else []
 
 
 def model_folders() -> List[str]:
     """Returns folders of crops, terrains and fields, besides those of GAZEBO_MODEL_PATH."""
-    names = ("ardee_world", "ardee_models", "ardee_sensors")
-    return [f for f in (str(_WHEEL_DATA / n / "models") for n in names) if os.path.isdir(f)]
+    return [str(folder) for folder in data.model_folders()]
 
 
 def media_folders() -> List[str]:
     """Returns folders of worlds, textures and fields, besides those of GAZEBO_RESOURCE_PATH."""
     names = ("ardee_world/models", "ardee_models", "ardee_models/models")
-    folders = [str(_WHEEL_DATA / name) for name in names]
+    folders = [str(data.SHARE / name) for name in names]
     with contextlib.suppress(ArdeeError):
         folders.append(str(find_package("ardee_world") / "worlds"))
     return [folder for folder in folders if os.path.isdir(folder)]

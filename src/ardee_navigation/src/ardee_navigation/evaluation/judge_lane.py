@@ -8,13 +8,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
+from ardee_sim.packages import find_package
 from tqdm import tqdm
 
 from ardee_common.cli import Parser, number_in, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_navigation.evaluation.command import LARGEST_SEED, drop_if_empty, make_folder, run
 from ardee_navigation.evaluation.scenario_files import Scenario, read_parameters
-from ardee_navigation.evaluation.scenarios import find_scenario, package_folder, prepare
+from ardee_navigation.evaluation.scenarios import find_scenario, prepare
 
 PROG = "judge_lane"
 
@@ -182,7 +183,7 @@ def _judge(args: argparse.Namespace, command: str, work: Path) -> None:
         real = lane_figures.measure_real(real_run, str(args.real_run))
         own = {"real scans, this follower": lane_figures.measure_follower(real_run)}
     else:
-        config = package_folder("ardee_navigation") / "config"
+        config = find_package("ardee_navigation") / "config"
         real_run, real, own = None, lane_figures.read_real_lane(config / "real_lane.yaml"), {}
     name = Path(args.world).stem if args.world else "real_run"
     usual = f"{name}_seeds_{args.seed}_to_{args.seed + args.runs - 1}" if args.world else name

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Dict
 
-import rospkg
+from ardee_sim.packages import find_package
 
 from ardee_common.errors import GeneratorError, known_names
 from ardee_navigation.evaluation.scenario_files import Scenario, read_scenarios
@@ -11,14 +11,9 @@ from ardee_world import trial
 from ardee_world.trial import Trial
 
 
-def package_folder(name: str) -> Path:
-    """Returns the folder of a ROS package."""
-    return Path(rospkg.RosPack().get_path(name))
-
-
 def known_scenarios() -> Dict[str, Scenario]:
     """Returns the scenarios of ardee_world by name."""
-    return read_scenarios(package_folder("ardee_world") / "config" / "scenarios.yaml")
+    return read_scenarios(find_package("ardee_world") / "config" / "scenarios.yaml")
 
 
 def find_scenario(world: str) -> Scenario:
@@ -26,7 +21,7 @@ def find_scenario(world: str) -> Scenario:
 
     The field of a world of ardee_world is sown anew for each run if its plan is there, that of a file never.
     """
-    scenarios, share = known_scenarios(), package_folder("ardee_world")
+    scenarios, share = known_scenarios(), find_package("ardee_world")
     if world in scenarios:
         return scenarios[world]
     file = f"{Path(world).stem}.world"
@@ -48,6 +43,6 @@ def find_scenario(world: str) -> Scenario:
 
 def prepare(scenario: Scenario, seed: int, folder: Path) -> Trial:
     """Generates the field of a run in a folder of models and finds its truth, start and ground."""
-    share = package_folder("ardee_world")
+    share = find_package("ardee_world")
     plan = share / "fields" / scenario.plan if scenario.plan else None
     return trial.prepare(share / "worlds" / scenario.world, plan, seed, folder)

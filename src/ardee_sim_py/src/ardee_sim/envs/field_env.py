@@ -31,8 +31,7 @@ class FieldEnv(gymnasium.Env):
     robot : name of a shipped robot, or a file, as ardee_sim.robot() takes it
     control_period_s : a whole number of the world's steps
     seed_field : sow a new field at each reset; else the field of `field_seed` stays
-    randomise : least and greatest values, drawn for each episode, of numbers of SCENE in ardee_sim.envs.randomise
-        (noise, light, friction), and with seed_field of a plan's numbers (emergence, stalk_spacing_m, lodging, ...)
+    randomise : ranges of numbers of a scene (ardee_sim.envs.randomise.SCENE) and, with seed_field, of a field's plan
     v_max_m_s, w_max_rad_s : speed and turn rate of an action of 1
     render_mode : None or rgb_array
     """
