@@ -5,7 +5,12 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(
     **generate_distutils_setup(
-        packages=["ardee_campaigns", "ardee_campaigns.examples"],
+        packages=[
+            "ardee_campaigns",
+            "ardee_campaigns.examples",
+            "ardee_campaigns.overlay",
+            "ardee_campaigns.report",
+        ],
         package_dir={"": "src"},
         package_data={"ardee_campaigns.examples": ["*.yaml"]},
     )

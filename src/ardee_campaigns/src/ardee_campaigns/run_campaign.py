@@ -12,13 +12,13 @@ import numpy as np
 from ardee_campaigns import measures, tables
 from ardee_campaigns.campaign_file import Campaign, read_campaign
 from ardee_campaigns.plan import Cell, Job, Planner, about
+from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file
 from ardee_common.cli import Parser, say
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.process import Ended, end_by_signals
 
 PROG = "run_campaign"
 _PACE = 20.0  # simulated seconds a second, for an estimate before the first run (estimate)
-_ROBOTS = "robots"  # folder of descriptions
 
 
 def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
@@ -55,7 +55,8 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--replay",
         metavar="RUN_ID",
-        help="do this run again by itself and write its samples as RUN_ID.csv; print where",
+        help="do this run again by itself; write its samples as RUN_ID.csv, and a lidar's scans in the lane as"
+        " RUN_ID_scans.csv, which overlay reads; print where",
     )
     return parser.parse_args(argv)
 
@@ -99,7 +100,7 @@ class Session:
     def _job(self, cell: Cell, replicate: int) -> Job:
         key = cell, replicate
         if key not in self._jobs:
-            self._jobs[key] = self.planner.job(cell, replicate, self.folder / _ROBOTS)
+            self._jobs[key] = self.planner.job(cell, replicate, self.folder / ROBOTS)
         return self._jobs[key]
 
     def all_jobs(self) -> List[Job]:
@@ -189,6 +190,7 @@ def _work(session: Session, args: argparse.Namespace) -> int:
     keys, folder = session.campaign.keys, session.folder
     jobs = session.jobs(keys.replicates)
     with engine.locked(folder):
+        note_file(folder, session.campaign.file)
         if args.retry_failed:
             _forget_failed(session, jobs)
         try:
@@ -239,6 +241,7 @@ def _replay(session: Session, run_id: str) -> int:
     import pyarrow.csv
 
     from ardee_campaigns.run import run_one
+    from ardee_navigation.evaluation.real_run import write_scans
 
     jobs = session.jobs(session.campaign.keys.replicates)
     job = next((job for job in jobs if job.run_id == run_id), None)
@@ -246,11 +249,15 @@ def _replay(session: Session, run_id: str) -> int:
         known = [job.run_id for job in jobs]
         raise GeneratorError(f"--replay: found {run_id!r}, {known_names(run_id, known)}")
     session.write_robots([job])
-    done = run_one(job)
+    log = ScanLog()
+    done = run_one(job, log.watch)
     samples = done.samples.select([name for name, _ in tables.SAMPLE_FIELDS])
     path = session.folder / f"{run_id}.csv"
     pyarrow.csv.write_csv(samples, path)
     say(PROG, f"{done.row.status}, {done.row.error or done.row.end_reason}")
+    scans = in_lane(log.scans(), done) if len(log.readings) > 1 and done.about else None
+    if scans is not None and len(scans.time_s) > 1:
+        write_scans(scans, session.folder / f"{run_id}_scans.csv")
     print(path)
     return 0
 

@@ -12,6 +12,7 @@ class Controller:
     """Answers each scan by speed [m/s] and turn rate [rad/s].
 
     seen : distances (left_m, right_m) from the lidar to the rows in use
+    points : numbers of returns to which the left and the right line were fitted
     is_finished : whether both rows have ended
     """
 
@@ -23,6 +24,7 @@ class Controller:
         """Begins anew, as after the robot was set down."""
         self._follower.reset()
         self.seen: Tuple[float, float] = (np.nan, np.nan)
+        self.points = (0, 0)
         self.is_finished = False
 
     def step(self, observation: Mapping[str, Any], time_s: float) -> Tuple[float, float]:
@@ -34,6 +36,7 @@ class Controller:
         )
         output = self._follower.update(scan.ranges_m, angle_min, increment, time_s)
         self.seen = (output.lane.left.distance_m, -output.lane.right.distance_m)
+        self.points = (len(output.sides[0]), len(output.sides[1]))
         self.is_finished = output.state is State.FINISHED
         return output.speed_m_s, output.turn_rad_s
 

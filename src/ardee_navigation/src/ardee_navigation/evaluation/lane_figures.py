@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Figures of a lane as a lidar sees it, measured alike on real and on simulated scans, and their table."""
+import math
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Dict, List, Sequence, Tuple
@@ -142,8 +143,11 @@ def by_bearing(scans: Scans) -> np.ndarray:
     """Returns the QUANTILES of range (3, bins) by bearing; a beam without return counts as at NOWHERE_M."""
     bins = np.floor(np.degrees(scans.angles_rad - scans.angle_min_rad) / BEARING_DEG + 1e-6)
     ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, NOWHERE_M)
-    count = int(round(270.0 / BEARING_DEG))  # a last beam at +135 degrees has no bin
-    return np.array([np.quantile(ranges[:, bins == i], QUANTILES) for i in range(count)]).T
+    span_deg = math.degrees(scans.increment_rad) * (ranges.shape[1] - 1)
+    count = max(int(round(span_deg / BEARING_DEG)), 1)  # a last beam at +135 degrees has no bin
+    found = [ranges[:, bins == i] for i in range(count)]
+    nothing = [np.nan] * len(QUANTILES)
+    return np.array([np.quantile(one, QUANTILES) if one.size else nothing for one in found]).T
 
 
 def measure_real(run: RealRun, source: str) -> RealLane:

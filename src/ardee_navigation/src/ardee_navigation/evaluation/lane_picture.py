@@ -20,31 +20,44 @@ SHOWN_M = 2.5  # beside and before the lidar in the plan
 def _plan(axes: pyplot.Axes, scans: Scans, color: str, label: str) -> None:
     """Draws the returns of the scan in the middle, x up and y to the left."""
     ranges = scans.ranges_m[len(scans.ranges_m) // 2]
+    ranges = np.where(np.isfinite(ranges), ranges, np.nan)
     x, y = ranges * np.cos(scans.angles_rad), ranges * np.sin(scans.angles_rad)
     axes.plot(-y, x, ".", color=color, markersize=3.0, alpha=0.7, label=label)
 
 
-def _band(axes: pyplot.Axes, quantiles: np.ndarray, color: str, label: str) -> None:
+def _band(
+    axes: pyplot.Axes, quantiles: np.ndarray, first_deg: float, color: str, label: str
+) -> None:
     """Draws quantiles of range by bearing."""
-    bearings = -135.0 + BEARING_DEG * (np.arange(quantiles.shape[1]) + 0.5)
+    bearings = first_deg + BEARING_DEG * (np.arange(quantiles.shape[1]) + 0.5)
     low, middle, high = quantiles
     axes.fill_between(bearings, low, high, color=color, alpha=0.15, linewidth=0.0)
     axes.plot(bearings, middle, color=color, label=label)
 
 
+def _first_deg(scans: Scans) -> float:
+    return float(np.degrees(scans.angle_min_rad))
+
+
 def draw(
-    path: Path, real: RealLane, real_scans: Optional[Scans], scans: Optional[Scans], name: str
+    path: Path,
+    real: Optional[RealLane],
+    real_scans: Optional[Scans],
+    scans: Optional[Scans],
+    name: str,
 ) -> None:
-    """Draws the real lane, its scans if they are at hand, and the scans of a simulated run called `name`."""
+    """Draws a real lane by its figures or its scans, and the scans of a simulated run called `name`."""
     figure, (plan, bearing) = pyplot.subplots(1, 2, figsize=(13.0, 6.0))
-    _band(
-        bearing, np.array([real.ranges_p10_m, real.ranges_p50_m, real.ranges_p90_m]), REAL, "real"
-    )
+    if real is not None:
+        quantiles = np.array([real.ranges_p10_m, real.ranges_p50_m, real.ranges_p90_m])
+        _band(bearing, quantiles, -135.0, REAL, "real")
+    elif real_scans is not None:
+        _band(bearing, by_bearing(real_scans), _first_deg(real_scans), REAL, "real")
     if real_scans is not None:
         _plan(plan, real_scans, REAL, "real")
     if scans is not None:
         _plan(plan, scans, SIMULATED, name)
-        _band(bearing, by_bearing(scans), SIMULATED, name)
+        _band(bearing, by_bearing(scans), _first_deg(scans), SIMULATED, name)
     plan.plot(0.0, 0.0, "^", color="black", label="lidar")
     plan.set_aspect("equal")
     plan.set_xlim(-SHOWN_M, SHOWN_M)

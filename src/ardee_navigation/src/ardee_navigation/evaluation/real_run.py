@@ -2,7 +2,8 @@
 """Reads the logs of a real TerraSentia's run, as github.com/Hlwy/terra_data_utils has them.
 
 `lidar_log.csv`: a scan a line, first the time [ms], then the UST-10LX's ranges [mm] from -135 degrees in steps of
-0.25, counter-clockwise. `perception_lidar_log.csv`: settings (name, value, ...), names of columns, LBIRNT's outputs.
+0.25, counter-clockwise; of another lidar after a line `angle_min_rad,NUMBER,increment_rad,NUMBER`, where 0 alone is
+no return. `perception_lidar_log.csv`: settings (name, value, ...), names of columns, LBIRNT's outputs.
 """
 import csv
 import math
@@ -66,18 +67,46 @@ def _check_times(times: np.ndarray, path: Path, first_line: int) -> np.ndarray:
     return times / 1e3
 
 
-def _read_scans(path: Path) -> Scans:
-    rows = []
-    for number, line in enumerate(_lines(path), 1):
-        if len(line) - 1 not in BEAMS or rows and len(line) != len(rows[0]):
-            beams = str(len(rows[0]) - 1) if rows else f"a time and {BEAMS[0]} or {BEAMS[1]} ranges"
-            raise GeneratorError(f"{path}:{number}: found {len(line) - 1} ranges, expected {beams}")
+def _angles(line: List[str], where: str) -> Tuple[float, float]:
+    """Returns first angle and increment [rad] of a header."""
+    if line[2::2] != ["increment_rad"] or len(line) != 4:
+        found = ",".join(line)[:60]
+        raise GeneratorError(
+            f"{where}: found {found!r}, expected angle_min_rad,NUMBER,increment_rad,NUMBER"
+        )
+    first, increment = (_number(line[place], where) for place in (1, 3))
+    if increment <= 0.0:
+        raise GeneratorError(f"{where}: increment_rad: found {increment}, expected more than 0")
+    return first, increment
+
+
+def read_scans(path: Path) -> Scans:
+    """Reads a lidar_log.csv."""
+    lines, rows, first_line = _lines(path), [], 1
+    angles, beams, most_mm = (ANGLE_MIN_RAD, INCREMENT_RAD), BEAMS, NO_RETURN_MM
+    if lines and lines[0][:1] == ["angle_min_rad"]:
+        angles, first_line = _angles(lines.pop(0), f"{path}:1"), 2
+        beams, most_mm = ((len(lines[0]) - 1,) if lines else BEAMS), math.inf
+    for number, line in enumerate(lines, first_line):
+        if len(line) - 1 not in beams or rows and len(line) != len(rows[0]):
+            known = str(len(rows[0]) - 1) if rows else f"a time and {BEAMS[0]} or {BEAMS[1]} ranges"
+            raise GeneratorError(f"{path}:{number}: found {len(line) - 1} ranges, expected {known}")
         rows.append([_number(cell, f"{path}:{number}") for cell in line])
     values = np.array(rows).reshape(len(rows), -1)
-    time_s = _check_times(values[:, 0] if rows else np.empty(0), path, 1)
+    time_s = _check_times(values[:, 0] if rows else np.empty(0), path, first_line)
     ranges_mm = values[:, 1:]
-    seen = (ranges_mm > 0.0) & (ranges_mm < NO_RETURN_MM)
-    return Scans(time_s, np.where(seen, ranges_mm / 1e3, np.inf), ANGLE_MIN_RAD, INCREMENT_RAD)
+    seen = (ranges_mm > 0.0) & (ranges_mm < most_mm)
+    return Scans(time_s, np.where(seen, ranges_mm / 1e3, np.inf), *angles)
+
+
+def write_scans(scans: Scans, path: Path) -> None:
+    """Writes scans as a lidar_log.csv, times and ranges to a thousandth of their units."""
+    with path.open("w") as file:
+        first, increment = float(scans.angle_min_rad), float(scans.increment_rad)
+        file.write(f"angle_min_rad,{first!r},increment_rad,{increment!r}\n")
+        for time_s, ranges_m in zip(scans.time_s, scans.ranges_m):
+            cells = (f"{1e3 * value:.3f}" if np.isfinite(value) else "0" for value in ranges_m)
+            file.write(f"{1e3 * time_s:.3f},{','.join(cells)}\n")
 
 
 def _read_perceived(path: Path) -> Tuple[Perceived, float]:
@@ -106,5 +135,5 @@ def _read_perceived(path: Path) -> Tuple[Perceived, float]:
 
 def read_real_run(folder: Path) -> RealRun:
     """Reads the two logs of a run's folder."""
-    scans = _read_scans(folder / LIDAR_LOG)
+    scans = read_scans(folder / LIDAR_LOG)
     return RealRun(scans, *_read_perceived(folder / PERCEPTION_LOG))
