@@ -22,8 +22,13 @@ def _cell(text: str) -> str:
     return f"<td{kind}>{html.escape(text)}</td>"
 
 
+def _marked(text: str) -> str:
+    """Returns text for Markdown, without tags of HTML."""
+    return text.replace("<", "\\<")
+
+
 def _piped(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
+    return "| " + " | ".join(_marked(cell).replace("|", "\\|") for cell in cells) + " |\n"
 
 
 class Page:
@@ -42,7 +47,7 @@ class Page:
     def text(self, text: str) -> None:
         """Adds a paragraph."""
         self._html.append(f"<p>{html.escape(text)}</p>")
-        self._markdown.append(f"{text}\n")
+        self._markdown.append(f"{_marked(text)}\n")
 
     def command(self, text: str) -> None:
         """Adds a command line to be copied."""
@@ -65,7 +70,7 @@ class Page:
         source = f"data:image/png;base64,{data}"
         image = f'<img src="{source}" alt="{words}">'
         self._html.append(f"<figure>{image}<figcaption>{words}</figcaption></figure>")
-        self._markdown.append(f"![{caption}]({path.relative_to(self._folder)})\n")
+        self._markdown.append(f"![{_marked(caption)}]({path.relative_to(self._folder)})\n")
 
     def html(self) -> str:
         """Returns the page as HTML."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures of a run: raw lidar and perceived distances along the row (form of thesis 5.6-5.8), and errors."""
 from pathlib import Path
+from typing import Protocol, Sequence
 
 import matplotlib
 
@@ -9,20 +10,49 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
-from ardee_navigation.evaluation.record import Record  # noqa: E402
 from ardee_navigation.evaluation.run_metrics import NEAR_M  # noqa: E402
 
 RAW, SEEN, TRUE, STEP_IN = "#1f3b73", "#4fa3e0", "#d1495b", "#e09f3e"
 LARGEST_POINTS = 40_000
 
 
-def _step_ins(axes: pyplot.Axes, record: Record, ahead_m: float = 0.0) -> None:
+class Place(Protocol):
+    """Place of an intervention."""
+
+    @property
+    def along_m(self) -> float:
+        """Returns the place along the row."""
+
+
+class Drive(Protocol):
+    """A drive down a row: a Record, or a run of a campaign."""
+
+    length_m: float  # of the row
+    lidar_ahead_m: float  # of the robot's middle
+
+    @property
+    def title(self) -> str:
+        """Returns the name of the run."""
+
+    @property
+    def interventions(self) -> Sequence[Place]:
+        """Returns the places where a person stepped in."""
+
+    @property
+    def raw(self) -> Sequence[np.ndarray]:
+        """Returns the lidar's returns beside it, (n, 2) each: along m, lateral distance from the lidar m."""
+
+    def column(self, name: str) -> np.ndarray:
+        """Returns one value of all samples."""
+
+
+def _step_ins(axes: pyplot.Axes, record: Drive, ahead_m: float = 0.0) -> None:
     for number, step_in in enumerate(record.interventions):
         label = "a person steps in" if number == 0 else None
         axes.axvline(step_in.along_m + ahead_m, color=STEP_IN, linewidth=1.0, label=label)
 
 
-def perceived_distances(record: Record, path: Path) -> None:
+def perceived_distances(record: Drive, path: Path) -> None:
     """Lateral distance from the lidar, left positive: returns abeam, lines in use, ideal rows."""
     figure, axes = pyplot.subplots(figsize=(10.0, 4.5))
     raw = np.concatenate(record.raw) if record.raw else np.empty((0, 2))
@@ -40,13 +70,13 @@ def perceived_distances(record: Record, path: Path) -> None:
     axes.set_xlim(min(along[0], 0.0), max(along[-1], record.length_m))
     axes.set_xlabel("along the row [m]")
     axes.set_ylabel("lateral distance from the lidar [m]")
-    axes.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
+    axes.set_title(record.title, loc="left")
     above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "frameon": False}
     axes.legend(ncol=4, markerscale=4.0, fontsize="small", **above)
     _save(figure, path)
 
 
-def errors(record: Record, path: Path) -> None:
+def errors(record: Drive, path: Path) -> None:
     """Lateral offset and heading from the lane's centre line."""
     figure, (top, bottom) = pyplot.subplots(2, 1, sharex=True, figsize=(10.0, 4.5))
     along = record.column("along_m")
@@ -59,7 +89,7 @@ def errors(record: Record, path: Path) -> None:
     for axes in (top, bottom):
         axes.axhline(0.0, color="grey", linewidth=0.5)
         _step_ins(axes, record)
-    top.set_title(f"{record.scenario}, run {record.number}, seed {record.seed}", loc="left")
+    top.set_title(record.title, loc="left")
     _save(figure, path)
 
 

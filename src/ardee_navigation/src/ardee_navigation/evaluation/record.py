@@ -66,6 +66,11 @@ class Record:
     latency_ms: Tuple[float, ...] = ()  # with hardware in the loop
     unanswered: int = 0  # scans to which it sent no command
 
+    @property
+    def title(self) -> str:
+        """Returns the name of the run."""
+        return f"{self.scenario}, run {self.number}, seed {self.seed}"
+
     def column(self, name: str) -> np.ndarray:
         """Returns one value of all samples."""
         return np.array([getattr(sample, name) for sample in self.samples])

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""Statistics of runs: means and interquartile means with 95 % intervals, rates of events, effects of factors.
+
+Means have Student's interval, counts the exact one of a Poisson count (Garwood 1936), interquartile means (IQM: of the
+middle half of the runs, as rliable has them) a percentile interval of a bootstrap that draws within each world.
+"""
+import math
+from typing import Any, Dict, Hashable, List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+from scipy import stats
+
+from ardee_campaigns.report.runs import Runs
+from ardee_navigation.evaluation.comparison import (
+    CONFIDENCE,
+    Interval,
+    mean_interval,
+    poisson_interval,
+)
+
+DRAWS = 1000  # of a bootstrap
+MOST_LEVELS = 8  # a number with more different values is a scale, not a set of levels
+# Measures that count events
+COUNTS = ("interventions", "collisions", "plants_touched", "plants_knocked")
+NONE = Interval(math.nan, math.nan, math.nan)
+
+
+def mean(values: np.ndarray) -> Interval:
+    """Returns the mean of the finite values and its interval, unknown for less than two."""
+    known = values[np.isfinite(values)]
+    if len(known) < 2:
+        return Interval(float(known[0]) if len(known) else math.nan, math.nan, math.nan)
+    return mean_interval(known)
+
+
+def iqm(values: np.ndarray, strata: Sequence[Hashable], seed: int = 0) -> Interval:
+    """Returns the interquartile mean and the interval of a bootstrap that keeps the number of runs of each stratum."""
+    finite = np.isfinite(values)
+    known, groups = values[finite], np.array(strata, dtype=object)[finite]
+    if len(known) < 2:
+        return NONE
+    rng = np.random.default_rng(seed)
+    drawn = []
+    for group in sorted(set(groups.tolist()), key=str):
+        members = known[groups == group]
+        drawn.append(members[rng.integers(len(members), size=(DRAWS, len(members)))])
+    means = stats.trim_mean(np.concatenate(drawn, axis=1), 0.25, axis=1)
+    tail = (1.0 - CONFIDENCE) / 2.0
+    low, high = np.quantile(means, (tail, 1.0 - tail))
+    return Interval(float(stats.trim_mean(known, 0.25)), float(low), float(high))
+
+
+def rate_per_100_m(runs: Runs, measure: str) -> Tuple[int, float, Interval]:
+    """Returns the number of events of all runs, their way [m], and events per 100 m."""
+    good = np.isfinite(runs[measure]) & np.isfinite(runs["way_m"])
+    count, way_m = round(float(runs[measure][good].sum())), float(runs["way_m"][good].sum())
+    if way_m <= 0.0:
+        return count, way_m, NONE
+    return count, way_m, Interval(*(100.0 * value / way_m for value in poisson_interval(count)))
+
+
+def is_scale(levels: Sequence[Any]) -> bool:
+    """Returns whether the values of a factor are a scale of numbers, along which a line is fitted."""
+    return len(levels) > MOST_LEVELS and all(isinstance(level, float) for level in levels)
+
+
+def share_of_variance(runs: Runs, factor: str, measure: str) -> float:
+    """Returns the share of a measure's variance that a factor explains: of its levels' means, or of a line."""
+    finite = np.isfinite(runs[measure])
+    values, levels = runs[measure][finite], runs[factor][finite]
+    total = float(((values - values.mean()) ** 2).sum()) if len(values) > 2 else 0.0
+    if total <= 0.0:
+        return math.nan
+    if is_scale(runs.levels(factor)):
+        return float(np.corrcoef(levels.astype(float), values)[0, 1] ** 2)
+    parts = (values[levels == level] for level in set(levels.tolist()))
+    between = sum(len(part) * (part.mean() - values.mean()) ** 2 for part in parts)
+    return float(between) / total
+
+
+def slope(runs: Runs, factor: str, measure: str) -> Interval:
+    """Returns the slope of a measure over a factor's scale, and its interval."""
+    finite = np.isfinite(runs[measure])
+    x, y = runs[factor][finite].astype(float), runs[measure][finite]
+    if len(set(x.tolist())) < 3:
+        return NONE
+    found = stats.linregress(x, y)
+    reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, len(x) - 2)) * found.stderr
+    return Interval(found.slope, found.slope - reach, found.slope + reach)
+
+
+class Difference(NamedTuple):
+    """A level of a factor against the base level, in one measure.
+
+    pairs : number of pairs of runs that are alike in all else, of the same seed; None if they are not paired
+    """
+
+    level: Any
+    measure: str
+    pairs: Optional[int]
+    base: float  # mean
+    other: float
+    found: Interval  # other - base
+
+
+def differences(runs: Runs, factor: str, base: Any) -> List[Difference]:
+    """Returns each other level's difference from the base level in all measures.
+
+    Runs of different worlds have different seeds and are not paired: their interval is Welch's.
+    """
+    made = []
+    for level in runs.levels(factor):
+        if level == base:
+            continue
+        pairs = None if factor == "world" else _pairs(runs, factor, base, level)
+        for measure in runs.measures:
+            if pairs is not None:
+                made.append(_paired(runs, level, measure, pairs))
+            else:
+                one, other = (runs.where(runs[factor] == each) for each in (base, level))
+                made.append(_unpaired(level, measure, one[measure], other[measure]))
+    return made
+
+
+def _pairs(runs: Runs, factor: str, base: Any, level: Any) -> np.ndarray:
+    """Returns indices (n, 2) of runs of both levels that are alike in all else."""
+    others = [name for name in runs.factors if name != factor]
+    keys = list(zip(*(runs[name].tolist() for name in (*others, "replicate", "seed"))))
+    levels = runs[factor].tolist()
+    partner: Dict[Any, int] = {k: i for i, k in enumerate(keys) if levels[i] == base}
+    found = [
+        (partner[key], number)
+        for number, key in enumerate(keys)
+        if levels[number] == level and key in partner
+    ]
+    return np.array(found, dtype=int).reshape(-1, 2)
+
+
+def _paired(runs: Runs, level: Any, measure: str, pairs: np.ndarray) -> Difference:
+    one, other = (runs[measure][pairs[:, side]] for side in (0, 1))
+    both = np.isfinite(one) & np.isfinite(other)
+    count, one, other = int(both.sum()), one[both], other[both]
+    if count < 2:
+        return Difference(level, measure, count, math.nan, math.nan, NONE)
+    found = mean_interval(other - one)
+    return Difference(level, measure, count, float(one.mean()), float(other.mean()), found)
+
+
+def _unpaired(level: Any, measure: str, one: np.ndarray, other: np.ndarray) -> Difference:
+    one, other = one[np.isfinite(one)], other[np.isfinite(other)]
+    if min(len(one), len(other)) < 2:
+        return Difference(level, measure, None, math.nan, math.nan, NONE)
+    errors = [part.var(ddof=1) / len(part) for part in (one, other)]
+    mid, error = float(other.mean() - one.mean()), math.sqrt(sum(errors))
+    freedom = _welch(errors, (len(one), len(other)))
+    reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, freedom)) * error if error else 0.0
+    found = Interval(mid, mid - reach, mid + reach)
+    return Difference(level, measure, None, float(one.mean()), float(other.mean()), found)
+
+
+def _welch(errors: Sequence[float], counts: Sequence[int]) -> float:
+    """Returns the degrees of freedom of Welch and Satterthwaite."""
+    parts = sum(error**2 / (count - 1) for error, count in zip(errors, counts))
+    return sum(errors) ** 2 / parts if parts else float(sum(counts) - 2)
+
+
+# Measures of which more is better; of all others less is.
+_MORE_IS_BETTER = (
+    "way_m",
+    "distance_m",
+    "share_near",
+    "metres_per_intervention",
+    "completed",
+    "row_coverage",
+    "headland_coverage",
+    "fre_score_m",
+)
+_JUDGED_BY = ("interventions", "collisions", "lateral_rms_m")  # if measured; else by the first
+
+
+def order_by(runs: Runs, measure: Optional[str]) -> np.ndarray:
+    """Returns indices of the runs, the worst first: by a measure, or by interventions, collisions and offset."""
+    names = [measure] if measure else [name for name in _JUDGED_BY if name in runs.measures]
+    names = names or runs.measures[:1]
+    keys = [runs["run_id"].astype(str)]
+    for name in reversed(names):
+        sign = 1.0 if name in _MORE_IS_BETTER else -1.0
+        keys.append(np.where(np.isfinite(runs[name]), sign * runs[name], np.inf))
+    return np.lexsort(keys)

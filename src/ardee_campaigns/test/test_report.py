@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: MIT
+"""Tests report and compare on tables with effects of known size, and on a small campaign that was run."""
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Dict, List
+
+import numpy as np
+import pytest
+import synthetic_campaign
+from browser import NEEDS, look_at
+from scipy import stats
+from small_campaign import run, write
+
+from ardee_campaigns import tables
+from ardee_campaigns.__main__ import main
+from ardee_campaigns.report import figures, statistics
+from ardee_campaigns.report.runs import Runs, chosen, read
+from ardee_common.errors import GeneratorError
+from ardee_navigation.evaluation import figures as drives
+
+COUNT = 400
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Tables of synthetic runs, and their report."""
+    made = synthetic_campaign.write(tmp_path_factory.mktemp("synthetic"), COUNT)
+    assert main(["report", str(made)]) == 0
+    return made
+
+
+@pytest.fixture(scope="module")
+def runs(folder: Path) -> Runs:
+    """The runs that did not fail."""
+    return read(folder).ok()
+
+
+def test_a_paired_difference_is_found_to_its_size(runs: Runs) -> None:
+    found = {one.measure: one for one in statistics.differences(runs, "controller", "one")}
+    lateral = found["lateral_rms_m"]
+    assert lateral.level == "other" and lateral.pairs > 150
+    assert lateral.found.low < synthetic_campaign.SHIFT_M < lateral.found.high
+    # The fields differ by more than 5 mm; within a pair that falls out, and 1 mm of noise is left.
+    assert lateral.found.high - lateral.found.low < 6e-4
+    assert found["collisions"].found.low < 0.0 < found["collisions"].found.high
+    assert found["way_m"].found == (0.0, 0.0, 0.0)
+
+
+def test_worlds_are_compared_without_pairs(runs: Runs) -> None:
+    found = {one.measure: one for one in statistics.differences(runs, "world", "corn")}
+    one, other = (runs["lateral_rms_m"][runs["world"] == name] for name in ("corn", "sorghum"))
+    assert found["lateral_rms_m"].pairs is None
+    for bound_m in found["lateral_rms_m"].found[1:]:
+        shifted = stats.ttest_ind(other - bound_m, one, equal_var=False)
+        assert shifted.pvalue == pytest.approx(0.05)
+
+
+def test_shares_of_variance_and_slopes() -> None:
+    rng = np.random.default_rng(0)
+    x = rng.random(200)
+    columns = {
+        "run_id": np.arange(200).astype(str),
+        "factor_x": x,
+        "controller": np.array(["a", "b"] * 100, dtype=object),
+        "y": 2.0 * x + 0.01 * rng.normal(size=200),
+        "z": np.array([0.0, 1.0] * 100),
+    }
+    runs = Runs("", columns, ["controller", "factor_x"], ["y", "z"])
+    slope = statistics.slope(runs, "factor_x", "y")
+    assert slope.low < 2.0 < slope.high and slope.high - slope.low < 0.02
+    assert statistics.share_of_variance(runs, "factor_x", "y") > 0.99
+    assert statistics.share_of_variance(runs, "controller", "z") == pytest.approx(1.0)
+    assert statistics.share_of_variance(runs, "controller", "y") < 0.05
+
+
+def test_an_interquartile_mean_leaves_out_the_ends() -> None:
+    values = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 1000.0])
+    found = statistics.iqm(values, ["w"] * 8)
+    assert found.estimate == 4.5 and found.low < 4.5 < found.high
+    assert statistics.iqm(values, ["w"] * 8) == found  # seeded
+    # Each world keeps its runs: where all runs of a world are alike, nothing varies.
+    assert statistics.iqm(np.array([1.0, 1.0, 3.0, 3.0]), list("aabb"))[1:] == (2.0, 2.0)
+    assert np.isnan(statistics.iqm(np.array([1.0, np.nan]), list("ab")).estimate)
+
+
+def test_a_rate_has_the_interval_of_poisson(runs: Runs) -> None:
+    part = runs.where(np.arange(10))
+    part.columns["collisions"][:] = [1.0] + [0.0] * 9
+    count, way_m, rate = statistics.rate_per_100_m(part, "collisions")
+    assert (count, way_m) == (1, 100.0)
+    assert rate == pytest.approx((1.0, 0.0253, 5.572), abs=1e-3)  # Garwood's for a count of 1
+
+
+def test_the_worst_runs_come_first(runs: Runs) -> None:
+    order = statistics.order_by(runs, None)
+    steps = runs["interventions"][order]
+    assert (np.diff(steps) <= 0).all() and steps[0] > 0
+    alike = order[steps == steps[0]]
+    assert (np.diff(runs["collisions"][alike]) <= 0).all()
+    by_way = statistics.order_by(runs, "way_m")
+    assert len(set(by_way.tolist())) == len(runs)
+
+
+def test_runs_are_chosen_by_conditions(folder: Path) -> None:
+    part = chosen(read(folder), ["world=corn", "speed_m_s=0.3"])
+    assert set(part["world"]) == {"corn"} and set(part["factor_speed_m_s"]) == {0.3}
+    for text, message in (("corn", "NAME=VALUE"), ("x=1", "known"), ("world=x", "corn")):
+        with pytest.raises(GeneratorError, match=f"--where: .*{message}"):
+            chosen(read(folder), [text])
+
+
+class Parts(HTMLParser):
+    """What a page is made of."""
+
+    def __init__(self, page: Path) -> None:
+        super().__init__()
+        self.tags: Dict[str, List[dict]] = {}
+        self.feed(page.read_text())
+
+    def handle_starttag(self, tag: str, attrs: list) -> None:
+        self.tags.setdefault(tag, []).append(dict(attrs))
+
+
+def test_the_page_has_all_sections_and_needs_nothing_else(folder: Path) -> None:
+    text, parts = (folder / "report.html").read_text(), Parts(folder / "report.html")
+    for heading in ("Failed runs", "Means", "Interquartile means", "Distributions", "Effects"):
+        assert f"<h2>{heading}</h2>" in text
+    assert "wheel 49 &lt;came&gt; off" in text and "came" not in parts.tags
+    assert text.count("&lt;came&gt;") == COUNT // synthetic_campaign.FAILED_EVERY
+    # distributions, offsets, effects; two factors; a usual run and three worst ones, two figures each
+    assert len(parts.tags["img"]) == 3 + 2 + 4 * 2
+    assert all(one["src"].startswith("data:image/png;base64,") for one in parts.tags["img"])
+    assert not re.search(r"(src|href)=\"(?!data:)", text) and "script" not in parts.tags
+    assert "Without pictures:" in text and "--replay" in text
+
+
+def test_the_markdown_has_the_same_tables_and_pictures_beside_it(folder: Path) -> None:
+    text = (folder / "report.md").read_text()
+    pictures = re.findall(r"!\[.*\]\((.*)\)", text)
+    assert len(pictures) == len(Parts(folder / "report.html").tags["img"])
+    assert all((folder / name).is_file() for name in pictures)
+    assert "wheel 49 \\<came> off" in text
+    assert re.search(r"\| lateral_rms_m \| \d+ \| 0.0395 \| 0.0595 \| \+0.02 \|", text)
+
+
+@NEEDS
+def test_a_browser_shows_the_report(folder: Path) -> None:
+    seen = look_at(folder / "report.html")
+    assert not seen.complaints
+    for color in (*figures.COLORS[:2], drives.RAW, drives.SEEN):
+        assert seen.has(color) > 100, color
+    assert seen.has("#1c2733") > 1000  # text
+
+
+def test_the_same_tables_give_the_same_page(folder: Path, tmp_path: Path) -> None:
+    page = (folder / "report.html").read_bytes()
+    assert main(["report", str(folder), "--output", str(tmp_path)]) == 0
+    assert (tmp_path / "report.html").read_bytes() == page
+
+
+def test_compare_prints_and_writes(folder: Path, capsys: pytest.CaptureFixture) -> None:
+    words = ["compare", str(folder), "--by", "speed_m_s", "--base", "0.6", "--where", "world=corn"]
+    assert main(words) == 0
+    printed = capsys.readouterr().out
+    assert "speed_m_s 0.6 (the first) and 0.3 (the other):" in printed
+    assert printed.endswith(f"\n{folder}/compare_speed_m_s.md\n")
+    written = (folder / "compare_speed_m_s.md").read_text()
+    assert written in printed and (folder / "compare_speed_m_s.png").is_file()
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (["report", "/nowhere"], "/nowhere/runs.parquet: found no such file"),
+        (["report", "FOLDER", "--worst-by", "lateral"], "did you mean 'lateral_rms_m'?"),
+        (["compare", "FOLDER", "--by", "speed"], "did you mean 'speed_m_s'?"),
+        (["compare", "FOLDER", "--by", "robot"], "found 1 values in the 392 runs"),
+        (["compare", "FOLDER", "--base", "mine"], "--base: found 'mine', known: one, other"),
+        (["compare", "FOLDER", "--where", "world=x"], "--where: world: found 'x'"),
+    ],
+)
+def test_bad_input_is_named_in_a_line(
+    folder: Path, words: List[str], message: str, capsys: pytest.CaptureFixture
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([word.replace("FOLDER", str(folder)) for word in words])
+    printed = capsys.readouterr().err
+    assert ended.value.code == 2 and message in printed and printed.count("\n") == 1
+
+
+def test_a_campaign_of_failures_alone_is_reported(tmp_path: Path) -> None:
+    rows = [row for row in synthetic_campaign.rows(100) if row.status == tables.FAILED]
+    schema = tables.runs_schema({"speed_m_s": tables.pa.float64()}, synthetic_campaign.MEASURES, {})
+    tables.write_runs(tmp_path, rows, schema)
+    assert main(["report", str(tmp_path)]) == 0
+    assert "2 runs, 2 of them failed" in (tmp_path / "report.md").read_text()
+
+
+def test_a_run_campaign_is_reported_with_pictures(tmp_path: Path) -> None:
+    file = write(tmp_path, replicates=1)
+    run(file, "--output", tmp_path / "out")
+    assert main(["report", str(tmp_path / "out"), "--worst", "1", "--worst-by", "distance_m"]) == 0
+    text = (tmp_path / "out" / "report.md").read_text()
+    row = min(tables.read_runs(tmp_path / "out").to_pylist(), key=lambda row: row["distance_m"])
+    assert f"1. {row['run_id']}" in text and f"--replay {row['run_id']}" in text
+    picture = figures.matplotlib.image.imread(
+        str(tmp_path / "out" / "report_pictures" / "worst_1_pictures.png")
+    )
+    assert picture.shape[0] == 240 and picture.shape[1] > 4 * 320
+    parts = [picture[:, place : place + 320, :3] for place in range(0, 4 * 324, 324)]
+    assert all(part.std() > 0.05 for part in parts)  # something is seen
+    assert np.abs(parts[0] - parts[3]).mean() > 0.01  # of different places
