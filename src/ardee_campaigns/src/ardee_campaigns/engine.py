@@ -72,7 +72,7 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
                     threads_per_worker=1,
                     processes=True,
                     memory_limit=0,
-                    dashboard_address=None,
+                    dashboard_address="127.0.0.1:0",  # None would be port 8787 of all addresses
                     host="127.0.0.1",
                     silence_logs=logging.CRITICAL,
                 )

@@ -49,7 +49,19 @@ double TiffFile::no_data_value() const {
   return std::strtod(std::string(text, count).c_str(), nullptr);
 }
 
+bool TiffFile::has_plain_opacity() const {
+  std::uint16_t count = 0;
+  const std::uint16_t* kinds = nullptr;
+  TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds);
+  return count == 1 && kinds[0] == EXTRASAMPLE_UNASSALPHA;
+}
+
 std::vector<std::uint8_t> TiffFile::read_colors() {
+  const bool is_plain = has_plain_opacity();
+  if (is_plain) {  // libtiff would multiply colours by it, and lose those under holes
+    std::uint16_t multiplied = EXTRASAMPLE_ASSOCALPHA;
+    TIFFSetField(tiff_.get(), TIFFTAG_EXTRASAMPLES, 1, &multiplied);
+  }
   std::vector<std::uint32_t> packed(std::size_t{width_} * height_);
   constexpr int kStopAtErrors = 1;
   if (TIFFReadRGBAImageOriented(tiff_.get(), width_, height_, packed.data(), ORIENTATION_TOPLEFT,
@@ -60,10 +72,10 @@ std::vector<std::uint8_t> TiffFile::read_colors() {
   colors.reserve(packed.size() * 4);
   for (const std::uint32_t pixel : packed) {
     const std::uint32_t opacity = TIFFGetA(pixel);
-    // libtiff gives colours times opacity.
-    const auto plain = [opacity](std::uint32_t color) {
+    const auto plain = [&](std::uint32_t color) {
+      const bool stays = is_plain || opacity == 0;
       return static_cast<std::uint8_t>(
-          opacity == 0 ? color : std::min(255u, (color * 255u + opacity / 2) / opacity));
+          stays ? color : std::min(255u, (color * 255u + opacity / 2) / opacity));
     };
     colors.insert(colors.end(), {plain(TIFFGetR(pixel)), plain(TIFFGetG(pixel)),
                                  plain(TIFFGetB(pixel)), static_cast<std::uint8_t>(opacity)});

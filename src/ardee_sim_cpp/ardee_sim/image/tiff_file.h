@@ -43,6 +43,7 @@ class TiffFile {
   static int pass_over(TIFF*, void*, const char*, const char*, va_list) { return 1; }
   Error unreadable() const;
   void check_samples() const;
+  bool has_plain_opacity() const;  // colours are not multiplied by it
   double value(const std::uint8_t* bytes) const;
 
   std::string path_;
