@@ -72,7 +72,8 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
                     threads_per_worker=1,
                     processes=True,
                     memory_limit=0,
-                    dashboard_address="127.0.0.1:0",  # None would be port 8787 of all addresses
+                    dashboard_address="127.0.0.1:0",  # None would be all addresses
+                    worker_dashboard_address="127.0.0.1:0",
                     host="127.0.0.1",
                     silence_logs=logging.CRITICAL,
                 )
