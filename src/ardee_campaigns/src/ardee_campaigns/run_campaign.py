@@ -146,11 +146,12 @@ class Session:
 
 def half_width(values: Sequence[float]) -> float:
     """Returns half of the 95 % Student interval of the mean; infinite for less than two values."""
-    from scipy.stats import t
+    from ardee_navigation.evaluation.comparison import mean_interval
 
     if len(values) < 2:
         return math.inf
-    return float(t.ppf(0.975, len(values) - 1) * np.std(values, ddof=1) / math.sqrt(len(values)))
+    found = mean_interval(values)
+    return (found.high - found.low) / 2.0
 
 
 def _list(session: Session) -> None:

@@ -18,9 +18,9 @@ BESIDE_M, WITHIN_M = 0.05, 1.0  # strip abeam of the lidar whose returns are dra
 _LARGEST_POINTS = 40_000
 
 
-def _raw(run: Looked) -> Tuple[np.ndarray, np.ndarray]:
+def _raw(run: Looked, end_s: float) -> Tuple[np.ndarray, np.ndarray]:
     """Returns times [s] and lateral distances [m] of the returns abeam of the lidar."""
-    angles, ranges = run.scans.angles_rad, run.scans.ranges_m
+    angles, ranges = run.scans.angles_rad, run.scans.ranges_m[run.time_s <= end_s]
     ranges = np.where(np.isfinite(ranges), ranges, np.nan)
     ahead, lateral = ranges * np.cos(angles), ranges * np.sin(angles)
     scan, beam = np.nonzero((np.abs(ahead) < BESIDE_M) & (np.abs(lateral) < WITHIN_M))
@@ -28,8 +28,12 @@ def _raw(run: Looked) -> Tuple[np.ndarray, np.ndarray]:
     return run.time_s[scan][::step], lateral[scan, beam][::step]
 
 
-def _distances(axes: pyplot.Axes, run: Looked, colors: Tuple[str, str], what: str) -> None:
-    axes.plot(*_raw(run), ".", color=colors[0], markersize=1.5, alpha=0.5, label=f"{what}: raw")
+def _distances(
+    axes: pyplot.Axes, run: Looked, end_s: float, colors: Tuple[str, str], what: str
+) -> None:
+    axes.plot(
+        *_raw(run, end_s), ".", color=colors[0], markersize=1.5, alpha=0.5, label=f"{what}: raw"
+    )
     gap = np.diff(run.time_s, prepend=run.time_s[0]) > 0.5  # no line across a pause
     for values, label in ((run.left_m, f"{what}: perceived"), (-run.right_m, None)):
         shown = np.where(gap, np.nan, values)
@@ -42,13 +46,14 @@ def _distances(axes: pyplot.Axes, run: Looked, colors: Tuple[str, str], what: st
 
 
 def distances(path: Path, real: Looked, run: Looked) -> None:
-    """Draws lateral distances of a real and a simulated run, over time."""
+    """Draws lateral distances of a real and a simulated run, over time, as long as the shorter one."""
+    end_s = min(real.time_s[-1], run.time_s[-1])
     figure, (top, bottom) = pyplot.subplots(2, 1, sharex=True, figsize=(10.0, 7.0))
-    _distances(top, real, REAL, "real")
-    _distances(bottom, run, SIMULATED, "simulated")
+    _distances(top, real, end_s, REAL, "real")
+    _distances(bottom, run, end_s, SIMULATED, "simulated")
     top.set_title(real.name, loc="left", fontsize="medium")
     bottom.set_title(run.name, loc="left", fontsize="medium")
-    bottom.set_xlim(0.0, max(real.time_s[-1], run.time_s[-1]))
+    bottom.set_xlim(0.0, end_s)
     bottom.set_xlabel("time since the first scan [s]")
     save(figure, path)
 

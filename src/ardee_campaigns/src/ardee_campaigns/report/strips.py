@@ -17,8 +17,9 @@ from ardee_campaigns import tables, worlds  # noqa: E402
 from ardee_campaigns.plan import Job, factors_of  # noqa: E402
 from ardee_campaigns.robot import Driven  # noqa: E402
 from ardee_world.row_truth import Pose  # noqa: E402
+from ardee_world.trial import Trial  # noqa: E402
 
-COUNT = 4  # pictures of a strip
+COUNT = 3  # pictures of a strip
 _SIZE_PX = (320, 240)
 _BEHIND_M, _ABOVE_M, _DOWN_RAD = 1.1, 0.55, 0.30  # of the camera behind the robot
 _NEAR_M = 0.7  # leaves before the camera are left out
@@ -59,20 +60,22 @@ def draw(path: Path, job: Job, run: tables.RunFile, chosen: List[Moment]) -> Non
         keys = campaign.worlds[cell.world]
         trial = worlds.sow(keys, job.files, factors, job.seed >> 33, models)
         world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
-        with ardee_sim.Simulation(world, seed=job.seed) as sim:
-            robot = campaign.robots[cell.robot]
-            driven = Driven(sim, cell.robot, robot, job.urdf.read_text())
-            driven.spawn(trial.start, trial)
-            pictures = []
-            for moment in chosen:
-                pose = _pose(run, moment.number)
-                driven.set_pose(pose, trial)
-                place, turn = _camera(pose, trial.height_m(pose))
-                lens = {"width_px": _SIZE_PX[0], "height_px": _SIZE_PX[1], "near_m": _NEAR_M}
-                pictures.append(sim.render(place, turn, **lens))
+        pictures = [_picture(world, trial, job, _pose(run, moment.number)) for moment in chosen]
     gap = np.full((_SIZE_PX[1], _GAP_PX, 3), 255, np.uint8)
     parts = [part for picture in pictures for part in (picture, gap)]
     image.imsave(path, np.hstack(parts[:-1]), metadata={"Software": None})
+
+
+def _picture(world: ardee_sim.World, trial: Trial, job: Job, pose: Pose) -> np.ndarray:
+    """Returns a picture; its simulation ends with it, for what is near a camera takes hundreds of MB."""
+    keys = job.campaign.robots[job.cell.robot]
+    with ardee_sim.Simulation(world, seed=job.seed) as sim:
+        driven = Driven(sim, job.cell.robot, keys, job.urdf.read_text())
+        driven.spawn(trial.start, trial)
+        driven.set_pose(pose, trial)
+        place, turn = _camera(pose, trial.height_m(pose))
+        lens = {"width_px": _SIZE_PX[0], "height_px": _SIZE_PX[1], "near_m": _NEAR_M}
+        return sim.render(place, turn, **lens)
 
 
 def _pose(run: tables.RunFile, number: int) -> Pose:
