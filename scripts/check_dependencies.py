@@ -21,6 +21,7 @@ KEYS = {
     "numpy": "python3-numpy",
     "PIL": "python3-pil",
     "pyarrow": "python3-pyarrow-pip",
+    "pycocotools": "python3-pycocotools-pip",
     "pyproj": "python3-pyproj",
     "pytest": "python3-pytest",
     "rasterio": "python3-rasterio",

@@ -15,7 +15,7 @@ NEEDS = pytest.mark.skipif(not BROWSER, reason="found no chromium, which shows p
 
 
 class Seen(NamedTuple):
-    """What a browser shows of a page."""
+    """A page as a browser shows it."""
 
     pixels: np.ndarray  # uint8[h, w, 3]
     complaints: List[str]  # of its console

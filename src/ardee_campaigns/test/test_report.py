@@ -111,7 +111,7 @@ def test_runs_are_chosen_by_conditions(folder: Path) -> None:
 
 
 class Parts(HTMLParser):
-    """What a page is made of."""
+    """Parts of a page."""
 
     def __init__(self, page: Path) -> None:
         super().__init__()

@@ -13,7 +13,8 @@ import pytest
 import small_campaign
 from small_campaign import run, write
 
-from ardee_campaigns import engine, tables
+from ardee_campaigns import tables
+from ardee_common.output import locked
 
 
 @pytest.fixture(scope="module")
@@ -198,9 +199,10 @@ def test_a_world_or_measure_that_fails_is_a_failed_row(tmp_path: Path) -> None:
 
 def test_two_campaigns_do_not_share_a_folder(tmp_path: Path) -> None:
     output = tmp_path / "out"
-    with engine.locked(output):
+    output.mkdir()
+    with locked(output):
         done = run(write(tmp_path), "--output", output, code=2)
-    assert done.stderr.count("\n") == 1 and "another campaign is at work" in done.stderr
+    assert done.stderr.count("\n") == 1 and "another program is at work" in done.stderr
     assert not finished(output)
 
 

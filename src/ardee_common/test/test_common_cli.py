@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Tests that commands answer bad input in one line and exit with 2."""
+import subprocess
 from argparse import Namespace
 from pathlib import Path
 from typing import Optional
@@ -126,3 +127,11 @@ def test_long_work_says_every_few_seconds_where_it_is(capsys: pytest.CaptureFixt
 def test_short_work_is_silent(capsys: pytest.CaptureFixture) -> None:
     assert list(steps("draw", range(3))) == [0, 1, 2]
     assert capsys.readouterr().err == ""
+
+
+def test_a_reader_that_has_seen_enough_is_no_error() -> None:
+    program = "from ardee_common.cli import Parser, run; run(Parser(prog='p'), lambda args: 'x' * 200_000, [])"
+    source = Path(__file__).resolve().parents[1] / "src"
+    line = f'set -o pipefail; PYTHONPATH={source} /usr/bin/python3 -c "{program}" | head -c 1'
+    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "x", "")

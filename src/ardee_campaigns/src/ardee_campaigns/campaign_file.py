@@ -133,7 +133,7 @@ class ControllerKeys:
 
 @dataclass(frozen=True)
 class FactorKeys:
-    """What is varied. A list is short for `values` of a controller's parameter."""
+    """A factor, which is varied. A list is short for `values` of a controller's parameter."""
 
     of: str = option(
         "controller",
@@ -156,7 +156,7 @@ class FactorKeys:
 
 @dataclass(frozen=True)
 class PlanKeys:
-    """Which combinations are run; worlds, robots and controllers are always combined with each other."""
+    """The plan chooses combinations; worlds, robots and controllers are always combined with each other."""
 
     kind: str = option(
         "factorial",

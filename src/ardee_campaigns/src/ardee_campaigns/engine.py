@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Works off the runs of a campaign on dask.distributed: processes of this machine, or those of a scheduler."""
 import contextlib
-import fcntl
 import logging
 import os
 from pathlib import Path
@@ -28,28 +27,6 @@ class EngineError(Exception):
 
 
 _LOST = EngineError("the scheduler was lost; start again to go on")
-
-
-@contextlib.contextmanager
-def locked(folder: Path) -> Iterator[None]:
-    """Makes the folder of a campaign and keeps other campaigns out of it."""
-    try:
-        (folder / tables.FOLDER).mkdir(parents=True, exist_ok=True)
-        handle = os.open(folder, os.O_RDONLY)
-    except OSError as error:
-        raise GeneratorError(
-            f"--output: found {str(folder)!r}, expected a folder to write in: {error.strerror}"
-        ) from None
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise GeneratorError(
-            f"--output: found {str(folder)!r}, in which another campaign is at work, expected its end"
-        ) from None
-    else:
-        yield
-    finally:
-        os.close(handle)
 
 
 @contextlib.contextmanager

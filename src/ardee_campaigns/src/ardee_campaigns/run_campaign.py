@@ -15,6 +15,7 @@ from ardee_campaigns.plan import Cell, Job, Planner, about
 from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file
 from ardee_common.cli import Parser, say
 from ardee_common.errors import GeneratorError, known_names
+from ardee_common.output import locked
 from ardee_common.process import Ended, end_by_signals
 
 PROG = "run_campaign"
@@ -190,7 +191,13 @@ def _work(session: Session, args: argparse.Namespace) -> int:
 
     keys, folder = session.campaign.keys, session.folder
     jobs = session.jobs(keys.replicates)
-    with engine.locked(folder):
+    try:
+        (folder / tables.FOLDER).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise GeneratorError(
+            f"--output: found {str(folder)!r}, expected a folder to write in: {error.strerror}"
+        ) from None
+    with locked(folder):
         note_file(folder, session.campaign.file)
         if args.retry_failed:
             _forget_failed(session, jobs)
@@ -244,7 +251,9 @@ def _replay(session: Session, run_id: str) -> int:
     from ardee_campaigns.run import run_one
     from ardee_navigation.evaluation.real_run import write_scans
 
-    jobs = session.jobs(session.campaign.keys.replicates)
+    keys = session.campaign.keys
+    is_until = keys.plan.kind == "until"
+    jobs = session.jobs(keys.plan.most_replicates if is_until else keys.replicates)
     job = next((job for job in jobs if job.run_id == run_id), None)
     if job is None:
         known = [job.run_id for job in jobs]

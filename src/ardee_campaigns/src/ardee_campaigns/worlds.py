@@ -42,7 +42,7 @@ _WORLD = """<?xml version="1.0"?>
 
 @dataclass(frozen=True)
 class WorldFiles:
-    """What a world is made of: a world file and the recipe of its field, of which one may be missing."""
+    """Files of a world: the world itself and the recipe of its field; one of them may be missing."""
 
     world: Optional[Path]
     plan: Optional[Path]

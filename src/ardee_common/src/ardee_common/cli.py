@@ -4,6 +4,7 @@
 import argparse
 import contextlib
 import math
+import os
 import re
 import sys
 import threading
@@ -192,5 +193,12 @@ def run(
     except (GeneratorError, OSError) as error:
         parser.exit(2, f"{parser.prog}: {error}\n")
     if result is not None:
-        print(result)
+        _print(result)
     return 0
+
+
+def _print(result: Any) -> None:
+    try:
+        print(result, flush=True)
+    except BrokenPipeError:  # its reader, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -2,6 +2,7 @@
 """Writes output completely or not at all: written to a temporary place, then renamed."""
 
 import contextlib
+import fcntl
 import os
 import re
 import shutil
@@ -12,6 +13,21 @@ from typing import Iterator
 from ardee_common.errors import GeneratorError
 
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Keeps other programs that lock a folder out of it; the lock ends with the block, or with the process."""
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            found = f"found {str(folder)!r}, in which another program is at work"
+            raise GeneratorError(f"--output: {found}, expected its end") from None
+        yield
+    finally:
+        os.close(handle)
 
 
 def check_name(name: str) -> str:

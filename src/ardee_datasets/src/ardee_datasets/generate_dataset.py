@@ -2,7 +2,6 @@
 """The command `generate_dataset`: labelled pictures of the fields of a recipe."""
 
 import argparse
-import fcntl
 import multiprocessing
 import os
 import signal
@@ -16,7 +15,7 @@ from ardee_sim import ArdeeError
 
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
-from ardee_common.output import output_folder, write_file
+from ardee_common.output import locked, output_folder, write_file
 from ardee_datasets.assemble import assemble
 from ardee_datasets.plan import Scene, Shot, scenes, shots
 from ardee_datasets.recipe import Recipe, read_recipe
@@ -104,18 +103,6 @@ def plan_text(recipe: Recipe) -> str:
     return "\n".join((*lines, f"{len(planned)} fields, {count} pictures"))
 
 
-def _lock(folder: Path) -> int:
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(handle)
-        raise GeneratorError(
-            f"--output: found {folder}, in which another generate_dataset works, expected its end"
-        ) from None
-    return handle
-
-
 def generate(args: argparse.Namespace) -> Optional[str]:
     """Writes the data set that the arguments ask for, or the rest of it."""
     recipe = read_recipe(args.recipe)
@@ -123,15 +110,11 @@ def generate(args: argparse.Namespace) -> Optional[str]:
         return plan_text(recipe)
     if args.output is None:
         raise GeneratorError("found no --output, expected a folder for the data set")
-    with output_folder(args.output) as folder:
-        handle = _lock(folder)
-        try:
-            _check_same(folder, args.recipe)
-            todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
-            _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
-            assemble(folder, recipe)
-        finally:
-            os.close(handle)
+    with output_folder(args.output) as folder, locked(folder):
+        _check_same(folder, args.recipe)
+        todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
+        _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
+        assemble(folder, recipe)
     return str(args.output)
 
 
