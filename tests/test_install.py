@@ -111,7 +111,8 @@ def test_all_modules_are_imported(shell: Shell) -> None:
         "for name in sys.argv[1:]:\n"
         "    package = importlib.import_module(name)\n"
         "    for module in pkgutil.walk_packages(package.__path__, name + '.'):\n"
-        "        importlib.import_module(module.name)\n"
+        "        if module.name != 'ardee_sim.examples.train_row_follower':  # its user installs torch\n"
+        "            importlib.import_module(module.name)\n"
         "print(len(sys.modules))\n"
     )
     modules = [p.parent.name for name in OWN for p in (SRC / name / "src").glob("*/__init__.py")]
