@@ -112,7 +112,8 @@ def test_a_launch_with_rviz_prints_nothing_yellow_or_red(graph: RosGraph) -> Non
         launch.wait(60.0)
         assert "started roslaunch server" in launch.output()
         bad = re.findall(r".*(?:\033\[3[13]m|WARN|ERROR|Traceback).*", launch.output())
-        assert not bad
+        # rospy's word for a subscriber that left while it connected: the one of this test.
+        assert not [line for line in bad if "Inbound TCP/IP connection failed" not in line]
 
 
 def test_world_alone(graph: RosGraph) -> None:
