@@ -8,6 +8,7 @@ from typing import List
 
 import numpy as np
 import pytest
+from scans import ANGLE_MIN_RAD, INCREMENT_RAD, scan_of
 
 from ardee_common.errors import GeneratorError
 from ardee_navigation.evaluation import judge_lane
@@ -18,9 +19,12 @@ from ardee_navigation.evaluation.lane_figures import (
     measure_real,
     read_real_lane,
     table,
+    with_ride,
     write_real_lane,
 )
 from ardee_navigation.evaluation.real_run import LIDAR_LOG, PERCEPTION_LOG, read_real_run
+from ardee_navigation.evaluation.scan_run import Scans
+from ardee_navigation.evaluation.scan_speed import scan_speed_m_s
 from ardee_navigation.evaluation.scenarios import find_scenario
 
 CONFIG = Path(__file__).resolve().parents[1] / "config"
@@ -79,6 +83,31 @@ def test_figures_follow_from_the_geometry(folder: Path) -> None:
     assert figures.right_spread_m < 1e-3  # a straight wall
 
 
+@pytest.mark.parametrize("speed_m_s", [0.25, 0.5])
+def test_speed_is_found_in_scans_of_plants_that_pass_by(speed_m_s: float) -> None:
+    rng, time_s = np.random.default_rng(1), 0.025 * np.arange(13)
+    starts_m = rng.uniform(-3.0, 3.0, 40)
+    offsets_m = rng.choice([-0.38, 0.38], 40) + rng.normal(0.0, 0.03, 40)
+
+    def scan(moved_m: float) -> np.ndarray:
+        from_m = starts_m - moved_m
+        plants = [(0.0, y, x, x + 0.06) for x, y in zip(from_m, offsets_m)]
+        return scan_of(*plants, noise=(rng, 0.01))
+
+    ranges_m = np.array([scan(speed_m_s * t) for t in time_s])
+    found = scan_speed_m_s(Scans(time_s, ranges_m, ANGLE_MIN_RAD, INCREMENT_RAD))
+    assert found == pytest.approx(speed_m_s, abs=0.03)
+    assert math.isnan(scan_speed_m_s(Scans(20 * time_s, ranges_m, ANGLE_MIN_RAD, INCREMENT_RAD)))
+
+
+def test_the_ride_is_the_spread_of_the_robots_own_angles() -> None:
+    figures = LaneFigures(*[0.5] * len(MEASURES))
+    ride = with_ride(figures, np.radians([[1.0, 0.0, 4.0], [3.0, 6.0, 4.0]]))
+    spreads = (ride.roll_sd_rad, ride.pitch_sd_rad, ride.yaw_sd_rad)
+    assert np.degrees(spreads) == pytest.approx([1.0, 3.0, 0.0])
+    assert ride.heading_sd_rad == 0.5
+
+
 def test_no_pair_is_made_across_a_pause(folder: Path) -> None:
     run = read_real_run(folder)
     paused = replace(run.scans, time_s=np.arange(SCANS) * 1.0)
@@ -104,13 +133,16 @@ def test_real_lane_file_is_read_as_it_was_written(folder: Path, tmp_path: Path) 
     assert again.ranges_p50_m == pytest.approx(lane.ranges_p50_m, abs=6e-4)
     for one in MEASURES:
         expected = getattr(lane.figures, one.column)
-        assert getattr(again.figures, one.column) == pytest.approx(expected, rel=1e-3, abs=1e-9)
+        assert getattr(again.figures, one.column) == pytest.approx(
+            expected, rel=1e-3, abs=1e-9, nan_ok=True
+        )
 
 
 def test_shipped_real_lane() -> None:
     lane = read_real_lane(CONFIG / "real_lane.yaml")
     assert lane.scans == 479 and "d3d4e19" in lane.source
     assert len(lane.ranges_p10_m) == len(lane.ranges_p50_m) == len(lane.ranges_p90_m) == 54
+    assert lane.figures.speed_m_s == pytest.approx(0.24, abs=0.01)
     assert lane.figures.no_return_share < 0.02 and lane.figures.axis_returns == pytest.approx(
         72.3, abs=0.1
     )

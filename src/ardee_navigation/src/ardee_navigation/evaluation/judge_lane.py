@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
+import numpy as np
 from ardee_sim.packages import find_package
 from tqdm import tqdm
 
@@ -119,8 +120,8 @@ def _scenario(args: argparse.Namespace) -> Scenario:
 
 def _one_run(
     scenario: Scenario, args: argparse.Namespace, number: int, urdf: str, work: Path
-) -> Tuple[Any, Any, str]:
-    """Drives one run; returns its scans, what was perceived in them, and the run in one line."""
+) -> Tuple[Any, Any, Any, str]:
+    """Drives one run; returns its scans, what was perceived in them, the ride, and the run in one line."""
     from ardee_navigation.evaluation.lockstep import drive
     from ardee_navigation.evaluation.scan_run import Recorder
     from ardee_navigation.evaluation.simulation import Simulation
@@ -129,8 +130,8 @@ def _one_run(
     seed = args.seed + number
     trial = prepare(scenario, seed, work / "models")
     judge = Judge(trial, args.world, number, seed, scenario.parameters.lidar_ahead_m)
-    recorder = Recorder(judge, args.scans, args.from_m)
     with Simulation(trial.world, seed, trial.models) as simulation:
+        recorder = Recorder(judge, args.scans, args.from_m, simulation.tilt)
         simulation.spawn(urdf, trial.start, trial.height_m(trial.start))
         with tqdm(
             total=args.scans, unit="scan", desc=f"run {number}", leave=False, disable=None
@@ -145,12 +146,13 @@ def _one_run(
         found = f"found {len(recorder.scans)} scans in the lane from {args.from_m:g} m"
         raise GeneratorError(f"{args.world}: seed {seed}: {found} on, expected 2 or more")
     step_ins = len(judge.record.interventions)
-    return (*recorder.result(), f"seed {seed}, {len(recorder.scans)} scans, {step_ins} step-ins")
+    line = f"seed {seed}, {len(recorder.scans)} scans, {step_ins} step-ins"
+    return (*recorder.result(), np.array(recorder.ride), line)
 
 
 def _drive_all(args: argparse.Namespace, scenario: Scenario, report: Report, work: Path) -> None:
     """Drives the runs; the report is written anew after each, so that what was measured survives a Ctrl-C."""
-    from ardee_navigation.evaluation.lane_figures import measure
+    from ardee_navigation.evaluation.lane_figures import measure, with_ride
     from ardee_navigation.evaluation.simulation import robot_urdf
 
     runs = []  # type: List[Any]
@@ -159,8 +161,9 @@ def _drive_all(args: argparse.Namespace, scenario: Scenario, report: Report, wor
         for number in tqdm(range(args.runs), unit="run", desc=args.world, disable=None):
             folder = work / f"run_{number}"
             folder.mkdir()
-            scans, perceived, line = _one_run(scenario, args, number, urdf, folder)
-            runs.append(measure(scans, perceived, perceived.spread_m))
+            scans, perceived, ride, line = _one_run(scenario, args, number, urdf, folder)
+            figures = measure(scans, perceived, perceived.spread_m)
+            runs.append(with_ride(figures, ride))
             if number == 0:
                 report.draw(scans)
             report.write(runs)

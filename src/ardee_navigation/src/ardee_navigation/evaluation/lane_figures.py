@@ -12,6 +12,7 @@ from ardee_common.config import build, read_yaml_lines
 from ardee_navigation.evaluation.comparison import Measure, mean_interval
 from ardee_navigation.evaluation.real_run import RealRun
 from ardee_navigation.evaluation.scan_run import Perceived, Scans, follow
+from ardee_navigation.evaluation.scan_speed import scan_speed_m_s
 from ardee_navigation.lbirnt import Parameters
 
 AHEAD_DEG, SIDE_DEG = 10.0, 30.0  # half widths of the sectors straight ahead and abeam
@@ -44,6 +45,11 @@ class LaneFigures:
     left_change_median_m: float  # of the perceived left distance from answer to answer, absolute
     left_change_p95_m: float
     heading_sd_rad: float
+    speed_m_s: float = math.nan  # mean, from the scans alone
+    # The ride itself, SD; unknown of a real run whose log has no attitude
+    roll_sd_rad: float = math.nan
+    pitch_sd_rad: float = math.nan
+    yaw_sd_rad: float = math.nan  # of the robot's true heading in the lane
 
 
 MEASURES = (
@@ -64,6 +70,10 @@ MEASURES = (
     Measure("left_change_median_m", "change of the left distance: median [mm]", 1e3, 1),
     Measure("left_change_p95_m", "change of the left distance: 95th percentile [mm]", 1e3, 1),
     Measure("heading_sd_rad", "perceived heading: SD [deg]", 180.0 / np.pi, 1),
+    Measure("yaw_sd_rad", "true heading in the lane: SD [deg]", 180.0 / np.pi, 1),
+    Measure("roll_sd_rad", "roll: SD [deg]", 180.0 / np.pi, 2),
+    Measure("pitch_sd_rad", "pitch: SD [deg]", 180.0 / np.pi, 2),
+    Measure("speed_m_s", "speed, from scan to scan [m/s]", 1.0, 2),
 )
 
 
@@ -136,7 +146,14 @@ def measure(scans: Scans, perceived: Perceived, spread_m: np.ndarray) -> LaneFig
         left_change_median_m=_median(moves),
         left_change_p95_m=_quantile(moves, 0.95),
         heading_sd_rad=float(perceived.heading_rad.std()),
+        speed_m_s=scan_speed_m_s(scans),
     )
+
+
+def with_ride(figures: LaneFigures, ride_rad: np.ndarray) -> LaneFigures:
+    """Adds the ride's figures; `ride_rad` (n, 3) is roll, pitch and heading in the lane at each scan."""
+    roll, pitch, yaw = (float(value) for value in ride_rad.std(axis=0))
+    return replace(figures, roll_sd_rad=roll, pitch_sd_rad=pitch, yaw_sd_rad=yaw)
 
 
 def by_bearing(scans: Scans) -> np.ndarray:
@@ -175,7 +192,8 @@ def read_real_lane(path: Path) -> RealLane:
 def write_real_lane(lane: RealLane, path: Path) -> None:
     """Writes the figures of a real run as `read_real_lane` reads them."""
     plain = asdict(lane)
-    plain["figures"] = {name: float(f"{v:.4g}") for name, v in plain["figures"].items()}
+    known = {name: v for name, v in plain["figures"].items() if math.isfinite(v)}
+    plain["figures"] = {name: float(f"{v:.4g}") for name, v in known.items()}
     for name in ("ranges_p10_m", "ranges_p50_m", "ranges_p90_m"):
         plain[name] = [round(value, 3) for value in plain[name]]
     path.write_text(yaml.safe_dump(plain, sort_keys=False, default_flow_style=None, width=120))

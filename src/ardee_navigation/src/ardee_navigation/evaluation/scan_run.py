@@ -2,7 +2,7 @@
 """Scans of a lidar down a lane, and what a row follower perceived in them, of a real robot or of a simulated one."""
 import math
 from dataclasses import dataclass, field
-from typing import List, Tuple
+from typing import Callable, List, Tuple
 
 import numpy as np
 
@@ -44,8 +44,10 @@ class Recorder:
     judge: Judge
     wanted: int
     from_m: float  # along the lane
+    tilt: Callable[[], Tuple[float, float]]  # of the robot now: roll, pitch [rad]
     scans: List[Scan] = field(default_factory=list)
     answers: List[Tuple[float, ...]] = field(default_factory=list)
+    ride: List[Tuple[float, float, float]] = field(default_factory=list)
 
     def watch(self, scan: Scan, output: Output) -> None:
         """Takes a scan and its answer; call it after the judge's look at them."""
@@ -55,6 +57,7 @@ class Recorder:
             return
         self.scans.append(scan)
         self.answers.append((scan.time_s, *_answer(output)))
+        self.ride.append((*self.tilt(), record.samples[-1].heading_rad))
         if len(self.scans) >= self.wanted:
             record.end = record.end or "enough scans"
 

@@ -6,7 +6,7 @@ for byte.
 """
 import math
 from pathlib import Path
-from typing import List
+from typing import List, Tuple
 
 import ardee_sim
 import numpy as np
@@ -86,6 +86,12 @@ class Simulation:
         state = self._sim.state(ROBOT)
         x_m, y_m, _ = (float(value) for value in state.xyz_m)
         return Pose(x_m, y_m, state.yaw_rad)
+
+    def tilt(self) -> Tuple[float, float]:
+        """Returns the robot's roll and pitch [rad], about the fixed axes turned by its yaw."""
+        x, y, z, w = (float(value) for value in self._sim.state(ROBOT).quat_xyzw)
+        roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        return roll, math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
 
     def set_pose(self, pose: Pose, z_m: float) -> None:
         """Sets the robot down at a pose, at rest."""
