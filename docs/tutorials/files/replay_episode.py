@@ -6,7 +6,7 @@ import gymnasium
 
 def main() -> None:
     """Prints what an episode drew, and whether it can be repeated."""
-    ranges = {"emergence": (0.6, 0.95), "lodging": (0.0, 0.02)}
+    ranges = {"emergence": (0.6, 0.95), "lodging": (0.0, 0.02), "stage": (6, 16)}
     env = gymnasium.make("ardee/RowFollow-v0", randomise=ranges)
     scan, info = env.reset(seed=1)
     print(info["replay"])

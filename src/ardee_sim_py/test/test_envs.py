@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests environments: Gymnasium's rules, repetition, ends, drawn fields, refusals."""
 import concurrent.futures
+import json
 import pickle
 import warnings
 from typing import Any, Callable, Dict, Iterator, List
@@ -90,13 +91,29 @@ def test_a_touch_between_two_observations_counts(name: str, make: Make) -> None:
 
 
 def test_an_episode_is_repeated_from_what_it_says(make: Make) -> None:
-    env = make(seed_field=True, randomise={"emergence": (0.5, 0.9)})
+    ranges = {
+        "emergence": (0.5, 0.9),
+        "stalk_spacing_m": (0.1, 0.2),
+        "stage": (6.0, 16.0),
+        "lodging": (0.0, 0.1),
+        "noise_scale": (0.5, 2.0),
+        "sun_elevation_rad": (0.5, 1.5),
+        "ground_friction": (0.3, 0.9),
+    }
+    env = make(seed_field=True, randomise=ranges)
     observation, info = env.reset(seed=1)
+    replay = json.loads(json.dumps(info["replay"]))
+    drawn = replay["numbers"]
+    assert list(drawn) == list(ranges)
+    assert all(low <= drawn[name] <= high for name, (low, high) in ranges.items())
+    ahead = env.step(AHEAD)[0]
     other, other_info = env.reset()
-    again, _ = env.reset(options=info["replay"])
-    assert not np.array_equal(observation, other) and np.array_equal(observation, again)
-    assert info["replay"]["numbers"] != other_info["replay"]["numbers"]
-    assert 0.5 <= info["replay"]["numbers"]["emergence"] <= 0.9
+    assert not np.array_equal(observation, other) and drawn != other_info["replay"]["numbers"]
+    for repeating in (env, make(seed_field=True)):
+        again, repeated = repeating.reset(options=replay)
+        assert repeated["replay"] == replay
+        assert np.array_equal(observation, again)
+        assert np.array_equal(ahead, repeating.step(AHEAD)[0])
 
 
 @pytest.mark.parametrize("name", list(SCENE))
@@ -128,6 +145,16 @@ def test_drawn_numbers_act(make: Make) -> None:
 
     # 4 rows of 53 places; a binomial number stays within four standard deviations
     assert plants(1.0) == 212 and plants(0.5) == pytest.approx(106, abs=4 * 7.3)
+
+
+def test_plants_are_of_the_drawn_stage(make: Make) -> None:
+    env = make(seed_field=True, randomise={"stage": (4.0, 12.0)})
+    heights_m = {}
+    for leaves in (4.0, 12.4):
+        env.reset(options={"numbers": {"stage": leaves}})
+        heights_m[leaves] = np.mean([plant.height_m for plant in env.world.plants()])
+    # Corn of four leaves is about 0.3 m high, of twelve about 1.5 m.
+    assert heights_m[4.0] < 0.6 and 1.0 < heights_m[12.4]
 
 
 def test_a_kept_field_has_other_noise_in_each_episode(make: Make) -> None:
@@ -289,6 +316,10 @@ def test_bad_arguments_are_refused_with_what_was_expected(make: Make) -> None:
         ),
         (dict(randomise={"ambient": (0, 2)}), "ambient: found .*, expected .* within 0 and 1"),
         (dict(seed_field=True, randomise={"lodging": (1, 0)}), "lodging: found"),
+        (
+            dict(seed_field=True, randomise={"stage": (6, 30)}),
+            "stage: .*corn.yaml: .*'V30', known: V1 to V18",
+        ),
         (dict(render_mode="human"), "render_mode"),
         (dict(topics=("ardee/gps",)), "found a FixReading, expected scan, image or IMU"),
         (dict(world="/nowhere.world"), "/nowhere.world: no such world"),

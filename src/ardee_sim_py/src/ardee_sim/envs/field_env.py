@@ -7,7 +7,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 import gymnasium
 import numpy as np
 from ardee_sim.envs.fields import FieldSource, SownField
-from ardee_sim.envs.randomise import Ranges, check_ranges, with_noise
+from ardee_sim.envs.randomise import STAGE, Ranges, check_ranges, with_noise
 from ardee_sim.envs.task import Scene, Task
 from ardee_sim.errors import ArdeeError
 from ardee_sim.robots import robot as robot_text
@@ -32,6 +32,7 @@ class FieldEnv(gymnasium.Env):
     control_period_s : a whole number of the world's steps
     seed_field : sow a new field at each reset; else the field of `field_seed` stays
     randomise : ranges of numbers of a scene (ardee_sim.envs.randomise.SCENE) and, with seed_field, of a field's plan
+        and of `stage`, leaves of its plants (with a visible collar; of tobacco all visible ones)
     v_max_m_s, w_max_rad_s : speed and turn rate of an action of 1
     render_mode : None or rgb_array
     """
@@ -68,6 +69,7 @@ class FieldEnv(gymnasium.Env):
         self._sows = seed_field and self._source.is_sown
         try:
             check_ranges(self._ranges, self._sows)
+            self._source.check_stages(self._ranges.get(STAGE, ()))
             self._robot = self._source.folder / "robot.urdf"
             self._robot_text = robot_text(robot)
             self._probe(field_seed)

@@ -4,14 +4,18 @@
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Optional
+from typing import Iterator, List, Optional, Sequence, Tuple
 
 from ardee_sim import packages
-from ardee_sim.envs.randomise import Numbers, plan_values, with_scene
+from ardee_sim.envs.randomise import STAGE, Numbers, plan_values, with_scene
 from ardee_sim.errors import ArdeeError
 from ardee_sim.world import PathLike, World
 
 from ardee_common.errors import GeneratorError
+from ardee_models.lookup import crop_model, search_path
+from ardee_models.plant.crops import make_crop
+from ardee_models.plant.species import load_params, load_species
+from ardee_world.request import yaml_values
 from ardee_world.trial import Trial, prepare, scenario_paths
 
 
@@ -54,13 +58,40 @@ class FieldSource:
         """A folder of the environment's own, until close()."""
         return Path(self._folder.name)
 
+    def _stages(self, leaves: float) -> Iterator[Tuple[str, str]]:
+        """Yields species and stage of each plant of the plan's pool if it had that many leaves."""
+        models = search_path([Path(name) for name in packages.model_folders()])
+        for name in yaml_values(self._plan)["models"] if self._plan else ():
+            species = crop_model(name, models).species
+            yield species, f"{load_species(species)[0].counters[0]}{round(leaves)}"
+
+    def check_stages(self, leaves: Sequence[float]) -> None:
+        """Raises ArdeeError unless the field's species have these numbers of leaves at some stage."""
+        try:
+            for number in leaves:
+                for species, stage in self._stages(number):
+                    load_params(species, stage)
+        except GeneratorError as error:
+            raise ArdeeError(f"randomise: {STAGE}: {error}") from error
+
+    def _grow(self, leaves: float) -> Tuple[str, ...]:
+        """Returns the names of a pool of plants with that many leaves, and makes those that are not there."""
+        names: List[str] = []
+        for seed, (species, stage) in enumerate(self._stages(leaves), 1):
+            names.append(f"{species}_{stage}_{seed}")
+            if not (self.folder / "models" / names[-1]).is_dir():
+                make_crop(species, stage, seed, names[-1], self.folder / "models")
+        return tuple(names)
+
     def load(self, seed: int, drawn: Numbers) -> SownField:
         """Returns the field of a seed, with the drawn numbers in its plan, light and ground."""
-        models = [Path(name) for name in packages.model_folders()]
+        own = self.folder / "models"
+        models = [own, *(Path(name) for name in packages.model_folders())]
+        values = plan_values(drawn)
         try:
-            trial = prepare(
-                self._world, self._plan, seed, self.folder / "models", plan_values(drawn), models
-            )
+            if STAGE in drawn:
+                values["models"] = self._grow(drawn[STAGE])
+            trial = prepare(self._world, self._plan, seed, own, values, models)
             trial = with_scene(trial, drawn, self.folder, models)
         except GeneratorError as error:
             raise ArdeeError(str(error)) from error

@@ -28,19 +28,21 @@ SCENE = {
     "ambient": (0.0, 1.0),  # grey level of the light from everywhere
     "ground_friction": (0.0, 10.0),  # Coulomb's coefficient; the lesser one of two surfaces acts
 }
+# Leaves of a sown field's plants, rounded: with a visible collar (corn, sorghum), or all visible ones (tobacco).
+STAGE = "stage"
 _NOISE = re.compile(
     r"(<(?:stddev|bias_stddev|dynamic_bias_stddev|noiseGrowth|\w*[gG]aussianNoise|\w*[dD]rift)>)([^<]+)(?=</)"
 )
 
 
 def plan_names() -> Sequence[str]:
-    """Returns the names of the numbers of a field's plan; `emergence` sets both of its bounds."""
+    """Returns the names of a sown field's numbers: those of its plan, where `emergence` sets both bounds, and STAGE."""
     numbers = {
         name
         for name, (_, option) in all_fields().items()
         if option.type in (int, float, Optional[float])
     }
-    return sorted(numbers - {"seed", "emergence_min", "emergence_max"} | {"emergence"})
+    return sorted(numbers - {"seed", "emergence_min", "emergence_max"} | {"emergence", STAGE})
 
 
 def check_ranges(ranges: Ranges, is_sown: bool) -> None:
@@ -65,7 +67,7 @@ def plan_values(drawn: Numbers) -> Dict[str, object]:
     for name, value in drawn.items():
         if name == "emergence":
             values.update(emergence_min=value, emergence_max=value)
-        elif name not in SCENE:
+        elif name not in (*SCENE, STAGE):
             is_count = all_fields()[name][1].type is int
             values[name] = round(value) if is_count else value
     return values
