@@ -99,7 +99,7 @@ class TaskKeys:
     set_ahead_m: float = bounded(0.0, 100.0, 0.5)  # where a robot that stood is set down again
     overrun_m: float = bounded(0.0, 1000.0, 5.0)  # behind the row's end: the run is over
     most_interventions: int = bounded(1, 100_000, 100)  # then the run is given up
-    damage_penalty_m: float = bounded(0.0, 1000.0, 1.0)  # a damaged plant, in fre_score_m
+    damage_penalty_m: float = bounded(0.0, 1000.0, 1.0)  # a touched plant, in fre_score_m; assumed
 
 
 @dataclass(frozen=True)

@@ -138,7 +138,11 @@ def _headland_coverage(run: Recorded, truth: Trial) -> float:
 
 
 def _fre_score_m(run: Recorded, _truth: Trial) -> float:
-    """Returns the metres in rows without those of a penalty for each damaged plant, as the Field Robot Event counts."""
+    """Returns the metres in rows less a penalty for each touched plant, in the form of the Field Robot Event's score.
+
+    No rule of the event is the source of this number: a penalty of 1 m is assumed unless the campaign's file has
+    another `damage_penalty_m` of `task`. Each touched stalk counts once, whether it would have fallen or not.
+    """
     damaged = len(run.contacts.touched)
     return float(run.way_m().sum()) - run.task.damage_penalty_m * damaged
 
@@ -206,7 +210,7 @@ MEASURES: Dict[str, Any] = {
     ),
     "fre_score_m": (
         _fre_score_m,
-        "way less `damage_penalty_m` a touched plant: the Field Robot Event's navigation score",
+        "way less `damage_penalty_m` (1 m is assumed) a touched plant, in the form of the Field Robot Event's score",
     ),
 }
 
