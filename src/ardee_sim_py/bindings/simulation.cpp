@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -261,17 +262,21 @@ py::list BoundSimulation::entities() {
   return found;
 }
 
-py::dict BoundSimulation::topics() {
+py::list BoundSimulation::topics() {
   const Use use(*this);
-  py::dict found;
-  for_each<Output>(*use, [&](Output& each) {
-    found[py::str(each.topic)] = py::make_tuple(reading_class(each.kind), "reading");
+  const double steps_hz = 1.0 / use->physics().step_s;
+  py::list found;
+  for_each<Output>(*use, [&](const Output& each) {
+    std::optional<double> rate_hz = each.rate_hz;
+    if (rate_hz) rate_hz = *rate_hz > 0.0 ? std::min(*rate_hz, steps_hz) : steps_hz;
+    found.append(
+        py::make_tuple(each.topic, reading_class(each.kind), "reading", rate_hz, each.frame_id));
   });
-  for_each<Input>(*use, [&](Input& each) {
-    found[py::str(each.topic)] = py::make_tuple(command_name(each.kind), "command");
+  for_each<Input>(*use, [&](const Input& each) {
+    found.append(py::make_tuple(each.topic, command_name(each.kind), "command", py::none(), ""));
   });
-  for_each<Service>(*use, [&](Service& each) {
-    found[py::str(each.name)] = py::make_tuple("service", "service");
+  for_each<Service>(*use, [&](const Service& each) {
+    found.append(py::make_tuple(each.name, "service", "service", py::none(), ""));
   });
   return found;
 }

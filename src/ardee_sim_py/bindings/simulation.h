@@ -87,8 +87,9 @@ class BoundSimulation {
   py::dict picture(const render::Camera& camera, const render::FrameParts& parts);
 
   py::list entities();
-  /// Returns class name or command name, and "reading", "command" or "service", by topic.
-  py::dict topics();
+  /// Returns a tuple for each port: topic or service, class name or command name, "reading",
+  /// "command" or "service", rate in Hz or None, frame.
+  py::list topics();
   std::vector<LogLine> take_log();
   std::int64_t time_ns();
   std::uint64_t step_count();

@@ -74,8 +74,10 @@ Battery::Battery(const std::string& name, const Params& params)
     : Device(name),
       params_(params),
       timer_(params.rate_hz),
-      output_(add_output(params.topic, reading_kind<BatteryReading>())),
-      state_output_(add_output(params.state_topic, reading_kind<BatteryStateReading>())) {
+      output_(
+          add_output(params.topic, reading_kind<BatteryReading>(), params.rate_hz, params.frame)),
+      state_output_(add_output(params.state_topic, reading_kind<BatteryStateReading>(),
+                               params.rate_hz, params.frame)) {
   if (params_.current_driven) {
     ports().add_velocity_input(params_.command_topic,
                                [this](const Twist& command) { command_.set(command); });

@@ -96,7 +96,7 @@ std::unique_ptr<Device> Bumper::make(const SensorDescription& sensor, Parameters
 Bumper::Bumper(const std::string& name, const Params& params)
     : Sensor(name, params.mount),
       params_(params),
-      output_(add_output(params.topic, reading_kind<ContactsReading>())) {}
+      output_(add_output(params.topic, reading_kind<ContactsReading>(), params.frame)) {}
 
 void Bumper::observe(TimeNs /*now_ns*/) {
   if (output_.demanded) params_.world_info.want_contacts();

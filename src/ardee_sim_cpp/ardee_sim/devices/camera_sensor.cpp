@@ -39,8 +39,11 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.unzoomed_table = eye.camera.lens;
   eye.view = context.scenes.register_eye(raycast::SceneKind::kVisual,
                                          [this, X_SC = params.X_SC] { return (pose() * X_SC).p; });
-  const auto output = [this](const std::string& topic, std::size_t kind) {
-    return topic.empty() ? nullptr : &add_output(topic, kind);
+  const auto output = [&](const std::string& topic, std::size_t kind) {
+    if (topic.empty()) return static_cast<Output*>(nullptr);
+    Output& added = add_output(topic, kind, eye.params.frame);
+    if (triggered_) added.rate_hz.reset();
+    return &added;
   };
   const std::size_t image = reading_kind<ImageReading>();
   const std::size_t info = reading_kind<CameraInfoReading>();

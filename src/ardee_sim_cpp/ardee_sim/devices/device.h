@@ -119,8 +119,9 @@ class Device {
   virtual void serialize(StateArchive& /*state*/) {}
 
  protected:
-  Output& add_output(const std::string& topic, std::size_t kind) {
-    return ports_.add_output(topic, kind);
+  Output& add_output(const std::string& topic, std::size_t kind, std::optional<double> rate_hz,
+                     const std::string& frame_id) {
+    return ports_.add_output(topic, kind, rate_hz, frame_id);
   }
   void add_service(const std::string& name, Service::Act act) {
     ports_.add(Service{name, std::move(act)});

@@ -77,7 +77,7 @@ DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot
       command_timer_(params.update_rate_hz),
       command_(params.command_timeout_s),
       odometry_(params.odometry, ports(), robot),
-      wheels_(params.wheels, ports(), robot) {
+      wheels_(params.wheels, params.odometry.rate_hz, ports(), robot) {
   ports().add_velocity_input(params_.command_topic,
                              [this](const Twist& command) { command_.set(command); });
 }

@@ -27,7 +27,7 @@ Encoder::Encoder(const std::string& name, const std::string& topic,
     : Device(name),
       encoder_(params, robot),
       timer_(rate_hz),
-      output_(add_output(topic, reading_kind<EncoderReading>())) {}
+      output_(add_output(topic, reading_kind<EncoderReading>(), rate_hz, params.frame)) {}
 
 void Encoder::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (timer_.due(now_ns)) sink.on_reading(output_, encoder_.read(now_ns));

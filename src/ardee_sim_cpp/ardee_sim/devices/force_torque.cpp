@@ -26,7 +26,7 @@ std::unique_ptr<Device> ForceTorqueSensor::make(const PluginDescription& plugin,
 ForceTorqueSensor::ForceTorqueSensor(const std::string& name, const Params& params)
     : Sensor(name, params.mount),
       params_(params),
-      output_(add_output(params.topic, reading_kind<WrenchReading>())) {}
+      output_(add_output(params.topic, reading_kind<WrenchReading>(), params.frame)) {}
 
 void ForceTorqueSensor::observe(TimeNs /*now_ns*/) {
   if (output_.demanded) mount().robot.dynamics().want_joint_wrench(params_.joint);

@@ -61,7 +61,7 @@ GazeboImu::GazeboImu(const std::string& name, const Params& params,
       params_(params),
       accel_(params.noise.accel.errors, 3, stream_key(params.mount.seed, name + "/accel")),
       rate_(params.noise.rate.errors, 3, stream_key(params.mount.seed, name + "/rate")),
-      output_(add_output(params.topic, reading_kind<ImuReading>())) {
+      output_(add_output(params.topic, reading_kind<ImuReading>(), params.frame)) {
   if (!params.service.empty()) add_service(params.service, std::function<void()>([] {}));
 }
 

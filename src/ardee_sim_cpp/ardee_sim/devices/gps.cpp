@@ -30,8 +30,9 @@ Gps::Gps(const std::string& name, const GpsParams& params)
       status_(params.status),
       service_(params.service),
       frame_(params.frame),
-      fix_output_(add_output(params.fix_topic, reading_kind<FixReading>())),
-      velocity_output_(add_output(params.velocity_topic, reading_kind<VectorReading>())) {
+      fix_output_(add_output(params.fix_topic, reading_kind<FixReading>(), params.frame)),
+      velocity_output_(
+          add_output(params.velocity_topic, reading_kind<VectorReading>(), params.frame)) {
   add_service(params.fix_topic + "/set_reference_geopose",
               [this](const GeoPose& pose) { set_reference(pose); });
   add_tuning(position_.tuning(params.fix_topic + "/position"));

@@ -74,9 +74,10 @@ GpsWithDropout::GpsWithDropout(const std::string& name, const Params& params,
       key_(stream_key(params.gps.mount.seed, name + "/dropout")),
       random_(key_),
       periods_(mix_bits(key_)),
-      quality_output_(add_output(params.quality_topic, reading_kind<GpsQualityReading>())),
-      regions_output_(add_output(params.regions_topic, reading_kind<RegionsReading>())) {
+      quality_output_(add_output(params.quality_topic, reading_kind<GpsQualityReading>(), "world")),
+      regions_output_(add_output(params.regions_topic, reading_kind<RegionsReading>(), "world")) {
   regions_output_.latched = true;
+  regions_output_.rate_hz.reset();
 }
 
 void GpsWithDropout::reset(TimeNs now_ns) {

@@ -33,7 +33,7 @@ std::unique_ptr<Device> GroundTruth::make(const PluginDescription& plugin, Param
 GroundTruth::GroundTruth(const std::string& name, const Params& params)
     : Sensor(name, params.mount),
       params_(params),
-      output_(add_output(params.topic, reading_kind<OdometryReading>())) {}
+      output_(add_output(params.topic, reading_kind<OdometryReading>(), params.frame)) {}
 
 void GroundTruth::relative_state(Pose& pose, Twist& twist) const {
   pose = this->pose();

@@ -62,8 +62,8 @@ HectorImu::HectorImu(const std::string& name, const Params& params,
       rate_(params.rate, 3, key_of(params, name, "rate")),
       yaw_(params.yaw, 1, key_of(params, name, "yaw")),
       frame_(params.frame),
-      output_(add_output(params.topic, reading_kind<ImuReading>())),
-      bias_output_(add_output(params.bias_topic, reading_kind<ImuReading>())) {
+      output_(add_output(params.topic, reading_kind<ImuReading>(), params.frame)),
+      bias_output_(add_output(params.bias_topic, reading_kind<ImuReading>(), params.frame)) {
   if (params.vibration) vibration_.emplace(*params.vibration, key_of(params, name, "vibration"));
   add_service(params.calibrate_service, [this] { rate_.set_drift(Vector3d::Zero()); });
   add_service(params.topic + "/set_accel_bias",

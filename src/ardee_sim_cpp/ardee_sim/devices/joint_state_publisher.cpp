@@ -43,7 +43,7 @@ JointStatePublisher::JointStatePublisher(const std::string& name, const std::str
       joints_(std::move(joints)),
       robot_(robot),
       timer_(rate_hz),
-      output_(add_output(topic, reading_kind<JointStateReading>())) {}
+      output_(add_output(topic, reading_kind<JointStateReading>(), rate_hz, "")) {}
 
 void JointStatePublisher::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!timer_.due(now_ns) || !output_.demanded) return;

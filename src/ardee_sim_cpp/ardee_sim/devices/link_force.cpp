@@ -23,7 +23,7 @@ LinkForce::LinkForce(const std::string& name, const Params& params)
       params_(params),
       scope_(params.mount.robot.name() +
              "::" + params.mount.robot.model().links[params.mount.link].name + "::"),
-      output_(add_output(params.topic, reading_kind<WrenchReading>())) {}
+      output_(add_output(params.topic, reading_kind<WrenchReading>(), params.frame)) {}
 
 void LinkForce::observe(TimeNs /*now_ns*/) {
   if (output_.demanded) params_.world_info.want_contacts();

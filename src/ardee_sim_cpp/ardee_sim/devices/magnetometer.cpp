@@ -41,9 +41,10 @@ Magnetometer::Magnetometer(const std::string& name, const Params& params)
     : Sensor(name, params.mount),
       params_(params),
       model_(params.errors, 3, stream_key(params.mount.seed, name + "/field")),
-      output_(add_output(params.topic, params.as_magnetic_field
-                                           ? reading_kind<MagneticFieldReading>()
-                                           : reading_kind<VectorReading>())) {
+      output_(add_output(params.topic,
+                         params.as_magnetic_field ? reading_kind<MagneticFieldReading>()
+                                                  : reading_kind<VectorReading>(),
+                         params.frame)) {
   add_tuning(model_.tuning(params.topic));
 }
 

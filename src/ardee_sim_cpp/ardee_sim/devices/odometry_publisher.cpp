@@ -27,9 +27,13 @@ OdometryPublisher::OdometryPublisher(const Params& params, Ports& ports, Robot& 
     : params_(params), robot_(robot), timer_(params.rate_hz) {
   if (params.wheels) wheels_.emplace(*params.wheels, robot);
   if (params.has_message) {
-    output_ = &ports.add_output(params.topic, reading_kind<OdometryReading>());
+    output_ = &ports.add_output(params.topic, reading_kind<OdometryReading>(), params.rate_hz,
+                                params.frame);
   }
-  if (params.has_transform) tf_output_ = &ports.add_output("/tf", reading_kind<TransformReading>());
+  if (params.has_transform) {
+    tf_output_ =
+        &ports.add_output("/tf", reading_kind<TransformReading>(), params.rate_hz, params.frame);
+  }
 }
 
 OdometryReading OdometryPublisher::measure(TimeNs now_ns) {

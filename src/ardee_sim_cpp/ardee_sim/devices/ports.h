@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -41,8 +42,12 @@ constexpr std::size_t command_kind() {
 struct Output {
   std::string topic;
   std::size_t kind = 0;
-  bool demanded = true;  // false: no subscriber, the device need not measure
-  bool latched = false;  // a later subscriber still gets the last reading
+  /// Readings per simulated second, 0: one in each step; none: not periodic, or a ros_control
+  /// controller's, whose parameters define it.
+  std::optional<double> rate_hz = std::nullopt;
+  std::string frame_id = "";  // of the readings' headers; empty also if they differ
+  bool demanded = true;       // false: no subscriber, the device need not measure
+  bool latched = false;       // a later subscriber still gets the last reading
 };
 
 /// Input of a device: one topic with one kind of command, the index in the Command variant. If
@@ -104,8 +109,10 @@ class Ports {
   Kind& add(Kind port) {
     return std::get<Kind>(ports_.emplace_back(std::move(port)));
   }
-  Output& add_output(const std::string& topic, std::size_t kind) {
-    return add(Output{topic, kind});
+  Output& add_output(const std::string& topic, std::size_t kind,
+                     std::optional<double> rate_hz = std::nullopt,
+                     const std::string& frame_id = "") {
+    return add(Output{topic, kind, rate_hz, frame_id});
   }
   /// Adds an input of commands that need no check.
   template <typename T>

@@ -23,7 +23,7 @@ RaySensor::RaySensor(const std::string& name, const Mount& mount, const Params& 
       beams_(params.rays, params.optics, params.look_through_near,
              {mount.robot.entity(), static_cast<std::uint32_t>(mount.link)}),
       eye_(scenes.register_eye(params.scene, [this] { return pose().p; })),
-      output_(add_output(params.topic, kind)) {}
+      output_(add_output(params.topic, kind, params.frame)) {}
 
 const std::vector<BeamEcho>& RaySensor::measure(const CounterRng& noise) {
   beams_.measure(pose(), scenes_.now(params_.scene), receiver_noise(noise), echoes_);

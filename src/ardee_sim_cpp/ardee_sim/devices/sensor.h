@@ -30,6 +30,10 @@ class Sensor : public Device {
   void serialize(StateArchive& state) override { state(timer_, last_ns_); }
 
  protected:
+  /// Adds an output of the sensor's rate.
+  Output& add_output(const std::string& topic, std::size_t kind, const std::string& frame_id) {
+    return Device::add_output(topic, kind, mount_.rate_hz, frame_id);
+  }
   /// Measures, and corrupts with `noise`, a stream for this frame only; called when due and wanted.
   virtual void sample(TimeNs now_ns, const CounterRng& noise, ReadingSink& sink) = 0;
   /// Whether any output has a subscriber.

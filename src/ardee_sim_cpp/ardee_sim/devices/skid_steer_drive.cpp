@@ -113,8 +113,9 @@ SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Ro
       odometry_(params.odometry, ports(), robot) {
   for (std::size_t wheel = 0; wheel < params_.encoders.size(); ++wheel) {
     encoders_.emplace_back(params_.encoders[wheel], robot_);
-    encoder_outputs_.push_back(
-        &add_output(params_.encoder_topics[wheel], reading_kind<EncoderReading>()));
+    encoder_outputs_.push_back(&add_output(params_.encoder_topics[wheel],
+                                           reading_kind<EncoderReading>(), params_.update_rate_hz,
+                                           params_.encoders[wheel].frame));
   }
   ports().add_velocity_input(params_.command_topic,
                              [this](const Twist& command) { command_.set(command); });

@@ -71,7 +71,7 @@ TricycleDrive::TricycleDrive(const std::string& name, const Params& params, Robo
       robot_(robot),
       command_timer_(params.update_rate_hz),
       odometry_(params.odometry, ports(), robot),
-      wheels_(params.wheels, ports(), robot) {
+      wheels_(params.wheels, params.odometry.rate_hz, ports(), robot) {
   ports().add_velocity_input(params_.command_topic,
                              [this](const Twist& command) { command_.set(command); });
 }

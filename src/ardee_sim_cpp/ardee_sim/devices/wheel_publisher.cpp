@@ -21,13 +21,13 @@ WheelPublisher::Params read_wheel_publisher_params(Parameters& parameters,
   return params;
 }
 
-WheelPublisher::WheelPublisher(const Params& params, Ports& ports, Robot& robot)
+WheelPublisher::WheelPublisher(const Params& params, double rate_hz, Ports& ports, Robot& robot)
     : params_(params), robot_(robot) {
   if (params.has_states) {
-    output_ = &ports.add_output(params.topic, reading_kind<JointStateReading>());
+    output_ = &ports.add_output(params.topic, reading_kind<JointStateReading>(), rate_hz);
   }
   if (params.has_transforms) {
-    tf_output_ = &ports.add_output("/tf", reading_kind<TransformReading>());
+    tf_output_ = &ports.add_output("/tf", reading_kind<TransformReading>(), rate_hz);
   }
 }
 

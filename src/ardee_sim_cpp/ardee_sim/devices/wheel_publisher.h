@@ -26,7 +26,8 @@ class WheelPublisher {
     std::string topic;  // of the states
   };
 
-  WheelPublisher(const Params& params, Ports& ports, Robot& robot);
+  /// `rate_hz` is that at which the drive calls publish().
+  WheelPublisher(const Params& params, double rate_hz, Ports& ports, Robot& robot);
 
   void publish(TimeNs now_ns, ReadingSink& sink) const;
 

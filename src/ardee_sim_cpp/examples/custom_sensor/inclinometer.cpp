@@ -23,7 +23,8 @@ Inclinometer::Inclinometer(const std::string& name, const Params& params, std::u
       noise_(stream_key(seed, "inclinometer/" + name)),
       robot_(robot),
       timer_(params.rate_hz),
-      output_(add_output(params.topic, reading_kind<VectorReading>())) {}
+      output_(add_output(params.topic, reading_kind<VectorReading>(), params.rate_hz,
+                         robot.model().links.front().name)) {}
 
 void Inclinometer::after_step(TimeNs now_ns, ReadingSink& sink) {
   if (!timer_.due(now_ns) || !output_.demanded) return;

@@ -42,10 +42,18 @@ class Entity:
 
 @dataclass(frozen=True)
 class TopicInfo:
-    """`kind` is a class of readings, or a kind of command; `role` is reading, command or service."""
+    """A topic or service of the devices.
+
+    kind : a class of readings, or a kind of command
+    role : reading, command or service
+    rate_hz : readings per simulated second, of all the topic's devices; None: no readings, or not periodic (a trigger)
+    frame_id : of all readings; empty if they have none or several
+    """
 
     kind: str
     role: str
+    rate_hz: Optional[float]
+    frame_id: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,7 +312,14 @@ class Simulation:
 
     def topics(self) -> Dict[str, TopicInfo]:
         """Returns the topics and services of all devices."""
-        return {name: TopicInfo(*made) for name, made in self._core.topics().items()}
+        found: Dict[str, TopicInfo] = {}
+        for name, kind, role, rate_hz, frame_id in self._core.topics():
+            if name in found:  # several devices share it, as /tf
+                other = found[name]
+                rate_hz = (rate_hz or 0.0) + (other.rate_hz or 0.0) or None
+                frame_id = frame_id if frame_id == other.frame_id else ""
+            found[name] = TopicInfo(kind, role, rate_hz, frame_id)
+        return found
 
     def contacts(self) -> List[Contact]:
         """Returns the contacts of the last step; the first call is empty and asks for them from the next step on."""
