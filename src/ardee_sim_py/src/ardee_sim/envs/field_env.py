@@ -32,7 +32,7 @@ class FieldEnv(gymnasium.Env):
     control_period_s : a whole number of the world's steps
     seed_field : sow a new field at each reset; else the field of `field_seed` stays
     randomise : ranges of numbers of a scene (ardee_sim.envs.randomise.SCENE) and, with seed_field, of a field's plan
-        and of `stage`, leaves of its plants (with a visible collar; of tobacco all visible ones)
+    randomise["stage"] : leaves of the plants with a visible collar; of tobacco all visible ones
     v_max_m_s, w_max_rad_s : speed and turn rate of an action of 1
     render_mode : None or rgb_array
     """
