@@ -48,6 +48,8 @@ class TopicInfo:
     role : reading, command or service
     rate_hz : readings per simulated second, of all the topic's devices; None: no readings, or not periodic (a trigger)
     frame_id : of all readings; empty if they have none or several
+
+    Of ros_control controllers, whose parameters say it, they are None and empty.
     """
 
     kind: str
@@ -314,9 +316,9 @@ class Simulation:
         """Returns the topics and services of all devices."""
         found: Dict[str, TopicInfo] = {}
         for name, kind, role, rate_hz, frame_id in self._core.topics():
-            if name in found:  # several devices share it, as /tf
-                other = found[name]
-                rate_hz = (rate_hz or 0.0) + (other.rate_hz or 0.0) or None
+            other = found.get(name)
+            if other and other.role == role:  # several devices share it, as /tf
+                rate_hz = rate_hz + other.rate_hz if rate_hz and other.rate_hz else None
                 frame_id = frame_id if frame_id == other.frame_id else ""
             found[name] = TopicInfo(kind, role, rate_hz, frame_id)
         return found
