@@ -74,7 +74,8 @@ def _drives(controller: str, robot: str, commands: List[Tuple[float, float]]) ->
     rospy.init_node("probe", anonymous=True, disable_signals=True)
     odometry = []  # type: List[Any]
     rospy.Subscriber(controller + "/odom", Odometry, odometry.append, queue_size=1000)
-    publisher = rospy.Publisher(controller + "/cmd_vel", Twist, queue_size=10)
+    # Without a queue publish() returns when the command is written, and not some steps later.
+    publisher = rospy.Publisher(controller + "/cmd_vel", Twist, queue_size=None)
     wait_until(lambda: odometry and publisher.get_num_connections(), "odometry and a listener")
     advance = rospy.ServiceProxy("/ardee/step", Step)
     state = rospy.ServiceProxy("/gazebo/get_model_state", GetModelState)
