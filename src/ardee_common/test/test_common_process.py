@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ardee_common.process import heed_ctrl_c, start_child, stop_child
+from ardee_common.process import HEED_CTRL_C, start_child, stop_child
 
 
 def test_both_outputs_are_in_the_log(tmp_path: Path) -> None:
@@ -16,8 +16,10 @@ def test_both_outputs_are_in_the_log(tmp_path: Path) -> None:
 
 
 def test_a_child_ends_with_what_it_waits_for() -> None:
-    options = dict(stdout=subprocess.PIPE, text=True, preexec_fn=heed_ctrl_c)
-    child = start_child(["sh", "-c", "sh -c 'echo ready; exec sleep 60'; true"], **options)
+    command = ["sh", "-c", "sh -c 'echo ready; exec sleep 60'; true"]
+    ignored = signal.signal(signal.SIGINT, signal.SIG_IGN)  # as in a background job
+    child = start_child([*HEED_CTRL_C, *command], stdout=subprocess.PIPE, text=True)
+    signal.signal(signal.SIGINT, ignored)
     assert child.stdout.readline() == "ready\n"
     stop_child(child)
     assert child.returncode == -signal.SIGINT

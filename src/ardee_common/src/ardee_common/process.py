@@ -9,6 +9,9 @@ from typing import Any, Dict, List, NoReturn, Optional, Sequence
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Signals that end a child, each with the time [s] that it is given to follow.
 _ENDING = ((signal.SIGINT, 20.0), (signal.SIGTERM, 5.0), (signal.SIGKILL, 5.0))
+# Put before a command: Ctrl-C ends it though its parents ignore that, as a shell's background jobs do. A preexec_fn
+# would do so by a fork, in which Python prints and loses what a signal raises.
+HEED_CTRL_C = ("env", "--default-signal=INT")
 _MASTER = (
     "import sys, rosmaster.master as m; x = m.Master(int(sys.argv[1])); x.start();"
     "print(x.uri, flush=True); sys.stdin.read(); x.stop()"
@@ -44,11 +47,6 @@ def ignore_end_signals() -> None:
     """Ignores these signals from now on: the program is cleaning up."""
     for number in END_SIGNALS:
         signal.signal(number, signal.SIG_IGN)
-
-
-def heed_ctrl_c() -> None:
-    """Makes Ctrl-C end a child whose parents ignore it, as a shell's background jobs do: a preexec_fn of Popen."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def start_child(

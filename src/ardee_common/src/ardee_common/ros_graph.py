@@ -10,7 +10,7 @@ import time
 from multiprocessing import get_context
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
-from ardee_common.process import RosMaster, heed_ctrl_c, start_child, stop_child
+from ardee_common.process import HEED_CTRL_C, RosMaster, start_child, stop_child
 
 Probe = Callable[..., Any]
 PROBES = get_context("forkserver")  # its server imports once the modules that all probes need
@@ -45,7 +45,7 @@ class Process:
 
     def __init__(self, command: List[str], env: Dict[str, str], log: pathlib.Path) -> None:
         self.command, self.log = command, log
-        self._popen = start_child(command, env, log, preexec_fn=heed_ctrl_c)
+        self._popen = start_child([*HEED_CTRL_C, *command], env, log)
         self.pid = self._popen.pid
 
     def output(self) -> str:
