@@ -132,8 +132,11 @@ def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         body(pipe, *args)
+    except EOFError:
+        pass  # the benchmark has ended before this process
     except OSError as error:
-        pipe.send(error)
+        with contextlib.suppress(BrokenPipeError):  # as above
+            pipe.send(error)
 
 
 def hear(pipe: Any, limit_s: float) -> Any:
