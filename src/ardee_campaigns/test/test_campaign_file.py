@@ -9,6 +9,7 @@ import pytest
 import small_campaign
 
 from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
 from ardee_campaigns.run_campaign import half_width
 from ardee_common.errors import GeneratorError
@@ -122,3 +123,22 @@ def test_before_the_first_run_is_refused(tmp_path: Path, case: str) -> None:
 def test_the_half_width_of_an_interval_is_students() -> None:
     assert half_width([1.0, 2.0, 3.0]) == pytest.approx(4.302653 / math.sqrt(3.0), rel=1e-6)
     assert half_width([1.0]) == math.inf
+
+
+def test_a_controller_is_known_by_all_files_of_its_package_or_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = tmp_path / "the_package"
+    files = [tmp_path / "lone.py", tmp_path / "helper.py", package / "deep/__init__.py"]
+    for file in (*files, package / "__init__.py", package / "main.py"):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    found = []
+    for changed in (None, *files):
+        if changed:
+            changed.write_text("x = 1")
+        found.append([source_digest(f"{name}:make") for name in ("lone", "the_package.main")])
+    lone, packaged = zip(*found)
+    assert len(set(lone)) == 3 and lone[2] == lone[3]
+    assert len(set(packaged)) == 2 and packaged[2] != packaged[3]

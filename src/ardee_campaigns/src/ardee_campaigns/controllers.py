@@ -38,14 +38,22 @@ def load_function(name: str, what: str) -> Callable[..., Any]:
 
 
 def source_digest(name: str) -> str:
-    """Returns a hash of the file of a module:function, so that a changed one is run anew."""
-    if not name:
+    """Returns a hash of the Python files of a module:function's package, or of its folder if it is in none.
+
+    A controller whose algorithm has changed, be it in a module that it imports from there, is thus run anew.
+    """
+    spec = importlib.util.find_spec(name.partition(":")[0]) if name else None
+    if spec is None or not spec.origin or not Path(spec.origin).is_file():
         return ""
-    spec = importlib.util.find_spec(name.partition(":")[0])
-    file = spec.origin if spec else None
-    if not file or not Path(file).is_file():
-        return ""
-    return hashlib.sha256(Path(file).read_bytes()).hexdigest()
+    folder = Path(spec.origin).parent
+    pattern = "**/*.py" if (folder / "__init__.py").is_file() else "*.py"
+    while (folder.parent / "__init__.py").is_file():
+        folder = folder.parent
+    texts = [
+        f"{file.relative_to(folder)}\0".encode() + file.read_bytes()
+        for file in sorted(folder.glob(pattern))
+    ]
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def make(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot, seed: int) -> Any:

@@ -27,8 +27,9 @@ class Judge:
         if self._keys.kind == "free":
             self.end = FINISHED if is_finished else OUT_OF_TIME if time_s > self._limit_s else ""
             return "", None
-        why = self._why_step_in(time_s, pose, here, is_finished)
-        self._note_end(time_s, here, is_finished, why)
+        stands = self._stands(time_s, pose)
+        why = self._why_step_in(here, stands, is_finished)
+        self._note_end(time_s, here, stands or is_finished, why)
         if not why or self.end:
             return "", None
         self._interventions += 1
@@ -36,12 +37,12 @@ class Judge:
         ahead_m = 0.0 if why == "off the lane" else self._keys.set_ahead_m
         return why, self._lane.centre.at(here.along_m + ahead_m)
 
-    def _why_step_in(self, time_s: float, pose: Pose, here: Deviation, is_finished: bool) -> str:
+    def _why_step_in(self, here: Deviation, stands: bool, is_finished: bool) -> str:
         if here.along_m > self._lane.centre.length_m - self._keys.row_end_m:
             return ""
         if abs(here.lateral_m) > self._keys.largest_offset_m:
             return "off the lane"
-        if self._stands(time_s, pose):
+        if stands:
             return "stuck"
         return "stopped in the row" if is_finished else ""
 
@@ -55,8 +56,8 @@ class Judge:
         has_stood = time_s - since_s >= self._keys.stuck_after_s - 1e-6
         return has_stood and moved < self._keys.stuck_within_m
 
-    def _note_end(self, time_s: float, here: Deviation, is_finished: bool, why: str) -> None:
-        if not why and is_finished:
+    def _note_end(self, time_s: float, here: Deviation, has_stopped: bool, why: str) -> None:
+        if not why and has_stopped:
             self.end = END_OF_ROW
         elif here.along_m > self._lane.centre.length_m + self._keys.overrun_m:
             self.end = WENT_ON
