@@ -17,6 +17,8 @@ from PIL import Image
 from ardee_datasets import rle
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
+from ardee_datasets.rows import project
+from ardee_world.row_truth import Polyline, read_field
 
 RECIPE = """
 seed: 3
@@ -100,6 +102,48 @@ def test_instances_lead_to_the_truth(made: Path) -> None:
             assert math.hypot(points[0].mean() - x, points[1].mean() - y) < 0.35
             checked += 1
     assert checked > 10
+
+
+def samples(made: Path) -> list:
+    return [json.loads(path.read_text()) for path in sorted(made.glob("*/samples/*.json"))]
+
+
+def test_a_visible_foot_lies_in_the_mask_of_its_plant(made: Path) -> None:
+    visible = 0
+    for sample in samples(made):
+        own = pixels(made / sample["split"] / "instances" / f"{sample['id']}.png")
+        for number, one in enumerate(sample["annotations"], 1):
+            assert ("keypoints" in one) == (one["kind"] == "plant")
+            u, v, visibility = one.get("keypoints", (0, 0, 0))
+            if visibility == 2:
+                assert own[round(v), round(u)] == number
+                visible += 1
+    assert visible > 5
+
+
+def test_lines_of_rows_lie_on_the_rows_of_the_truth(made: Path) -> None:
+    """Ground that a line crosses, by its depth in the world, is nearest to the row at a place within a pixel of it."""
+    checked = 0
+    for sample in samples(made):
+        rows = read_field(made / "truth" / sample["scene"] / "truth.json").rows
+        split, name, X_WC = made / sample["split"], sample["id"], np.array(sample["X_WC"])
+        labels = pixels(split / "labels" / f"{name}.png")
+        depth_m = pixels(split / "depth" / f"{name}.tiff")
+        for u, v in (point for piece in sample["rows"] for point in piece["line_px"]):
+            z = depth_m[round(v), round(u)]
+            if (
+                labels[round(v), round(u)] or not 0 < z < 1.5
+            ):  # farther away, a ridge may hide the row
+                continue
+            ray = np.linalg.inv(sample["K"]) @ (round(u), round(v), 1)
+            ground = X_WC[:3, :3] @ (ray * z) + X_WC[:3, 3]
+            lines = [Polyline(row) for row in rows]
+            line = min(lines, key=lambda line: abs(line.project(*ground[:2]).left_m))
+            nearest = (*line.at(line.project(*ground[:2]).along_m)[:2], ground[2])
+            pixel, _ = project(np.array([nearest]), np.array(sample["K"]), X_WC)
+            assert np.hypot(*(pixel[0] - (round(u), round(v)))) < 1.0
+            checked += 1
+    assert checked > 50
 
 
 def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:

@@ -12,10 +12,11 @@ from ardee_common.output import write_file
 from ardee_datasets.recipe import SPLITS, Recipe
 from ardee_datasets.sample import json_bytes
 
+_CROP = {"supercategory": "crop", "keypoints": ["foot"], "skeleton": []}
 CATEGORIES = (
-    {"id": 1, "name": "corn", "supercategory": "crop"},
-    {"id": 2, "name": "sorghum", "supercategory": "crop"},
-    {"id": 3, "name": "tobacco", "supercategory": "crop"},
+    {"id": 1, "name": "corn", **_CROP},
+    {"id": 2, "name": "sorghum", **_CROP},
+    {"id": 3, "name": "tobacco", **_CROP},
     {"id": 10, "name": "weed", "supercategory": "weed"},
     {"id": 11, "name": "stone", "supercategory": "clutter"},
     {"id": 12, "name": "litter", "supercategory": "clutter"},
@@ -37,8 +38,11 @@ Files of a split, by the id of a sample, SCENE_FRAME:
 - rgb/*.png; labels/*.png, 16 bit: category ids; instances/*.png, 16 bit: 1 to n in each picture, in the order of its
   annotations; depth/*.tiff: float32, metres along the optical axis; 0 is nothing in each of the last three.
 - samples/*.json: K (a pixel's centre lies at its whole number), X_WC (optical frame in the world: x right, y down, z
-  ahead), seeds, and the number in instances/ to the id in truth/SCENE.
-- annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv.
+  ahead), seeds, the number in instances/ to the id in truth/SCENE; rows: lines of the crop rows on the ground, in
+  pixels, clipped to the picture but not hidden by plants (a row that leaves and comes back has several);
+  vanishing_point_px: where lines along the nearest row meet, also outside of the picture; null if they cross the view.
+- annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv. The keypoint
+  of a plant is its stalk's foot on the ground: 2 if it is in sight, 1 if hidden, 0 if outside of the picture.
 - poses.csv: positions of the cameras.
 
 A field's pictures all belong to one split. manifest.json lists the sha256 of every file.

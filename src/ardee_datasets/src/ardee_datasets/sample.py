@@ -14,6 +14,7 @@ from ardee_common.output import write_file
 from ardee_datasets import rle
 from ardee_datasets.plan import Scene, Shot
 from ardee_datasets.recipe import CameraKeys
+from ardee_datasets.rows import foot_keypoint, nearest_direction, vanishing_point
 from ardee_datasets.scenery import Item, Scenery
 
 # Layer to the ending of its files
@@ -58,6 +59,16 @@ def annotation(mask: np.ndarray, item: Item) -> Dict[str, Any]:
     }
 
 
+def keypoints(
+    mask: np.ndarray, item: Item, depth_m: np.ndarray, K: np.ndarray, X_WC: np.ndarray
+) -> Dict[str, Any]:
+    """Returns the COCO keypoints of a plant, which are its foot; of clutter none."""
+    if item.foot_m is None:
+        return {}
+    foot = foot_keypoint(item.foot_m, K, X_WC, mask, depth_m)
+    return {"keypoints": foot, "num_keypoints": int(foot[2] > 0)}
+
+
 def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
     stream = io.BytesIO()
     if ending == "tiff":
@@ -90,6 +101,8 @@ def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: P
     for layer, ending in LAYERS.items():
         write_file(split / layer / f"{shot.id}.{ending}", _picture_bytes(layers[layer], ending))
     items = [scenery.items[instance] for instance in seen]
+    K, X_WC = intrinsics(keys), pose.matrix()
+    meeting = vanishing_point(nearest_direction(scenery.rows, pose.xyz_m), K, X_WC)
     sample = {
         "id": shot.id,
         "scene": scene.name,
@@ -97,12 +110,21 @@ def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: P
         "camera": shot.camera,
         "width_px": keys.width_px,
         "height_px": keys.height_px,
-        "K": intrinsics(keys).tolist(),
-        "X_WC": pose.matrix().tolist(),
+        "K": K.tolist(),
+        "X_WC": X_WC.tolist(),
         "stamp_ns": 0,
         "field_seed": scene.seed,
         "shot_seed": shot.seed,
         "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},
-        "annotations": [annotation(own == n, item) for n, item in enumerate(items, 1)],
+        "annotations": [
+            {**annotation(own == n, item), **keypoints(own == n, item, depth, K, X_WC)}
+            for n, item in enumerate(items, 1)
+        ],
+        "rows": [
+            piece
+            for row in scenery.rows
+            for piece in row.in_picture(K, X_WC, (keys.width_px, keys.height_px))
+        ],
+        "vanishing_point_px": None if meeting is None else np.round(meeting, 2).tolist(),
     }
     write_file(split / "samples" / f"{shot.id}.json", json_bytes(sample))

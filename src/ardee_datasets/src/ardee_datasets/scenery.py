@@ -4,7 +4,7 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Dict, List, Tuple
+from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 from ardee_sim import Simulation, World, packages
@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from ardee_common.errors import GeneratorError
 from ardee_datasets.plan import Scene, stream
 from ardee_datasets.recipe import CameraKeys, Range
+from ardee_datasets.rows import read_rows
 from ardee_models.lookup import search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.generate_field import make_configured
@@ -42,10 +43,11 @@ class CameraPose:
 
 @dataclass(frozen=True)
 class Item:
-    """A plant or a piece of clutter: its name in the truth (plant_7, weed_0) and its label."""
+    """A plant or a piece of clutter: its name in the truth (plant_7, weed_0), its label, and where it stands."""
 
     truth_id: str
     label: int
+    foot_m: Optional[np.ndarray] = None  # of a plant, in the world
 
 
 class Scenery:
@@ -67,8 +69,14 @@ class Scenery:
         self._ground = ground_model(terrain, search_path(shipped))
         text = world_text(terrain, "field")
         world = World.from_string(text, base_dir=folder, model_paths=[folder, *shipped])
+        feet_m = {plant.instance: plant.xyz_m for plant in world.plants()}
+        self.rows = read_rows(self.folder / "truth.json", self._ground)
         self.items: Dict[int, Item] = {
-            placement.instance: Item(placement.name.rpartition("::")[2], placement.label)
+            placement.instance: Item(
+                placement.name.rpartition("::")[2],
+                placement.label,
+                feet_m.get(placement.instance),
+            )
             for placement in world.placements()
             if placement.label
         }
