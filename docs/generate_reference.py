@@ -34,6 +34,7 @@ API = {
     "ardee_sim": "src/ardee_sim_py/src/ardee_sim",
     "ardee_common": "src/ardee_common/src/ardee_common",
     "ardee_models": "src/ardee_models/src/ardee_models",
+    "ardee_navigation.lane_following": "src/ardee_navigation/src/ardee_navigation/lane_following",
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
     "ardee_datasets": "src/ardee_datasets/src/ardee_datasets",
     "ardee_campaigns": "src/ardee_campaigns/src/ardee_campaigns",

@@ -8,6 +8,7 @@ setup(
         packages=[
             "ardee_navigation",
             "ardee_navigation.evaluation",
+            "ardee_navigation.lane_following",
             "ardee_navigation.lbirnt",
             "ardee_navigation.nodes",
         ],

@@ -2,9 +2,9 @@
 """Tests the PID against values computed by hand, the error, the turn command."""
 import pytest
 
+from ardee_navigation.lane_following.control import Pid, centre_error_m, turn_rate_rad_s
+from ardee_navigation.lane_following.line import Line
 from ardee_navigation.lbirnt import Parameters
-from ardee_navigation.lbirnt.control import Pid, centre_error_m, turn_rate_rad_s
-from ardee_navigation.lbirnt.lines import Line
 
 
 def test_pid_by_hand() -> None:

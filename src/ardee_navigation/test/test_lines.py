@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from ardee_navigation.lbirnt.lines import Line, estimate, least_squares
+from ardee_navigation.lane_following.line import Line
+from ardee_navigation.lbirnt.lines import estimate, least_squares
 
 
 def test_least_squares_by_hand() -> None:

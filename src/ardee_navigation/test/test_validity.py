@@ -4,9 +4,10 @@ import dataclasses
 
 import pytest
 
+from ardee_navigation.lane_following.line import Line, turned
 from ardee_navigation.lbirnt import Parameters
-from ardee_navigation.lbirnt.lane import Lane, straight_lane, turned, update_lane
-from ardee_navigation.lbirnt.lines import Estimate, Line
+from ardee_navigation.lbirnt.lane import Lane, straight_lane, update_lane
+from ardee_navigation.lbirnt.lines import Estimate
 from ardee_navigation.lbirnt.validity import is_acceptable, line_grade, valid_sides
 
 P = Parameters(lane_width_m=0.76, blend=0.5, lane_width_tolerance_m=0.15)

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 from typing import Optional
 
-from ardee_navigation.lbirnt.lines import Estimate, Line
+from ardee_navigation.lane_following.line import Line, blend
+from ardee_navigation.lbirnt.lines import Estimate
 from ardee_navigation.lbirnt.parameters import Parameters
 
 
@@ -30,23 +31,6 @@ def straight_lane(parameters: Parameters) -> Lane:
     """Returns the lane assumed before the first scan: the robot stands in the middle and looks along the lane."""
     half = parameters.lane_width_m / 2.0
     return Lane(Line(0.0, half), Line(0.0, -half))
-
-
-def blend(before: Line, found: Line, weight: float) -> Line:
-    """Returns a line between the one before (weight 0) and the one found (weight 1)."""
-    return Line(
-        before.slope + weight * (found.slope - before.slope),
-        before.offset_m + weight * (found.offset_m - before.offset_m),
-    )
-
-
-def turned(line: Line, turn_rad: float, forward_m: float, lidar_ahead_m: float) -> Line:
-    """A line as the lidar sees it after the robot has turned and moved, to first order in the turn.
-
-    The lidar stands before the turning centre, so a turn also moves it sideways by turn x lidar_ahead.
-    """
-    moved = line.offset_m + line.slope * forward_m - turn_rad * lidar_ahead_m
-    return Line(line.slope - turn_rad, moved)
 
 
 def update_lane(

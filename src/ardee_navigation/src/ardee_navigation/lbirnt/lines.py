@@ -1,36 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Lines y = m x + b fitted to the points of a row, and quantities from them (thesis 5.1.1, equations 5.1 and 5.2)."""
+"""Lines fitted to the points of a row, and quantities that validate them (thesis 5.1.1, equations 5.1 and 5.2)."""
 import math
 from dataclasses import dataclass
 from typing import Optional
 
 import numpy as np
 
-
-@dataclass(frozen=True)
-class Line:
-    """A crop row: y = slope x + offset_m in the lidar's frame."""
-
-    slope: float
-    offset_m: float
-
-    @property
-    def angle_rad(self) -> float:
-        """Angle of the row to the robot, counter-clockwise."""
-        return math.atan(self.slope)
-
-    @property
-    def distance_m(self) -> float:
-        """Lateral distance: orthogonal, from the lidar; positive where the line passes on the left."""
-        return self.offset_m / math.hypot(1.0, self.slope)
-
-    def at(self, x_m: float) -> float:
-        """y [m] of the line at x."""
-        return self.slope * x_m + self.offset_m
-
-    def shifted(self, distance_m: float) -> "Line":
-        """Returns the parallel line at this distance to the left."""
-        return Line(self.slope, self.offset_m + distance_m * math.hypot(1.0, self.slope))
+from ardee_navigation.lane_following.line import Line
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,8 @@
 """Validity of the two fitted lines (thesis 5.1.2, equation 5.3)."""
 from typing import Optional, Tuple
 
-from ardee_navigation.lbirnt.lines import Estimate, Line
+from ardee_navigation.lane_following.line import Line
+from ardee_navigation.lbirnt.lines import Estimate
 from ardee_navigation.lbirnt.parameters import Parameters
 
 

@@ -26,8 +26,8 @@ from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option, ros_name
 from ardee_navigation.evaluation.scenario_files import read_parameters
 from ardee_navigation.evaluation.scenarios import known_scenarios
+from ardee_navigation.lane_following.line import Line
 from ardee_navigation.lbirnt import Output, Parameters, RowFollower
-from ardee_navigation.lbirnt.lines import Line
 from ardee_navigation.nodes.silence import Silence
 
 FAREWELL_S = 0.1  # for the last command to leave before the node ends

@@ -3,12 +3,12 @@
 import math
 from typing import Optional
 
-from ardee_navigation.lbirnt.lines import Line
-from ardee_navigation.lbirnt.parameters import Parameters
+from ardee_navigation.lane_following.line import Line
+from ardee_navigation.lane_following.parameters import LaneParameters
 
 
-def centre_error_m(centre: Line, parameters: Parameters) -> float:
-    """Lateral position of the centre line `target_ahead_m` before the lidar: offset, and angle times distance."""
+def centre_error_m(centre: Line, parameters: LaneParameters) -> float:
+    """Lateral position of the centre line `target_ahead_m` before the sensor: offset, and angle times distance."""
     return centre.at(parameters.target_ahead_m)
 
 
@@ -43,6 +43,6 @@ class Pid:
         return math.copysign(min(abs(output), self._limit), output)
 
 
-def turn_rate_rad_s(turn_units: float, parameters: Parameters) -> float:
+def turn_rate_rad_s(turn_units: float, parameters: LaneParameters) -> float:
     """Turn command, counted from straight ahead, to a turn rate, positive to the left."""
     return turn_units / parameters.turn_half_range * parameters.max_turn_rad_s
