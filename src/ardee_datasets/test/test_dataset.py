@@ -8,16 +8,19 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from PIL import Image
 
 from ardee_datasets import rle
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
+from ardee_datasets.sample import LAYERS
 from ardee_world.row_truth import Polyline, read_field
 
 RECIPE = """
@@ -146,6 +149,27 @@ def test_lines_of_rows_lie_on_the_rows_of_the_truth(made: Path) -> None:
     assert checked > 50
 
 
+def test_boxes_of_yolo_are_those_of_coco(made: Path) -> None:
+    data = yaml.safe_load((made / "yolo" / "data.yaml").read_text())
+    names = {c["id"]: c["name"] for c in json.loads((made / "categories.json").read_text())}
+    for split in ("train", "test"):
+        images = made / "yolo" / data[split]
+        coco = json.loads((made / split / "annotations.json").read_text())
+        assert len(list(images.iterdir())) == len(coco["images"])
+        for image in coco["images"]:
+            rgb = made / split / image["file_name"]
+            assert (images / rgb.name).read_bytes() == rgb.read_bytes()
+            lines = (made / "yolo" / "labels" / split / f"{rgb.stem}.txt").read_text().splitlines()
+            found = [a for a in coco["annotations"] if a["image_id"] == image["id"]]
+            assert len(lines) == len(found)
+            for line, one in zip(lines, found):
+                number, *box = line.split()
+                u, v, width, height = np.array(box, dtype=float) * (96, 72, 96, 72)
+                assert data["names"][int(number)] == names[one["category_id"]]
+                expected = (u - width / 2, v - height / 2, width, height)
+                assert np.allclose(one["bbox"], expected, atol=1e-3)
+
+
 def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:
     folder = recipe.parent / "killed"
     first = subprocess.Popen(command(recipe, folder, 2), stderr=subprocess.DEVNULL, process_group=0)
@@ -199,5 +223,11 @@ def test_the_example_makes_twenty_samples(tmp_path: Path) -> None:
     recipe = Path(__file__).parents[1] / "src" / "ardee_datasets" / "examples" / "small.yaml"
     assert main([str(recipe), "--output", str(tmp_path / "set"), "--workers", "1"]) == 0
     manifest = json.loads((tmp_path / "set" / "manifest.json").read_text())
-    for layer in ("rgb", "labels", "instances", "depth", "samples"):
-        assert sum(f"/{layer}/" in name for name in manifest) == 20
+    folders = [f"{split}/{layer}" for split in ("train", "val") for layer in (*LAYERS, "samples")]
+    folders += [
+        f"yolo/{kind}/{split}" for kind in ("images", "labels") for split in ("train", "val")
+    ]
+    counts = Counter(str(Path(name).parent) for name in manifest)
+    assert {folder: counts[folder] for folder in folders} == {
+        folder: 12 if "train" in folder else 8 for folder in folders
+    }

@@ -5,8 +5,11 @@ import csv
 import hashlib
 import io
 import json
+import os
 from pathlib import Path
 from typing import Any, Dict, List
+
+import yaml
 
 from ardee_common.output import write_file
 from ardee_datasets.recipe import SPLITS, Recipe
@@ -21,6 +24,7 @@ CATEGORIES = (
     {"id": 11, "name": "stone", "supercategory": "clutter"},
     {"id": 12, "name": "litter", "supercategory": "clutter"},
 )
+_YOLO_CLASS = {category["id"]: number for number, category in enumerate(CATEGORIES)}
 _POSE = ("x_m", "y_m", "z_m")
 _CARD = """# {name}
 
@@ -44,6 +48,8 @@ Files of a split, by the id of a sample, SCENE_FRAME:
 - annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv. The keypoint
   of a plant is its stalk's foot on the ground: 2 if it is in sight, 1 if hidden, 0 if outside of the picture.
 - poses.csv: positions of the cameras.
+
+yolo/ has the boxes in YOLO's form: data.yaml, labels/SPLIT/*.txt, images/SPLIT/*.png (the same files as rgb/*.png).
 
 A field's pictures all belong to one split. manifest.json lists the sha256 of every file.
 The pictures are simulated: nothing moves in the wind, and each picture has the same sun.
@@ -125,6 +131,41 @@ def _manifest(folder: Path) -> Dict[str, str]:
     }
 
 
+def yolo_text(sample: Dict[str, Any]) -> str:
+    """Returns the boxes of a sample in YOLO's form: class, middle and size in parts of the picture."""
+    lines = []
+    for one in sample["annotations"]:
+        x, y, width, height = one["bbox"]
+        box = (x + width / 2, y + height / 2, width, height)
+        size = (sample["width_px"], sample["height_px"]) * 2
+        parts = " ".join(f"{value / all_px:.6f}" for value, all_px in zip(box, size))
+        lines.append(f"{_YOLO_CLASS[one['category_id']]} {parts}\n")
+    return "".join(lines)
+
+
+def _write_yolo(folder: Path, by_split: Dict[str, List[Dict[str, Any]]]) -> None:
+    """Writes yolo/: labels, data.yaml, and links to the pictures, which ultralytics expects in images/."""
+    data: Dict[str, Any] = {split: f"images/{split}" for split in by_split}
+    data["names"] = {number: category["name"] for number, category in enumerate(CATEGORIES)}
+    for split, samples in by_split.items():
+        images = folder / "yolo" / "images" / split
+        images.mkdir(parents=True, exist_ok=True)
+        for sample in samples:
+            name = f"{sample['id']}.png"
+            if not (images / name).exists():
+                _link(folder / split / "rgb" / name, images / name)
+            text = yolo_text(sample)
+            write_file(folder / "yolo" / "labels" / split / f"{sample['id']}.txt", text.encode())
+    write_file(folder / "yolo" / "data.yaml", yaml.safe_dump(data, sort_keys=False).encode())
+
+
+def _link(source: Path, target: Path) -> None:
+    try:
+        os.link(source, target)
+    except OSError:  # a file system without links
+        write_file(target, source.read_bytes())
+
+
 def assemble(folder: Path, recipe: Recipe) -> None:
     """Writes all that needs every sample; manifest.json is last."""
     by_split = {split: samples for split in SPLITS if (samples := _samples(folder, split))}
@@ -132,6 +173,7 @@ def assemble(folder: Path, recipe: Recipe) -> None:
         annotations = json.dumps(coco(samples, recipe.licence), sort_keys=True)
         write_file(folder / split / "annotations.json", annotations.encode())
         write_file(folder / split / "poses.csv", _poses(samples).encode())
+    _write_yolo(folder, by_split)
     write_file(folder / "categories.json", json_bytes(list(CATEGORIES)))
     write_file(folder / "README.md", _card("Data set", recipe, by_split).encode())
     write_file(folder / "manifest.json", json_bytes(_manifest(folder)))
