@@ -23,7 +23,7 @@ from ardee_navigation.evaluation.lane_figures import (
     write_real_lane,
 )
 from ardee_navigation.evaluation.real_run import LIDAR_LOG, PERCEPTION_LOG, read_real_run
-from ardee_navigation.evaluation.scan_run import Scans
+from ardee_navigation.evaluation.scan_run import Scans, returns_m
 from ardee_navigation.evaluation.scan_speed import scan_speed_m_s
 from ardee_navigation.evaluation.scenarios import find_scenario
 
@@ -98,6 +98,11 @@ def test_speed_is_found_in_scans_of_plants_that_pass_by(speed_m_s: float) -> Non
     found = scan_speed_m_s(Scans(time_s, ranges_m, ANGLE_MIN_RAD, INCREMENT_RAD))
     assert found == pytest.approx(speed_m_s, abs=0.03)
     assert math.isnan(scan_speed_m_s(Scans(20 * time_s, ranges_m, ANGLE_MIN_RAD, INCREMENT_RAD)))
+
+
+def test_a_leaf_too_near_to_measure_is_a_return() -> None:
+    ranges_m = returns_m(np.array([-math.inf, 0.02, math.inf, math.nan]))
+    assert ranges_m.tolist() == [0.0, 0.02, math.inf, math.inf]
 
 
 def test_the_ride_is_the_spread_of_the_robots_own_angles() -> None:

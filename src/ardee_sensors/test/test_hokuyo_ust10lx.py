@@ -46,7 +46,7 @@ def test_listing_4_1_alone_gives_the_device(tmp_path: pathlib.Path):
     horizontal = sensor.find("ray/scan/horizontal")
     values = [float(horizontal.findtext(k)) for k in ("samples", "min_angle", "max_angle")]
     assert values == [1081, -2.35619, 2.35619]
-    assert [float(sensor.findtext(f"ray/range/{k}")) for k in ("min", "max")] == [0.06, 30]
+    assert [float(sensor.findtext(f"ray/range/{k}")) for k in ("min", "max")] == [0.02, 30]
     assert float(sensor.findtext("update_rate")) == 40
     assert float(sensor.findtext("ray/noise/stddev")) == 0.01
     plugin = sensor.find("plugin")

@@ -16,7 +16,7 @@ class Scans:
     """Consecutive scans in the lidar's frame, x forward, angles counter-clockwise."""
 
     time_s: np.ndarray  # (n,)
-    ranges_m: np.ndarray  # (n, beams), infinite without a return
+    ranges_m: np.ndarray  # (n, beams), infinite without a return, 0 nearer than the lidar measures
     angle_min_rad: float
     increment_rad: float
 
@@ -64,13 +64,18 @@ class Recorder:
     def result(self) -> Tuple[Scans, Perceived]:
         """Returns what was recorded, at least one scan."""
         first = self.scans[0]
-        ranges = np.array([scan.ranges_m for scan in self.scans])
-        ranges[~(np.isfinite(ranges) & (ranges > 0.0))] = math.inf
+        ranges = returns_m(np.array([scan.ranges_m for scan in self.scans]))
         perceived = _perceived(self.answers)
         return (
             Scans(perceived.time_s, ranges, first.angle_min_rad, first.increment_rad),
             perceived,
         )
+
+
+def returns_m(ranges_m: np.ndarray) -> np.ndarray:
+    """Ranges of Scans from those of messages, where a return too near to measure is -inf (REP 117)."""
+    near = np.where(ranges_m == -math.inf, 0.0, ranges_m)
+    return np.where(near >= 0.0, near, math.inf)
 
 
 def _spread_m(points: np.ndarray) -> float:
