@@ -16,7 +16,7 @@ import pytest
 import yaml
 from PIL import Image
 
-from ardee_datasets import rle
+from ardee_datasets import rle, show_dataset
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
@@ -168,6 +168,19 @@ def test_boxes_of_yolo_are_those_of_coco(made: Path) -> None:
                 assert data["names"][int(number)] == names[one["category_id"]]
                 expected = (u - width / 2, v - height / 2, width, height)
                 assert np.allclose(one["bbox"], expected, atol=1e-3)
+
+
+def test_sheets_show_every_sample(made: Path, capsys: pytest.CaptureFixture) -> None:
+    assert show_dataset.main([str(made)]) == 0
+    (sheet,) = (made.parent / "made_sheets").iterdir()
+    assert capsys.readouterr().out.split() == [str(sheet.parent)]
+    picture = pixels(sheet)
+    assert picture.shape == (14 + 3 * (240 + 14), 2 * 3 * 320, 3)  # five samples in two columns
+    tiles = [picture[28 + 254 * y :, 320 * x :][:240, :320] for y in range(3) for x in range(6)]
+    assert [tile.std() > 10 for tile in tiles] == [True] * 15 + [False] * 3
+    with pytest.raises(SystemExit):
+        show_dataset.main([str(made.parent)])
+    assert "found no dataset.yaml" in capsys.readouterr().err
 
 
 def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:

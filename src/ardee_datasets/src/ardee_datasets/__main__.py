@@ -8,7 +8,7 @@ from ardee_common.cli import Parser
 from ardee_common.errors import known_names
 
 # Command to the module whose main(arguments) runs it and returns the exit code
-MODULES = {"generate_dataset": "ardee_datasets.generate_dataset"}
+MODULES = {name: f"ardee_datasets.{name}" for name in ("generate_dataset", "show_dataset")}
 
 
 def main() -> int:

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""The command `show_dataset`: contact sheets of a data set, on which each label lies over its picture."""
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any, Dict, List, Optional, Sequence
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from ardee_common.cli import Parser, run, steps, whole_in
+from ardee_common.errors import GeneratorError
+from ardee_common.output import output_folder
+from ardee_datasets.recipe import SPLITS
+
+_PROG = "show_dataset"
+_TILE_PX = 320
+_BESIDE, _BELOW = 2, 4  # samples of a sheet
+_LINE_PX = 14  # of text
+_BOX = {1: "lime", 2: "orange", 3: "violet", 10: "red", 11: "white", 12: "cyan"}
+_ROW, _VANISHING, _FOOT, _HIDDEN = "yellow", "magenta", "red", "deepskyblue"
+_LEGEND = (
+    "boxes: corn lime, sorghum orange, tobacco violet, weed red, stone white, litter cyan;  rows yellow, vanishing "
+    "point magenta;  feet red, hidden ones blue;  masks: a colour each;  depth: red 0.1 m to blue 20 m, black nothing"
+)
+# Colours at equal steps of the logarithm of depth, 0.1 m to 20 m
+_DEPTH_M = (0.1, 20.0)
+_DEPTH_RGB = np.array([[180, 0, 0], [255, 160, 0], [240, 255, 60], [40, 190, 190], [20, 40, 140]])
+
+
+def _over_picture(sample: Dict[str, Any], rgb: np.ndarray) -> Image.Image:
+    """Returns the picture with boxes, lines of rows, vanishing point and feet."""
+    picture = Image.fromarray(rgb)
+    draw = ImageDraw.Draw(picture)
+    for one in sample["annotations"]:
+        x, y, width, height = one["bbox"]
+        draw.rectangle((x, y, x + width - 1, y + height - 1), outline=_BOX[one["category_id"]])
+    for row in sample["rows"]:
+        draw.line([tuple(point) for point in row["line_px"]], fill=_ROW, width=2)
+    radius = max(sample["width_px"] // 130, 1)
+
+    def dot(u: float, v: float, colour: str) -> None:
+        draw.ellipse((u - radius, v - radius, u + radius, v + radius), fill=colour)
+
+    for one in sample["annotations"]:
+        u, v, visibility = one.get("keypoints", (0, 0, 0))
+        if visibility:
+            dot(u, v, _FOOT if visibility == 2 else _HIDDEN)
+    if sample["vanishing_point_px"]:
+        dot(*sample["vanishing_point_px"], _VANISHING)
+    return picture
+
+
+def _masks(instances: np.ndarray, rgb: np.ndarray) -> Image.Image:
+    """Returns the picture in grey under a colour for each instance."""
+    number = np.arange(int(instances.max()) + 1)[:, None]
+    colours = 128 + 127 * np.sin(number * (2.4, 3.7, 5.1))  # neighbouring numbers differ much
+    grey = np.repeat(rgb.mean(axis=2, keepdims=True), 3, axis=2)
+    mixed = np.where(instances[..., None] > 0, 0.3 * grey + 0.7 * colours[instances], grey)
+    return Image.fromarray(mixed.astype(np.uint8))
+
+
+def _depth(depth_m: np.ndarray) -> Image.Image:
+    place = np.log(np.maximum(depth_m, _DEPTH_M[0]))
+    at = np.linspace(*np.log(_DEPTH_M), len(_DEPTH_RGB))
+    colours = np.stack([np.interp(place, at, channel) for channel in _DEPTH_RGB.T], axis=-1)
+    return Image.fromarray(np.where(depth_m[..., None] > 0, colours, 0).astype(np.uint8))
+
+
+def _tiles(folder: Path, sample: Dict[str, Any]) -> List[Image.Image]:
+    """Returns the tiles of a sample, of one size: boxes, rows and feet; masks; depth."""
+
+    def layer(name: str) -> np.ndarray:
+        (path,) = (folder / sample["split"] / name).glob(f"{sample['id']}.*")
+        return np.asarray(Image.open(path))
+
+    rgb = layer("rgb")
+    tiles = _over_picture(sample, rgb), _masks(layer("instances"), rgb), _depth(layer("depth"))
+    size = _TILE_PX, round(_TILE_PX * sample["height_px"] / sample["width_px"])
+    return [tile.resize(size, Image.Resampling.LANCZOS) for tile in tiles]
+
+
+def contact_sheet(folder: Path, samples: Sequence[Dict[str, Any]]) -> Image.Image:
+    """Returns a sheet of some samples of a data set."""
+    rows = [samples[i : i + _BESIDE] for i in range(0, len(samples), _BESIDE)]
+    made = [[_tiles(folder, sample) for sample in row] for row in rows]
+    heights = [max(tiles[0].height for tiles in row) + _LINE_PX for row in made]
+    width = 3 * _TILE_PX * max(map(len, rows))
+    sheet = Image.new("RGB", (width, sum(heights) + _LINE_PX))
+    draw = ImageDraw.Draw(sheet)
+    draw.text((2, 1), _LEGEND)
+    y = _LINE_PX
+    for row, row_tiles, height in zip(rows, made, heights):
+        for i, (sample, tiles) in enumerate(zip(row, row_tiles)):
+            x = 3 * _TILE_PX * i
+            draw.text((x + 2, y + 1), f"{sample['split']} {sample['id']} {sample['camera']}")
+            for k, tile in enumerate(tiles):
+                sheet.paste(tile, (x + k * _TILE_PX, y + _LINE_PX))
+        y += height
+    return sheet
+
+
+def _spread(paths: List[Path], count: int) -> List[Path]:
+    """Returns some of the paths at equal distances, the first and the last among them."""
+    return [paths[i] for i in np.unique(np.linspace(0, len(paths) - 1, count).astype(int))]
+
+
+def show(args: argparse.Namespace) -> str:
+    """Writes the contact sheets that the arguments ask for; returns their folder."""
+    folder = args.dataset
+    if not (folder / "dataset.yaml").is_file():
+        raise GeneratorError(f"{folder}: found no dataset.yaml, expected a data set")
+    found = [p for split in SPLITS for p in sorted((folder / split / "samples").glob("*.json"))]
+    if not found:
+        raise GeneratorError(f"{folder}: found no samples, expected those of generate_dataset")
+    samples = [json.loads(path.read_text()) for path in _spread(found, args.samples)]
+    on_sheet = _BESIDE * _BELOW
+    starts = range(0, len(samples), on_sheet)
+    with output_folder(args.output or folder.with_name(f"{folder.name}_sheets")) as output:
+        for start in steps(_PROG, starts):
+            sheet = contact_sheet(folder, samples[start : start + on_sheet])
+            sheet.save(output / f"sheet_{start // on_sheet + 1:03d}.png")
+    return str(output)
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Makes the parser of show_dataset."""
+    parser = Parser(
+        prog=_PROG,
+        description="Write contact sheets of a data set: pictures with boxes, rows and feet; masks; depth.",
+    )
+    parser.add_argument("dataset", type=Path, metavar="DIR", help="folder of generate_dataset")
+    parser.add_argument(
+        "--output", type=Path, metavar="DIR", help="folder for the sheets (default: DIR_sheets)"
+    )
+    parser.add_argument(
+        "--samples",
+        type=whole_in(1, 10_000),
+        default=24,
+        metavar="N",
+        help="samples to show, spread over the data set",
+    )
+    return parser
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """Runs `show_dataset DIR`."""
+    return run(make_parser(), show, arguments)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
