@@ -146,6 +146,7 @@ CHANGES = {
     "doubles": {"stand": Stand(doubles=0.2)},
     "weeds": {"clutter": Clutter(weed_density_per_m2=1.0, weed_models=("a",))},
     "emergence": {"emergence_min": 0.5, "emergence_max": 0.6},
+    "sizes": {"stand": Stand(size_cv=0.1, late_emergence=0.1)},
     "heights": {"stalk_height_min_m": 0.5, "stalk_height_max_m": 0.7},
     "noise": {"noise_covariance_m2": (1e-4, 0.0, 1e-4)},
 }
@@ -168,6 +169,7 @@ def test_a_changed_argument_changes_only_what_it_names(pool, name):
     expected = {
         "lodging": {"angles"},
         "heights": {"heights"},
+        "sizes": {"heights"},
         "noise": {"positions"},
         "weeds": set(),
     }

@@ -9,7 +9,7 @@ from scipy import stats
 
 from ardee_common.errors import GeneratorError
 from ardee_models.lookup import terrain_model
-from ardee_world.field_config import FieldConfig, Plots
+from ardee_world.field_config import FieldConfig, Plots, Stand
 from ardee_world.field_layout import generate, to_world
 
 RISK = 1e-6
@@ -74,6 +74,21 @@ def test_emergence_is_binomial_with_the_mean_probability(pool, bounds):
 def test_certain_and_impossible_emergence(pool):
     assert _field(pool, emergence_min=1, emergence_max=1).count() == 20_000
     assert _field(pool, emergence_min=0, emergence_max=0).count() == 0
+
+
+def test_sizes_have_the_given_spread_and_late_plants_are_smaller(pool):
+    def size(**stand):
+        layout = _field(pool, stand=Stand(**stand))
+        return layout.height_m / np.array([model.height_m for model in pool])[layout.model]
+
+    spread = np.log(size(size_cv=0.08))
+    assert (size() == 1.0).all()
+    assert stats.kstest(spread / 0.08, "norm").pvalue > RISK  # the cut is far out
+    late = size(late_emergence=0.1, late_size=0.6)
+    small = late[late < 1.0]
+    low, high = stats.binom.ppf([RISK / 2, 1 - RISK / 2], len(late), 0.1)
+    assert low <= len(small) <= high
+    assert stats.kstest(small, "uniform", args=(0.6, 0.4)).pvalue > RISK
 
 
 def test_models_and_yaws_are_uniform(pool):

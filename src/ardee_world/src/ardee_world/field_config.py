@@ -91,13 +91,22 @@ class RowShape:
 
 @dataclass(frozen=True)
 class Stand:
-    """Gaps and doubles in the rows, and plants that lean."""
+    """Gaps and doubles in the rows, plants of different size, and plants that lean."""
 
     gaps: int = option(0, "number of gaps in the rows of the field", (0, MAX_PLANTS))
     gap_length_m: float = option(1.0, "length of each gap, in whole plants", (0.01, FAR_M))
     doubles: float = option(0.0, "probability that two plants stand at a place", _PROBABILITY)
     double_spacing_m: float = option(
         0.03, "distance between the plants of a double, along the row", (0.0, 10.0)
+    )
+    size_cv: float = option(
+        0.0, "coefficient of variation of the plants' size about their model's", (0.0, 0.3)
+    )
+    late_emergence: float = option(
+        0.0, "probability that a plant emerged late and stays small", _PROBABILITY
+    )
+    late_size: float = option(
+        0.6, "least size of a late plant over its model's; the largest is 1", (0.1, 1.0)
     )
     lodging: float = option(0.0, "probability that a plant leans", _PROBABILITY)
     lodging_angle_min_deg: float = option(20.0, "least tilt from the vertical", (0.0, 85.0))

@@ -96,8 +96,12 @@ def _draw_plants(
     own = np.array([m.height_m for m in pool])[model]
     short, tall = config.stalk_height_min_m, config.stalk_height_max_m
     target = variation.target_heights(total, short, tall, streams.of(prefix + "height"))
-    height = own if target is None else target
-    lean = draw_lean(total, config.stand, streams, prefix).at(index)
+    stand = config.stand
+    size = variation.sizes(
+        total, stand.size_cv, stand.late_emergence, stand.late_size, streams.of(prefix + "size")
+    )
+    height = (own if target is None else target) * size
+    lean = draw_lean(total, stand, streams, prefix).at(index)
     return _Draw(
         index,
         centres_m[index],

@@ -25,6 +25,8 @@ _NUMBERS = {
     "weed": (18,),
     "stone": (19,),
     "litter": (20,),
+    "size": (21,),
+    "double_size": (22,),
 }
 
 

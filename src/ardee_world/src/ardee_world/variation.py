@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sources of variation of a field: placement, emergence, model, yaw, height. One stream each."""
+"""Sources of variation of a field: placement, emergence, model, yaw, height, size. One stream each."""
 
 from typing import Optional
 
@@ -25,3 +25,12 @@ def target_heights(
 ) -> Optional[np.ndarray]:
     """Uniform heights in [low, high], or None if the models keep their own."""
     return None if low is None else rng.uniform(low, high, count)
+
+
+def sizes(
+    count: int, cv: float, late: float, late_size: float, rng: np.random.Generator
+) -> np.ndarray:
+    """Sizes of plants over their models': lognormal, cut at three SD; late ones' times a uniform one from `late_size`."""
+    own = np.exp(cv * rng.standard_normal(count).clip(-3.0, 3.0))
+    is_late, share = rng.random((2, count))
+    return np.where(is_late < late, own * (late_size + (1.0 - late_size) * share), own)
