@@ -30,7 +30,7 @@ def target_heights(
 def sizes(
     count: int, cv: float, late: float, late_size: float, rng: np.random.Generator
 ) -> np.ndarray:
-    """Sizes of plants over their models': lognormal, cut at three SD; late ones' times a uniform one from `late_size`."""
+    """Sizes of plants over their models': lognormal, cut at three SD; a late one's times `late_size` to 1."""
     own = np.exp(cv * rng.standard_normal(count).clip(-3.0, 3.0))
     is_late, share = rng.random((2, count))
     return np.where(is_late < late, own * (late_size + (1.0 - late_size) * share), own)
