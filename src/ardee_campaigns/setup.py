@@ -10,6 +10,7 @@ setup(
             "ardee_campaigns.examples",
             "ardee_campaigns.overlay",
             "ardee_campaigns.report",
+            "ardee_campaigns.ros",
         ],
         package_dir={"": "src"},
         package_data={"ardee_campaigns.examples": ["*.yaml"]},

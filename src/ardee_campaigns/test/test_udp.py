@@ -40,12 +40,12 @@ def test_a_program_drives_and_one_that_ends_fails_its_run(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     "keys, said",
     [
-        ({"kind": "udp"}, "command: found none"),
+        ({"kind": "udp"}, "found no command"),
         ({"kind": "udp", "command": ["no_such_program"]}, "found no program 'no_such_program'"),
         ({"kind": "udp", "command": ["true", "{port}"]}, "expected {bind}, {sensors}, {controls}"),
         (controller(speed_m_s=1), "params: found 'speed_m_s'"),
         ({"kind": "udp", "command": ["true"], "factory": "a:b"}, "found factory and kind udp"),
-        ({"kind": "ros"}, "expected one of python, udp"),
+        ({"kind": "tcp"}, "expected one of python, udp, ros"),
     ],
 )
 def test_a_program_that_cannot_be_meant_is_refused(tmp_path: Path, keys: dict, said: str) -> None:

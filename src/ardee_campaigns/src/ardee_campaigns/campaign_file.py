@@ -108,22 +108,30 @@ class ControllerKeys:
 
     kind: str = option(
         "python",
-        "python: a factory; udp: a program that speaks the bridge's wire format, in real time",
-        choices=("python", "udp"),
+        "python: a factory; udp: a program that speaks the bridge's wire format, in real time; ros: a node or launch"
+        " file beside the node `simulator`",
+        choices=("python", "udp", "ros"),
     )
     factory: str = option("", "module:function that makes it, of kind python")
     command: Tuple[str, ...] = option(
         (),
-        "words of the program's command, of kind udp: `{bind}` where it listens for scans, `{sensors}` whence they"
-        " come, `{controls}` whither it sends commands, `{NAME}` a parameter",
+        "words of the program's command, of kind udp and ros: `{NAME}` is a parameter; of udp, `{bind}` is where it"
+        " listens for scans, `{sensors}` whence they come, `{controls}` whither it sends commands",
+    )
+    realtime: bool = option(
+        False,
+        "of kind ros: simulated time goes as the wall's; else it waits for a command after each reading of the robot's"
+        " `pace`",
     )
     params: Optional[dict] = option(None, "its parameters")
 
     def __post_init__(self) -> None:
-        if self.kind == "udp":
+        if self.realtime and self.kind != "ros":
+            raise GeneratorError(f"realtime: found true for kind {self.kind}, expected kind ros")
+        if self.kind != "python":
             if self.factory or not self.command:
-                found = "found factory and kind udp" if self.factory else "command: found none"
-                raise GeneratorError(f"{found}, expected the command of a program")
+                found = f"factory and kind {self.kind}" if self.factory else "no command"
+                raise GeneratorError(f"found {found}, expected the command of a program")
             return
         if self.command:
             raise GeneratorError("command: found some for kind python, expected a factory")

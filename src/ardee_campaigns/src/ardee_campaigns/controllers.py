@@ -60,12 +60,23 @@ def make(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot, seed: in
     """Returns the controller."""
     if keys.kind == "udp":
         return UdpController(keys.command, params, robot)
+    if keys.kind == "ros":
+        return _ros_controller(keys, params, robot)
     made = load_function(keys.factory, "factory")(dict(params), robot, seed)
     for method in ("reset", "step"):
         if not callable(getattr(made, method, None)):
             found = f"a {type(made).__name__} without {method}()"
             raise GeneratorError(f"factory {keys.factory}: found {found}, expected reset and step")
     return made
+
+
+def _ros_controller(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot) -> Any:
+    try:
+        from ardee_campaigns.ros.controller import RosController
+    except ImportError as error:
+        expected = "ROS and its set-up file sourced"
+        raise GeneratorError(f"kind ros: found {error}, expected {expected}") from None
+    return RosController(keys.command, params, robot, keys.realtime)
 
 
 def checked(answer: Any) -> Command:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import List, Optional
 
 import numpy as np
-from ardee_sim import LidarReading, Simulation
+from ardee_sim import LidarReading
 
 from ardee_campaigns import tables
 from ardee_campaigns.campaign_file import read_campaign
@@ -56,7 +56,7 @@ class ScanLog:
     def __init__(self) -> None:
         self.readings: List[LidarReading] = []
 
-    def watch(self, _sim: Simulation, observation: Observation) -> None:
+    def watch(self, observation: Observation) -> None:
         """Takes the observation's reading of use `scan`, if there is a new one."""
         reading = observation.get("scan")
         if isinstance(reading, LidarReading) and (

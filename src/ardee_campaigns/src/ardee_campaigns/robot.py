@@ -67,6 +67,13 @@ def outline_m(keys: RobotKeys, urdf: str) -> np.ndarray:
     return outline_of(urdf)
 
 
+def height_m(keys: RobotKeys, pose: Pose, trial: Optional[Trial]) -> float:
+    """Returns the height of the robot's origin where it is set down; without a trial the ground is at 0."""
+    if trial is None:
+        return keys.stand_m
+    return trial.height_m(pose) - RobotKeys().stand_m + keys.stand_m
+
+
 class Driven:
     """A robot in a simulation."""
 
@@ -78,7 +85,7 @@ class Driven:
 
     def spawn(self, pose: Pose, trial: Optional[Trial]) -> Robot:
         """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
-        place = (pose.x_m, pose.y_m, self._height_m(pose, trial))
+        place = (pose.x_m, pose.y_m, height_m(self._keys, pose, trial))
         self._sim.spawn(NAME, self._urdf, xyz_m=place, rpy_rad=(0.0, 0.0, pose.yaw_rad))
         self._check_topics()
         for use, topic in self._topics.items():
@@ -92,11 +99,6 @@ class Driven:
             self._name, dict(self._topics), self._keys.pace, period_s, outline, sensor
         )
         return self.robot
-
-    def _height_m(self, pose: Pose, trial: Optional[Trial]) -> float:
-        if trial is None:
-            return self._keys.stand_m
-        return trial.height_m(pose) - RobotKeys().stand_m + self._keys.stand_m
 
     def _check_topics(self) -> None:
         known = {name.lstrip("/"): info for name, info in self._sim.topics().items()}
@@ -182,7 +184,7 @@ class Driven:
 
     def set_pose(self, pose: Pose, trial: Trial) -> None:
         """Sets the robot down at a pose, at rest."""
-        place = (pose.x_m, pose.y_m, self._height_m(pose, trial))
+        place = (pose.x_m, pose.y_m, height_m(self._keys, pose, trial))
         turn = (0.0, 0.0, math.sin(pose.yaw_rad / 2), math.cos(pose.yaw_rad / 2))
         self._sim.set_state(NAME, xyz_m=place, quat_xyzw=turn)
 

@@ -23,11 +23,12 @@ from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.robot import Driven, Observation
 from ardee_campaigns.task import Judge
 from ardee_world.row_truth import lane_of
+from ardee_world.trial import Trial
 
 FULL = (errno.ENOSPC, errno.EDQUOT)  # error numbers of a full disk
 _ADDRESS = re.compile(r"0x[0-9a-f]{6,}")  # of an object: differs from run to run
 _LONGEST_ERROR = 500
-Watch = Callable[[ardee_sim.Simulation, Observation], None]
+Watch = Callable[[Observation], None]
 
 
 class FullDisk(Exception):
@@ -61,10 +62,8 @@ class Run:
         )
         lane = lane_of(trial.field, trial.start)
         middle = lane.deviation(lane.centre.at(lane.centre.length_m / 2))
-        world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
-        with ardee_sim.Simulation(world, seed=job.seed) as sim:
-            keys = campaign.robots[cell.robot]
-            driven = Driven(sim, cell.robot, keys, job.urdf.read_text())
+        with contextlib.ExitStack() as ends:
+            driven = self._driven(trial, work, ends)
             robot = driven.spawn(trial.start, trial)
             contacts = Contacts(robot.outline_m, trial.field.stalks)
             self._recorder = Recorder(lane, robot, contacts)
@@ -78,11 +77,12 @@ class Run:
             controller = controllers.make(
                 campaign.controllers[cell.controller], params_of(campaign, cell), robot, job.seed
             )
-            with contextlib.ExitStack() as ends:
-                if hasattr(controller, "close"):
-                    ends.callback(controller.close)
-                controller.reset()
-                self._loop(sim, driven, controller, judge, lane, trial, watch)
+            if is_ros(job):
+                controller.attach(driven)
+            if hasattr(controller, "close"):
+                ends.callback(controller.close)
+            controller.reset()
+            self._loop(driven, controller, judge, lane, trial, watch)
         self.end = judge.end
         recorded = measures.Recorded(
             self._recorder.columns(),
@@ -95,10 +95,22 @@ class Run:
         for name in self._keys.measures:
             self.measured[measures.column(name)] = float(measures.find(name)(recorded, trial))
 
+    def _driven(self, trial: Trial, work: Path, ends: contextlib.ExitStack) -> Any:
+        """Returns the robot, in a simulation that ends with `ends`."""
+        job, cell = self._job, self._job.cell
+        keys, urdf = job.campaign.robots[cell.robot], job.urdf.read_text()
+        if is_ros(job):
+            from ardee_campaigns.ros.driven import RosDriven
+
+            simulator = (trial, job.seed, job.files.step_s(), work / "simulator.log")
+            return ends.enter_context(RosDriven(cell.robot, keys, urdf, *simulator))
+        world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
+        sim = ends.enter_context(ardee_sim.Simulation(world, seed=job.seed))
+        return Driven(sim, cell.robot, keys, urdf)
+
     def _loop(
         self,
-        sim: ardee_sim.Simulation,
-        driven: Driven,
+        driven: Any,
         controller: Any,
         judge: Judge,
         lane: Any,
@@ -117,12 +129,12 @@ class Run:
             recorder.take(time_ns, pose, here, command, controllers.seen(controller), observation)
             is_finished = controllers.is_finished(controller)
             why, back = judge.look(recorder.time_s(), pose, here, is_finished)
-            watch(sim, observation)
+            watch(observation)
             if back is not None:
                 recorder.note_event(why)
                 driven.set_pose(back, trial)
-                controller.reset()
                 driven.settle()
+                controller.reset()
 
     def file(self, error: str, wall_s: float) -> tables.RunFile:
         """Returns what is to be kept."""
@@ -146,8 +158,22 @@ class Run:
         return tables.RunFile(row, timing, samples, self.about)
 
 
-def run_one(job: Job, watch: Watch = lambda sim, observation: None) -> tables.RunFile:
+def is_ros(job: Job) -> bool:
+    """Returns whether a run's controller is a ROS node."""
+    return job.campaign.controllers[job.cell.controller].kind == "ros"
+
+
+def run_one(job: Job, watch: Optional[Watch] = None) -> tables.RunFile:
     """Returns what a run leaves behind. A failure of its world, robot, controller or measures is a failed row."""
+    if is_ros(job):
+        from ardee_campaigns.ros.process import run_apart
+
+        return run_apart(job, watch)
+    return run_here(job, watch or (lambda observation: None))
+
+
+def run_here(job: Job, watch: Watch) -> tables.RunFile:
+    """Returns the same of a run in this process."""
     began, run, error = time.monotonic(), Run(job), ""
     try:
         with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:

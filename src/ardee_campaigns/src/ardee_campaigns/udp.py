@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
 """A controller that is another program, in real time: scans and commands are UDP datagrams of the bridge's format."""
-import ctypes
-import shutil
 import signal
 import socket
 import subprocess
 import time
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, Mapping, Optional, Sequence, Tuple
 
 from ardee_bridge.nodes import convert
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Pairer
+from ardee_campaigns.program import check, end_with_parent, filled
 from ardee_campaigns.robot import Observation, Robot
 from ardee_common.errors import GeneratorError
 from ardee_common.process import start_child, stop_child
@@ -19,13 +19,8 @@ from ardee_common.process import start_child, stop_child
 START_WITHIN_S = 30.0  # from the start of the program to its first answer
 ASK_EVERY_S = 0.2  # until then the scan is sent again
 _LARGEST = 65535
-_PR_SET_PDEATHSIG = 1
+_PLACES = ("bind", "sensors", "controls")  # names in the command
 Command = Tuple[float, float]
-
-
-def _end_with_parent() -> None:
-    """Makes the kernel end this child with the worker that started it, however that ends."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _socket() -> socket.socket:
@@ -46,39 +41,21 @@ class UdpController:
     """
 
     def __init__(self, command: Sequence[str], params: Mapping[str, Any], robot: Robot) -> None:
-        unused = [name for name in params if not any(f"{{{name}}}" in word for word in command)]
-        if unused:
-            raise GeneratorError(
-                f"params: found {unused[0]!r}, expected {{{unused[0]}}} in command"
-            )
-        self._words = [self._filled(word, params, ("", "", "")) for word in command]
-        if not shutil.which(self._words[0]):
-            raise GeneratorError(f"command: found no program {self._words[0]!r}, expected one")
+        check(command, params, _PLACES)
         self._command, self._params, self._period_s = command, params, robot.period_s
         self._child: Optional[subprocess.Popen] = None
         self._sockets: Tuple[socket.socket, ...] = ()
         self.unanswered = 0
-
-    @staticmethod
-    def _filled(word: str, params: Mapping[str, Any], places: Tuple[str, str, str]) -> str:
-        bind, sensors, controls = places
-        try:
-            return word.format(bind=bind, sensors=sensors, controls=controls, **params)
-        except (KeyError, IndexError, ValueError) as error:
-            expected = "{bind}, {sensors}, {controls} or a parameter"
-            raise GeneratorError(
-                f"command: found {word!r} ({error!r}), expected {expected}"
-            ) from None
 
     def reset(self) -> None:
         """Starts the program anew."""
         self.close()
         free, self._sensors, self._controls = self._sockets = tuple(_socket() for _ in range(3))
         self._target = free.getsockname()
-        places = (_address(free), _address(self._sensors), _address(self._controls))
+        places = dict(zip(_PLACES, map(_address, self._sockets)))
         free.close()  # the program's from now on
-        words = [self._filled(word, self._params, places) for word in self._command]
-        self._child = start_child(words, preexec_fn=_end_with_parent)
+        words = filled(self._command, {**self._params, **places})
+        self._child = start_child(words, preexec_fn=partial(end_with_parent, signal.SIGKILL))
         self._pairer, self._latest = Pairer(), (0.0, 0.0)
         self._began: Optional[Tuple[float, float]] = None
 
@@ -103,13 +80,15 @@ class UdpController:
             if self._receive(time.monotonic() + ASK_EVERY_S):
                 return
             if time.monotonic() > end:
-                raise GeneratorError(f"{self._words[0]} answered no scan in {START_WITHIN_S:.0f} s")
+                raise GeneratorError(
+                    f"{self._command[0]} answered no scan in {START_WITHIN_S:.0f} s"
+                )
 
     def _send(self, parts: codec.Datagrams) -> None:
         assert self._child is not None
         if self._child.poll() is not None:
             code = self._child.returncode
-            raise GeneratorError(f"{self._words[0]} has ended with exit code {code}")
+            raise GeneratorError(f"{self._command[0]} has ended with exit code {code}")
         for part in parts:
             self._sensors.sendto(part, self._target)
 

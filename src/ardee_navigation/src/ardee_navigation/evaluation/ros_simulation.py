@@ -12,7 +12,7 @@ import queue
 import time
 import warnings
 from pathlib import Path
-from typing import Callable, Dict, List, Optional
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 import rosgraph
@@ -78,13 +78,19 @@ class RosSimulation:
     """The simulator on a world with one robot; a context manager, so that nothing outlives it."""
 
     def __init__(
-        self, world: Path, seed: int, models: List[Path], log: Path, realtime: bool = False
+        self,
+        world: Path,
+        seed: int,
+        models: List[Path],
+        log: Path,
+        realtime: bool = False,
+        words: Sequence[str] = (),
     ) -> None:
         folders = [*map(str, models), os.environ.get("GAZEBO_MODEL_PATH", "")]
         environment = dict(os.environ, GAZEBO_MODEL_PATH=os.pathsep.join(folders))
         factor = "1" if realtime else "0"
         command = ["rosrun", "ardee_sim_cpp", "simulator", str(world), "--paused"]
-        command += ["--seed", str(seed), f"_real_time_factor:={factor}"]
+        command += ["--seed", str(seed), f"_real_time_factor:={factor}", *words]
         self._log, self.scans = log, queue.Queue()  # type: Path, queue.Queue
         self._services = {}  # type: Dict[str, rospy.ServiceProxy]
         self._commands = None  # type: Optional[rospy.Publisher]
@@ -143,17 +149,26 @@ class RosSimulation:
 
     def spawn(self, urdf: str, pose: Pose, z_m: float) -> None:
         """Spawns the robot, with its scan and command topics connected."""
+        self.place(urdf, pose, z_m)
+        self.connect(("/ardee/hokuyo", LaserScan), "/cmd_vel")
+
+    def place(self, urdf: str, pose: Pose, z_m: float) -> None:
+        """Spawns the robot."""
         fields = (ROBOT, urdf, "/", to_ros(pose, z_m), "world")
         self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
-        self._subscriber = rospy.Subscriber(
-            "/ardee/hokuyo", LaserScan, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
-        )
+
+    def connect(self, readings: Optional[Tuple[str, type]], commands: str) -> None:
+        """Connects a sensor's topic of a type, and the topic of commands."""
+        if readings:
+            self._subscriber = rospy.Subscriber(
+                *readings, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
+            )
         with warnings.catch_warnings():
             warnings.simplefilter(
                 "ignore"
             )  # it recommends a queue, whose thread would race the step
-            self._commands = rospy.Publisher("/cmd_vel", Twist, queue_size=None)
-        ports = (self._subscriber, self._commands)
+            self._commands = rospy.Publisher(commands, Twist, queue_size=None)
+        ports = [port for port in (self._subscriber, self._commands) if port]
         _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
 
     def wait_for_commander(self) -> None:
@@ -175,13 +190,17 @@ class RosSimulation:
         """Takes this many physics steps; returns the simulated time [s] after them."""
         return self.call("/ardee/step", Step, steps).sim_time.to_sec()
 
-    def scan(self, patience_s: float = 20.0) -> Scan:
-        """Returns the next scan."""
+    def message(self, patience_s: float = 20.0) -> Any:
+        """Returns the next message of the connected sensor."""
         try:
-            scan = self.scans.get(timeout=patience_s)
+            return self.scans.get(timeout=patience_s)
         except queue.Empty:
             self._check_alive()
             raise SimulationError(f"no scan in {patience_s:.0f} s") from None
+
+    def scan(self) -> Scan:
+        """Returns the next scan."""
+        scan = self.message()
         ranges_m = np.asarray(scan.ranges)
         return Scan(scan.header.stamp.to_sec(), ranges_m, scan.angle_min, scan.angle_increment)
 

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""A robot of a campaign in the node `simulator`, as robot.Driven is one in this process.
+
+The evaluated node's commands reach the campaign, which passes them on between the steps, so that a command counts from
+the same step on, however fast the machine is.
+"""
+import math
+from pathlib import Path
+from typing import Any, Optional
+
+import numpy as np
+import roslib.message
+import rospy
+import rostopic
+from ardee_sim import BatteryStateReading, LidarReading
+from sensor_msgs.msg import BatteryState, LaserScan
+
+from ardee_campaigns.campaign_file import RobotKeys
+from ardee_campaigns.robot import SETTLE_S, Observation, Robot, describe, height_m
+from ardee_navigation.evaluation.ros_simulation import RosSimulation
+from ardee_world.row_truth import Pose
+from ardee_world.trial import Trial
+
+
+def _lidar(scan: LaserScan) -> LidarReading:
+    return LidarReading(
+        scan.header.stamp.to_nsec(),
+        scan.header.frame_id,
+        scan.angle_min,
+        scan.angle_max,
+        scan.angle_increment,
+        scan.time_increment,
+        scan.scan_time,
+        scan.range_min,
+        scan.range_max,
+        np.array(scan.ranges, np.float32),
+        np.array(scan.intensities, np.float32),
+    )
+
+
+def _battery(state: BatteryState) -> BatteryStateReading:
+    return BatteryStateReading(
+        state.header.stamp.to_nsec(),
+        state.header.frame_id,
+        state.voltage,
+        state.current,
+        state.charge,
+        state.capacity,
+        state.design_capacity,
+        state.percentage,
+        state.location,
+    )
+
+
+class RosDriven:
+    """A robot in a simulator node of its own, which starts and ends with this context manager."""
+
+    def __init__(
+        self,
+        name: str,
+        keys: RobotKeys,
+        urdf: str,
+        trial: Trial,
+        seed: int,
+        step_s: float,
+        log: Path,
+    ) -> None:
+        self._keys, self._urdf = keys, urdf
+        self._robot = describe(name, keys, urdf)
+        self._steps = round(self._robot.period_s / step_s)
+        self._settle_steps = math.ceil(SETTLE_S / step_s - 1e-6)
+        self._topics = {use: f"/{topic.lstrip('/')}" for use, topic in self._robot.topics.items()}
+        self._commands = f"/campaign{self._topics['command']}"
+        remap = f"{self._topics['command']}:={self._commands}"
+        self._simulator = RosSimulation(trial.world, seed, trial.models, log, words=[remap])
+        self._reading: Any = None
+        self._charge: Optional[BatteryState] = None
+        self._last_charge: Optional[BatteryState] = None
+
+    def __enter__(self) -> "RosDriven":
+        self._simulator.__enter__()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._simulator.close()
+
+    def spawn(self, pose: Pose, trial: Trial) -> Robot:
+        """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
+        self._simulator.place(self._urdf, pose, height_m(self._keys, pose, trial))
+        pace = None
+        if self._keys.period_s is None:
+            topic = self._topics[self._keys.pace]
+            pace = topic, roslib.message.get_message_class(rostopic.get_topic_type(topic)[0])
+        self._simulator.connect(pace, self._commands)
+        if "battery" in self._topics:
+            rospy.Subscriber(self._topics["battery"], BatteryState, self._on_battery)
+        self.settle()
+        return self._robot
+
+    def _on_battery(self, state: BatteryState) -> None:
+        self._charge = state
+
+    def settle(self) -> None:
+        """Lets the robot come to rest."""
+        self._simulator.command(0.0, 0.0)
+        self._step(self._settle_steps)
+
+    def _step(self, steps: int) -> float:
+        """Takes physics steps, and the last reading of the pace's sensor in them; returns the time [s]."""
+        self._last_charge = self._charge  # whether one of these steps comes in time is chance
+        end_s = self._simulator.step(steps)
+        while self._keys.period_s is None:
+            self._reading = self._simulator.message()
+            if self._reading.header.stamp.to_sec() > end_s - self._robot.period_s + 1e-6:
+                break
+        return end_s
+
+    def advance(self) -> int:
+        """Steps to the next reading of the pace's sensor; returns its time [ns]."""
+        end_s = self._step(self._steps)
+        return self._reading.header.stamp.to_nsec() if self._reading else round(end_s * 1e9)
+
+    def observation(self) -> Observation:
+        """Returns the last readings that are recorded: of a lidar that is the pace's sensor, and of the battery."""
+        seen: Observation = {}
+        if isinstance(self._reading, LaserScan):
+            seen[self._keys.pace] = _lidar(self._reading)
+        if self._last_charge:
+            seen["battery"] = _battery(self._last_charge)
+        return seen
+
+    def command(self, speed_m_s: float, turn_rad_s: float) -> None:
+        """Commands the robot from the next step on."""
+        self._pose = self._simulator.command(speed_m_s, turn_rad_s)
+
+    def pose(self) -> Pose:
+        """Returns the robot's true pose on the ground plan."""
+        return self._pose
+
+    def set_pose(self, pose: Pose, trial: Trial) -> None:
+        """Sets the robot down at a pose, at rest."""
+        self._simulator.set_pose(pose, height_m(self._keys, pose, trial))

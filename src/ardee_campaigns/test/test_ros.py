@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Tests controllers that are ROS nodes, in lockstep and in real time."""
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any, List
+
+import pytest
+import small_campaign
+from small_campaign import run, write
+
+from ardee_campaigns import tables
+from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.plan import Planner
+from ardee_common.errors import GeneratorError
+
+PROGRAM = [sys.executable, str(small_campaign.HERE / "ros_program.py")]
+
+
+def controller(*words: str, **keys: Any) -> dict:
+    return {"kind": "ros", "command": [*PROGRAM, *words], **keys}
+
+
+def test_nodes_drive_as_the_same_controllers_without_ros(tmp_path: Path) -> None:
+    controllers = {
+        "node": {"kind": "ros", "command": ["rosrun", "ardee_navigation", "row_follower"]},
+        "lidar": "ardee_navigation.control:make",
+        "ends": controller("0.5", "10"),
+        "realtime": controller("{speed}", "1000", params={"speed": 0.5}, realtime=True),
+        "straight": small_campaign.CAMPAIGN["controllers"]["straight"],
+    }
+    file = write(tmp_path, controllers=controllers, replicates=1, workers=2)
+    output = tmp_path / "out"
+    run(file, "--output", output)
+    found = {row["controller"]: row for row in tables.read_runs(output).to_pylist()}
+    errors = {name: row["error"] for name, row in found.items() if row["status"] != tables.OK}
+    assert list(errors) == ["ends"], errors
+    assert "ros_program.py 0.5 10 has ended with exit code 0" in errors["ends"]
+    node, lidar, realtime = (
+        tables.read_run(output, found[name]["run_id"]) for name in ("node", "lidar", "realtime")
+    )
+    for name in ("time_ns", "x_m", "y_m", "yaw_rad", "command_turn_rad_s"):
+        pair = (run.samples[name].to_numpy() for run in (node, lidar))
+        assert next(pair) == pytest.approx(next(pair), rel=1e-12), name
+    energies_j = (run.samples["energy_j"][-1].as_py() for run in (node, lidar))
+    assert next(energies_j) == pytest.approx(next(energies_j), rel=0.1)  # it comes a scan later
+    assert realtime.timing.wall_s > realtime.row.sim_s
+    straight_m = found["straight"]["distance_m"]
+    assert found["realtime"]["distance_m"] == pytest.approx(straight_m, abs=0.1)
+
+
+def processes_of(mark: str) -> List[str]:
+    """Returns the commands of all processes with a variable in their environment."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if mark.encode() in (folder / "environ").read_bytes().split(b"\0"):
+                found.append((folder / "cmdline").read_text().replace("\0", " "))
+        except OSError:
+            continue
+    return found
+
+
+def test_a_campaign_that_is_ended_leaves_no_process_behind(tmp_path: Path) -> None:
+    file = write(tmp_path, controllers={"a": controller("0.5", "100000", realtime=True)})
+    mark = f"CAMPAIGN_OF={tmp_path}"
+    env = {**small_campaign.environment(), "CAMPAIGN_OF": str(tmp_path)}
+    words = small_campaign.command(file, "--output", tmp_path / "out")
+    child = subprocess.Popen(words, env=env, start_new_session=True, stderr=subprocess.DEVNULL)
+
+    def until(is_wanted: Any) -> None:
+        end = time.monotonic() + 60.0
+        while not is_wanted(processes_of(mark)):
+            assert time.monotonic() < end, processes_of(mark)
+            time.sleep(0.1)
+
+    until(lambda found: any("ros_program" in words for words in found))
+    os.kill(child.pid, signal.SIGINT)
+    assert child.wait(60) == 130
+    until(lambda found: not found)
+
+
+@pytest.mark.parametrize(
+    "keys, said",
+    [
+        ({"kind": "ros"}, "found no command"),
+        (controller("{speed}"), "found KeyError('speed')"),
+        ({"factory": "a:b", "realtime": True}, "realtime: found true for kind python"),
+    ],
+)
+def test_a_node_that_cannot_be_meant_is_refused(tmp_path: Path, keys: dict, said: str) -> None:
+    file = write(tmp_path, controllers={"a": keys})
+    with pytest.raises(GeneratorError) as caught:
+        Planner(read_campaign(file))
+    assert said in str(caught.value) and str(caught.value).startswith(f"{file}:")
