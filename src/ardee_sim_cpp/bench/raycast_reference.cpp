@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include "ardee_sim/raycast/local_scene.h"
+#include "ardee_sim/raycast/scenery_store.h"
 
 namespace ardee::bench {
 namespace {
@@ -36,18 +37,18 @@ void attach(RTCDevice device, RTCScene scene, const Placement& placement) {
 struct BareRegion::Impl {
   Impl(const std::vector<Placement>& field, const Eigen::Vector3d& eye,
        const raycast::RayOptions& options)
-      : store(device, masks, raycast::SceneKind::kVisual) {
+      : store(raycast::SceneKind::kVisual, log) {
     store.add(0, field);
     store.commit();
     if (!options.local_scenes) return;
     local = std::make_unique<raycast::LocalScene>(
-        device, store, raycast::StillInstances{}, eye.head<2>(),
-        kSpare * options.local_scene_radius_m,
-        raycast::LocalSceneBudget{options.local_scene_budget_bytes});
+        store.fixed(), raycast::StillInstances{},
+        raycast::LocalSceneRequest{eye.head<2>(),
+                                   kSpare * options.local_scene_radius_m,
+                                   {options.local_scene_budget_bytes}});
   }
 
-  raycast::EmbreeDevice device;
-  raycast::AlphaMasks masks{Log()};
+  Log log;
   raycast::SceneryStore store;
   std::unique_ptr<raycast::LocalScene> local;
 };
@@ -75,7 +76,7 @@ void BareRegion::cast(const Pose& X_WS, const raycast::RayPattern& pattern,
     if (impl_->local != nullptr) {
       impl_->local->intersect(queries, t_high);
     } else {
-      impl_->store.places().intersect(queries, t_low);
+      impl_->store.fixed()->places().intersect(queries, t_low);
     }
   }
 }

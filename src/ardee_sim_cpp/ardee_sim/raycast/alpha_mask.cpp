@@ -45,21 +45,9 @@ bool AlphaMask::has_holes() const {
 }
 
 std::shared_ptr<const AlphaMask> AlphaMasks::get(const std::string& path, float rejection) {
-  if (without_holes_.count({path, rejection}) != 0) return nullptr;
   std::weak_ptr<const AlphaMask>& entry = masks_[{path, rejection}];
   std::shared_ptr<const AlphaMask> mask = entry.lock();
-  if (mask != nullptr) return mask;
-  try {
-    mask = std::make_shared<const AlphaMask>(path, rejection);
-  } catch (const Error& error) {
-    log_.warn_once(std::string(error.what()) + "; rays take the texture as opaque");
-    return nullptr;
-  }
-  if (!mask->has_holes()) {
-    without_holes_.insert({path, rejection});
-    return nullptr;
-  }
-  entry = mask;
+  if (mask == nullptr) entry = mask = std::make_shared<const AlphaMask>(path, rejection);
   return mask;
 }
 

@@ -4,13 +4,11 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ardee_sim/core/error.h"
-#include "ardee_sim/core/log.h"
 
 namespace ardee::raycast {
 
@@ -35,16 +33,11 @@ class AlphaMask {
 /// Masks in use; each texture is read once.
 class AlphaMasks {
  public:
-  explicit AlphaMasks(Log log) : log_(std::move(log)) {}
-
-  /// Returns nullptr for a texture without holes; also, with a warning, for one that cannot be
-  /// read.
+  /// Returns the mask of a texture, perhaps without a hole. Throws Error if it cannot be read.
   std::shared_ptr<const AlphaMask> get(const std::string& path, float rejection);
 
  private:
-  Log log_;
   std::map<std::pair<std::string, float>, std::weak_ptr<const AlphaMask>> masks_;
-  std::set<std::pair<std::string, float>> without_holes_;
 };
 
 }  // namespace ardee::raycast

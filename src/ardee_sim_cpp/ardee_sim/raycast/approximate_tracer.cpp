@@ -29,7 +29,7 @@ bool ApproximateTracer::load(const SceneRay* rays, int count, RayPacket& packet)
 }
 
 const ModelList& ApproximateTracer::others() const {
-  return local_->asks_tree() ? moving_.loose() : local_->others();
+  return beside_->ask_tree() ? moving_.loose() : beside_->models();
 }
 
 bool ApproximateTracer::intersect_others(const SceneRay* rays, int count,
@@ -40,7 +40,7 @@ bool ApproximateTracer::intersect_others(const SceneRay* rays, int count,
   double t_leave[kPacketRays];
   double t_tree[kPacketRays];
   bool beyond = false;
-  bool touched = local_->asks_tree();
+  bool touched = beside_->ask_tree();
   for (int i = 0; i < kPacketRays; ++i) {
     t_high[i] = kDone;
     t_leave[i] = std::numeric_limits<double>::infinity();
@@ -51,14 +51,16 @@ bool ApproximateTracer::intersect_others(const SceneRay* rays, int count,
     const double depth_m = local_->depth_m(ray.origin);
     const double below_top_m = top_W() - ray.origin.z();
     const bool leaves_above = ray.direction.z() > 0.0 && ray.direction.z() * depth_m >= below_top_m;
-    if (reach_m[i] > depth_m && !leaves_above) t_leave[i] = local_->picture_exit_t(ray);
+    if (reach_m[i] > depth_m && !leaves_above) {
+      t_leave[i] = beside_->are_beyond() ? local_->border_t(ray) : local_->exit_t(ray);
+    }
     t_high[i] = std::min(reach_m[i], t_leave[i]);
     if (reach_m[i] > t_leave[i]) {
       beyond = true;
     } else {
       t_leave[i] = std::numeric_limits<double>::infinity();
     }
-    t_tree[i] = local_->asks_tree() ? 0.0 : t_leave[i];
+    t_tree[i] = beside_->ask_tree() ? 0.0 : t_leave[i];
     touched = touched || others().touches_any(ray, reach_m[i]);
   }
   if (!beyond && !touched && !local_->has_rest() && !scenery_.has_unbounded()) return false;
@@ -71,7 +73,7 @@ bool ApproximateTracer::intersect_others(const SceneRay* rays, int count,
   for (int i = 0; i < count; ++i) t_high[i] = std::min(t_high[i], queries[i].reach());
   local_->intersect_rest(queries, t_high);
   if (beyond) scenery_.places().intersect(queries, t_leave);
-  if (beyond || local_->asks_tree()) moving_.tree().intersect(queries, t_tree);
+  if (beyond || beside_->ask_tree()) moving_.tree().intersect(queries, t_tree);
   return true;
 }
 
@@ -171,7 +173,7 @@ void ApproximateTracer::trace_primary(const Eigen::Vector3d& eye_W, PrimaryRayPa
   const Eigen::Vector3f eye = (eye_W - local_->origin_W()).cast<float>();
   const auto depth_m = static_cast<float>(local_->depth_m(eye_W));
   const auto below_top_m = std::max(static_cast<float>(top_W() - eye_W.z()), 1e-6f);
-  const bool always = local_->has_rest() || local_->asks_tree() || scenery_.has_unbounded();
+  const bool always = local_->has_rest() || beside_->ask_tree() || scenery_.has_unbounded();
   for (std::size_t number = 0; number < count; ++number) {
     PrimaryRayPacket& block = blocks[number];
     local_->triangle_scene()->trace_primary(eye, block);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "ardee_sim/raycast/local_scene.h"
+#include "ardee_sim/raycast/local_scene_cache.h"
 #include "ardee_sim/raycast/moving_models.h"
 #include "ardee_sim/raycast/primary_ray_packet.h"
 #include "ardee_sim/raycast/scene_ray.h"
@@ -16,9 +16,13 @@ void write_exact_hit(const RayHit& hit, std::size_t number, int i, PrimaryRayPac
 /// decide which of its triangles is nearest. All other bodies on a ray's way are tested exactly.
 class ApproximateTracer {
  public:
-  ApproximateTracer(const LocalScene* local, const SceneryStore& scenery,
+  /// `in_use` may be null: there is none.
+  ApproximateTracer(const LocalSceneInUse* in_use, const FixedScenery& scenery,
                     const MovingModels& moving)
-      : local_(local), scenery_(scenery), moving_(moving) {}
+      : local_(in_use != nullptr ? in_use->scene.get() : nullptr),
+        beside_(in_use != nullptr ? &in_use->beside : nullptr),
+        scenery_(scenery),
+        moving_(moving) {}
 
   /// Traces up to kPacketRays rays. Returns false if they do not start in a triangle scene; then
   /// the caller traces them exactly.
@@ -62,7 +66,8 @@ class ApproximateTracer {
                             PrimaryRayPacket& block) const;
 
   const LocalScene* local_;
-  const SceneryStore& scenery_;
+  const ModelsBeside* beside_;
+  const FixedScenery& scenery_;
   const MovingModels& moving_;
 };
 

@@ -3,8 +3,11 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "ardee_sim/core/error.h"
 
@@ -20,51 +23,65 @@ struct BoxSource {
   void* owner;
 };
 
-}  // namespace
+/// The process's device, with its errors and bytes.
+class Device {
+ public:
+  Device() : device_(rtcNewDevice(nullptr)) {
+    if (device_ == nullptr) throw Error("Embree cannot make a device on this machine");
+    rtcSetDeviceErrorFunction(
+        device_,
+        [](void* user, RTCError, const char* text) {
+          auto* self = static_cast<Device*>(user);
+          const std::lock_guard<std::mutex> lock(self->mutex_);
+          if (self->message_.empty()) self->message_ = text != nullptr ? text : "unknown error";
+        },
+        this);
+    rtcSetDeviceMemoryMonitorFunction(
+        device_,
+        [](void* user, ssize_t bytes, bool) {
+          static_cast<Device*>(user)->bytes_ += bytes;
+          return true;
+        },
+        this);
+  }
 
-struct EmbreeDevice::State {
-  std::mutex mutex;
-  std::string message;
-  std::atomic<std::ptrdiff_t> bytes{0};
+  /// Lives as long as the process: scenes may be released while other statics are destroyed.
+  static Device& get() {
+    static Device& device = *new Device;
+    return device;
+  }
+
+  RTCDevice device() const { return device_; }
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, bytes_));
+  }
+  std::string take_message() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(message_, {});
+  }
+
+ private:
+  RTCDevice device_;
+  std::mutex mutex_;
+  std::string message_;
+  std::atomic<std::ptrdiff_t> bytes_{0};
 };
 
-EmbreeDevice::EmbreeDevice() : state_(std::make_unique<State>()), device_(rtcNewDevice(nullptr)) {
-  if (device_ == nullptr) throw Error("Embree cannot make a device on this machine");
-  rtcSetDeviceErrorFunction(
-      device_,
-      [](void* user, RTCError, const char* text) {
-        auto* state = static_cast<State*>(user);
-        const std::lock_guard<std::mutex> lock(state->mutex);
-        if (state->message.empty()) state->message = text != nullptr ? text : "unknown error";
-      },
-      state_.get());
-  rtcSetDeviceMemoryMonitorFunction(
-      device_,
-      [](void* user, ssize_t bytes, bool) {
-        static_cast<State*>(user)->bytes += bytes;
-        return true;
-      },
-      state_.get());
+}  // namespace
+
+RTCDeviceTy* embree_device() { return Device::get().device(); }
+
+std::size_t embree_bytes() { return Device::get().bytes(); }
+
+void check_embree() {
+  const std::string message = Device::get().take_message();
+  if (!message.empty()) throw Error("Embree: " + message);
 }
 
-EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
-
-std::size_t EmbreeDevice::bytes() const {
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, state_->bytes));
-}
-
-void EmbreeDevice::check() const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  if (state_->message.empty()) return;
-  const std::string message = "Embree: " + state_->message;
-  state_->message.clear();
-  throw Error(message);
-}
-
-EmbreeScene::EmbreeScene(const EmbreeDevice& device, std::size_t count, const BoxOf& box_of,
-                         Meet meet, void* owner, BuildQuality quality)
-    : scene_(rtcNewScene(device.get())) {
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER);
+EmbreeScene::EmbreeScene(std::size_t count, const BoxOf& box_of, Meet meet, void* owner,
+                         BuildQuality quality)
+    : scene_(rtcNewScene(embree_device())) {
+  RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
   BoxSource source{&box_of, owner};
   rtcSetGeometryUserData(geometry, &source);
@@ -86,7 +103,7 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, std::size_t count, const Bo
   rtcSetGeometryUserData(geometry, owner);
   rtcReleaseGeometry(geometry);
   try {
-    device.check();
+    check_embree();
   } catch (...) {
     rtcReleaseScene(scene_);
     throw;

@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
-#include <string>
 
 #include "ardee_sim/raycast/bounds.h"
 
@@ -14,24 +12,13 @@ struct RTCIntersectFunctionNArguments;
 
 namespace ardee::raycast {
 
-/// Embree device that collects its errors and counts its bytes.
-class EmbreeDevice {
- public:
-  EmbreeDevice();
-  ~EmbreeDevice();
-  EmbreeDevice(const EmbreeDevice&) = delete;
-  EmbreeDevice& operator=(const EmbreeDevice&) = delete;
-
-  RTCDeviceTy* get() const { return device_; }
-  std::size_t bytes() const;
-  /// Throws the errors that Embree has reported since the last call.
-  void check() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-  RTCDeviceTy* device_;
-};
+/// Returns the Embree device of this process, which all scenes share. Throws Error if Embree cannot
+/// make one.
+RTCDeviceTy* embree_device();
+/// Returns the bytes that Embree holds for all scenes of this process.
+std::size_t embree_bytes();
+/// Throws an error that Embree has reported since the last call.
+void check_embree();
 
 enum class BuildQuality { kLow, kMedium };
 
@@ -42,8 +29,7 @@ class EmbreeScene {
   using BoxOf = std::function<void(std::size_t, float lower[3], float upper[3])>;
 
   /// Builds the scene. The callback gets `owner` as geometryUserPtr.
-  EmbreeScene(const EmbreeDevice& device, std::size_t count, const BoxOf& box_of, Meet meet,
-              void* owner, BuildQuality quality);
+  EmbreeScene(std::size_t count, const BoxOf& box_of, Meet meet, void* owner, BuildQuality quality);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;

@@ -13,12 +13,6 @@ constexpr double kWide_m = 4.0;
 constexpr double kEdge_m = 1e-2;
 constexpr double kSmallest_m = 0.5;
 constexpr double kFloatSlack = 2e-6;
-/// Least number of models at rest beside the triangle scene, and of calls of prepare() since its
-/// making, that justify another local scene.
-constexpr std::size_t kManyAtRest = 16;
-constexpr std::uint64_t kShortest = 100;
-/// Number of models beside the triangle scene above which they are not tested one by one.
-constexpr std::size_t kManyBeside = 64;
 
 bool is_wide(const TraceableInstance& placed) {
   return placed.body->bounds.radius() * placed.scale > kWide_m;
@@ -42,41 +36,42 @@ std::size_t triangles_of(const Traceable& body, const Primitive& primitive) {
 
 }  // namespace
 
-LocalScene::LocalScene(const EmbreeDevice& device, const SceneryStore& store,
-                       const StillInstances& still, const Eigen::Vector2d& center_W,
-                       double half_size_m, const LocalSceneBudget& budget)
-    : center_W_(center_W),
-      half_size_m_(half_size_m),
-      for_pictures_(budget.triangle_bytes > 0),
+LocalScene::LocalScene(std::shared_ptr<const FixedScenery> scenery, const StillInstances& still,
+                       const LocalSceneRequest& request)
+    : scenery_(std::move(scenery)),
+      center_W_(request.center_W),
+      half_size_m_(request.half_size_m),
+      for_pictures_(request.budget.triangle_bytes > 0),
       time_(still.time) {
-  choose_size(store, still, budget);
+  const PlaceTree& tree = scenery_->places();
+  choose_size(still, request.budget);
   if (for_pictures_) take_still(still);
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
-  Bounds all = store.places().bounds_W();
+  Bounds all = tree.bounds_W();
   for (const StillInstance& body : still_) all.add(body.placed.bounds_W());
   origin_W_ << center_W_, all.empty() ? 0.0 : all.center().z();
   std::size_t places = 0;
-  store.places().find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
-    const TraceableInstance& placed = *store.places().places()[index];
+  tree.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
+    const TraceableInstance& placed = *tree.places()[index];
     ++places;
     add(placed);
   });
   const bool inside = !all.empty() && (all.lower.head<2>() - center_W_ + half).minCoeff() >= 0.0 &&
                       (center_W_ + half - all.upper.head<2>()).minCoeff() >= 0.0;
-  holds_all_ = places == store.places().places().size() && inside;
+  holds_all_ = places == tree.places().size() && inside;
   half_height_m_ = 0.5 * (all.upper - all.lower).z() + kEdge_m;
   extent_m_ = 2.0 * (half_size_m_ + half_height_m_);
   slack_m_ = static_cast<float>(kFloatSlack * extent_m_);
   if (!entries_.empty()) {
     scene_ = std::make_unique<EmbreeScene>(
-        device, entries_.size(),
+        entries_.size(),
         [this](std::size_t index, float* lower, float* upper) {
           entry_bounds(index, lower, upper);
         },
         &intersect_entry, this, BuildQuality::kMedium);
   }
   for (const StillInstance& body : still_) add(body.placed, body.moved_at.get());
-  if (for_pictures_) add_triangle_scene(device, budget.triangle_bytes);
+  if (for_pictures_) add_triangle_scene(request.budget.triangle_bytes);
 }
 
 void LocalScene::take_still(const StillInstances& still) {
@@ -95,8 +90,7 @@ bool LocalScene::holds(const Bounds& box_W) const {
 }
 
 /// Chooses the largest square that fits into the budget.
-void LocalScene::choose_size(const SceneryStore& store, const StillInstances& still,
-                             const LocalSceneBudget& budget) {
+void LocalScene::choose_size(const StillInstances& still, const LocalSceneBudget& budget) {
   struct Part {
     double reach_m;
     std::size_t entries;
@@ -104,8 +98,9 @@ void LocalScene::choose_size(const SceneryStore& store, const StillInstances& st
   };
   std::vector<Part> parts;
   const Eigen::Vector2d half = Eigen::Vector2d::Constant(half_size_m_ + kEdge_m);
-  store.places().find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
-    const TraceableInstance& placed = *store.places().places()[index];
+  const PlaceTree& tree = scenery_->places();
+  tree.find(center_W_ - half, center_W_ + half, [&](std::size_t index) {
+    const TraceableInstance& placed = *tree.places()[index];
     const Traceable& body = *placed.body;
     if (!is_wide(placed)) {
       std::size_t triangles = body.triangle_count();
@@ -209,10 +204,6 @@ double LocalScene::exit_t(const Ray& ray_W) const {
   return holds_all_ ? std::numeric_limits<double>::infinity() : border_t(ray_W);
 }
 
-double LocalScene::picture_exit_t(const Ray& ray_W) const {
-  return models_beyond_ ? border_t(ray_W) : exit_t(ray_W);
-}
-
 double LocalScene::border_t(const Ray& ray_W) const {
   double t = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 2; ++axis) {
@@ -223,7 +214,7 @@ double LocalScene::border_t(const Ray& ray_W) const {
   return t;
 }
 
-void LocalScene::add_triangle_scene(const EmbreeDevice& device, std::size_t budget_bytes) {
+void LocalScene::add_triangle_scene(std::size_t budget_bytes) {
   std::vector<TriangleSource> bodies(frames_.size());
   std::size_t triangles = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
@@ -251,44 +242,13 @@ void LocalScene::add_triangle_scene(const EmbreeDevice& device, std::size_t budg
   if (triangles == 0) return;
   if (!rest_.entries.empty()) {
     rest_scene_ = std::make_unique<EmbreeScene>(
-        device, rest_.entries.size(),
+        rest_.entries.size(),
         [this](std::size_t k, float* lower, float* upper) {
           entry_bounds(rest_.entries[k], lower, upper);
         },
         &intersect_rest_entry, &rest_, BuildQuality::kMedium);
   }
-  triangle_scene_ = std::make_unique<TriangleScene>(device, bodies, origin_W_, time_);
-}
-
-void LocalScene::find_others(const MovingModels& moving) {
-  others_.clear();
-  gone_.clear();
-  models_beyond_ = false;
-  std::size_t at_rest = 0;
-  std::size_t in_tree = 0;
-  for (const auto& [entity, model] : moving.models()) {
-    if (model.placed.empty() || model.boxes_W.empty()) continue;
-    if (model.in_tree) {
-      models_beyond_ = models_beyond_ || !holds(model.box_W);
-      if (!touches(model.box_W) || MovingModels::was_still(model, time_)) continue;
-    }
-    others_.add(model);
-    in_tree += model.in_tree ? 1 : 0;
-    if (moving.is_at_rest(model)) ++at_rest;
-  }
-  for (const StillInstance& body : still_) {
-    if (*body.moved_at > time_) gone_.emplace_back(body.placed.bounds_W());
-  }
-  asks_tree_ = in_tree > kManyBeside;
-  outdated_ = at_rest >= kManyAtRest && moving.time() >= time_ + kShortest;
-}
-
-bool LocalScene::may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
-                           float about_m) const {
-  return others_.may_shade(at_W, to_lamp_W, about_m) ||
-         std::any_of(gone_.begin(), gone_.end(), [&](const ShadowBall& ball) {
-           return ball.may_shade(at_W, to_lamp_W, about_m);
-         });
+  triangle_scene_ = std::make_unique<TriangleScene>(bodies, origin_W_, time_);
 }
 
 bool LocalScene::find_segments(const RayQuery queries[kPacketRays],

@@ -4,17 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "ardee_sim/raycast/moving_models.h"
-#include "ardee_sim/raycast/scenery_store.h"
+#include "ardee_sim/raycast/fixed_scenery.h"
+#include "ardee_sim/raycast/still_instance.h"
 #include "ardee_sim/raycast/triangle_scene.h"
 
 namespace ardee::raycast {
-
-/// Memory limits of a local scene [bytes].
-struct LocalSceneBudget {
-  std::size_t entries;
-  std::size_t triangle_bytes = 0;  // 0: without pictures
-};
 
 /// Primitives of all scenery in a square of ground, side by side in one Embree scene: a ray that
 /// starts in the square needs no other scene until it leaves it. For pictures, models at rest count
@@ -27,8 +21,8 @@ class LocalScene {
   static constexpr std::size_t kBytesPerTriangle = 140;
 
   /// Makes the square smaller than asked for if its content exceeds the budget.
-  LocalScene(const EmbreeDevice& device, const SceneryStore& store, const StillInstances& still,
-             const Eigen::Vector2d& center_W, double half_size_m, const LocalSceneBudget& budget);
+  LocalScene(std::shared_ptr<const FixedScenery> scenery, const StillInstances& still,
+             const LocalSceneRequest& request);
 
   bool holds_all() const { return holds_all_; }
   const Eigen::Vector2d& center_W() const { return center_W_; }
@@ -37,7 +31,11 @@ class LocalScene {
   double depth_m(const Eigen::Vector3d& point_W) const {
     return half_size_m_ - (point_W.head<2>() - center_W_).cwiseAbs().maxCoeff();
   }
-  /// Returns t where a ray from inside leaves the square; infinity if there is no other scenery.
+  bool touches(const Bounds& box_W) const;
+  bool holds(const Bounds& box_W) const;
+  /// Returns t where a ray from inside leaves the square.
+  double border_t(const Ray& ray_W) const;
+  /// Does the same; infinity if there is no other scenery.
   double exit_t(const Ray& ray_W) const;
   /// Finds all hits, each query up to its t_high (negative: not at all).
   void intersect(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
@@ -49,21 +47,8 @@ class LocalScene {
   /// Returns whether the triangle scene leaves something out; intersect_rest() finds it.
   bool has_rest() const { return rest_scene_ != nullptr; }
   void intersect_rest(RayQuery queries[kPacketRays], const double t_high[kPacketRays]) const;
-  /// Finds the models that a picture's rays must test beside the triangle scene and the rest.
-  void find_others(const MovingModels& moving);
-  const ModelList& others() const { return others_; }
-  /// Returns whether so many of these models are in the tree of models at rest that the tree is
-  /// quicker.
-  bool asks_tree() const { return asks_tree_; }
-  /// Returns whether enough of these models have come to rest to justify another local scene.
-  bool is_outdated() const { return outdated_; }
-  /// Returns whether one of these models, or one that has left its place in the triangle scene, may
-  /// stand between a place (within `about_m`) and a lamp.
-  bool may_shade(const Eigen::Vector3f& at_W, const Eigen::Vector3f& to_lamp_W,
-                 float about_m) const;
-  /// Returns t where a picture's ray from inside leaves the square; infinity if nothing lies
-  /// beyond.
-  double picture_exit_t(const Ray& ray_W) const;
+  /// Models at rest that a scene for pictures contains.
+  const std::vector<StillInstance>& still() const { return still_; }
 
   std::size_t bytes() const;
   std::size_t triangles() const { return triangles_; }
@@ -92,16 +77,13 @@ class LocalScene {
                      RaySegment passages[kPacketRays]) const;
   static void intersect_rest_entry(const RTCIntersectFunctionNArguments* args);
   static void intersect_entry(const RTCIntersectFunctionNArguments* args);
-  void choose_size(const SceneryStore& store, const StillInstances& still,
-                   const LocalSceneBudget& budget);
+  void choose_size(const StillInstances& still, const LocalSceneBudget& budget);
   void take_still(const StillInstances& still);
-  void add_triangle_scene(const EmbreeDevice& device, std::size_t budget_bytes);
+  void add_triangle_scene(std::size_t budget_bytes);
   void add(const TraceableInstance& placed, const std::uint64_t* moved_at = nullptr);
-  bool touches(const Bounds& box_W) const;
-  bool holds(const Bounds& box_W) const;
-  double border_t(const Ray& ray_W) const;
   void entry_bounds(std::size_t index, float* lower, float* upper) const;
 
+  std::shared_ptr<const FixedScenery> scenery_;  // owns the places
   Eigen::Vector2d center_W_;
   double half_size_m_;
   bool holds_all_ = false;
@@ -119,11 +101,6 @@ class LocalScene {
   Rest rest_;
   std::unique_ptr<EmbreeScene> rest_scene_;
   const std::uint64_t time_;  // when the models at rest were taken
-  ModelList others_;
-  std::vector<ShadowBall> gone_;  // places that models at rest have left
-  bool models_beyond_ = false;
-  bool asks_tree_ = false;
-  bool outdated_ = false;
 };
 
 }  // namespace ardee::raycast

@@ -32,17 +32,20 @@ double reserve_m(const LocalScene& local) {
 
 double LocalSceneCache::slack_m() const { return kSpareShare * options_.local_scene_radius_m; }
 
-std::unique_ptr<LocalScene> LocalSceneCache::make(const StillInstances& still,
-                                                  const Eigen::Vector2d& center_W) const {
-  LocalSceneBudget budget{options_.local_scene_budget_bytes / kBudgetShare};
-  double radius_m = options_.local_scene_radius_m;
+LocalSceneInUse LocalSceneCache::make(const StillInstances& still,
+                                      const Eigen::Vector2d& center_W) const {
+  LocalSceneRequest request{
+      center_W, options_.local_scene_radius_m, {options_.local_scene_budget_bytes / kBudgetShare}};
   if (for_pictures_) {
     // A picture sees farther than a scan, but the triangles take the most room.
-    radius_m = std::max(radius_m, kPictureRadius_m);
-    budget.triangle_bytes = options_.local_scene_budget_bytes / 2;
+    request.half_size_m = std::max(request.half_size_m, kPictureRadius_m);
+    request.budget.triangle_bytes = options_.local_scene_budget_bytes / 2;
   }
-  return std::make_unique<LocalScene>(device_, store_, still, center_W, radius_m + slack_m(),
-                                      budget);
+  request.half_size_m += slack_m();
+  auto scene = still.bodies.empty()
+                   ? store_.fixed()->local_scene(request)
+                   : std::make_shared<const LocalScene>(store_.fixed(), still, request);
+  return {std::move(scene), ModelsBeside(still.time)};
 }
 
 /// Returns the models at rest, which only pictures treat as scenery.
@@ -50,9 +53,10 @@ StillInstances LocalSceneCache::still_instances() const {
   return for_pictures_ ? moving_.still_instances() : StillInstances{};
 }
 
-bool LocalSceneCache::serves(const LocalScene& local, const Eigen::Vector3d& eye_W) const {
-  if (for_pictures_ && (!local.is_for_pictures() || local.is_outdated())) return false;
-  return local.holds_all() || way_from(local, eye_W).norm() <= reserve_m(local);
+bool LocalSceneCache::serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W) const {
+  const LocalScene& scene = *local.scene;
+  if (for_pictures_ && (!scene.is_for_pictures() || local.beside.outdate())) return false;
+  return scene.holds_all() || way_from(scene, eye_W).norm() <= reserve_m(scene);
 }
 
 void LocalSceneCache::clear() {
@@ -61,36 +65,38 @@ void LocalSceneCache::clear() {
   kept_.clear();
 }
 
-const LocalScene* LocalSceneCache::find(const Eigen::Vector3d& eye_W) const {
-  const LocalScene* best = nullptr;
+const LocalSceneInUse* LocalSceneCache::find(const Eigen::Vector3d& eye_W) const {
+  const LocalSceneInUse* best = nullptr;
   double depth_m = 0.0;
-  for (const Kept& kept : kept_) {
-    if (kept.local->depth_m(eye_W) > depth_m) {
-      depth_m = kept.local->depth_m(eye_W);
-      best = kept.local.get();
+  for (const LocalSceneInUse& kept : kept_) {
+    if (kept.scene->depth_m(eye_W) > depth_m) {
+      depth_m = kept.scene->depth_m(eye_W);
+      best = &kept;
     }
   }
   return best;
 }
 
-void LocalSceneCache::keep(std::unique_ptr<LocalScene> local) {
+void LocalSceneCache::keep(LocalSceneInUse local) {
   // A new local scene makes others superfluous: those about it, idle ones, then those that are
   // unused longest.
   const double close_m = 2.0 * slack_m() + 1e-6;
-  std::size_t total = local->bytes();
+  std::size_t total = local.scene->bytes();
   std::sort(kept_.begin(), kept_.end(),
-            [](const Kept& a, const Kept& b) { return a.last_used > b.last_used; });
-  std::vector<Kept> still;
-  for (Kept& kept : kept_) {
-    const bool near = (kept.local->center_W() - local->center_W()).cwiseAbs().maxCoeff() <= close_m;
+            [](const auto& a, const auto& b) { return a.last_used > b.last_used; });
+  std::vector<LocalSceneInUse> others;
+  for (LocalSceneInUse& kept : kept_) {
+    const Eigen::Vector2d way = kept.scene->center_W() - local.scene->center_W();
+    const bool near = way.cwiseAbs().maxCoeff() <= close_m;
     const bool idle = kept.last_used + kIdleCalls < tick_;
-    total += kept.local->bytes();
+    total += kept.scene->bytes();
     if (!near && !idle && total <= options_.local_scene_budget_bytes)
-      still.push_back(std::move(kept));
+      others.push_back(std::move(kept));
   }
-  kept_ = std::move(still);
-  kept_.push_back({std::move(local), tick_});
-  ++made_;
+  kept_ = std::move(others);
+  local.last_used = tick_;
+  kept_.push_back(std::move(local));
+  ++taken_;
 }
 
 void LocalSceneCache::collect() {
@@ -103,20 +109,21 @@ void LocalSceneCache::collect() {
 }
 
 void LocalSceneCache::prepare(const Eigen::Vector3d& eye_W) {
-  const LocalScene* local = find(eye_W);
-  if (local == nullptr || (for_pictures_ && !local->is_for_pictures())) {
+  const LocalSceneInUse* local = find(eye_W);
+  if (local == nullptr || (for_pictures_ && !local->scene->is_for_pictures())) {
     keep(make(still_instances(), eye_W.head<2>()));
     return;
   }
-  for (Kept& kept : kept_) {
-    if (kept.local.get() == local) kept.last_used = tick_;
+  const LocalScene& scene = *local->scene;
+  for (LocalSceneInUse& kept : kept_) {
+    if (&kept == local) kept.last_used = tick_;
   }
   if (next_.valid() || std::any_of(kept_.begin(), kept_.end(),
-                                   [&](const Kept& kept) { return serves(*kept.local, eye_W); })) {
+                                   [&](const auto& kept) { return serves(kept, eye_W); })) {
     return;
   }
-  const Eigen::Vector2d way = way_from(*local, eye_W);
-  const Eigen::Vector2d center = eye_W.head<2>() + kAhead * reserve_m(*local) * way.normalized();
+  const Eigen::Vector2d way = way_from(scene, eye_W);
+  const Eigen::Vector2d center = eye_W.head<2>() + kAhead * reserve_m(scene) * way.normalized();
   next_ = std::async(std::launch::async,
                      [this, still = still_instances(), center] { return make(still, center); });
 }
@@ -128,24 +135,24 @@ void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool p
     if (next_.valid()) keep(next_.get());  // it was started before the change
     for_pictures_ = true;
   }
-  const bool any = !store_.places().empty() || (for_pictures_ && !moving_.tree().empty());
+  const bool any = !store_.fixed()->places().empty() || (for_pictures_ && !moving_.tree().empty());
   if (options_.local_scenes && any) {
     for (const Eigen::Vector3d& eye : eyes_W) prepare(eye);
   }
-  for (const Kept& kept : kept_) {
-    if (kept.local->triangle_scene() != nullptr) kept.local->find_others(moving_);
+  for (LocalSceneInUse& kept : kept_) {
+    if (kept.scene->triangle_scene() != nullptr) kept.beside.find(*kept.scene, moving_);
   }
 }
 
 std::size_t LocalSceneCache::bytes() const {
   std::size_t sum = 0;
-  for (const Kept& kept : kept_) sum += kept.local->bytes();
+  for (const LocalSceneInUse& kept : kept_) sum += kept.scene->bytes();
   return sum;
 }
 
 std::size_t LocalSceneCache::triangles() const {
   std::size_t sum = 0;
-  for (const Kept& kept : kept_) sum += kept.local->triangles();
+  for (const LocalSceneInUse& kept : kept_) sum += kept.scene->triangles();
   return sum;
 }
 

@@ -6,18 +6,26 @@
 #include <vector>
 
 #include "ardee_sim/raycast/local_scene.h"
+#include "ardee_sim/raycast/models_beside.h"
 #include "ardee_sim/raycast/ray_options.h"
+#include "ardee_sim/raycast/scenery_store.h"
 
 namespace ardee::raycast {
+
+/// Local scene in use, with the models beside it.
+struct LocalSceneInUse {
+  std::shared_ptr<const LocalScene> scene;
+  ModelsBeside beside;
+  std::uint64_t last_used = 0;
+};
 
 /// Keeps a local scene about each place with sensors. A sensor's first local scene is made at once;
 /// while it drives, a background thread makes the next one, which replaces the first once it is
 /// ready. Rays return the same with either, or none.
 class LocalSceneCache {
  public:
-  LocalSceneCache(const EmbreeDevice& device, const SceneryStore& store, const MovingModels& moving,
-                  const RayOptions& options)
-      : device_(device), store_(store), moving_(moving), options_(options) {}
+  LocalSceneCache(const SceneryStore& store, const MovingModels& moving, const RayOptions& options)
+      : store_(store), moving_(moving), options_(options) {}
   ~LocalSceneCache() { clear(); }
 
   /// Waits for the background thread and drops all local scenes: the scenery is about to change.
@@ -25,35 +33,29 @@ class LocalSceneCache {
   /// Makes local scenes about these points; with `pictures`, also triangle scenes.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures);
   /// Returns the local scene in which the point lies deepest, or nullptr.
-  const LocalScene* find(const Eigen::Vector3d& eye_W) const;
+  const LocalSceneInUse* find(const Eigen::Vector3d& eye_W) const;
 
   std::size_t bytes() const;
   std::size_t triangles() const;
-  std::size_t made() const { return made_; }
+  /// Number of local scenes that were taken into use so far.
+  std::size_t taken() const { return taken_; }
 
  private:
-  struct Kept {
-    std::unique_ptr<LocalScene> local;
-    std::uint64_t last_used = 0;
-  };
-
   double slack_m() const;
-  std::unique_ptr<LocalScene> make(const StillInstances& still,
-                                   const Eigen::Vector2d& center_W) const;
+  LocalSceneInUse make(const StillInstances& still, const Eigen::Vector2d& center_W) const;
   StillInstances still_instances() const;
-  bool serves(const LocalScene& local, const Eigen::Vector3d& eye_W) const;
+  bool serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W) const;
   void collect();
   void prepare(const Eigen::Vector3d& eye_W);
-  void keep(std::unique_ptr<LocalScene> local);
+  void keep(LocalSceneInUse local);
 
-  const EmbreeDevice& device_;
   const SceneryStore& store_;
   const MovingModels& moving_;
   const RayOptions options_;
-  std::vector<Kept> kept_;
-  std::future<std::unique_ptr<LocalScene>> next_;
+  std::vector<LocalSceneInUse> kept_;
+  std::future<LocalSceneInUse> next_;
   std::uint64_t tick_ = 0;
-  std::size_t made_ = 0;
+  std::size_t taken_ = 0;
   bool for_pictures_ = false;
 };
 

@@ -23,16 +23,15 @@ struct ShadowBall {
 
 /// Model whose links can move.
 struct MovingModel {
-  using Bodies = std::vector<std::unique_ptr<Traceable>>;  // one list a link
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
   std::uint32_t entity = 0;
   std::shared_ptr<const Model> model;
-  std::shared_ptr<const Bodies> bodies;
-  std::vector<TraceableInstance> placed;  // links that have shapes
-  std::vector<std::uint32_t> links;       // their indices
-  std::vector<Bounds> boxes_W;            // empty until the first poses
-  BoxTable box_table_W;                   // the same boxes
+  std::shared_ptr<const TraceableBodies> bodies;  // one a link
+  std::vector<TraceableInstance> placed;          // links that have shapes
+  std::vector<std::uint32_t> links;               // their indices
+  std::vector<Bounds> boxes_W;                    // empty until the first poses
+  BoxTable box_table_W;                           // the same boxes
   Bounds box_W;
   ShadowBall ball;
 

@@ -33,19 +33,6 @@ void make_room(MovingModel& model) {
 
 }  // namespace
 
-/// Returns the bodies of a model; models of one description share them.
-std::shared_ptr<const MovingModel::Bodies> MovingModels::bodies_of(
-    const std::shared_ptr<const Model>& model) {
-  std::weak_ptr<const MovingModel::Bodies>& known = compiled_[model.get()];
-  if (auto bodies = known.lock()) return bodies;
-  auto made = std::make_shared<MovingModel::Bodies>();
-  for (std::uint32_t link = 0; link < model->links.size(); ++link) {
-    made->push_back(compile_link(device_, masks_, *model, link, kind_));
-  }
-  known = made;
-  return made;
-}
-
 void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model) {
   if (model == nullptr) throw Error("a moving model needs a description");
   if (models_.count(entity) != 0) {
@@ -53,7 +40,7 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
   }
   MovingModel made;
   made.entity = entity;
-  made.bodies = bodies_of(model);
+  made.bodies = compile_links(model, kind_, log_);
   for (std::uint32_t link = 0; link < model->links.size(); ++link) {
     const Traceable& body = *(*made.bodies)[link];
     if (body.primitives.empty() && body.grounds.empty()) continue;
@@ -81,9 +68,6 @@ void MovingModels::remove(std::uint32_t entity) {
   *found->second.moved_at = MovingModel::kNever;
   loose_.remove(found->second);
   models_.erase(found);
-  for (auto known = compiled_.begin(); known != compiled_.end();) {
-    known = known->second.expired() ? compiled_.erase(known) : std::next(known);
-  }
 }
 
 void MovingModels::loosen(MovingModel& model) {
@@ -116,7 +100,7 @@ void MovingModels::prepare() {
       if (!placed.body->primitives.empty()) places.push_back(&placed);
     }
   }
-  tree_.build(device_, std::move(places), BuildQuality::kLow, kRoom_m);
+  tree_.build(std::move(places), BuildQuality::kLow, kRoom_m);
 }
 
 void MovingModels::set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL) {

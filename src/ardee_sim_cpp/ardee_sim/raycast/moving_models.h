@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "ardee_sim/core/log.h"
 #include "ardee_sim/raycast/moving_model.h"
 #include "ardee_sim/raycast/place_tree.h"
 #include "ardee_sim/raycast/scene_kind.h"
@@ -16,8 +17,7 @@ namespace ardee::raycast {
 /// rebuilt with each motion. Models at rest, which may be hundreds of plants, are in a tree.
 class MovingModels {
  public:
-  MovingModels(const EmbreeDevice& device, AlphaMasks& masks, SceneKind kind)
-      : device_(device), masks_(masks), kind_(kind) {}
+  MovingModels(SceneKind kind, Log& log) : kind_(kind), log_(log) {}
 
   void add(std::uint32_t entity, std::shared_ptr<const Model> model);
   void remove(std::uint32_t entity);
@@ -48,13 +48,10 @@ class MovingModels {
   const std::map<std::uint32_t, MovingModel>& models() const { return models_; }
 
  private:
-  std::shared_ptr<const MovingModel::Bodies> bodies_of(const std::shared_ptr<const Model>& model);
   void loosen(MovingModel& model);
 
-  const EmbreeDevice& device_;
-  AlphaMasks& masks_;
   SceneKind kind_;
-  std::map<const Model*, std::weak_ptr<const MovingModel::Bodies>> compiled_;
+  Log& log_;
   std::map<std::uint32_t, MovingModel> models_;
   ModelList loose_;  // models with shapes that are not in the tree
   PlaceTree tree_;   // links of the others; one that has left its room is skipped

@@ -10,7 +10,7 @@ namespace ardee::raycast {
 namespace {
 
 ApproximateTracer tracer_at(const TracedScene& scene, const Eigen::Vector3d& eye_W) {
-  return {scene.local_scenes.find(eye_W), scene.scenery, scene.moving};
+  return {scene.local_scenes.find(eye_W), *scene.scenery.fixed(), scene.moving};
 }
 
 /// Traces packets of rays by `approximate(first, count)` if it returns true, else exactly, with
@@ -135,8 +135,8 @@ bool PictureTracer::has_models() const { return !scene_.moving.empty(); }
 
 bool PictureTracer::may_be_shaded(const Eigen::Vector3d& eye_W, const Eigen::Vector3f& at_W,
                                   const Eigen::Vector3f& to_lamp_W, float about_m) const {
-  const LocalScene* local = scene_.local_scenes.find(eye_W);
-  if (local != nullptr) return local->may_shade(at_W, to_lamp_W, about_m);
+  const LocalSceneInUse* local = scene_.local_scenes.find(eye_W);
+  if (local != nullptr) return local->beside.may_shade(at_W, to_lamp_W, about_m);
   return scene_.moving.loose().may_shade(at_W, to_lamp_W, about_m);
 }
 

@@ -18,8 +18,8 @@ void PlaceTree::clear() {
   bounds_W_ = Bounds{};
 }
 
-void PlaceTree::build(const EmbreeDevice& device, std::vector<const TraceableInstance*> places,
-                      BuildQuality quality, double room_m) {
+void PlaceTree::build(std::vector<const TraceableInstance*> places, BuildQuality quality,
+                      double room_m) {
   clear();
   if (places.empty()) return;
   places_ = std::move(places);
@@ -34,7 +34,7 @@ void PlaceTree::build(const EmbreeDevice& device, std::vector<const TraceableIns
     round_outwards(box, extent, boxes_[i].lower, boxes_[i].upper);
   }
   scene_ = std::make_unique<EmbreeScene>(
-      device, boxes_.size(),
+      boxes_.size(),
       [this](std::size_t place, float* lower, float* upper) {
         std::copy_n(boxes_[place].lower, 3, lower);
         std::copy_n(boxes_[place].upper, 3, upper);

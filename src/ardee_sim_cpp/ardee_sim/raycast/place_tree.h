@@ -14,8 +14,8 @@ class PlaceTree {
   /// Builds the tree. The bodies must stay where they are in memory until the next build. In the
   /// world they may move as long as they stay in their boxes, which are `room_m` larger than at the
   /// build.
-  void build(const EmbreeDevice& device, std::vector<const TraceableInstance*> places,
-             BuildQuality quality, double room_m = 0.0);
+  void build(std::vector<const TraceableInstance*> places, BuildQuality quality,
+             double room_m = 0.0);
   void clear();
 
   bool empty() const { return places_.empty(); }

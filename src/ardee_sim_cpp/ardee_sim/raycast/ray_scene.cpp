@@ -122,7 +122,8 @@ void RayScene::cast(const Pose& X_WS, const RayPattern& pattern, float max_range
                     std::uint32_t own_entity, std::uint32_t own_link,
                     std::vector<RayHit>& hits) const {
   require_sane(X_WS, pattern, max_range_m);
-  const LocalScene* local = impl_->scene.local_scenes.find(X_WS.p);
+  const LocalSceneInUse* found = impl_->scene.local_scenes.find(X_WS.p);
+  const LocalScene* local = found != nullptr ? found->scene.get() : nullptr;
   const Eigen::Matrix3d R_WS = X_WS.q.normalized().toRotationMatrix();
   const auto trace_some = [&](std::size_t first, int count, RayQuery* queries) {
     for (int k = 0; k < count; ++k) {
@@ -161,19 +162,19 @@ const PictureTracer& RayScene::pictures() const { return impl_->pictures; }
 
 std::vector<Bounds> RayScene::scenery_boxes() const {
   std::vector<Bounds> boxes;
-  for (const TraceableInstance* placed : impl_->scene.scenery.places().places())
+  for (const TraceableInstance* placed : impl_->scene.scenery.fixed()->places().places())
     boxes.push_back(placed->bounds_W());
   return boxes;
 }
 
 std::size_t RayScene::memory_bytes() const {
-  return impl_->scene.device.bytes() + impl_->scene.local_scenes.bytes();
+  return embree_bytes() + impl_->scene.local_scenes.bytes();
 }
 
 std::size_t RayScene::local_scene_triangles() const {
   return impl_->scene.local_scenes.triangles();
 }
 
-std::size_t RayScene::local_scenes_made() const { return impl_->scene.local_scenes.made(); }
+std::size_t RayScene::local_scenes_taken() const { return impl_->scene.local_scenes.taken(); }
 
 }  // namespace ardee::raycast

@@ -57,11 +57,11 @@ class RayScene {
   /// Boxes about each place of the scenery, without infinite planes; valid after prepare().
   std::vector<Bounds> scenery_boxes() const;
 
-  /// Numbers for benchmarks: bytes of Embree and local scenes, triangles of local scenes, and how
-  /// many of them were made so far.
+  /// Numbers for benchmarks: bytes of Embree (for all scenes of this process) and of local scenes,
+  /// triangles of local scenes, and how many of them were taken into use so far.
   std::size_t memory_bytes() const;
   std::size_t local_scene_triangles() const;
-  std::size_t local_scenes_made() const;
+  std::size_t local_scenes_taken() const;
 
  private:
   struct Impl;

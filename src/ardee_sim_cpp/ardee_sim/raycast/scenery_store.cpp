@@ -9,9 +9,6 @@
 namespace ardee::raycast {
 namespace {
 
-/// Radius above which a body is tested for each ray: in the tree it would coarsen the floats of all
-/// others.
-constexpr double kHugeRadius_m = 2000.0;
 /// Greatest coordinate: farther away, Embree's floats would be whole metres.
 constexpr double kFarthest_m = 1e7;
 
@@ -21,7 +18,7 @@ void SceneryStore::check(std::uint32_t first_entity,
                          const std::vector<Placement>& placements) const {
   const std::uint64_t end = static_cast<std::uint64_t>(first_entity) + placements.size();
   for (const auto& [first, group] : groups_) {
-    if (first < end && first_entity < static_cast<std::uint64_t>(first) + group.count) {
+    if (first < end && first_entity < static_cast<std::uint64_t>(first) + group->count) {
       throw Error("scenery " + std::to_string(first_entity) +
                   ": its entities are in use by scenery " + std::to_string(first));
     }
@@ -42,88 +39,39 @@ void SceneryStore::check(std::uint32_t first_entity,
   }
 }
 
-const Traceable* SceneryStore::use_body(const std::shared_ptr<const Model>& model, Group& group) {
-  Compiled& compiled = bodies_[model.get()];
-  if (compiled.body == nullptr) {
-    try {
-      compiled.body = compile_model(device_, masks_, *model, kind_);
-    } catch (...) {
-      bodies_.erase(model.get());
-      throw;
-    }
-    compiled.model = model;
-  }
-  group.models.push_back(model.get());
-  ++compiled.uses;
-  return compiled.body.get();
-}
-
 void SceneryStore::add(std::uint32_t first_entity, const std::vector<Placement>& placements) {
   check(first_entity, placements);
-  Group group;
-  group.count = placements.size();
-  group.placed.reserve(placements.size());
+  auto group = std::make_shared<SceneryGroup>();
+  group->first_entity = first_entity;
+  group->count = placements.size();
+  group->placed.reserve(placements.size());
   std::map<const Model*, const Traceable*> known;
-  try {
-    std::uint32_t entity = first_entity;
-    for (const Placement& placement : placements) {
-      const auto [entry, is_new] = known.try_emplace(placement.model.get(), nullptr);
-      if (is_new) entry->second = use_body(placement.model, group);
-      group.placed.push_back({entry->second, placement.X_WM.p, placement.X_WM.q, placement.scale,
-                              entity++, placement.label});
+  std::uint32_t entity = first_entity;
+  for (const Placement& placement : placements) {
+    const auto [entry, is_new] = known.try_emplace(placement.model.get(), nullptr);
+    if (is_new) {
+      group->bodies.push_back(compile_model(placement.model, kind_, log_));
+      entry->second = group->bodies.back().get();
     }
-  } catch (...) {
-    release(group);
-    throw;
+    group->placed.push_back({entry->second, placement.X_WM.p, placement.X_WM.q, placement.scale,
+                             entity++, placement.label});
   }
   groups_.emplace(first_entity, std::move(group));
-  committed_ = false;
-}
-
-void SceneryStore::release(const Group& group) {
-  for (const Model* model : group.models) {
-    const auto compiled = bodies_.find(model);
-    if (--compiled->second.uses == 0) bodies_.erase(compiled);
-  }
+  fixed_.reset();
 }
 
 void SceneryStore::remove(std::uint32_t first_entity) {
-  const auto group = groups_.find(first_entity);
-  if (group == groups_.end()) {
+  if (groups_.erase(first_entity) == 0) {
     throw Error("there is no scenery " + std::to_string(first_entity) + " to remove");
   }
-  committed_ = false;
-  places_.clear();
-  unbounded_.clear();
-  release(group->second);
-  groups_.erase(group);
+  fixed_.reset();
 }
 
 void SceneryStore::commit() {
-  unbounded_.clear();
-  std::vector<const TraceableInstance*> places;
-  for (const auto& [first, group] : groups_) {
-    for (const TraceableInstance& placed : group.placed) {
-      const Traceable& body = *placed.body;
-      const bool huge = body.bounds.radius() * placed.scale > kHugeRadius_m;
-      if (huge || !body.grounds.empty()) unbounded_.push_back(&placed);
-      if (!huge && !body.primitives.empty()) places.push_back(&placed);
-    }
-  }
-  places_.build(device_, std::move(places), BuildQuality::kMedium);
-  committed_ = true;
-}
-
-void SceneryStore::intersect_unbounded(RayQuery& query) const {
-  for (const TraceableInstance* placed : unbounded_) {
-    query.enter(*placed);
-    for (const std::uint32_t ground : placed->body->grounds) {
-      query.intersect_solid(placed->body->solids[ground]);
-    }
-    if (placed->body->bounds.radius() * placed->scale > kHugeRadius_m) {
-      query.intersect_traceable(*placed, 0.0);
-    }
-  }
+  FixedScenery::Groups groups;
+  for (const auto& [first, group] : groups_) groups.push_back(group);
+  fixed_ = FixedScenery::of(std::move(groups));
+  for (const auto& group : fixed_->groups()) groups_[group->first_entity] = group;
 }
 
 }  // namespace ardee::raycast

@@ -11,7 +11,7 @@ namespace ardee::raycast {
 /// Link of a movable model where it stood at some time.
 struct StillInstance {
   TraceableInstance placed;
-  std::shared_ptr<const std::vector<std::unique_ptr<Traceable>>> bodies;  // owns that of `placed`
+  std::shared_ptr<const TraceableBodies> bodies;  // owns that of `placed`
   std::shared_ptr<const std::uint64_t> moved_at;  // later than that time: it has left
 };
 

@@ -90,6 +90,8 @@ struct Traceable {
   std::size_t triangle_count() const { return triangles.size(); }
 };
 
+using TraceableBodies = std::vector<std::unique_ptr<const Traceable>>;
+
 /// Body at a place in the world: p_W = p + q * (scale * p_B).
 struct TraceableInstance {
   const Traceable* body = nullptr;

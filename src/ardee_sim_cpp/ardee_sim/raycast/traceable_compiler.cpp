@@ -2,6 +2,9 @@
 #include "ardee_sim/raycast/traceable_compiler.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <tuple>
 #include <variant>
 
 #include "ardee_sim/description/shape_fault.h"
@@ -25,11 +28,19 @@ float reflectivity(float laser_retro, const Material* material) {
   return diffuse.head<3>().maxCoeff();
 }
 
-/// Collects the shapes of links into a body.
+/// Bodies of a description, with what they refer to.
+struct Compiled {
+  std::shared_ptr<const Model> model;
+  std::vector<std::shared_ptr<const AlphaMask>> masks;
+  std::vector<std::string> warnings;
+  TraceableBodies bodies;
+};
+
+/// Collects the shapes of links into a body of `compiled`.
 class BodyCompiler {
  public:
-  BodyCompiler(AlphaMasks& masks, const Model& model, SceneKind kind)
-      : masks_(masks), model_(model), kind_(kind) {}
+  BodyCompiler(AlphaMasks& masks, Compiled& compiled, SceneKind kind)
+      : masks_(masks), compiled_(compiled), model_(*compiled.model), kind_(kind) {}
 
   void add_link(std::uint32_t link, const Pose& X_BL) {
     const Link& description = model_.links[link];
@@ -51,7 +62,7 @@ class BodyCompiler {
     }
   }
 
-  std::unique_ptr<Traceable> finish(const EmbreeDevice& device);
+  void finish();
 
  private:
   void add_shape(const std::string& name, std::size_t index, const Pose& X_BS, double laser_retro,
@@ -73,11 +84,19 @@ class BodyCompiler {
     return kind_ == SceneKind::kCollision || (material != nullptr && material->two_sided);
   }
 
+  /// Returns nullptr for a surface without holes.
   std::shared_ptr<const AlphaMask> holes(const Material* material, const SubMesh& part) const {
     const bool wanted = kind_ == SceneKind::kVisual && material != nullptr &&
                         material->alpha_rejection >= 0.0f && !material->texture_path.empty() &&
                         part.texcoords.size() == part.vertices.size();
-    return wanted ? masks_.get(material->texture_path, material->alpha_rejection) : nullptr;
+    if (!wanted) return nullptr;
+    try {
+      compiled_.masks.push_back(masks_.get(material->texture_path, material->alpha_rejection));
+      return compiled_.masks.back()->has_holes() ? compiled_.masks.back() : nullptr;
+    } catch (const Error& error) {
+      compiled_.warnings.push_back(std::string(error.what()) + "; rays take the texture as opaque");
+      return nullptr;
+    }
   }
 
   Error error(const std::string& what) const {
@@ -150,6 +169,7 @@ class BodyCompiler {
   void fill_block(TriangleBlock& block, const Bounds& bounds);
 
   AlphaMasks& masks_;
+  Compiled& compiled_;
   const Model& model_;
   SceneKind kind_;
   std::unique_ptr<Traceable> body_ = std::make_unique<Traceable>();
@@ -265,36 +285,74 @@ void BodyCompiler::fill_block(TriangleBlock& block, const Bounds& bounds) {
   }
 }
 
-std::unique_ptr<Traceable> BodyCompiler::finish(const EmbreeDevice& device) {
+void BodyCompiler::finish() {
   make_blocks();
   Traceable& body = *body_;
   for (const Bounds& box : body.primitive_bounds) body.bounds.add(box);
   if (body.primitives.size() >= kTreeThreshold) {
     const double extent = body.bounds.center().norm() + body.bounds.radius();
     body.scene = std::make_unique<EmbreeScene>(
-        device, body.primitives.size(),
+        body.primitives.size(),
         [&](std::size_t primitive, float* lower, float* upper) {
           round_outwards(body.primitive_bounds[primitive], extent, lower, upper);
         },
         &intersect_primitive_of, &body, BuildQuality::kMedium);
   }
-  return std::move(body_);
+  compiled_.bodies.push_back(std::move(body_));
+}
+
+enum class Unit { kModel, kLink };
+
+std::shared_ptr<const Compiled> compile(const std::shared_ptr<const Model>& model, SceneKind kind,
+                                        Unit unit) {
+  static AlphaMasks masks;
+  auto compiled = std::make_shared<Compiled>();
+  compiled->model = model;
+  const auto links = static_cast<std::uint32_t>(model->links.size());
+  if (unit == Unit::kModel) {
+    BodyCompiler compiler(masks, *compiled, kind);
+    for (std::uint32_t k = 0; k < links; ++k) compiler.add_link(k, model->links[k].X_ML);
+    compiler.finish();
+    return compiled;
+  }
+  for (std::uint32_t k = 0; k < links; ++k) {
+    BodyCompiler compiler(masks, *compiled, kind);
+    compiler.add_link(k, Pose{});
+    compiler.finish();
+  }
+  return compiled;
+}
+
+/// Returns the bodies of a description that a scene of this process has already, else compiles it.
+std::shared_ptr<const Compiled> find_or_compile(const std::shared_ptr<const Model>& model,
+                                                SceneKind kind, Unit unit, Log& log) {
+  static std::mutex mutex;
+  static std::map<std::tuple<const Model*, SceneKind, Unit>, std::weak_ptr<const Compiled>> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::weak_ptr<const Compiled>& entry = known[{model.get(), kind, unit}];
+  std::shared_ptr<const Compiled> compiled = entry.lock();
+  if (compiled == nullptr) {
+    entry = compiled = compile(model, kind, unit);
+    for (auto each = known.begin(); each != known.end();) {
+      each = each->second.expired() ? known.erase(each) : std::next(each);
+    }
+  }
+  for (const std::string& warning : compiled->warnings) log.warn_once(warning);
+  return compiled;
 }
 
 }  // namespace
 
-std::unique_ptr<Traceable> compile_model(const EmbreeDevice& device, AlphaMasks& masks,
-                                         const Model& model, SceneKind kind) {
-  BodyCompiler compiler(masks, model, kind);
-  for (std::uint32_t k = 0; k < model.links.size(); ++k) compiler.add_link(k, model.links[k].X_ML);
-  return compiler.finish(device);
+std::shared_ptr<const Traceable> compile_model(const std::shared_ptr<const Model>& model,
+                                               SceneKind kind, Log& log) {
+  const auto compiled = find_or_compile(model, kind, Unit::kModel, log);
+  return {compiled, compiled->bodies.front().get()};
 }
 
-std::unique_ptr<Traceable> compile_link(const EmbreeDevice& device, AlphaMasks& masks,
-                                        const Model& model, std::uint32_t link, SceneKind kind) {
-  BodyCompiler compiler(masks, model, kind);
-  compiler.add_link(link, Pose{});
-  return compiler.finish(device);
+std::shared_ptr<const TraceableBodies> compile_links(const std::shared_ptr<const Model>& model,
+                                                     SceneKind kind, Log& log) {
+  const auto compiled = find_or_compile(model, kind, Unit::kLink, log);
+  return {compiled, &compiled->bodies};
 }
 
 }  // namespace ardee::raycast

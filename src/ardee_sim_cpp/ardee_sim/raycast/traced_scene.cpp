@@ -6,17 +6,17 @@
 
 namespace ardee::raycast {
 
-TracedScene::TracedScene(SceneKind kind, const RayOptions& options, Log log)
-    : masks(std::move(log)),
-      scenery(device, masks, kind),
-      moving(device, masks, kind),
-      local_scenes(device, scenery, moving, options) {}
+TracedScene::TracedScene(SceneKind kind, const RayOptions& options, Log own_log)
+    : log(std::move(own_log)),
+      scenery(kind, log),
+      moving(kind, log),
+      local_scenes(scenery, moving, options) {}
 
 void TracedScene::trace(RayQuery queries[kPacketRays], int count, const LocalScene* local) const {
   double t_leave[kPacketRays];
   double t_high[kPacketRays];
   double t_low[kPacketRays];
-  for (int i = 0; i < count; ++i) scenery.intersect_unbounded(queries[i]);
+  for (int i = 0; i < count; ++i) scenery.fixed()->intersect_unbounded(queries[i]);
   moving.intersect(queries, count);
   for (int i = 0; i < kPacketRays; ++i) {
     t_low[i] = std::numeric_limits<double>::infinity();
@@ -32,13 +32,14 @@ void TracedScene::trace(RayQuery queries[kPacketRays], int count, const LocalSce
     t_low[i] = t_leave[i];
     onwards = true;
   }
-  if (onwards) scenery.places().intersect(queries, t_low);
+  if (onwards) scenery.fixed()->places().intersect(queries, t_low);
 }
 
 void TracedScene::trace(const SceneRay* rays, int count, RayQuery::Purpose purpose,
                         std::uint32_t own_entity, std::uint32_t own_link,
                         RayQuery queries[kPacketRays]) const {
-  const LocalScene* local = local_scenes.find(rays[0].origin_W);
+  const LocalSceneInUse* found = local_scenes.find(rays[0].origin_W);
+  const LocalScene* local = found != nullptr ? found->scene.get() : nullptr;
   for (int k = 0; k < count; ++k) {
     const SceneRay& ray = rays[k];
     queries[k].start({ray.origin_W, ray.direction_W}, ray.reach_m, own_entity, own_link, purpose);

@@ -23,8 +23,7 @@ struct TracedScene {
   /// Throws Error if scenery has changed since the last commit.
   void require_committed() const;
 
-  EmbreeDevice device;
-  AlphaMasks masks;
+  Log log;
   SceneryStore scenery;
   MovingModels moving;
   LocalSceneCache local_scenes;

@@ -45,21 +45,24 @@ Eigen::Vector3d normal_of(const TraceableSurface& surface, std::uint32_t vertex)
 
 }  // namespace
 
-TriangleScene::TriangleScene(const EmbreeDevice& device, const std::vector<TriangleSource>& bodies,
+TriangleScene::TriangleScene(const std::vector<TriangleSource>& bodies,
                              const Eigen::Vector3d& origin_W, std::uint64_t time)
-    : number_(next_number()), origin_W_(origin_W), time_(time), scene_(rtcNewScene(device.get())) {
+    : number_(next_number()),
+      origin_W_(origin_W),
+      time_(time),
+      scene_(rtcNewScene(embree_device())) {
   for (const TriangleSource& body : bodies) {
     add_triangles(body);
     for (const std::uint32_t patch : body.patches) {
       add_patch(*body.placed, body.placed->body->patches[patch]);
     }
   }
-  for (const bool careful : {false, true}) attach(device, parts_[careful ? 1 : 0], careful);
+  for (const bool careful : {false, true}) attach(parts_[careful ? 1 : 0], careful);
   // Without this flag, some rays at a common side of two triangles pass between them.
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
   rtcCommitScene(scene_);
   try {
-    device.check();
+    check_embree();
   } catch (...) {
     rtcReleaseScene(scene_);
     throw;
@@ -169,11 +172,11 @@ void TriangleScene::measure(Part& part, Triangle& triangle) {
   triangle.texels = TriangleTexels(base, to_top);
 }
 
-void TriangleScene::attach(const EmbreeDevice& device, Part& part, bool careful) {
+void TriangleScene::attach(Part& part, bool careful) {
   part.scene = this;
   if (part.triangles.empty()) return;
   part.places.emplace_back(0, 0, 0);  // Embree reads sixteen bytes of the last one, too
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(embree_device(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              part.places.data(), 0, sizeof(Eigen::Vector3f),
                              part.places.size() - 1);

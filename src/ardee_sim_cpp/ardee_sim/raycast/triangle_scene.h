@@ -24,8 +24,8 @@ class TriangleScene {
  public:
   /// Builds the scene. Coordinates are relative to `origin_W`. The bodies must outlive the scene.
   /// Rays ignore bodies that have moved after `time`.
-  TriangleScene(const EmbreeDevice& device, const std::vector<TriangleSource>& bodies,
-                const Eigen::Vector3d& origin_W, std::uint64_t time);
+  TriangleScene(const std::vector<TriangleSource>& bodies, const Eigen::Vector3d& origin_W,
+                std::uint64_t time);
   ~TriangleScene();
 
   /// Ray in the scene's coordinates, and the triangle that it has hit.
@@ -98,7 +98,7 @@ class TriangleScene {
   void add_triangles(const TriangleSource& triangle_scene);
   void add_patch(const TraceableInstance& placed, const TerrainPatch& patch);
   static void measure(Part& part, Triangle& triangle);
-  void attach(const EmbreeDevice& device, Part& part, bool careful);
+  void attach(Part& part, bool careful);
   std::pair<const Part&, const Triangle&> find(std::uint32_t triangle) const {
     const Part& part = parts_[triangle >> kPartBit];
     return {part, part.triangles[triangle & ((1u << kPartBit) - 1)]};

@@ -63,11 +63,9 @@ TEST_P(Alpha, TexelsBelowTheRejectionAreHoles) {
   EXPECT_TRUE(met(SceneKind::kVisual, 0.5, 0.6));
 }
 
-TEST(AlphaMasks, WithoutAHoleThereIsNoMask) {
-  AlphaMasks masks{Log()};
-  const std::string path = write_texture({255, 0, 128, 127});
-  EXPECT_NE(masks.get(path, 0.0f), nullptr);
-  EXPECT_EQ(masks.get(write_texture({255, 1, 128, 127}), 0.001f), nullptr);
+TEST(AlphaMask, TexelsNotAboveTheRejectionAreHoles) {
+  EXPECT_TRUE(AlphaMask(write_texture({255, 0, 128, 127}), 0.0f).has_holes());
+  EXPECT_FALSE(AlphaMask(write_texture({255, 1, 128, 127}), 0.001f).has_holes());
 }
 
 TEST_P(Alpha, TextureThatCannotBeReadIsOpaqueAndSaid) {
@@ -81,6 +79,11 @@ TEST_P(Alpha, TextureThatCannotBeReadIsOpaqueAndSaid) {
   scene.add_scenery(0, {placed(model), placed(model_of(textured_square(), {}, material))});
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_NE(messages[0].find("/no/such/texture.png"), std::string::npos);
+  std::vector<std::string> again;  // of a scene that shares the body
+  RayScene other(SceneKind::kVisual, {},
+                 Log([&](LogLevel, const std::string& text) { again.push_back(text); }));
+  other.add_scenery(0, {placed(model)});
+  EXPECT_EQ(again, messages);
   scene.prepare({{3, 0, 0}});
   std::vector<RayHit> hits;
   scene.cast({{3, 0.5, 0.6}, Eigen::Quaterniond::Identity()}, towards({-1, 0, 0}), 9, kNoEntity, 0,

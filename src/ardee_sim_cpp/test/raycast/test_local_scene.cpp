@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "ardee_sim/raycast/local_scene.h"
+#include "ardee_sim/raycast/scenery_store.h"
 #include "scenes.h"
 
 namespace ardee::test {
@@ -35,12 +36,11 @@ class LocalSceneTest : public testing::Test {
 
   LocalScene local(const LocalSceneBudget& budget) {
     store_.commit();
-    return LocalScene(device_, store_, {}, {0, 0}, 8.5, budget);
+    return LocalScene(store_.fixed(), {}, {{0, 0}, 8.5, budget});
   }
 
-  EmbreeDevice device_;
-  AlphaMasks masks_{Log()};
-  SceneryStore store_{device_, masks_, SceneKind::kVisual};
+  Log log_;
+  SceneryStore store_{SceneKind::kVisual, log_};
 };
 
 TEST_F(LocalSceneTest, ReachesAsFarAsAskedWhereAllFits) {

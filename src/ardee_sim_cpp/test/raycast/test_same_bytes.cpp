@@ -137,12 +137,12 @@ TEST(Regions, AreNotMadeAgainWhereOneIsNear) {
   test.scene.add_scenery(0, field(40, 0.4, {0, 0, 0}));
   constexpr bool kAtOnce = true;  // for pictures, a due local scene is waited for
   test.scene.prepare({{2.0, 8.0, 0.3}}, kAtOnce);
-  const std::size_t before = test.scene.local_scenes_made();
+  const std::size_t before = test.scene.local_scenes_taken();
   for (int k = 0; k < 200; ++k) {
     test.scene.prepare({{9.5 - 0.02 * std::abs(k % 100 - 50), 8.0, 0.3}}, kAtOnce);
   }
-  EXPECT_GT(test.scene.local_scenes_made(), before);
-  EXPECT_LE(test.scene.local_scenes_made(), before + 2);
+  EXPECT_GT(test.scene.local_scenes_taken(), before);
+  EXPECT_LE(test.scene.local_scenes_taken(), before + 2);
 }
 
 TEST(SameBytes, AgainAfterRemovalAndReturn) {
