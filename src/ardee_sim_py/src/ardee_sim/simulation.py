@@ -119,10 +119,10 @@ class Simulation:
 
     The same world, seed, models, commands and steps give the same bytes, with any number of `ray_threads`, and beside
     any number of other simulations of the world.
-    """
 
     Simulations of one World share what rays meet and does not change, as long as one of them is open: beside the first
     in the shipped corn, each further one takes a ninth of the time to the first scan, and of the memory of a picture.
+    """
 
     def __init__(self, world: World, *, seed: int = 0, ray_threads: int = 1) -> None:
         if not 0 <= seed < 2**64:
