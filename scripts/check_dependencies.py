@@ -28,6 +28,8 @@ KEYS = {
     "rospkg": "python3-rospkg",
     "scipy": "python3-scipy",
     "tqdm": "python3-tqdm",
+    "viser": "python3-viser-pip",
+    "websockets": "python3-websockets",
     "yaml": "python3-yaml",
 }
 # What no package needs: an example that imports one says how to install it.

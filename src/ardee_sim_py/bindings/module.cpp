@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ardee_sim/description/scenery.h"
+#include "descriptions.h"
 #include "simulation.h"
 
 namespace ardee::python {
@@ -134,6 +135,7 @@ void bind_state(py::class_<BoundSimulation>& bound) {
 void bind_readings(py::class_<BoundSimulation>& bound) {
   bound.def("demand", &BoundSimulation::demand)
       .def("undemand", &BoundSimulation::undemand)
+      .def("demands", &BoundSimulation::demands)
       .def("latest", &BoundSimulation::latest)
       .def("drain", &BoundSimulation::drain)
       .def("dropped", &BoundSimulation::dropped)
@@ -166,6 +168,7 @@ PYBIND11_MODULE(_core, module) {
       raise("ArdeeError", each);
     }
   });
+  bind_description(module);
   bind_world(module);
   py::class_<BoundSimulation> bound(module, "Simulation");
   bound
@@ -178,6 +181,8 @@ PYBIND11_MODULE(_core, module) {
       .def("command", &BoundSimulation::command)
       .def("call", &BoundSimulation::call)
       .def("entities", &BoundSimulation::entities)
+      .def("description", &BoundSimulation::description)
+      .def("scenery", &BoundSimulation::scenery)
       .def("topics", &BoundSimulation::topics)
       .def("take_log", [](BoundSimulation& sim) { return log_of(sim.take_log()); })
       .def("time_ns", &BoundSimulation::time_ns)

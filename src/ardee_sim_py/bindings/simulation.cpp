@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "ardee_sim/core/nearest_names.h"
 #include "arrays.h"
 #include "commands.h"
+#include "descriptions.h"
 #include "readings.h"
 
 namespace ardee::python {
@@ -203,6 +205,12 @@ void BoundSimulation::undemand(const std::string& topic) {
   apply_demands();
 }
 
+bool BoundSimulation::demands(const std::string& topic) {
+  const Use use(*this);
+  output(*use, topic);
+  return inbox_.demands(whole(topic));
+}
+
 py::object BoundSimulation::latest(const std::string& topic) {
   const Use use(*this);
   if (!inbox_.knows(whole(topic))) {
@@ -241,6 +249,39 @@ py::list BoundSimulation::take_touches() {
   py::list found;
   for (const auto& [one, other] : touches_) found.append(py::make_tuple(one, other));
   touches_.clear();
+  return found;
+}
+
+py::object BoundSimulation::description(const std::string& name) {
+  const Use use(*this);
+  const Entity* found = use->find(name);
+  if (found == nullptr) throw Error("found no model '" + name + "'");
+  return to_python(found->instance.model);
+}
+
+py::list BoundSimulation::scenery(double x_m, double y_m, double radius_m) {
+  const Use use(*this);
+  std::map<std::shared_ptr<const Model>, std::vector<double>> near;
+  std::vector<std::shared_ptr<const Model>> order;
+  for (const auto& entity : use->entities()) {
+    const bool is_field = entity->placements.size() > 1;
+    for (const Placement& each : entity->placements) {
+      const Eigen::Vector3d& p = each.X_WM.p;
+      if (is_field && std::hypot(p.x() - x_m, p.y() - y_m) > radius_m) continue;
+      const auto [rows, is_new] = near.try_emplace(each.model);
+      if (is_new) order.push_back(each.model);
+      rows->second.insert(rows->second.end(), p.data(), p.data() + 3);
+      const Eigen::Vector4d q = each.X_WM.q.coeffs();
+      rows->second.insert(rows->second.end(), q.data(), q.data() + 4);
+      rows->second.push_back(each.scale);
+    }
+  }
+  py::list found;
+  for (const auto& model : order) {
+    std::vector<double>& rows = near.at(model);
+    const auto count = static_cast<py::ssize_t>(rows.size() / 8);
+    found.append(py::make_tuple(to_python(model), hold(std::move(rows), {count, 8})));
+  }
   return found;
 }
 

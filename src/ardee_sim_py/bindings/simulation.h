@@ -76,6 +76,7 @@ class BoundSimulation {
 
   void demand(const std::string& topic, std::size_t keep);
   void undemand(const std::string& topic);
+  bool demands(const std::string& topic);
   py::object latest(const std::string& topic);
   py::list drain(const std::string& topic);
   std::size_t dropped(const std::string& topic);
@@ -86,6 +87,12 @@ class BoundSimulation {
   /// Returns a dict with the requested parts of rgb, depth_m, labels, instances.
   py::dict picture(const render::Camera& camera, const render::FrameParts& parts);
 
+  /// Returns the description of a model.
+  py::object description(const std::string& name);
+  /// Returns a tuple for each description of static scenery: the description, and its placements,
+  /// float64[n, 8] of x, y, z, qx, qy, qz, qw, scale. Those of a model that has several, such as a
+  /// field, are at most `radius_m` from a place on the ground plan.
+  py::list scenery(double x_m, double y_m, double radius_m);
   py::list entities();
   /// Returns a tuple for each port: topic or service, class name or command name, "reading",
   /// "command" or "service", rate in Hz or None, frame.

@@ -6,7 +6,8 @@ import subprocess
 import sys
 
 # pybind11 gives its classes a metaclass, and those that Python cannot make an __init__ that raises.
-ALLOWED = ("Model", "Simulation", "World", "Model.__init__", "World.__init__")
+CLASSES = ("Description", "Model", "Simulation", "World")
+ALLOWED = (*CLASSES, *(f"{name}.__init__" for name in CLASSES if name != "Simulation"))
 
 
 PACKAGES = pathlib.Path(__file__).resolve().parents[2]

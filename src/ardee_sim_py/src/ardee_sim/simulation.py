@@ -298,6 +298,10 @@ class Simulation:
         for topic in topics:
             self._core.undemand(topic)
 
+    def demands(self, topic: str) -> bool:
+        """Returns whether the topic is demanded."""
+        return self._core.demands(topic)
+
     def latest(self, topic: str) -> Any:
         """Returns the last reading of a demanded topic, of the class that topics() names; None before the first."""
         made = self._core.latest(topic)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""Shows a world and a robot in the browser, and drives it."""
+
+import argparse
+import sys
+
+import ardee_sim
+
+
+def main() -> None:
+    """Runs the command."""
+    parser = argparse.ArgumentParser(prog="python3 -m ardee_sim.view", description=__doc__)
+    parser.add_argument("world", help="SDF file, or the name of a shipped world such as corn.world")
+    parser.add_argument(
+        "--robot",
+        default="tsv1_default",
+        help="name of a shipped robot such as tsv1_default, or a file",
+    )
+    parser.add_argument("--seed", type=int, default=0, help="of all noise, default 0")
+    parser.add_argument(
+        "--host",
+        default="127.0.0.1",
+        help="address of the page, default 127.0.0.1: this computer alone; anyone who reaches it can drive",
+    )
+    parser.add_argument("--port", type=int, default=8080, help="of the page, default 8080")
+    parser.add_argument(
+        "--radius-m",
+        type=float,
+        default=12.0,
+        help="of the part of a field that is shown [m], default 12",
+    )
+    given = parser.parse_args()
+    try:
+        from ardee_sim.view import Viewer
+
+        world = ardee_sim.World.from_file(given.world)
+        with ardee_sim.Simulation(world, seed=given.seed) as sim:
+            sim.spawn("robot", ardee_sim.robot(given.robot), **world.start)
+            page = dict(host=given.host, port=given.port, radius_m=given.radius_m)
+            with Viewer(sim, robot="robot", **page) as viewer:
+                print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
+                viewer.run()
+    except (ardee_sim.ArdeeError, ImportError) as error:
+        print(f"ardee_sim.view: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()
