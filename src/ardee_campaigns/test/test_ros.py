@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, List
 
 import pytest
+import rosbag
 import small_campaign
 from small_campaign import run, write
 
@@ -50,6 +51,26 @@ def test_nodes_drive_as_the_same_controllers_without_ros(tmp_path: Path) -> None
     assert realtime.timing.wall_s > realtime.row.sim_s
     straight_m = found["straight"]["distance_m"]
     assert found["realtime"]["distance_m"] == pytest.approx(straight_m, abs=0.1)
+
+
+def test_a_run_is_replayed_to_a_bag(tmp_path: Path) -> None:
+    controllers = {"turning": small_campaign.CAMPAIGN["controllers"]["turning"]}
+    task = {"stuck_within_m": 9.0, "stuck_after_s": 1.0}  # a person steps in once
+    file = write(tmp_path, controllers=controllers, replicates=1, task=task)
+    output = tmp_path / "out"
+    run(file, "--output", output)
+    (run_id,) = tables.finished(output)
+    done = run(file, "--output", output, "--replay", run_id, "--bag")
+    assert done.stdout.splitlines()[-1] == str(output / f"{run_id}.bag")
+    samples = tables.read_run(output, run_id).samples
+    assert samples["event"].to_pylist().count("stuck") == 1
+    with rosbag.Bag(str(output / f"{run_id}.bag")) as bag:
+        found = bag.get_type_and_topic_info().topics
+        scans = {scan.header.stamp.to_nsec() for _, scan, _ in bag.read_messages("/ardee/hokuyo")}
+        turns = [command.angular.z for _, command, _ in bag.read_messages("/cmd_vel")]
+    assert {"/clock", "/odom", "/tf", "/joint_states"} <= set(found)
+    assert scans >= set(samples["time_ns"].to_pylist())
+    assert [turn for turn in turns if turn] == samples["command_turn_rad_s"].to_pylist()
 
 
 def processes_of(mark: str) -> List[str]:

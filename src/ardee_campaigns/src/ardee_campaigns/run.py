@@ -41,6 +41,14 @@ def _first_line(error: BaseException) -> str:
     return _ADDRESS.sub("0x...", text)[:_LONGEST_ERROR]
 
 
+def sow(job: Job, folder: Path) -> Trial:
+    """Returns the world of a run, with its field sown in a folder of models."""
+    factors = factors_of(job.campaign, job.cell, "field")
+    keys = job.campaign.worlds[job.cell.world]
+    seed = job.seed >> 33  # the generator takes 31 bits
+    return worlds.sow(keys, job.files, factors, seed, folder)
+
+
 class Run:
     """A run while it goes, and what it left behind even if it failed."""
 
@@ -55,11 +63,7 @@ class Run:
     def drive(self, work: Path, watch: Watch) -> None:
         """Sows the field, drives, and measures. `watch` sees each observation."""
         job, cell, campaign = self._job, self._job.cell, self._job.campaign
-        field_seed = job.seed >> 33  # the generator takes 31 bits
-        factors = factors_of(campaign, cell, "field")
-        trial = worlds.sow(
-            campaign.worlds[cell.world], job.files, factors, field_seed, work / "models"
-        )
+        trial = sow(job, work / "models")
         lane = lane_of(trial.field, trial.start)
         middle = lane.deviation(lane.centre.at(lane.centre.length_m / 2))
         with contextlib.ExitStack() as ends:
@@ -98,15 +102,13 @@ class Run:
     def _driven(self, trial: Trial, work: Path, ends: contextlib.ExitStack) -> Any:
         """Returns the robot, in a simulation that ends with `ends`."""
         job, cell = self._job, self._job.cell
-        keys, urdf = job.campaign.robots[cell.robot], job.urdf.read_text()
         if is_ros(job):
             from ardee_campaigns.ros.driven import RosDriven
 
-            simulator = (trial, job.seed, job.files.step_s(), work / "simulator.log")
-            return ends.enter_context(RosDriven(cell.robot, keys, urdf, *simulator))
+            return ends.enter_context(RosDriven(job, trial, work, is_relay=True))
         world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
         sim = ends.enter_context(ardee_sim.Simulation(world, seed=job.seed))
-        return Driven(sim, cell.robot, keys, urdf)
+        return Driven(sim, cell.robot, job.campaign.robots[cell.robot], job.urdf.read_text())
 
     def _loop(
         self,
@@ -169,15 +171,15 @@ def run_one(job: Job, watch: Optional[Watch] = None) -> tables.RunFile:
         from ardee_campaigns.ros.process import run_apart
 
         return run_apart(job, watch)
-    return run_here(job, watch or (lambda observation: None))
+    return run_here(job, watch)
 
 
-def run_here(job: Job, watch: Watch) -> tables.RunFile:
+def run_here(job: Job, watch: Optional[Watch] = None) -> tables.RunFile:
     """Returns the same of a run in this process."""
     began, run, error = time.monotonic(), Run(job), ""
     try:
         with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:
-            run.drive(Path(work), watch)
+            run.drive(Path(work), watch or (lambda observation: None))
     except Exception as raised:
         if getattr(raised, "errno", None) in FULL:
             raise FullDisk(f"{tempfile.gettempdir()}: {os.strerror(raised.errno)}") from None

@@ -59,7 +59,16 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="do this run again by itself; write its samples as RUN_ID.csv, and a lidar's scans in the lane as"
         " RUN_ID_scans.csv, which overlay reads; print where",
     )
-    return parser.parse_args(argv)
+    parser.add_argument(
+        "--bag",
+        action="store_true",
+        help="with --replay: write RUN_ID.bag, too, with all topics of the node simulator but cameras and clouds that"
+        " are not among the robot's topics; needs ROS",
+    )
+    args = parser.parse_args(argv)
+    if args.bag and not args.replay:
+        parser.error("--bag: found no --replay, expected the run that is written to a bag")
+    return args
 
 
 def _shipped() -> Dict[str, Path]:
@@ -244,7 +253,23 @@ def _write_csv(folder: Path) -> None:
         pyarrow.csv.write_csv(table, (folder / name).with_suffix(".csv"))
 
 
-def _replay(session: Session, run_id: str) -> int:
+def _write_bag(folder: Path, job: Job, done: tables.RunFile) -> None:
+    """Writes the bag of a run: of the campaign's, which need not be `done` if it was in real time."""
+    from ardee_campaigns.ros.process import apart
+
+    try:
+        from ardee_campaigns.ros.bag import write_bag
+    except ImportError as error:
+        expected = "ROS and its set-up file sourced"
+        raise GeneratorError(f"--bag: found {error}, expected {expected}") from None
+    if tables.run_path(folder, job.run_id).is_file():
+        done = tables.read_run(folder, job.run_id)
+    path = folder / f"{job.run_id}.bag"
+    apart(write_bag, job, done, path)
+    print(path)
+
+
+def _replay(session: Session, run_id: str, is_bag: bool) -> int:
     """Does one run again in this process."""
     import pyarrow.csv
 
@@ -269,6 +294,8 @@ def _replay(session: Session, run_id: str) -> int:
     if scans is not None and len(scans.time_s) > 1:
         write_scans(scans, session.folder / f"{run_id}_scans.csv")
     print(path)
+    if is_bag:
+        _write_bag(session.folder, job, done)
     return 0
 
 
@@ -279,7 +306,7 @@ def _command(args: argparse.Namespace) -> int:
     if args.list:
         _list(session)
         return 0
-    return _replay(session, args.replay) if args.replay else _work(session, args)
+    return _replay(session, args.replay, args.bag) if args.replay else _work(session, args)
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:

@@ -8,7 +8,14 @@ from ardee_campaigns.campaign_file import TaskKeys
 from ardee_world.row_truth import Deviation, Lane, Pose
 
 GIVEN_UP, OUT_OF_TIME = "given up", "out of time"
+OFF_THE_LANE = "off the lane"
 END_OF_ROW, WENT_ON, FINISHED = "end of the row", "went on after the row", "controller finished"
+
+
+def set_down(keys: TaskKeys, lane: Lane, why: str, along_m: float) -> Pose:
+    """Returns where a person who steps in sets the robot down."""
+    ahead_m = 0.0 if why == OFF_THE_LANE else keys.set_ahead_m
+    return lane.centre.at(along_m + ahead_m)
 
 
 class Judge:
@@ -34,14 +41,13 @@ class Judge:
             return "", None
         self._interventions += 1
         self._track.clear()
-        ahead_m = 0.0 if why == "off the lane" else self._keys.set_ahead_m
-        return why, self._lane.centre.at(here.along_m + ahead_m)
+        return why, set_down(self._keys, self._lane, why, here.along_m)
 
     def _why_step_in(self, here: Deviation, stands: bool, is_finished: bool) -> str:
         if here.along_m > self._lane.centre.length_m - self._keys.row_end_m:
             return ""
         if abs(here.lateral_m) > self._keys.largest_offset_m:
-            return "off the lane"
+            return OFF_THE_LANE
         if stands:
             return "stuck"
         return "stopped in the row" if is_finished else ""

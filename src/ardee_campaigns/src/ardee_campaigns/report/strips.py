@@ -13,9 +13,10 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import image  # noqa: E402
 
-from ardee_campaigns import tables, worlds  # noqa: E402
-from ardee_campaigns.plan import Job, factors_of  # noqa: E402
+from ardee_campaigns import tables  # noqa: E402
+from ardee_campaigns.plan import Job  # noqa: E402
 from ardee_campaigns.robot import Driven  # noqa: E402
+from ardee_campaigns.run import sow  # noqa: E402
 from ardee_world.row_truth import Pose  # noqa: E402
 from ardee_world.trial import Trial  # noqa: E402
 
@@ -54,11 +55,8 @@ def moments(run: tables.RunFile) -> List[Moment]:
 
 def draw(path: Path, job: Job, run: tables.RunFile, chosen: List[Moment]) -> None:
     """Writes the pictures of these moments side by side."""
-    campaign, cell = job.campaign, job.cell
     with tempfile.TemporaryDirectory(prefix="ardee_strip_") as work:
-        models, factors = Path(work) / "models", factors_of(campaign, cell, "field")
-        keys = campaign.worlds[cell.world]
-        trial = worlds.sow(keys, job.files, factors, job.seed >> 33, models)
+        trial = sow(job, Path(work) / "models")
         world = ardee_sim.World.from_file(trial.world, model_paths=trial.models)
         pictures = [_picture(world, trial, job, _pose(run, moment.number)) for moment in chosen]
     gap = np.full((_SIZE_PX[1], _GAP_PX, 3), 255, np.uint8)

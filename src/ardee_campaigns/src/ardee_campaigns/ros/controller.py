@@ -7,7 +7,7 @@ import tempfile
 import time
 import xmlrpc.client
 from pathlib import Path
-from typing import Any, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Optional, Sequence, Set, Tuple
 
 import rosgraph
 import rospy
@@ -22,6 +22,14 @@ START_WITHIN_S = 30.0  # from the start of the node to its first command
 ANSWER_WITHIN_S = 2.0  # then it is taken for silent, and not waited for until it commands again
 SIMULATOR = "/gazebo"  # name of the node simulator
 _POLL_S = 0.1
+
+
+def connections(publisher: str) -> Set[Tuple[str, str]]:
+    """Returns topic and subscriber of each connection that a node has made for its messages."""
+    master = rosgraph.Master(rospy.get_name())
+    node = xmlrpc.client.ServerProxy(master.lookupNode(publisher))
+    _, _, found = node.getBusInfo(rospy.get_name())
+    return {(topic, other) for _, other, direction, _, topic, *_ in found if direction == "o"}
 
 
 class RosController:
@@ -112,23 +120,17 @@ class RosController:
 
     def _wait_until_connected(self) -> None:
         end_s = time.monotonic() + START_WITHIN_S
-        while not (self._subscriber.get_num_connections() and self._gets_readings()):
+        ours = self._pace, rospy.get_name()
+        while not (
+            self._subscriber.get_num_connections()
+            and any(found[0] == self._pace and found != ours for found in connections(SIMULATOR))
+        ):
             self._check_alive()
             if time.monotonic() > end_s:
                 what = f"did not publish {self._topic} and subscribe to {self._pace}"
                 hint = "realtime: true starts the clock before that"
                 raise self._error(f"{what}, the robot's pace, in {START_WITHIN_S:.0f} s; {hint}")
             time.sleep(0.02)
-
-    def _gets_readings(self) -> bool:
-        """Returns whether the simulator has a connection for the pace's readings to another node than this one."""
-        name = rospy.get_name()
-        simulator = xmlrpc.client.ServerProxy(rosgraph.Master(name).lookupNode(SIMULATOR))
-        _, _, connections = simulator.getBusInfo(name)
-        return any(
-            direction == "o" and topic == self._pace and node != name
-            for _, node, direction, _, topic, *_ in connections
-        )
 
     def _check_alive(self) -> None:
         is_gone = self._has_commanded and not self._subscriber.get_num_connections()

@@ -15,7 +15,7 @@ import rostopic
 from ardee_sim import BatteryStateReading, LidarReading
 from sensor_msgs.msg import BatteryState, LaserScan
 
-from ardee_campaigns.campaign_file import RobotKeys
+from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import SETTLE_S, Observation, Robot, describe, height_m
 from ardee_navigation.evaluation.ros_simulation import RosSimulation
 from ardee_world.row_truth import Pose
@@ -53,26 +53,28 @@ def _battery(state: BatteryState) -> BatteryStateReading:
 
 
 class RosDriven:
-    """A robot in a simulator node of its own, which starts and ends with this context manager."""
+    """A robot in a simulator node of its own, which starts and ends with this context manager.
 
-    def __init__(
-        self,
-        name: str,
-        keys: RobotKeys,
-        urdf: str,
-        trial: Trial,
-        seed: int,
-        step_s: float,
-        log: Path,
-    ) -> None:
-        self._keys, self._urdf = keys, urdf
-        self._robot = describe(name, keys, urdf)
+    topics : use to topic, with a leading slash
+    pace : topic of the pace's sensor, empty without one
+    """
+
+    def __init__(self, job: Job, trial: Trial, work: Path, *, is_relay: bool) -> None:
+        name = job.cell.robot
+        self._keys, self._urdf = job.campaign.robots[name], job.urdf.read_text()
+        self._robot = describe(name, self._keys, self._urdf)
+        step_s = job.files.step_s()
         self._steps = round(self._robot.period_s / step_s)
         self._settle_steps = math.ceil(SETTLE_S / step_s - 1e-6)
-        self._topics = {use: f"/{topic.lstrip('/')}" for use, topic in self._robot.topics.items()}
-        self._commands = f"/campaign{self._topics['command']}"
-        remap = f"{self._topics['command']}:={self._commands}"
-        self._simulator = RosSimulation(trial.world, seed, trial.models, log, words=[remap])
+        self.topics = {use: f"/{topic.lstrip('/')}" for use, topic in self._robot.topics.items()}
+        self.pace = self.topics[self._keys.pace] if self._keys.period_s is None else ""
+        usual = self._commands = self.topics["command"]
+        remap = []
+        if is_relay:  # of the commands of an evaluated node
+            self._commands = f"/campaign{usual}"
+            remap = [f"{usual}:={self._commands}"]
+        log = work / "simulator.log"
+        self._simulator = RosSimulation(trial.world, job.seed, trial.models, log, words=remap)
         self._reading: Any = None
         self._charge: Optional[BatteryState] = None
         self._last_charge: Optional[BatteryState] = None
@@ -88,12 +90,12 @@ class RosDriven:
         """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
         self._simulator.place(self._urdf, pose, height_m(self._keys, pose, trial))
         pace = None
-        if self._keys.period_s is None:
-            topic = self._topics[self._keys.pace]
-            pace = topic, roslib.message.get_message_class(rostopic.get_topic_type(topic)[0])
+        if self.pace:
+            kind = rostopic.get_topic_type(self.pace)[0]
+            pace = self.pace, roslib.message.get_message_class(kind)
         self._simulator.connect(pace, self._commands)
-        if "battery" in self._topics:
-            rospy.Subscriber(self._topics["battery"], BatteryState, self._on_battery)
+        if "battery" in self.topics:
+            rospy.Subscriber(self.topics["battery"], BatteryState, self._on_battery)
         self.settle()
         return self._robot
 
@@ -109,7 +111,7 @@ class RosDriven:
         """Takes physics steps, and the last reading of the pace's sensor in them; returns the time [s]."""
         self._last_charge = self._charge  # whether one of these steps comes in time is chance
         end_s = self._simulator.step(steps)
-        while self._keys.period_s is None:
+        while self.pace:
             self._reading = self._simulator.message()
             if self._reading.header.stamp.to_sec() > end_s - self._robot.period_s + 1e-6:
                 break

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Does a run in a process of its own that has a ROS graph of its own: rospy can be started once in each process."""
+"""Calls a function in a process of its own with a ROS graph of its own: rospy can be started once in each process."""
 import os
 import pickle
 import signal
@@ -8,45 +8,55 @@ import sys
 import tempfile
 from functools import partial
 from pathlib import Path
-from typing import Any, Optional
+from typing import Any, Callable, Optional, Tuple
 
 from ardee_campaigns import tables
 from ardee_campaigns.plan import Job
 from ardee_campaigns.program import end_with_parent
-from ardee_campaigns.run import FullDisk, Watch, failed, run_here
+from ardee_campaigns.run import Watch, failed, run_here
 from ardee_common.process import end_by_signals, ignore_end_signals, start_child, stop_child
 from ardee_common.ros_graph import RosGraph
 
+_SEEN, _DONE, _RAISED = "seen", "done", "raised"
+
+
+class Lost(Exception):
+    """Error of a process that ended without a result."""
+
 
 def run_apart(job: Job, watch: Optional[Watch]) -> tables.RunFile:
-    """Returns what a run leaves behind. The process ends its nodes itself if this one is lost."""
+    """Returns what a run leaves behind."""
+    try:
+        return apart(run_here, job, watch=watch)
+    except Lost as error:
+        return failed(job, str(error))
+
+
+def apart(function: Callable[..., Any], *arguments: Any, watch: Optional[Watch] = None) -> Any:
+    """Returns the function's result, or raises its error. The process ends its nodes itself if this one is lost."""
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     end = partial(end_with_parent, signal.SIGTERM)
     child = start_child([sys.executable, "-m", __name__], preexec_fn=end, **pipes)
     try:
         with child.stdin as asked, child.stdout as told:
-            pickle.dump((job, watch is not None), asked)
+            pickle.dump((function, arguments, watch is not None), asked)
             asked.flush()
-            return _answer(told, watch)
+            while True:
+                what, value = pickle.load(told)
+                if what == _SEEN and watch is not None:
+                    watch(value)
+                elif what == _DONE:
+                    return value
+                elif what == _RAISED:
+                    raise value
     except (EOFError, BrokenPipeError):
-        return failed(job, f"its process ended with exit code {child.wait()}")
+        raise Lost(f"its process ended with exit code {child.wait()}") from None
     finally:
         stop_child(child)
 
 
-def _answer(told: Any, watch: Optional[Watch]) -> tables.RunFile:
-    while True:
-        value = pickle.load(told)
-        if isinstance(value, tables.RunFile):
-            return value
-        if isinstance(value, FullDisk):
-            raise value
-        assert watch is not None
-        watch(value)
-
-
-def _run(job: Job, watch: Watch, folder: Path) -> Any:
-    """Does the run in a new graph, of which nothing is left afterwards; returns it or its FullDisk."""
+def _call(folder: Path, function: Callable[..., Any], *arguments: Any) -> Tuple[str, Any]:
+    """Calls the function in a new graph, of which nothing is left afterwards."""
     graph = RosGraph(folder)
     os.environ.clear()
     os.environ.update(graph.env)
@@ -54,9 +64,9 @@ def _run(job: Job, watch: Watch, folder: Path) -> Any:
 
     try:
         rospy.init_node("campaign", disable_signals=True)
-        return run_here(job, watch)
-    except FullDisk as error:
-        return error
+        return _DONE, function(*arguments)
+    except Exception as error:
+        return _RAISED, error
     finally:
         ignore_end_signals()
         rospy.signal_shutdown("the run has ended")
@@ -64,19 +74,20 @@ def _run(job: Job, watch: Watch, folder: Path) -> Any:
 
 
 def main() -> None:
-    """Reads a job, writes observations if they are wanted, and at last what the run leaves behind."""
+    """Reads a function and its arguments, writes observations if they are wanted, and at last the result."""
     told = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # of what a library prints
     end_by_signals()
-    job, is_watched = pickle.load(sys.stdin.buffer)
+    function, arguments, is_watched = pickle.load(sys.stdin.buffer)
 
-    def tell(value: Any) -> None:
-        pickle.dump(value, told)
+    def tell(what: str, value: Any) -> None:
+        pickle.dump((what, value), told)
         told.flush()
 
+    watch = (partial(tell, _SEEN),) if is_watched else ()
     with tempfile.TemporaryDirectory(prefix="ardee_ros_") as folder:
-        done = _run(job, tell if is_watched else lambda observation: None, Path(folder))
-    tell(done)
+        done = _call(Path(folder), function, *arguments, *watch)
+    tell(*done)
 
 
 if __name__ == "__main__":
