@@ -17,6 +17,7 @@ from ardee_models.plant.organ_params import (
     Panicle,
     Tassel,
     Tillers,
+    Wear,
 )
 from ardee_models.plant.stages import Stage, resolve_stage
 
@@ -103,6 +104,7 @@ class Architecture:
     flowers: Optional[Flowers] = None
     tillers: Optional[Tillers] = None
     brace_roots: Optional[BraceRoots] = None
+    wear: Optional[Wear] = None
 
 
 @dataclass(frozen=True)
