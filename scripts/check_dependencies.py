@@ -15,6 +15,7 @@ KEYS = {
     "collada": "python3-collada",
     "dask": "python3-dask",
     "distributed": "python3-distributed",
+    "ephem": "python3-ephem",
     "gymnasium": "python3-gymnasium-pip",
     "matplotlib": "python3-matplotlib",
     "mpl_toolkits": "python3-matplotlib",

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <ardee_msgs/SetLight.h>
 #include <gazebo_msgs/DeleteLight.h>
 #include <gazebo_msgs/GetLightProperties.h>
 #include <gazebo_msgs/SetLightProperties.h>
@@ -96,6 +97,12 @@ void add_light_services(ServiceServers& servers, ServiceContext& context) {
         require_light(context, request.light_name);
         context.simulation.remove_light(request.light_name);
         return "DeleteLight: " + request.light_name + " successfully deleted";
+      });
+  servers.add<ardee_msgs::SetLight>(
+      "/ardee/set_light", "SetLight", [&context](const auto& request, auto&) {
+        context.simulation.set_daylight(
+            {request.azimuth_deg, request.elevation_deg, request.turbidity, request.cloud});
+        return "SetLight: light of sun and sky set";
       });
 }
 

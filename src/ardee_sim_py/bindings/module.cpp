@@ -178,6 +178,7 @@ PYBIND11_MODULE(_core, module) {
       .def("step", &BoundSimulation::step)
       .def("reset", &BoundSimulation::reset)
       .def("set_noise_seed", &BoundSimulation::set_noise_seed)
+      .def("set_daylight", &BoundSimulation::set_daylight)
       .def("command", &BoundSimulation::command)
       .def("call", &BoundSimulation::call)
       .def("entities", &BoundSimulation::entities)

@@ -128,6 +128,12 @@ void BoundSimulation::set_noise_seed(std::uint64_t seed) {
   inbox_.clear();
 }
 
+void BoundSimulation::set_daylight(double azimuth_deg, double elevation_deg, double turbidity,
+                                   double cloud) {
+  const Use use(*this);
+  use->set_daylight({azimuth_deg, elevation_deg, turbidity, cloud});
+}
+
 RelativeState BoundSimulation::state(const std::string& name, const std::string& reference) {
   return Use(*this)->state(name, reference);
 }

@@ -65,6 +65,7 @@ class BoundSimulation {
   void step(std::uint64_t count);
   void reset();
   void set_noise_seed(std::uint64_t seed);
+  void set_daylight(double azimuth_deg, double elevation_deg, double turbidity, double cloud);
   py::bytes snapshot();
   void restore(const std::string& bytes);
 

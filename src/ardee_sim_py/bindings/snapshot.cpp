@@ -9,7 +9,7 @@
 namespace ardee::python {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 void serialize(StateArchive& archive, PhysicsParams& p) {
   archive(p.step_s, p.real_time_update_rate_hz, p.gravity_m_per_s2, p.solver, p.iterations, p.sor,
@@ -79,6 +79,7 @@ void BoundSimulation::serialize(StateArchive& archive, SimulationState& state) {
   python::serialize(archive, state.physics);
   archive.size_of(state.lights);
   for (Light& light : state.lights) python::serialize(archive, light);
+  archive(state.daylight);
   archive.size_of(state.entities);
   for (SimulationState::EntityState& entity : state.entities) save_entity(archive, entity);
   archive.finish();

@@ -54,7 +54,7 @@ Image Renderer::render(const Camera& camera, const RenderOptions& options,
   image.height = camera.height;
   image.samples8.resize(4 * static_cast<std::size_t>(std::max(image.width, 0)) *
                         static_cast<std::size_t>(std::max(image.height, 0)));
-  const TileShading shading{rays_, materials_, scene_, lights_, camera, options, store_};
+  const TileShading shading{rays_, materials_, scene_, sky_, lights_, camera, options, store_};
   const double pixels = static_cast<double>(camera.width) * camera.height;
   std::atomic<int> done_px{0};
   std::atomic<bool> stopped{false};
@@ -82,7 +82,7 @@ Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
   if (parts.light && options.approximate) store_.open();
   RenderOptions once = options;
   once.samples = 1;
-  const TileShading shading{rays_, materials_, scene_, lights_, camera, once, store_};
+  const TileShading shading{rays_, materials_, scene_, sky_, lights_, camera, once, store_};
   for_each_tile(camera, options.threads, [&](const TileArea& area, TileWorker& worker) {
     render_frame_tile(shading, area, parts, worker, frame);
   });

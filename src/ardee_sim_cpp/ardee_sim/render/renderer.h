@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "ardee_sim/description/world.h"
@@ -24,8 +25,12 @@ class Renderer {
 
   /// Keeps references to `rays` (of the visual scene, prepared) and `materials`.
   Renderer(const raycast::PictureTracer& rays, const MaterialLibrary& materials, const Scene& scene,
-           std::vector<Light> lights)
-      : rays_(rays), materials_(materials), scene_(scene), lights_(std::move(lights)) {}
+           std::vector<Light> lights, const std::optional<Daylight>& day = std::nullopt)
+      : rays_(rays),
+        materials_(materials),
+        scene_(scene),
+        sky_(scene, day),
+        lights_(std::move(lights)) {}
 
   const raycast::PictureTracer& rays() const { return rays_; }
 
@@ -47,6 +52,7 @@ class Renderer {
   const raycast::PictureTracer& rays_;
   const MaterialLibrary& materials_;
   const Scene scene_;
+  const Sky sky_;
   const std::vector<Light> lights_;
   mutable RadianceCache store_;
 };

@@ -61,7 +61,7 @@ void Shader::enqueue(const raycast::PrimaryRayPacket& glances, int ray,
   Sample& sample = samples_.emplace_back();
   const Eigen::Vector3d direction_W = glances.direction_W(ray).cast<double>();
   if (!glances.met(ray)) {
-    sample.light = sky_color(s_->scene, direction_W);
+    sample.light = s_->sky.color(direction_W);
     return;
   }
   sample.travelled_m = static_cast<double>(glances.near_m[ray]);
@@ -146,7 +146,7 @@ void Shader::shade(const raycast::SurfaceInteraction& point, std::size_t i, int 
   Sample& sample = samples_[owners_[i]];
   const raycast::SceneRay& ray = rays_[i];
   if (!point.met()) {
-    sample.light += sample.transmittance * sky_color(s_->scene, ray.direction_W);
+    sample.light += sample.transmittance * s_->sky.color(ray.direction_W);
     return;
   }
   sample.travelled_m += point.range_m;
@@ -161,10 +161,9 @@ void Shader::shade(const raycast::SurfaceInteraction& point, std::size_t i, int 
   if (sample.see_through) return;
   const Eigen::Vector3d at_W = ray.origin_W + point.range_m * ray.direction_W;
   const float share = sample.transmittance * opacity;
-  Eigen::Vector3f ambient = ambient_light(s_->scene, point.smooth_normal_W);
+  Eigen::Vector3f ambient = s_->sky.ambient(point.smooth_normal_W);
   if (is_sheet(point)) {
-    ambient +=
-        static_cast<float>(kSheetTransmission) * ambient_light(s_->scene, -point.smooth_normal_W);
+    ambient += static_cast<float>(kSheetTransmission) * s_->sky.ambient(-point.smooth_normal_W);
   }
   sample.light += share * (look.emissive + look.ambient.cwiseProduct(ambient));
   for (std::size_t k = 0; k < s_->lights.size(); ++k) {

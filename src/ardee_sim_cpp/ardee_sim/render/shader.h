@@ -11,6 +11,7 @@
 #include "ardee_sim/render/lights.h"
 #include "ardee_sim/render/material_library.h"
 #include "ardee_sim/render/radiance_cache.h"
+#include "ardee_sim/render/sky.h"
 
 namespace ardee::render {
 
@@ -29,6 +30,7 @@ struct TileShading {
   const raycast::PictureTracer& rays;
   const MaterialLibrary& materials;
   const Scene& scene;
+  const Sky& sky;
   const std::vector<Light>& lights;
   const Camera& camera;
   const RenderOptions& options;

@@ -15,16 +15,22 @@ constexpr float kFromBelow = 0.5f;
 
 }  // namespace
 
-Eigen::Vector3f sky_color(const Scene& scene, const Eigen::Vector3d& direction_W) {
-  if (!scene.sky) return scene.background.head<3>();
+Sky::Sky(const Scene& scene, const std::optional<Daylight>& day) : scene_(scene) {
+  if (day) model_.emplace(*day);
+}
+
+Eigen::Vector3f Sky::color(const Eigen::Vector3d& direction_W) const {
+  if (model_) return model_->color(direction_W);
+  if (!scene_.sky) return scene_.background.head<3>();
   const auto up = static_cast<float>(std::clamp(direction_W.z(), -1.0, 1.0));
   if (up < 0.0f) return kHorizon + std::min(1.0f, -8.0f * up) * (kHaze - kHorizon);
   return kHorizon + std::sqrt(up) * (kZenith - kHorizon);
 }
 
-Eigen::Vector3f ambient_light(const Scene& scene, const Eigen::Vector3d& normal_W) {
-  const Eigen::Vector3f all = scene.ambient.head<3>();
-  if (!scene.sky) return all;
+Eigen::Vector3f Sky::ambient(const Eigen::Vector3d& normal_W) const {
+  if (model_) return model_->ambient(normal_W);
+  const Eigen::Vector3f all = scene_.ambient.head<3>();
+  if (!scene_.sky) return all;
   const auto up = static_cast<float>(0.5 * (1.0 + std::clamp(normal_W.z(), -1.0, 1.0)));
   return (kFromBelow + (1.0f - kFromBelow) * up) * all;
 }

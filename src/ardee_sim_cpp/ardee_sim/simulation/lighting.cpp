@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "ardee_sim/core/limits.h"
+#include "ardee_sim/render/sky_model.h"
 #include "ardee_sim/simulation/simulation.h"
 
 namespace ardee {
@@ -38,6 +39,24 @@ void Simulation::set_light(const Light& light) {
 
 void Simulation::remove_light(const std::string& name) {
   lights_.erase(require_light(lights_, name));
+  pictures_.relight();
+}
+
+void Simulation::set_daylight(const Daylight& day) {
+  check_daylight(day);
+  auto sun = std::find_if(lights_.begin(), lights_.end(), [](const Light& light) {
+    return light.type == Light::Type::kDirectional;
+  });
+  if (sun == lights_.end()) {
+    Light made;
+    made.name = "sun";
+    made.cast_shadows = true;
+    add_light(made);
+    sun = std::prev(lights_.end());
+  }
+  sun->diffuse.head<3>() = render::SkyModel(day).sun();
+  sun->direction = sun->pose.q.conjugate() * -day.to_sun_W();
+  daylight_ = day;
   pictures_.relight();
 }
 

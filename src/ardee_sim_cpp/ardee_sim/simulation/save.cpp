@@ -25,6 +25,7 @@ SimulationState Simulation::save() {
   state.next_entity = next_entity_;
   state.physics = physics_.params();
   state.lights = lights_;
+  state.daylight = daylight_;
   for (const auto& entity : entities_) {
     StateArchive devices;
     serialize_devices(devices, *entity);
@@ -103,6 +104,7 @@ void Simulation::restore(const SimulationState& state) {
   }
   serialize_commands(commands);
   lights_ = state.lights;
+  daylight_ = state.daylight;
   pictures_.relight();
   scenes_.invalidate();
   latest_.restore(state.readings);

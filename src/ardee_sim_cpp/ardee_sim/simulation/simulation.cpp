@@ -44,7 +44,7 @@ Simulation::Simulation(std::shared_ptr<const World> world, const SimulationOptio
       registry_(options.registry != nullptr ? *options.registry : known_plugins()),
       physics_(world_->physics, log_),
       scenes_(options.rays, entities_, log_),
-      pictures_(world_->scene, lights_, options.rays.threads, entities_, scenes_, log_),
+      pictures_(world_->scene, lights_, daylight_, options.rays.threads, entities_, scenes_, log_),
       now_ns_(world_->start_ns),
       step_ns_(nanoseconds(world_->physics.step_s)) {
   const LogGroup group(log_);

@@ -153,6 +153,9 @@ class Simulation {
   /// Error if there is none, as does remove_light.
   void set_light(const Light& light);
   void remove_light(const std::string& name);
+  /// Sets the light of sun and sky; later pictures show it, and resets keep it. The sun is the
+  /// first directional light, or a new one 'sun'. Throws Error if a number is out of its range.
+  void set_daylight(const Daylight& day);
 
   /// Pose and velocity (axes of the reference) of "model" or "model::link" relative to another such
   /// name, or to the world (names_world). Throws Error for an unknown name.
@@ -205,6 +208,7 @@ class Simulation {
 
   std::shared_ptr<const World> world_;
   std::vector<Light> lights_;
+  std::optional<Daylight> daylight_;
   SimulationOptions options_;
   Log log_;
   devices::Registry registry_;

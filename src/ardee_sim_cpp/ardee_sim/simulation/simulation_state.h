@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ardee_sim/description/daylight.h"
 #include "ardee_sim/description/world.h"
 #include "ardee_sim/simulation/handles.h"
 
@@ -27,6 +29,7 @@ struct SimulationState {
   std::uint32_t next_entity = 0;
   PhysicsParams physics;
   std::vector<Light> lights;
+  std::optional<Daylight> daylight;
   std::vector<EntityState> entities;
   std::string dynamics;
   std::string commands;  // wrenches and efforts

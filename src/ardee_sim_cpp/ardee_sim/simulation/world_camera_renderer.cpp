@@ -27,7 +27,7 @@ render::Frame WorldCameraRenderer::take(const render::Camera& camera,
       parts.light ? scenes_.for_pictures() : scenes_.now(raycast::SceneKind::kVisual);
   const raycast::PictureTracer& rays = scene.pictures();
   if (!renderer_ || &renderer_->rays() != &rays) {
-    renderer_.emplace(rays, materials_, scene_, lights_);
+    renderer_.emplace(rays, materials_, scene_, lights_, daylight_);
   }
   return renderer_->render_frame(camera, parts, options);
 }

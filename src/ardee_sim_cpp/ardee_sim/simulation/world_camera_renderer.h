@@ -16,11 +16,13 @@ namespace ardee {
 /// The pictures of a simulation, in the light of its world.
 class WorldCameraRenderer : public devices::CameraRenderer {
  public:
-  WorldCameraRenderer(const Scene& scene, const std::vector<Light>& lights, int threads,
+  WorldCameraRenderer(const Scene& scene, const std::vector<Light>& lights,
+                      const std::optional<Daylight>& day, int threads,
                       const std::vector<std::unique_ptr<Entity>>& entities,
                       devices::RaySceneProvider& scenes, Log log)
       : scene_(scene),
         lights_(lights),
+        daylight_(day),
         threads_(threads),
         entities_(entities),
         scenes_(scenes),
@@ -37,6 +39,7 @@ class WorldCameraRenderer : public devices::CameraRenderer {
 
   const Scene& scene_;
   const std::vector<Light>& lights_;
+  const std::optional<Daylight>& daylight_;
   const int threads_;
   const std::vector<std::unique_ptr<Entity>>& entities_;
   devices::RaySceneProvider& scenes_;

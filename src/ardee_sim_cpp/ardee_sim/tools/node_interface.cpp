@@ -40,6 +40,7 @@ const std::vector<NodeService>& node_services() {
       {"/gazebo/clear_body_wrenches", "gazebo_msgs/BodyRequest", ""},
       {"/gazebo/apply_joint_effort", "gazebo_msgs/ApplyJointEffort", ""},
       {"/gazebo/clear_joint_forces", "gazebo_msgs/JointRequest", ""},
+      {"/ardee/set_light", "ardee_msgs/SetLight", "of sun and sky"},
       {"/ardee/step", "ardee_msgs/Step", "takes steps of a paused simulation"},
   };
   return services;

@@ -5,6 +5,7 @@ SI units, in the names; x forward, y left, z up (REP 103); quaternions x, y, z, 
 """
 
 from ardee_sim import _devel_space  # noqa: F401  before all others
+from ardee_sim.daylight import Daylight
 from ardee_sim.errors import ArdeeError, PhysicsError
 from ardee_sim.readings import (
     BatteryReading,
@@ -34,16 +35,8 @@ from ardee_sim.readings import (
     WrenchReading,
 )
 from ardee_sim.robots import robot
-from ardee_sim.simulation import (
-    Contact,
-    Entity,
-    LogLine,
-    Simulation,
-    Snapshot,
-    State,
-    TopicInfo,
-    Twist,
-)
+from ardee_sim.simulation import Simulation
+from ardee_sim.state import Contact, Entity, LogLine, Snapshot, State, TopicInfo, Twist
 from ardee_sim.world import Placement, Plant, World
 
 __all__ = [
@@ -53,6 +46,7 @@ __all__ = [
     "CameraInfoReading",
     "Contact",
     "ContactsReading",
+    "Daylight",
     "EncoderReading",
     "Entity",
     "FixReading",

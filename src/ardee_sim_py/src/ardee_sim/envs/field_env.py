@@ -11,7 +11,8 @@ from ardee_sim.envs.randomise import STAGE, Ranges, check_ranges, with_noise
 from ardee_sim.envs.task import Scene, Task
 from ardee_sim.errors import ArdeeError
 from ardee_sim.robots import robot as robot_text
-from ardee_sim.simulation import Simulation, Twist
+from ardee_sim.simulation import Simulation
+from ardee_sim.state import Twist
 from ardee_sim.world import PathLike, World
 from gymnasium import spaces
 

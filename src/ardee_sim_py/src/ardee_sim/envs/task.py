@@ -7,7 +7,8 @@ from typing import Any, Dict, FrozenSet, Protocol, Tuple
 
 import numpy as np
 from ardee_sim.envs.fields import SownField
-from ardee_sim.simulation import Simulation, State
+from ardee_sim.simulation import Simulation
+from ardee_sim.state import State
 from gymnasium import spaces
 
 from ardee_world.row_truth import Deviation, Lane, Pose
