@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Tests the demo as a user runs it, also ended by Ctrl-C on the way."""
+"""Tests the demo ended by Ctrl-C on its way; test_install.py runs it to its end."""
 import os
 import pathlib
-import re
 import signal
 import subprocess
 from typing import Set
-
-from PIL import Image
 
 from ardee_common.ros_graph import wait_until
 
@@ -34,20 +31,6 @@ def ours(log: pathlib.Path) -> Set[int]:
         except OSError:
             continue
     return found
-
-
-def test_it_drives_and_tells(tmp_path: pathlib.Path) -> None:
-    log = tmp_path / "demo.log"
-    demo = start(log)
-    assert demo.wait(300) == 0, log.read_text()
-    text = log.read_text()
-    distance = float(re.search(r"distance driven +([\d.]+) m", text).group(1))
-    assert 7.0 < distance < 11.0  # 50 plants in a row, and the way to it
-    assert int(re.search(r"scans published +(\d+)", text).group(1)) > 200
-    assert int(re.search(r"plants in the field +(\d+)", text).group(1)) > 150
-    assert Image.open(tmp_path / "output" / "rviz.png").size == (1280, 960)
-    assert (tmp_path / "output" / "drive.bag").stat().st_size > 100_000
-    wait_until(lambda: not ours(log), "the demo's processes gone", 10.0)
 
 
 def test_ctrl_c_on_the_way_leaves_nothing(tmp_path: pathlib.Path) -> None:

@@ -84,10 +84,17 @@ def test_no_installed_file_names_the_checkout(prefix: pathlib.Path) -> None:
     assert done.stdout == ""
 
 
-def test_the_demo_runs(shell: Shell) -> None:
+def test_the_demo_drives_and_tells(shell: Shell) -> None:
     text = shell("DISPLAY= rosrun ardee_bringup demo")
-    assert re.search(r"distance driven +[\d.]+ m", text), text
-    assert Image.open(shell.home / "demo_output" / "rviz.png").size == (1280, 960)
+
+    def told(what: str) -> float:
+        return float(re.search(rf"{what} +([\d.]+)", text).group(1))
+
+    assert 7.0 < told("distance driven") < 11.0, text  # 50 plants in a row, and the way to it
+    assert told("scans published") > 200 and told("plants in the field") > 150, text
+    output = shell.home / "demo_output"
+    assert Image.open(output / "rviz.png").size == (1280, 960)
+    assert (output / "drive.bag").stat().st_size > 100_000
 
 
 def test_launch_files_find_their_nodes_and_robots(shell: Shell, prefix: pathlib.Path) -> None:
