@@ -36,6 +36,7 @@ API = {
     "ardee_models": "src/ardee_models/src/ardee_models",
     "ardee_navigation.lane_following": "src/ardee_navigation/src/ardee_navigation/lane_following",
     "ardee_navigation.lbirnt": "src/ardee_navigation/src/ardee_navigation/lbirnt",
+    "ardee_navigation.vision": "src/ardee_navigation/src/ardee_navigation/vision",
     "ardee_datasets": "src/ardee_datasets/src/ardee_datasets",
     "ardee_campaigns": "src/ardee_campaigns/src/ardee_campaigns",
     "ardee_bridge.wire": "src/ardee_bridge/src/ardee_bridge/wire",

@@ -16,6 +16,7 @@ from ardee_models.plant.species import SpeciesFile
 from ardee_models.terrain.recipe import Recipe
 from ardee_navigation.evaluation.scenario_files import Scenario
 from ardee_navigation.lbirnt import Parameters
+from ardee_navigation.vision import VisionParameters
 from ardee_world.request import groups
 from ardee_world.start import Start
 
@@ -25,6 +26,7 @@ FILES = (
     ("Terrain", "a recipe of `rosrun ardee_models generate_terrain RECIPE.yaml`", Recipe),
     ("Species", "`config/species/*.yaml` of ardee_models, with the numbers' sources", SpeciesFile),
     ("Row follower", "`parameters:=FILE` and `--parameters FILE`", Parameters),
+    ("Row follower by camera", "`params` of a campaign's controller", VisionParameters),
     ("Scenario", "an entry of `config/scenarios.yaml` of ardee_world", Scenario),
     ("Campaign", "a file of `rosrun ardee_campaigns run_campaign`", campaign_file.CampaignKeys),
     ("A world of a campaign", "an entry of `worlds`", campaign_file.WorldKeys),
@@ -64,8 +66,9 @@ A file of `rosrun ardee_world generate_field FIELD.yaml`.
 
 
 def comment_of(cls: type, name: str) -> str:
-    """Returns the comment behind a field in the class's source."""
-    found = re.search(rf"^    {name}:.*?#\s*(.*)$", inspect.getsource(cls), re.MULTILINE)
+    """Returns the comment behind a field in the source of the class, or of a base that has the field."""
+    source = "".join(inspect.getsource(each) for each in cls.__mro__ if each is not object)
+    found = re.search(rf"^    {name}:.*?#\s*(.*)$", source, re.MULTILINE)
     return found[1] if found else ""
 
 

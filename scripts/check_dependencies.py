@@ -13,6 +13,7 @@ from typing import Iterator, List, Optional, Set, Tuple
 KEYS = {
     "ardee_sim": "ardee_sim_py",
     "collada": "python3-collada",
+    "cv2": "python3-opencv",
     "dask": "python3-dask",
     "distributed": "python3-distributed",
     "ephem": "python3-ephem",

@@ -11,6 +11,7 @@ setup(
             "ardee_navigation.lane_following",
             "ardee_navigation.lbirnt",
             "ardee_navigation.nodes",
+            "ardee_navigation.vision",
         ],
         package_dir={"": "src"},
     )

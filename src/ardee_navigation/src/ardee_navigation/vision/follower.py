@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""The row follower by camera: a picture in, a motion command and what was seen on the way out."""
+import math
+from dataclasses import dataclass
+from typing import Optional
+
+import numpy as np
+
+from ardee_navigation.lane_following import LaneFollower, Line, State
+from ardee_navigation.lane_following.control import centre_error_m
+from ardee_navigation.lane_following.line import blend, turned
+from ardee_navigation.vision.camera import Camera, Sight
+from ardee_navigation.vision.classical import Classical
+from ardee_navigation.vision.parameters import VisionParameters
+
+
+@dataclass(frozen=True)
+class Output:
+    """Command and perception after one picture."""
+
+    state: State
+    speed_m_s: float
+    turn_rad_s: float
+    centre: Line  # of the lane, in use
+    is_valid: bool  # whether this picture's was
+    sight: Sight
+    error_m: float
+
+
+def camera_of(width_px: int, height_px: int, parameters: VisionParameters) -> Camera:
+    """Returns the calibration of a camera by its field of view."""
+    focal_px = width_px / 2.0 / math.tan(math.radians(parameters.horizontal_fov_deg) / 2.0)
+    pitch_rad = math.radians(parameters.camera_pitch_deg)
+    return Camera(width_px, height_px, focal_px, parameters.camera_height_m, pitch_rad)
+
+
+def centre_line(sight: Sight) -> Line:
+    """Returns the lane's middle in the camera's frame."""
+    offset_m = -sight.lateral_offset_m / math.cos(sight.heading_rad)
+    return Line(-math.tan(sight.heading_rad), offset_m)
+
+
+class VisionFollower:
+    """Follows the lane between two rows, picture by picture; all pictures have the size of the first."""
+
+    def __init__(self, parameters: VisionParameters = VisionParameters()) -> None:
+        self._parameters = parameters
+        self._run = LaneFollower(parameters)
+        self._perception = None  # type: Optional[Classical]
+        self.reset()
+
+    def reset(self) -> None:
+        """Restores the state before the first picture; call it after the robot was set down anew."""
+        self._run.reset()
+        self._forget()
+
+    def _forget(self) -> None:
+        self._centre = Line(0.0, 0.0)
+        self._unseen_s = math.inf
+
+    def update(self, rgb: np.ndarray, time_s: float) -> Output:
+        """Returns the output for the picture uint8[h, w, 3] taken at `time_s`."""
+        dt_s = self._run.elapsed_s(time_s)
+        if dt_s is None:
+            self._forget()
+            dt_s = 0.0
+        sight = self._look(rgb)
+        found, before = centre_line(sight), self._predict(dt_s)
+        is_valid = self._is_acceptable(sight, found, before)
+        is_new = self._unseen_s > self._parameters.max_coast_s
+        self._unseen_s = 0.0 if is_valid else self._unseen_s + dt_s
+        weight = (1.0 if is_new else self._parameters.blend) if is_valid else 0.0
+        self._centre = blend(before, found, weight)
+        is_gone = sight.confidence < self._parameters.end_confidence
+        command = self._run.steer(self._centre, is_valid, is_gone, dt_s)
+        error_m = centre_error_m(self._centre, self._parameters)
+        return Output(self._run.state, *command, self._centre, is_valid, sight, error_m)
+
+    def _look(self, rgb: np.ndarray) -> Sight:
+        if self._perception is None:
+            camera = camera_of(rgb.shape[1], rgb.shape[0], self._parameters)
+            self._perception = Classical(camera, self._parameters.lane_width_m)
+        return self._perception.look(rgb)
+
+    def _predict(self, dt_s: float) -> Line:
+        """The centre line in use, seen from where the last command has taken the robot."""
+        speed, turn = self._run.command
+        return turned(self._centre, turn * dt_s, speed * dt_s, self._parameters.camera_ahead_m)
+
+    def _is_acceptable(self, sight: Sight, found: Line, before: Line) -> bool:
+        """Returns whether a picture's line is sure, bearable and, if one was seen just now, near that."""
+        p = self._parameters
+        if sight.confidence < p.min_confidence or abs(sight.heading_rad) > p.max_angle_rad:
+            return False
+        if self._unseen_s > p.max_coast_s:
+            return True
+        change_rad = abs(found.angle_rad - before.angle_rad)
+        change_m = abs(found.distance_m - before.distance_m)
+        return change_rad <= p.max_angle_change_rad and change_m <= p.max_change_m
