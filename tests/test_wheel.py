@@ -75,7 +75,7 @@ def shell(wheel: pathlib.Path) -> Iterator[Shell]:
         return checked(*apart, *enter, f"cd; {line}", timeout=300)
 
     run("python3 -m venv venv")
-    run(f"pip install -q '{wheel.name}[campaign,gym]'")
+    run(f"pip install -q '{wheel.name}[campaign,gym,view]'")
     yield run
     checked(*as_root, "rm", "-rf", home)
 
@@ -106,6 +106,15 @@ scan, info = env.reset(seed=1)
 print(env.step(env.action_space.sample())[0].shape)
 """
     assert "(1081,)" in shell(f"python3 - <<'EOF'\n{program}\nEOF")
+
+
+def test_the_viewer_serves_its_page(shell: Shell) -> None:
+    program = """import urllib.request, ardee_sim
+from ardee_sim.view import view
+with ardee_sim.Simulation(ardee_sim.World.from_file("corn.world")) as sim, view(sim, port=0) as viewer:
+    print(urllib.request.urlopen(viewer.url).read().decode()[-200:])
+"""
+    assert "</html>" in shell(f"python3 - <<'EOF'\n{program}\nEOF")
 
 
 def test_a_field_is_made(shell: Shell) -> None:

@@ -10,9 +10,11 @@ from typing import Iterator, List
 
 import ardee_sim
 import browser_page
+import gymnasium
 import numpy as np
 import pytest
-from ardee_sim.view import Viewer, view
+from ardee_sim.envs import Episode, RecordEpisode
+from ardee_sim.view import Viewer, play, view
 
 WORLD = """<sdf version="1.6"><world name="yard">
   <physics type="ode"><max_step_size>0.005</max_step_size></physics>
@@ -166,3 +168,39 @@ def test_a_missing_viser_is_said() -> None:
     program = "import sys; sys.modules['viser'] = None; import ardee_sim.view"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert "expected: pip install viser, or the wheel with its extra [view]" in done.stderr
+
+
+def test_a_recorded_episode_is_shown_again(
+    tmp_path: pathlib.Path, capsys: pytest.CaptureFixture
+) -> None:
+    env = RecordEpisode(gymnasium.make("ardee/RowFollow-v0", seed_field=False))
+    env.reset(seed=5)
+    for _ in range(3):
+        observation = env.step(np.array([0.7, 0.1], np.float32))[0]
+    env.episode.save(tmp_path / "episode.json")
+    env.close()
+    episode = Episode.load(tmp_path / "episode.json")
+    again = episode.make()
+    results = list(episode.play(again))
+    assert len(results) == 4 and np.array_equal(results[-1][0], observation)
+    with Viewer(again.unwrapped.simulation, port=0, drive=False) as viewer:
+        viewer.wanted.pace = float("inf")
+        for result in episode.play(again):
+            viewer.update()
+    assert np.array_equal(result[0], observation)
+    again.close()
+    play(episode, turns=1, port=0)
+    assert capsys.readouterr().out.startswith("http://127.0.0.1:")
+
+
+def test_what_is_no_episode_is_refused(tmp_path: pathlib.Path) -> None:
+    file = tmp_path / "episode.json"
+    for text, expected in (
+        ("{", "expected JSON"),
+        ("[]", "expected the keys environment, arguments, replay, actions"),
+    ):
+        file.write_text(text)
+        with pytest.raises(ardee_sim.ArdeeError, match=f"episode.json: .*{expected}"):
+            Episode.load(file)
+    with pytest.raises(ardee_sim.ArdeeError, match="ardee/RowFolow-v0"):
+        Episode("ardee/RowFolow-v0", {}, {}, []).make()

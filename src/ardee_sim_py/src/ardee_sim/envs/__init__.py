@@ -7,13 +7,16 @@ except ImportError as error:
     raise ImportError(f"{error}; expected: pip install gymnasium") from error
 
 from ardee_sim.envs.environments import GoToEnv, HeadlandTurnEnv, RowFollowCameraEnv, RowFollowEnv
+from ardee_sim.envs.episode import Episode, RecordEpisode
 from ardee_sim.envs.field_env import FieldEnv
 from ardee_sim.envs.task import Scene, Task
 
 __all__ = [
+    "Episode",
     "FieldEnv",
     "GoToEnv",
     "HeadlandTurnEnv",
+    "RecordEpisode",
     "RowFollowCameraEnv",
     "RowFollowEnv",
     "Scene",

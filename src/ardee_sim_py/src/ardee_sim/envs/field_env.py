@@ -116,7 +116,7 @@ class FieldEnv(gymnasium.Env):
 
     def _place(self, pose: Pose, noise_seed: int) -> Scene:
         """Puts the robot, as it was spawned, to its start, with the noise of an episode."""
-        sim = self._simulation
+        sim = self.simulation
         sim.restore(self._first)
         half = pose.yaw_rad / 2
         xyz_m = (pose.x_m, pose.y_m, self._sown.trial.height_m(pose))
@@ -141,7 +141,8 @@ class FieldEnv(gymnasium.Env):
         return self._scene.pose()
 
     @property
-    def _simulation(self) -> Simulation:
+    def simulation(self) -> Simulation:
+        """The present simulation, in which ROBOT drives; a field that is sown anew has another one."""
         if self._sim is None:
             raise RuntimeError("found a closed environment, expected an open one")
         return self._sim
@@ -170,7 +171,7 @@ class FieldEnv(gymnasium.Env):
     ) -> Tuple[Any, Dict[str, Any]]:
         """Begins an episode; `options` = info["replay"] of an earlier reset repeats that one."""
         super().reset(seed=seed)
-        self._simulation  # raises if closed
+        self.simulation  # raises if closed
         episode = self._draw(options or {})
         if self._present != (episode["field_seed"], episode["numbers"]):
             self._sow(episode["field_seed"], episode["numbers"])

@@ -4,7 +4,8 @@
 Needs viser: the extra [view] of the wheel; scripts/setup installs it for the workspace.
 """
 
-from typing import Any
+import math
+from typing import TYPE_CHECKING, Any
 
 from ardee_sim.simulation import Simulation
 
@@ -15,7 +16,10 @@ except ModuleNotFoundError as error:
         f"{error}, which ardee_sim.view needs; expected: pip install viser, or the wheel with its extra [view]"
     ) from error
 
-__all__ = ["Viewer", "view"]
+if TYPE_CHECKING:
+    from ardee_sim.envs import Episode
+
+__all__ = ["Viewer", "play", "view"]
 
 
 def view(sim: Simulation, **options: Any) -> Viewer:
@@ -25,3 +29,30 @@ def view(sim: Simulation, **options: Any) -> Viewer:
     Raises ArdeeError if the port is taken.
     """
     return Viewer(sim, **options)
+
+
+def play(episode: "Episode", *, turns: float = math.inf, **options: Any) -> None:
+    """Shows a recorded episode again and again, paused at its end, until Ctrl-C or so many turns.
+
+    options : those of Viewer
+    """
+    env = episode.make()
+    viewer = None
+    try:
+        while turns > 0:
+            for _ in episode.play(env):
+                sim = env.unwrapped.simulation
+                if viewer is None:
+                    viewer = Viewer(sim, robot="robot", drive=False, **options)
+                    print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
+                viewer.update()
+            turns -= 1
+            if turns > 0 and viewer:
+                viewer.wanted.is_paused = True
+                viewer.update()
+    except KeyboardInterrupt:
+        return
+    finally:
+        if viewer:
+            viewer.close()
+        env.close()

@@ -3,6 +3,7 @@
 
 import argparse
 import sys
+from typing import Any, Dict
 
 import ardee_sim
 
@@ -10,7 +11,12 @@ import ardee_sim
 def main() -> None:
     """Runs the command."""
     parser = argparse.ArgumentParser(prog="python3 -m ardee_sim.view", description=__doc__)
-    parser.add_argument("world", help="SDF file, or the name of a shipped world such as corn.world")
+    parser.add_argument(
+        "world", nargs="?", help="SDF file, or the name of a shipped world such as corn.world"
+    )
+    parser.add_argument(
+        "--episode", help="file of ardee_sim.envs.RecordEpisode, to be shown instead of a world"
+    )
     parser.add_argument(
         "--robot",
         default="tsv1_default",
@@ -30,19 +36,35 @@ def main() -> None:
         help="of the part of a field that is shown [m], default 12",
     )
     given = parser.parse_args()
+    if (given.world is None) == (given.episode is None):
+        parser.error("found both or none of WORLD and --episode, expected one of them")
+    page = dict(host=given.host, port=given.port, radius_m=given.radius_m)
     try:
-        from ardee_sim.view import Viewer
-
-        world = ardee_sim.World.from_file(given.world)
-        with ardee_sim.Simulation(world, seed=given.seed) as sim:
-            sim.spawn("robot", ardee_sim.robot(given.robot), **world.start)
-            page = dict(host=given.host, port=given.port, radius_m=given.radius_m)
-            with Viewer(sim, robot="robot", **page) as viewer:
-                print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
-                viewer.run()
+        if given.episode is not None:
+            _play(given.episode, page)
+        else:
+            _drive(given, page)
     except (ardee_sim.ArdeeError, ImportError) as error:
         print(f"ardee_sim.view: {error}", file=sys.stderr)
         sys.exit(2)
+
+
+def _play(file: str, page: Dict[str, Any]) -> None:
+    from ardee_sim.envs import Episode
+    from ardee_sim.view import play
+
+    play(Episode.load(file), **page)
+
+
+def _drive(given: argparse.Namespace, page: Dict[str, Any]) -> None:
+    from ardee_sim.view import Viewer
+
+    world = ardee_sim.World.from_file(given.world)
+    with ardee_sim.Simulation(world, seed=given.seed) as sim:
+        sim.spawn("robot", ardee_sim.robot(given.robot), **world.start)
+        with Viewer(sim, robot="robot", **page) as viewer:
+            print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
+            viewer.run()
 
 
 if __name__ == "__main__":

@@ -48,6 +48,7 @@ class Viewer:
     host, port : of the page; port 0: any free one
     radius_m : fields and grounds are shown up to here around the robot
     limits : greatest speed [m/s] and turn rate [rad/s] that the page commands
+    drive : whether people may drive
     """
 
     def __init__(
@@ -59,11 +60,13 @@ class Viewer:
         port: int = 8080,
         radius_m: float = 12.0,
         limits: Tuple[float, float] = (2.0, 2.0),
+        drive: bool = True,
     ) -> None:
         if not 0 < radius_m < math.inf:
             raise ArdeeError(f"radius_m: found {radius_m}, expected a positive number")
         _require_free(host, port)
         self._sim, self._robot_name, self._radius_m, self._limits = sim, robot, radius_m, limits
+        self._drives = drive
         self._robot = self._find_robot(sim)
         # browsers open connections that they do not use, each of which would be a traceback
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
@@ -99,6 +102,8 @@ class Viewer:
         self._topics["clouds"] = [
             topic for topic in self._topics["clouds"] if link_of(sim, self._robot or "", topic)
         ]
+        if not self._drives:
+            self._topics["drives"] = []
         if self._is_first:
             kinds = sim.topics()
             lidars = [t for t in self._topics["clouds"] if kinds[t].kind == "LidarReading"]

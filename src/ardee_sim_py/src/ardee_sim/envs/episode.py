@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""Episodes as files: what an environment drew, and what was done in it."""
+
+import json
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Dict, Iterator, List, Mapping, Optional, SupportsFloat, Tuple
+
+import gymnasium
+import numpy as np
+from ardee_sim.errors import ArdeeError
+from ardee_sim.world import PathLike, read_text
+
+_KEYS = ("environment", "arguments", "replay", "actions")
+
+
+@dataclass(frozen=True)
+class Episode:
+    """An episode of an environment of this package, which play() repeats byte for byte.
+
+    environment : id such as ardee/RowFollow-v0
+    arguments : of gymnasium.make
+    replay : of the info of reset()
+    actions : of each step, lists of numbers
+    """
+
+    environment: str
+    arguments: Dict[str, Any]
+    replay: Dict[str, Any]
+    actions: List[List[float]]
+
+    def save(self, path: PathLike) -> None:
+        """Writes a JSON file."""
+        Path(path).write_text(json.dumps(asdict(self), indent=1, default=str) + "\n")
+
+    @classmethod
+    def load(cls, path: PathLike) -> "Episode":
+        """Reads a file of save(). Raises ArdeeError if it is none."""
+        try:
+            given = json.loads(read_text(Path(path)))
+        except json.JSONDecodeError as error:
+            raise ArdeeError(f"{path}: {error}, expected JSON") from None
+        if not isinstance(given, dict) or sorted(given) != sorted(_KEYS):
+            raise ArdeeError(f"{path}: found no episode, expected the keys {', '.join(_KEYS)}")
+        return cls(**given)
+
+    def make(self) -> gymnasium.Env:
+        """Makes the environment."""
+        try:
+            return gymnasium.make(self.environment, **self.arguments)
+        except (gymnasium.error.Error, TypeError) as error:
+            raise ArdeeError(f"found environment '{self.environment}': {error}") from error
+
+    def play(self, env: gymnasium.Env) -> Iterator[Tuple[Any, ...]]:
+        """Repeats the episode in an environment of make(); yields what reset() returns, then what each step() does."""
+        yield env.reset(options=self.replay)
+        for action in self.actions:
+            yield env.step(np.array(action, np.float32))
+
+
+class RecordEpisode(gymnasium.Wrapper):
+    """Records the present episode of an environment of this package."""
+
+    def __init__(self, env: gymnasium.Env) -> None:
+        super().__init__(env)
+        if env.spec is None:
+            raise ArdeeError("found an environment without id, expected one of gymnasium.make")
+        self._id, self._arguments = env.spec.id, dict(env.spec.kwargs)
+        self._replay: Dict[str, Any] = {}
+        self._actions: List[List[float]] = []
+
+    def reset(
+        self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
+    ) -> Tuple[Any, Dict[str, Any]]:
+        """Begins another record."""
+        observation, info = self.env.reset(seed=seed, options=options)  # type: ignore[arg-type]
+        self._replay, self._actions = info["replay"], []
+        return observation, info
+
+    def step(self, action: Any) -> Tuple[Any, SupportsFloat, bool, bool, Dict[str, Any]]:
+        """Records an action."""
+        result = self.env.step(action)
+        self._actions.append(np.asarray(action, np.float32).tolist())
+        return result
+
+    @property
+    def episode(self) -> Episode:
+        """The episode since the last reset()."""
+        if not self._replay:
+            raise RuntimeError("found no episode, expected reset() first")
+        return Episode(self._id, self._arguments, self._replay, list(self._actions))
