@@ -47,6 +47,8 @@ def main() -> None:
     except (ardee_sim.ArdeeError, ImportError) as error:
         print(f"ardee_sim.view: {error}", file=sys.stderr)
         sys.exit(2)
+    except KeyboardInterrupt:  # before the page was there, or once more while it ends
+        sys.exit(130)
 
 
 def _play(file: str, page: Dict[str, Any]) -> None:
