@@ -14,7 +14,7 @@ from ardee_navigation.lbirnt import Parameters
 FOLDER = Path(examples.__file__).parent
 
 
-@pytest.mark.parametrize("name, count", [("small", 12), ("season", 270), ("vision", 120)])
+@pytest.mark.parametrize("name, count", [("small", 12), ("season", 330), ("vision", 120)])
 def test_a_shipped_campaign_is_listed_by_its_name(name: str, count: int) -> None:
     done = run(name, "--output", "/nowhere", "--list")
     assert f"{count} runs, {count} of them to do" in done.stderr
