@@ -100,7 +100,9 @@ def test_a_file_joins_equal_materials_and_holds_its_texture(tmp_path: Path) -> N
         0.5,
         True,
     )
-    assert box["pbrMetallicRoughness"]["baseColorFactor"] == pytest.approx([1, 0.5**2.2, 0, 1])
+    assert box["pbrMetallicRoughness"]["baseColorFactor"] == pytest.approx(
+        [1, 0.5**2.2, 0, 1], abs=1 / 255
+    )
     binary = data[28 + json_length :]
     image = tree["bufferViews"][tree["images"][0]["bufferView"]]
     begin = image["byteOffset"]
