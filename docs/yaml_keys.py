@@ -36,6 +36,7 @@ FILES = (
     ("Data set", "a recipe of `rosrun ardee_datasets generate_dataset`", dataset.Recipe),
     ("Fields of a data set", "an entry of `fields`", dataset.FieldKeys),
     ("A camera of a data set", "an entry of `cameras`", dataset.CameraKeys),
+    ("A lidar of a data set", "an entry of `lidars`", dataset.LidarKeys),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
     ("A GPS of the sensor server", "an entry of `sources`", settings.GpsSource),
     ("A camera of the sensor server", "an entry of `sources`", settings.ImageSource),

@@ -56,6 +56,7 @@ def test_velodyne_cloud(world: RosGraph) -> None:
         ("ring", 20, 4, 1),
         ("label", 24, 6, 1),
         ("time", 28, 7, 1),
+        ("instance", 12, 6, 1),
     ]
     assert (cloud.point_step, cloud.height, cloud.is_bigendian, cloud.is_dense) == (
         32,

@@ -37,6 +37,8 @@ fields:
     options: {models: [corn_variant_7], row_length_m: 3.0}
 cameras:
   front: {width_px: 96, height_px: 72, horizontal_fov_deg: 70, height_m: [0.4, 0.6], pitch_deg: [10, 30]}
+lidars:
+  top: {sensor: vlp16, above_m: 0.2}
 """
 
 
@@ -107,6 +109,19 @@ def test_instances_lead_to_the_truth(made: Path) -> None:
     assert checked > 10
 
 
+def test_organs_lie_where_a_plant_has_them(made: Path) -> None:
+    """Every pixel of a plant has an organ; young corn has stalk and leaves, grown corn an ear and brace roots too."""
+    names = {one["id"]: one["name"] for one in json.loads((made / "organs.json").read_text())}
+    seen = {"train": set(), "test": set()}
+    for sample in samples(made):
+        split = made / sample["split"]
+        organs = pixels(split / "organs" / f"{sample['id']}.png")
+        labels = pixels(split / "labels" / f"{sample['id']}.png")
+        assert np.array_equal(organs > 0, labels == 1)
+        seen[sample["split"]] |= {names[number] for number in np.unique(organs[organs > 0])}
+    assert seen == {"train": {"stalk", "leaf"}, "test": {"stalk", "leaf", "ear", "root"}}
+
+
 def samples(made: Path) -> list:
     return [json.loads(path.read_text()) for path in sorted(made.glob("*/samples/*.json"))]
 
@@ -175,12 +190,36 @@ def test_sheets_show_every_sample(made: Path, capsys: pytest.CaptureFixture) -> 
     (sheet,) = (made.parent / "made_sheets").iterdir()
     assert capsys.readouterr().out.split() == [str(sheet.parent)]
     picture = pixels(sheet)
-    assert picture.shape == (14 + 3 * (240 + 14), 2 * 3 * 320, 3)  # five samples in two columns
-    tiles = [picture[28 + 254 * y :, 320 * x :][:240, :320] for y in range(3) for x in range(6)]
-    assert [tile.std() > 10 for tile in tiles] == [True] * 15 + [False] * 3
+    assert picture.shape == (2 * 14 + 5 * (240 + 14), 4 * 320, 3)  # five samples, four tiles each
+    tiles = [picture[42 + 254 * y :, 320 * x :][:240, :320] for y in range(5) for x in range(4)]
+    assert all(tile.std() > 10 for tile in tiles)
     with pytest.raises(SystemExit):
         show_dataset.main([str(made.parent)])
     assert "found no dataset.yaml" in capsys.readouterr().err
+
+
+def test_points_of_clouds_lead_to_the_truth(made: Path) -> None:
+    """A plant's points lie about its place, on average, and points without an instance on the ground."""
+    away_m = []
+    for sample in samples(made):
+        folder, one = made / sample["split"] / "clouds" / "top", sample["clouds"]["top"]
+        points = np.fromfile(folder / "velodyne" / f"{sample['id']}.bin", "<f4").reshape(-1, 4)
+        labels = np.fromfile(folder / "labels" / f"{sample['id']}.label", "<u4")
+        assert len(points) == len(labels) > 1000
+        X_WL, X_WC = np.array(one["X_WL"]), np.array(sample["X_WC"])
+        assert np.allclose(X_WL[:3, 2:] - X_WC[:3, 3:] * (0, 1), [[0, 0], [0, 0], [1, 0.2]])
+        world = points[:, :3] @ X_WL[:3, :3].T + X_WL[:3, 3]
+        assert np.abs(world[labels == 0, 2]).max() < 0.2
+        truth = json.loads((made / "truth" / sample["scene"] / "truth.json").read_text())["plants"]
+        place = dict(zip(truth["id"], zip(truth["world_x_m"], truth["world_y_m"])))
+        for number, truth_id in one["instances"].items():
+            mine = labels >> 16 == int(number)
+            kind, _, plant = truth_id.rpartition("_")
+            assert set(labels[mine] & 0xFFFF) == {1 if kind == "plant" else 10}
+            if kind == "plant" and mine.sum() > 10:
+                x, y = place[int(plant)]
+                away_m.append(math.hypot(*(world[mine, :2].mean(axis=0) - (x, y))))
+    assert len(away_m) > 20 and max(away_m) < 0.6 and np.median(away_m) < 0.2
 
 
 def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:
@@ -193,6 +232,7 @@ def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, m
     first.wait()
     assert not (folder / "manifest.json").exists()
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
+    assert not (folder / ".sown").exists()
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
 
 
@@ -204,6 +244,7 @@ def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, m
         ("[0.7, 0.8]", "[0.8, 0.7]", "recipe.yaml:8: row_spacing_m: found.*least, most"),
         ("height_px: 72, ", "", "recipe.yaml:14: found neither sensor nor height_px"),
         ("width_px: 96", "sensor: reelsense_d435", "recipe.yaml:14: sensor: .*realsense_d435"),
+        ("sensor: vlp16", "sensor: imu", "recipe.yaml:16: sensor: found 'imu'.*vlp16"),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
     ],
 )

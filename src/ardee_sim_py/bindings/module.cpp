@@ -47,8 +47,20 @@ py::tuple tuple_of(const RelativeState& state) {
   return py::make_tuple(state.pose.p, xyzw, state.twist.linear, state.twist.angular);
 }
 
+std::map<std::uint32_t, std::string> visuals_of(const Model& model) {
+  std::map<std::uint32_t, std::string> names;
+  for (std::uint32_t i = 0; i < model.links.size(); ++i) {
+    const std::vector<Visual>& visuals = model.links[i].visuals;
+    for (std::uint32_t k = 0; k < visuals.size(); ++k) {
+      names.emplace(render::visual_number(i, k), visuals[k].name);
+    }
+  }
+  return names;
+}
+
 /// Returns a tuple for each piece of static scenery: scoped name, file of the world's model that
-/// contains it, position, quaternion, scale, label, number in instance pictures.
+/// contains it, position, quaternion, scale, label, number in instance pictures, names of its
+/// visuals by their numbers in pictures of visuals.
 py::list placements_of(const LoadedWorld& loaded) {
   py::list made;
   std::int64_t instance_number = 1;
@@ -62,9 +74,9 @@ py::list placements_of(const LoadedWorld& loaded) {
     for (std::size_t k = 0; k < placements.size(); ++k) {
       const Placement& placed = placements[k];
       const Eigen::Vector4d xyzw = placed.X_WM.q.coeffs();
-      made.append(py::make_tuple(name(k), each.model->source.file, placed.X_WM.p, xyzw,
-                                 placed.scale, placed.label,
-                                 instance_number + static_cast<std::int64_t>(k)));
+      made.append(py::make_tuple(
+          name(k), each.model->source.file, placed.X_WM.p, xyzw, placed.scale, placed.label,
+          instance_number + static_cast<std::int64_t>(k), visuals_of(*placed.model)));
     }
     instance_number += std::max<std::int64_t>(1, static_cast<std::int64_t>(placements.size()));
   }
@@ -145,14 +157,14 @@ void bind_readings(py::class_<BoundSimulation>& bound) {
       .def("picture",
            [](BoundSimulation& sim, const Eigen::Vector3d& xyz_m, const Eigen::Vector4d& quat_xyzw,
               int width, int height, double horizontal_fov_rad, double near_m, bool light,
-              bool depth, bool ids) {
+              bool depth, bool ids, bool visuals) {
              render::Camera camera;
              camera.X_WC = {xyz_m, quaternion(quat_xyzw)};
              camera.width = width;
              camera.height = height;
              camera.horizontal_fov_rad = horizontal_fov_rad;
              camera.near_m = near_m;
-             return sim.picture(camera, {light, depth, ids});
+             return sim.picture(camera, {light, depth, ids, visuals});
            });
 }
 

@@ -35,6 +35,7 @@ py::dict BoundSimulation::picture(const render::Camera& camera, const render::Fr
     }
     made["instances"] = picture_of(std::move(instances), frame);
   }
+  if (parts.visuals) made["visuals"] = picture_of(std::move(frame.visuals), frame);
   return made;
 }
 

@@ -273,6 +273,13 @@ def test_pictures_agree_with_each_other_and_with_the_plants(
     layers = sim.picture(**eye)
     for name, layer in dict(rgb=rgb, depth_m=depth_m, labels=labels, instances=instances).items():
         assert np.array_equal(layers[name], layer)
+    visuals_of = {placement.instance: placement.visuals for placement in corn.placements()}
+    crop_parts = {
+        visuals_of[instance][visual]
+        for instance, visual in zip(instances[labels == 1], layers["visuals"][labels == 1])
+    }
+    assert {"stem", "leavesm"} <= crop_parts
+    assert not layers["visuals"][depth_m == np.inf].any()
     far = sim.depth_image(**eye, near_m=1.0)
     assert far.min() >= 1.0 > depth_m.min()
     # The middle of the picture looks along the world's -x: a plant's depth is about its distance in x.

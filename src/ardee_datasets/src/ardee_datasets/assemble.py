@@ -13,7 +13,7 @@ import yaml
 
 from ardee_common.output import write_file
 from ardee_datasets.recipe import SPLITS, Recipe
-from ardee_datasets.sample import json_bytes
+from ardee_datasets.sample import ORGANS, json_bytes
 
 _CROP = {"supercategory": "crop", "keypoints": ["foot"], "skeleton": []}
 CATEGORIES = (
@@ -40,11 +40,15 @@ Labelled pictures of simulated crop fields, made by ARDEE from dataset.yaml (see
 
 Files of a split, by the id of a sample, SCENE_FRAME:
 - rgb/*.png; labels/*.png, 16 bit: category ids; instances/*.png, 16 bit: 1 to n in each picture, in the order of its
-  annotations; depth/*.tiff: float32, metres along the optical axis; 0 is nothing in each of the last three.
+  annotations; organs/*.png, 8 bit: parts of crop plants by organs.json; depth/*.tiff: float32, metres along the
+  optical axis; 0 is nothing in each of the last four.
 - samples/*.json: K (a pixel's centre lies at its whole number), X_WC (optical frame in the world: x right, y down, z
   ahead), seeds, the number in instances/ to the id in truth/SCENE; rows: lines of the crop rows on the ground, in
   pixels, clipped to the picture but not hidden by plants (a row that leaves and comes back has several);
   vanishing_point_px: where lines along the nearest row meet, also outside of the picture; null if they cross the view.
+- clouds/LIDAR/velodyne/*.bin, labels/*.label: as SemanticKITTI has them: x, y, z [m], intensity, float32, in the
+  lidar's frame X_WL of samples/*.json, which has the instances too; uint32, category id in the low 16 bits, instance
+  above.
 - annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv. The keypoint
   of a plant is its stalk's foot on the ground: 2 if it is in sight, 1 if hidden, 0 if outside of the picture.
 - poses.csv: positions of the cameras.
@@ -175,5 +179,7 @@ def assemble(folder: Path, recipe: Recipe) -> None:
         write_file(folder / split / "poses.csv", _poses(samples).encode())
     _write_yolo(folder, by_split)
     write_file(folder / "categories.json", json_bytes(list(CATEGORIES)))
+    organs = [{"id": number, "name": name} for number, name in ORGANS.items()]
+    write_file(folder / "organs.json", json_bytes(organs))
     write_file(folder / "README.md", _card("Data set", recipe, by_split).encode())
     write_file(folder / "manifest.json", json_bytes(_manifest(folder)))

@@ -4,6 +4,7 @@
 import argparse
 import multiprocessing
 import os
+import shutil
 import signal
 import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -17,11 +18,13 @@ from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
 from ardee_datasets.assemble import assemble
+from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot, scenes, shots
 from ardee_datasets.recipe import Recipe, read_recipe
 from ardee_datasets.sample import take
 from ardee_datasets.scenery import Scenery
 
+_SOWN = ".sown"  # folder of the fields at work; what a killed worker left goes with the next start
 _TRUTH = ("truth.csv", "truth.json", "clutter.csv")
 
 
@@ -40,14 +43,19 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
     All in order, also those that are there: a picture may depend on the ones that its simulation took before.
     """
     try:
-        with tempfile.TemporaryDirectory(prefix="ardee_dataset_") as temporary:
+        with tempfile.TemporaryDirectory(dir=folder / _SOWN) as temporary:
             scenery = Scenery(scene, Path(temporary))
             for name in _TRUTH:
                 if (scenery.folder / name).is_file():
                     truth = (scenery.folder / name).read_bytes()
                     write_file(folder / "truth" / scene.name / name, truth)
+            lidars = {
+                name: Lidar(scenery.simulation, name, keys)
+                for name, keys in sorted((recipe.lidars or {}).items())
+            }
             for shot in shots(recipe, scene):
-                take(scene, shot, recipe.cameras[shot.camera], scenery, folder)
+                camera = recipe.cameras[shot.camera]
+                take(scene, shot, camera, scenery, lidars, folder)
     except (GeneratorError, ArdeeError) as error:
         raise GeneratorError(f"{scene.name}: {error}") from None
     return scene.name
@@ -113,7 +121,12 @@ def generate(args: argparse.Namespace) -> Optional[str]:
     with output_folder(args.output) as folder, locked(folder):
         _check_same(folder, args.recipe)
         todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
-        _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
+        shutil.rmtree(folder / _SOWN, ignore_errors=True)
+        (folder / _SOWN).mkdir()
+        try:
+            _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
+        finally:
+            shutil.rmtree(folder / _SOWN, ignore_errors=True)
         assemble(folder, recipe)
     return str(args.output)
 

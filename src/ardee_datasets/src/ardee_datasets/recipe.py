@@ -4,7 +4,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Callable, Dict, Optional, Tuple
 
 import yaml
 from ardee_sim.packages import find_package
@@ -59,11 +59,20 @@ class CameraKeys:
 
 
 @dataclass(frozen=True)
+class LidarKeys:
+    """A 3D lidar that stands upright above each camera and has its heading."""
+
+    sensor: str = option(dataclasses.MISSING, "3D lidar of ardee_sensors, such as vlp16")
+    above_m: float = option(0.1, "height above the camera", (0.0, 5.0))
+
+
+@dataclass(frozen=True)
 class Recipe:
     """A data set; the same recipe gives the same bytes."""
 
     fields: dict = option(dataclasses.MISSING, "kinds of fields, by name")
     cameras: dict = option(dataclasses.MISSING, "cameras, by name")
+    lidars: Optional[dict] = option(None, "3D lidars, by name")
     seed: int = option(0, "root of all random numbers", (0, 2**63))
     licence: str = option("CC0-1.0", "licence of the data set, an SPDX identifier")
 
@@ -120,21 +129,25 @@ def _checked(given: Mapping, key: str, value: Any) -> Any:
     return value_of(*_option(given, key), one, key)
 
 
+def _sensor(name: str, given: Mapping, is_fit: Callable[[dict], bool]) -> dict:
+    """Returns the numbers of a shipped sensor that fits."""
+    files = sorted((find_package("ardee_sensors") / "config").glob("*.yaml"))
+    numbers = {file.stem: yaml.safe_load(file.read_text()) for file in files}
+    known = [sensor for sensor, read in numbers.items() if is_fit(read)]
+    if name not in known:
+        raise given.error("sensor", f"sensor: found {name!r}, {known_names(name, known)}")
+    return numbers[name]
+
+
 def _with_sensor(keys: CameraKeys, given: Mapping, name: str) -> CameraKeys:
     """Returns the keys with the numbers of a shipped camera where they are not given."""
     if not keys.sensor:
         return keys
-    folder = find_package("ardee_sensors") / "config"
-    numbers = {}
-    for file in sorted(folder.glob("*.yaml")):
-        read = yaml.safe_load(file.read_text())
-        if {"width_px", "height_px", "horizontal_fov_deg"} <= set(read):
-            numbers[file.stem] = read
-    if keys.sensor not in numbers:
-        raise given.error(
-            "sensor", f"sensor: found {keys.sensor!r}, {known_names(keys.sensor, list(numbers))}"
-        )
-    read = numbers[keys.sensor]
+    read = _sensor(
+        keys.sensor,
+        given,
+        lambda read: {"width_px", "height_px", "horizontal_fov_deg"} <= set(read),
+    )
     changes = {
         key: read[key]
         for key in ("width_px", "height_px", "horizontal_fov_deg")
@@ -159,4 +172,7 @@ def read_recipe(path: Path) -> Recipe:
         name: _with_sensor(keys, recipe.cameras[name], name)
         for name, keys in _named(CameraKeys, recipe.cameras, "cameras").items()
     }
-    return dataclasses.replace(recipe, fields=fields, cameras=cameras)
+    lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
+    for name, keys in lidars.items():
+        _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
+    return dataclasses.replace(recipe, fields=fields, cameras=cameras, lidars=lidars)

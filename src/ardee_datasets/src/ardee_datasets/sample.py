@@ -5,20 +5,35 @@ import io
 import json
 import math
 from pathlib import Path
-from typing import Any, Dict, List, Tuple
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 from PIL import Image
 
 from ardee_common.output import write_file
 from ardee_datasets import rle
+from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot
 from ardee_datasets.recipe import CameraKeys
 from ardee_datasets.rows import foot_keypoint, nearest_direction, vanishing_point
-from ardee_datasets.scenery import Item, Scenery
+from ardee_datasets.scenery import CameraPose, Item, Scenery
 
 # Layer to the ending of its files
-LAYERS = {"rgb": "png", "labels": "png", "instances": "png", "depth": "tiff"}
+LAYERS = {"rgb": "png", "labels": "png", "instances": "png", "organs": "png", "depth": "tiff"}
+# Organs by their numbers, and the visual elements of crop models that they are
+ORGANS = {1: "stalk", 2: "leaf", 3: "ear", 4: "tassel", 5: "panicle", 6: "flower", 7: "root"}
+_ORGAN_OF = {
+    "stem": 1,
+    "tillers": 1,
+    "leavesb": 2,
+    "leavesm": 2,
+    "leavest": 2,
+    "ears": 3,
+    "tassel": 4,
+    "panicle": 5,
+    "flowers": 6,
+    "roots": 7,
+}
 
 
 def json_bytes(data: Any) -> bytes:
@@ -40,6 +55,18 @@ def numbered(instances: np.ndarray, items: Dict[int, Item]) -> Tuple[np.ndarray,
     table = np.zeros(int(instances.max()) + 1, dtype=np.uint16)
     table[seen] = np.arange(1, len(seen) + 1)
     return table[instances], seen
+
+
+def organs(own: np.ndarray, visuals: np.ndarray, items: Sequence[Item]) -> np.ndarray:
+    """Returns the picture of crop plants' organs; 0: none, or a part of a model whose name is not known."""
+    numbers, column = np.unique(visuals, return_inverse=True)
+    table = np.zeros((len(items) + 1, len(numbers)), dtype=np.uint8)
+    for n, item in enumerate(items, 1):
+        if item.foot_m is not None:
+            table[n] = [
+                _ORGAN_OF.get(item.visuals.get(number, ""), 0) for number in numbers.tolist()
+            ]
+    return table[own, column.reshape(own.shape)]
 
 
 def annotation(mask: np.ndarray, item: Item) -> Dict[str, Any]:
@@ -78,7 +105,30 @@ def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
     return stream.getvalue()
 
 
-def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: Path) -> None:
+def _write_clouds(
+    split: Path, shot: Shot, pose: CameraPose, scenery: Scenery, lidars: Dict[str, Lidar]
+) -> Dict[str, Any]:
+    """Writes the clouds of lidars above a camera; returns their poses and instances."""
+    made = {}
+    for name, lidar in lidars.items():
+        X_WL = lidar.pose_above(pose)
+        cloud = lidar.measure(X_WL, scenery.items)
+        folder = split / "clouds" / name
+        write_file(folder / "velodyne" / f"{shot.id}.bin", cloud.points.astype("<f4").tobytes())
+        write_file(folder / "labels" / f"{shot.id}.label", cloud.labels.astype("<u4").tobytes())
+        numbers = {str(n): truth_id for n, truth_id in enumerate(cloud.instances, 1)}
+        made[name] = {"X_WL": X_WL.body_matrix().tolist(), "instances": numbers}
+    return made
+
+
+def take(
+    scene: Scene,
+    shot: Shot,
+    keys: CameraKeys,
+    scenery: Scenery,
+    lidars: Dict[str, Lidar],
+    folder: Path,
+) -> None:
     """Takes a picture and writes its layers into folder/<split>; samples/<id>.json is last: with it, all is there."""
     assert keys.width_px and keys.height_px and keys.horizontal_fov_deg
     pose = scenery.draw_pose(keys, shot.seed)
@@ -90,17 +140,18 @@ def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: P
         horizontal_fov_rad=math.radians(keys.horizontal_fov_deg),
     )
     own, seen = numbered(taken["instances"], scenery.items)
+    items = [scenery.items[instance] for instance in seen]
     depth = taken["depth_m"]
     layers = {
         "rgb": taken["rgb"],
         "labels": taken["labels"],
         "instances": own,
+        "organs": organs(own, taken["visuals"], items),
         "depth": np.where(np.isfinite(depth), depth, np.float32(0.0)),
     }
     split = folder / scene.keys.split
     for layer, ending in LAYERS.items():
         write_file(split / layer / f"{shot.id}.{ending}", _picture_bytes(layers[layer], ending))
-    items = [scenery.items[instance] for instance in seen]
     K, X_WC = intrinsics(keys), pose.matrix()
     meeting = vanishing_point(nearest_direction(scenery.rows, pose.xyz_m), K, X_WC)
     sample = {
@@ -115,6 +166,7 @@ def take(scene: Scene, shot: Shot, keys: CameraKeys, scenery: Scenery, folder: P
         "stamp_ns": 0,
         "field_seed": scene.seed,
         "shot_seed": shot.seed,
+        "clouds": _write_clouds(split, shot, pose, scenery, lidars),
         "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},
         "annotations": [
             {**annotation(own == n, item), **keypoints(own == n, item, depth, K, X_WC)}

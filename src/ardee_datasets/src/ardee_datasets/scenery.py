@@ -33,20 +33,27 @@ class CameraPose:
     xyz_m: np.ndarray
     rotation: Rotation
 
+    def body_matrix(self) -> np.ndarray:
+        """Returns the pose as a 4x4 matrix."""
+        made = np.eye(4)
+        made[:3, :3] = self.rotation.as_matrix()
+        made[:3, 3] = self.xyz_m
+        return made
+
     def matrix(self) -> np.ndarray:
         """Returns X_WC, 4x4: the optical frame (x right, y down, z ahead) in the world."""
-        made = np.eye(4)
-        made[:3, :3] = self.rotation.as_matrix() @ _OPTICAL
-        made[:3, 3] = self.xyz_m
+        made = self.body_matrix()
+        made[:3, :3] = made[:3, :3] @ _OPTICAL
         return made
 
 
 @dataclass(frozen=True)
 class Item:
-    """A plant or a piece of clutter: its name in the truth (plant_7, weed_0), its label, and where it stands."""
+    """A plant or a piece of clutter: its name in the truth (plant_7, weed_0), label, parts, and place."""
 
     truth_id: str
     label: int
+    visuals: Dict[int, str]  # names of its parts, by their numbers in pictures
     foot_m: Optional[np.ndarray] = None  # of a plant, in the world
 
 
@@ -75,6 +82,7 @@ class Scenery:
             placement.instance: Item(
                 placement.name.rpartition("::")[2],
                 placement.label,
+                placement.visuals,
                 feet_m.get(placement.instance),
             )
             for placement in world.placements()

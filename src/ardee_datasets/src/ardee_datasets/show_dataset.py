@@ -4,7 +4,7 @@
 import argparse
 import json
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -16,14 +16,29 @@ from ardee_datasets.recipe import SPLITS
 
 _PROG = "show_dataset"
 _TILE_PX = 320
-_BESIDE, _BELOW = 2, 4  # samples of a sheet
+_ON_SHEET = 6  # samples
+_TILES = 4  # of a sample
 _LINE_PX = 14  # of text
 _BOX = {1: "lime", 2: "orange", 3: "violet", 10: "red", 11: "white", 12: "cyan"}
 _ROW, _VANISHING, _FOOT, _HIDDEN = "yellow", "magenta", "red", "deepskyblue"
 _LEGEND = (
     "boxes: corn lime, sorghum orange, tobacco violet, weed red, stone white, litter cyan;  rows yellow, vanishing "
-    "point magenta;  feet red, hidden ones blue;  masks: a colour each;  depth: red 0.1 m to blue 20 m, black nothing"
+    "point magenta;  feet red, hidden ones blue;  masks: a colour each"
+    "\norgans: stalk red, leaf green, ear yellow, tassel orange, panicle magenta, flower white, root blue;  "
+    "depth: red 0.1 m to blue 20 m, black nothing"
 )
+_ORGAN_RGB = np.array(
+    [
+        [0, 0, 0],
+        [230, 30, 30],
+        [40, 180, 40],
+        [250, 240, 60],
+        [250, 150, 30],
+        [240, 60, 240],
+        [255, 255, 255],
+        [60, 80, 250],
+    ]
+)  # by the number of the organ
 # Colours at equal steps of the logarithm of depth, 0.1 m to 20 m
 _DEPTH_M = (0.1, 20.0)
 _DEPTH_RGB = np.array([[180, 0, 0], [255, 160, 0], [240, 255, 60], [40, 190, 190], [20, 40, 140]])
@@ -52,12 +67,17 @@ def _over_picture(sample: Dict[str, Any], rgb: np.ndarray) -> Image.Image:
     return picture
 
 
-def _masks(instances: np.ndarray, rgb: np.ndarray) -> Image.Image:
-    """Returns the picture in grey under a colour for each instance."""
-    number = np.arange(int(instances.max()) + 1)[:, None]
-    colours = 128 + 127 * np.sin(number * (2.4, 3.7, 5.1))  # neighbouring numbers differ much
+def _by_number(numbers: np.ndarray) -> np.ndarray:
+    """Returns colours of which those of neighbouring numbers differ much."""
+    return 128 + 127 * np.sin(numbers[..., None] * (2.4, 3.7, 5.1))
+
+
+def _coloured(
+    numbers: np.ndarray, rgb: np.ndarray, colours: Callable[[np.ndarray], np.ndarray]
+) -> Image.Image:
+    """Returns the picture in grey under the colours of its numbers from 1."""
     grey = np.repeat(rgb.mean(axis=2, keepdims=True), 3, axis=2)
-    mixed = np.where(instances[..., None] > 0, 0.3 * grey + 0.7 * colours[instances], grey)
+    mixed = np.where(numbers[..., None] > 0, 0.3 * grey + 0.7 * colours(numbers), grey)
     return Image.fromarray(mixed.astype(np.uint8))
 
 
@@ -69,35 +89,37 @@ def _depth(depth_m: np.ndarray) -> Image.Image:
 
 
 def _tiles(folder: Path, sample: Dict[str, Any]) -> List[Image.Image]:
-    """Returns the tiles of a sample, of one size: boxes, rows and feet; masks; depth."""
+    """Returns the tiles of a sample, of one size: boxes, rows and feet; masks; organs; depth."""
 
     def layer(name: str) -> np.ndarray:
         (path,) = (folder / sample["split"] / name).glob(f"{sample['id']}.*")
         return np.asarray(Image.open(path))
 
     rgb = layer("rgb")
-    tiles = _over_picture(sample, rgb), _masks(layer("instances"), rgb), _depth(layer("depth"))
+    tiles = (
+        _over_picture(sample, rgb),
+        _coloured(layer("instances"), rgb, _by_number),
+        _coloured(layer("organs"), rgb, _ORGAN_RGB.__getitem__),
+        _depth(layer("depth")),
+    )
     size = _TILE_PX, round(_TILE_PX * sample["height_px"] / sample["width_px"])
     return [tile.resize(size, Image.Resampling.LANCZOS) for tile in tiles]
 
 
 def contact_sheet(folder: Path, samples: Sequence[Dict[str, Any]]) -> Image.Image:
-    """Returns a sheet of some samples of a data set."""
-    rows = [samples[i : i + _BESIDE] for i in range(0, len(samples), _BESIDE)]
-    made = [[_tiles(folder, sample) for sample in row] for row in rows]
-    heights = [max(tiles[0].height for tiles in row) + _LINE_PX for row in made]
-    width = 3 * _TILE_PX * max(map(len, rows))
-    sheet = Image.new("RGB", (width, sum(heights) + _LINE_PX))
+    """Returns a sheet of some samples of a data set, one below another."""
+    made = [_tiles(folder, sample) for sample in samples]
+    legend_px = _LINE_PX * len(_LEGEND.splitlines())
+    height = legend_px + sum(_LINE_PX + tiles[0].height for tiles in made)
+    sheet = Image.new("RGB", (_TILES * _TILE_PX, height))
     draw = ImageDraw.Draw(sheet)
     draw.text((2, 1), _LEGEND)
-    y = _LINE_PX
-    for row, row_tiles, height in zip(rows, made, heights):
-        for i, (sample, tiles) in enumerate(zip(row, row_tiles)):
-            x = 3 * _TILE_PX * i
-            draw.text((x + 2, y + 1), f"{sample['split']} {sample['id']} {sample['camera']}")
-            for k, tile in enumerate(tiles):
-                sheet.paste(tile, (x + k * _TILE_PX, y + _LINE_PX))
-        y += height
+    y = legend_px
+    for sample, tiles in zip(samples, made):
+        draw.text((2, y + 1), f"{sample['split']} {sample['id']} {sample['camera']}")
+        for k, tile in enumerate(tiles):
+            sheet.paste(tile, (k * _TILE_PX, y + _LINE_PX))
+        y += _LINE_PX + tiles[0].height
     return sheet
 
 
@@ -115,12 +137,11 @@ def show(args: argparse.Namespace) -> str:
     if not found:
         raise GeneratorError(f"{folder}: found no samples, expected those of generate_dataset")
     samples = [json.loads(path.read_text()) for path in _spread(found, args.samples)]
-    on_sheet = _BESIDE * _BELOW
-    starts = range(0, len(samples), on_sheet)
+    starts = range(0, len(samples), _ON_SHEET)
     with output_folder(args.output or folder.with_name(f"{folder.name}_sheets")) as output:
         for start in steps(_PROG, starts):
-            sheet = contact_sheet(folder, samples[start : start + on_sheet])
-            sheet.save(output / f"sheet_{start // on_sheet + 1:03d}.png")
+            sheet = contact_sheet(folder, samples[start : start + _ON_SHEET])
+            sheet.save(output / f"sheet_{start // _ON_SHEET + 1:03d}.png")
     return str(output)
 
 
@@ -128,7 +149,7 @@ def make_parser() -> argparse.ArgumentParser:
     """Makes the parser of show_dataset."""
     parser = Parser(
         prog=_PROG,
-        description="Write contact sheets of a data set: pictures with boxes, rows and feet; masks; depth.",
+        description="Write contact sheets of a data set: pictures with boxes, rows and feet; masks; organs; depth.",
     )
     parser.add_argument("dataset", type=Path, metavar="DIR", help="folder of generate_dataset")
     parser.add_argument(

@@ -121,7 +121,7 @@ BeamEcho ReturnModel::single(const raycast::RayHit& hit, float cosine) const {
   const bool seen =
       std::isfinite(hit.range_m) && (least_power_ <= 0.0 || power(hit, cosine) >= least_power_);
   if (!seen) return {kInfinity, 0.0f, 0};
-  return {hit.range_m, intensity(hit, cosine), hit.label};
+  return {hit.range_m, intensity(hit, cosine), hit.label, hit.entity};
 }
 
 /// Merges returns within a pulse's length of the nearest one; the next group begins beyond.
@@ -158,7 +158,8 @@ BeamEcho ReturnModel::mix(const Pulse& pulse, int count) const {
   const auto mixed_m = static_cast<float>(range_m);
   if (mixed_m < range_min_m_) return {-kInfinity, 0.0f, 0};
   const bool is_plain = optics_.intensity == LidarOptics::Intensity::kPlain;
-  return {mixed_m, static_cast<float>(is_plain ? plain : diffuse), strongest->hit->label};
+  return {mixed_m, static_cast<float>(is_plain ? plain : diffuse), strongest->hit->label,
+          strongest->hit->entity};
 }
 
 }  // namespace ardee::devices

@@ -48,6 +48,7 @@ struct BeamEcho {
   float range_m = 0.0f;
   float intensity = 0.0f;
   std::uint32_t label = 0;
+  std::uint32_t entity = raycast::kNoEntity;
 };
 
 /// Directions of all sub-rays, those of a beam consecutively. They stand for equal areas: the first

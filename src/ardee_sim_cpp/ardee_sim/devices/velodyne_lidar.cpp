@@ -10,11 +10,11 @@ namespace {
 
 using Type = PointCloudReading::Type;
 
-/// The fields of velodyne_pointcloud, at velodyne_simulator's places; the label is ours.
+/// The fields of velodyne_pointcloud, at velodyne_simulator's places; label and instance are ours.
 const std::vector<PointCloudReading::Field> kFields{
-    {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
-    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32},
-    {"time", 28, Type::kFloat32}};
+    {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},       {"z", 8, Type::kFloat32},
+    {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16},    {"label", 24, Type::kUint32},
+    {"time", 28, Type::kFloat32},      {"instance", 12, Type::kUint32}};
 constexpr std::uint32_t kPointStep = 32;
 
 template <typename T>
@@ -102,6 +102,7 @@ PointCloudReading VelodyneLidar::to_cloud(const std::vector<BeamEcho>& echoes) c
       const float range_m = kept ? echo.range_m : std::numeric_limits<float>::quiet_NaN();
       const Eigen::Vector3f place_S = range_m * beams().axis_S(beam);
       std::memcpy(point, place_S.data(), 3 * sizeof(float));
+      write(point, 12, kept ? echo.entity + 1 : 0u);
       write(point, 16, kept ? echo.intensity : 0.0f);
       write(point, 20, static_cast<std::uint16_t>(ring));
       write(point, 24, kept ? echo.label : 0u);

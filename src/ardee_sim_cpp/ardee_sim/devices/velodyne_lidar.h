@@ -12,7 +12,8 @@
 namespace ardee::devices {
 
 /// A rotating lidar of several rings that gives point clouds in the layout of Velodyne's driver,
-/// with each point's label in bytes that are free there, and its time counted from the stamp.
+/// with each point's label and instance in bytes that are free there, and its time counted from the
+/// stamp.
 ///
 /// Points come column by column and in a column from the lowest ring up. By default a scan is taken
 /// at one time; a scan with motion distortion ends at its stamp, its columns are spread evenly over

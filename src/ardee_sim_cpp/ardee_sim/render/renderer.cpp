@@ -79,6 +79,7 @@ Frame Renderer::render_frame(const Camera& camera, const FrameParts& parts,
   if (parts.depth) frame.depth_m.resize(count);
   if (parts.ids) frame.entities.resize(count);
   if (parts.ids) frame.labels.resize(count);
+  if (parts.visuals) frame.visuals.resize(count);
   if (parts.light && options.approximate) store_.open();
   RenderOptions once = options;
   once.samples = 1;

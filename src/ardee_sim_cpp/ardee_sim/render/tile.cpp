@@ -108,6 +108,7 @@ class Tile {
         frame.entities[at] = hit.entity;
         frame.labels[at] = static_cast<std::uint16_t>(hit.label);
       }
+      if (parts.visuals) frame.visuals[at] = met ? visual_number(hit.link, hit.shape) : 0;
     }
   }
 

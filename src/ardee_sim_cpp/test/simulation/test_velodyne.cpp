@@ -68,16 +68,18 @@ TEST(Velodyne, LaysPointsOutByteForByte) {
   ASSERT_EQ(cloud.data.size(), 96u);
   using Type = PointCloudReading::Type;
   const std::vector<std::tuple<std::string, std::uint32_t, Type>> expected{
-      {"x", 0, Type::kFloat32},          {"y", 4, Type::kFloat32},    {"z", 8, Type::kFloat32},
-      {"intensity", 16, Type::kFloat32}, {"ring", 20, Type::kUint16}, {"label", 24, Type::kUint32},
-      {"time", 28, Type::kFloat32}};
+      {"x", 0, Type::kFloat32},     {"y", 4, Type::kFloat32},
+      {"z", 8, Type::kFloat32},     {"intensity", 16, Type::kFloat32},
+      {"ring", 20, Type::kUint16},  {"label", 24, Type::kUint32},
+      {"time", 28, Type::kFloat32}, {"instance", 12, Type::kUint32}};
   ASSERT_EQ(cloud.fields.size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     EXPECT_EQ(std::make_tuple(cloud.fields[k].name, cloud.fields[k].offset, cloud.fields[k].type),
               expected[k]);
   }
-  // The middle ring hits the wall squarely: x = 2.0f, intensity 1.0f, ring 1, label 7, time 0.0f.
-  const std::array<std::uint8_t, 32> middle{0, 0, 0,    0x40, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+  // The middle ring hits the wall squarely: x = 2.0f, instance 1, intensity 1.0f, ring 1, label 7,
+  // time 0.0f.
+  const std::array<std::uint8_t, 32> middle{0, 0, 0,    0x40, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
                                             0, 0, 0x80, 0x3F, 1, 0, 0, 0, 7, 0, 0, 0, 0, 0, 0, 0};
   for (std::size_t k = 0; k < middle.size(); ++k) {
     EXPECT_EQ(cloud.data[32 + k], middle[k]) << "byte " << k;

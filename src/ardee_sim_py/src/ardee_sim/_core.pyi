@@ -6,8 +6,8 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 import numpy as np
 
 _Made = Tuple[str, Dict[str, Any]]  # class of a reading, and its fields
-# name, file, position, quaternion, scale, label, number in instance pictures
-_Placement = Tuple[str, str, np.ndarray, np.ndarray, float, int, int]
+# name, file, position, quaternion, scale, label, number in instance pictures, names of visuals
+_Placement = Tuple[str, str, np.ndarray, np.ndarray, float, int, int, Dict[int, str]]
 
 # name, position and quaternion in the model at rest, visible shapes
 _Link = Tuple[str, np.ndarray, np.ndarray, List[Dict[str, Any]]]
@@ -113,5 +113,6 @@ class Simulation:
         light: bool,
         depth: bool,
         ids: bool,
+        visuals: bool,
         /,
     ) -> Dict[str, np.ndarray]: ...

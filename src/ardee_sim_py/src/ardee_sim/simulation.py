@@ -295,8 +295,12 @@ class Simulation:
     def picture(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> Dict[str, np.ndarray]:
-        """Returns the layers "rgb", "depth_m", "labels" and "instances" of one picture. As render()."""
-        return self._picture(xyz_m, quat_xyzw, ("rgb", "depth_m", "labels", "instances"), **lens)
+        """Returns the layers "rgb", "depth_m", "labels", "instances" and "visuals" of one picture. As render().
+
+        visuals : uint32[h, w], numbers of a model's parts: 0 nothing, those of Placement.visuals
+        """
+        layers = ("rgb", "depth_m", "labels", "instances", "visuals")
+        return self._picture(xyz_m, quat_xyzw, layers, **lens)
 
     def _picture(
         self,
@@ -315,7 +319,8 @@ class Simulation:
             raise ValueError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
         if not 0 <= near_m < math.inf:
             raise ValueError(f"found near_m={near_m}, expected 0 or more")
-        wanted = ("rgb" in parts, "depth_m" in parts, "labels" in parts or "instances" in parts)
+        has_ids = "labels" in parts or "instances" in parts
+        wanted = ("rgb" in parts, "depth_m" in parts, has_ids, "visuals" in parts)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
         size = width_px, height_px
         return self._core.picture(*pose, *size, horizontal_fov_rad, near_m, *wanted)

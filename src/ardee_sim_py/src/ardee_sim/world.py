@@ -55,11 +55,15 @@ class Plant:
 
 @dataclass(frozen=True)
 class Placement:
-    """A static model of the world, such as corn-field::plant_7; label and instance are its numbers in pictures."""
+    """A static model of the world, such as corn-field::plant_7; label and instance are its numbers in pictures.
+
+    `visuals` names the parts of it, such as stem and tassel, by their numbers in pictures of visuals.
+    """
 
     name: str
     label: int
     instance: int
+    visuals: Dict[int, str]
 
 
 def _truth_beside(file: str) -> Dict[int, Dict[str, str]]:
@@ -71,7 +75,7 @@ def _truth_beside(file: str) -> Dict[int, Dict[str, str]]:
 
 
 def _plant(placement: Tuple[Any, ...], truth: Dict[int, Dict[str, str]]) -> Plant:
-    name, _, xyz_m, quat_xyzw, scale, label, instance = placement
+    name, _, xyz_m, quat_xyzw, scale, label, instance, _ = placement
     number = name.rpartition("plant_")[2]
     row = truth.get(int(number), {}) if number.isdigit() else {}
     known: Dict[str, Any] = {key: int(row[key]) for key in ("id", "plot", "row", "place") if row}
@@ -151,7 +155,7 @@ class World:
 
     def placements(self) -> List[Placement]:
         """Returns all static models, in the order of their instance numbers."""
-        return [Placement(made[0], made[5], made[6]) for made in self._core.placements()]
+        return [Placement(made[0], *made[5:]) for made in self._core.placements()]
 
     def plants(self) -> List[Plant]:
         """Returns all crop plants, in the order of their instance numbers."""
