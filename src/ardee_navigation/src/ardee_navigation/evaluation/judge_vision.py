@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""Judges what the row model of ardee_navigation.vision finds in pictures of crop rows whose true rows are known.
+
+FOLDER holds NAME.jpg with NAME.crp, in the form of the Crop Row Benchmark Dataset (Vidovic, Cupec and Hocenski: Crop
+row detection by global energy minimization, Pattern Recognition 55, 2016): a line for each of the lowest picture rows,
+with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
+"""
+import argparse
+import sys
+from pathlib import Path
+from typing import Dict, Optional, Sequence, Tuple
+
+import cv2
+import numpy as np
+
+from ardee_common.errors import GeneratorError
+from ardee_navigation.vision.field_fit import FieldFitter, FieldRows
+from ardee_navigation.vision.vegetation import excess_green
+
+_WIDTH_PX = 160  # to which pictures are shrunk
+_TOLERANCE = 0.1  # of the period: an error that large counts nothing
+_GREEN = 0.2  # excess green of a plant
+
+
+def read_rows(path: Path, height_px: int) -> FieldRows:
+    """Returns the rows of a .crp file, NaN in picture rows above its first."""
+    try:
+        numbers = np.loadtxt(path, ndmin=2)
+    except (OSError, ValueError) as error:
+        raise GeneratorError(f"{path}: {error}") from None
+    if numbers.shape[1:] != (2,) or not 0 < len(numbers) <= height_px or (numbers[:, 1] <= 0).any():
+        found = f"{numbers.shape[0]} x {numbers.shape[1]} numbers"
+        expected = f"an offset and a positive period in each of up to {height_px} lines"
+        raise GeneratorError(f"{path}: found {found}, expected {expected}")
+    filled = np.full((height_px, 2), np.nan)
+    filled[-len(numbers) :] = numbers
+    return FieldRows(filled[:, 0], filled[:, 1])
+
+
+def accuracy(found: FieldRows, true: FieldRows, width_px: int) -> float:
+    """Returns the crop row detection accuracy (CRDA) of a picture, 0 to 1.
+
+    The mean, over picture rows with truth and the crop rows in them, of max(1 - (error / (0.1 period))^2, 0), where the
+    error is the distance to the nearest crop row found.
+    """
+    marks = []
+    for v in np.flatnonzero(np.isfinite(true.period_px)):
+        offset, period = true.offset_px[v], true.period_px[v]
+        first, last = (np.array([-0.5, 0.5]) * width_px - offset) / period
+        u = offset + period * np.arange(np.ceil(first), np.floor(last) + 1)
+        rows = np.round((u - found.offset_px[v]) / found.period_px[v])
+        error = u - found.offset_px[v] - rows * found.period_px[v]
+        marks.append(np.maximum(1.0 - (error / (_TOLERANCE * period)) ** 2, 0.0))
+    return float(np.mean(np.concatenate(marks)))
+
+
+def find_rows(rgb: np.ndarray, fitter: FieldFitter) -> FieldRows:
+    """Returns the crop rows in a picture uint8[h, w, 3]."""
+    small = fitter.fit(np.clip(excess_green(rgb, _WIDTH_PX) / _GREEN, 0.0, 1.0))
+    scale, height_px = rgb.shape[1] / _WIDTH_PX, rgb.shape[0]
+    v = (np.arange(height_px) + 0.5) / scale - 0.5
+    known = np.arange(len(small.offset_px))
+    offset, period = (np.interp(v, known, part) for part in (small.offset_px, small.period_px))
+    return FieldRows(offset * scale, period * scale)
+
+
+def judge(folder: Path) -> int:
+    """Prints the accuracy of each picture of a folder, and their mean."""
+    pictures = sorted(path for path in folder.glob("*.jpg") if path.with_suffix(".crp").is_file())
+    if not pictures:
+        raise GeneratorError(f"{folder}: found no NAME.jpg with NAME.crp, expected at least one")
+    fitters: Dict[Tuple[int, int], FieldFitter] = {}
+    marks = []
+    for path in pictures:
+        bgr = cv2.imread(str(path))
+        if bgr is None:
+            raise GeneratorError(f"{path}: found no picture")
+        height_px, width_px = bgr.shape[:2]
+        size = _WIDTH_PX, round(height_px * _WIDTH_PX / width_px)
+        if size not in fitters:
+            fitters[size] = FieldFitter(*size)
+        found = find_rows(np.ascontiguousarray(bgr[:, :, ::-1]), fitters[size])
+        marks.append(accuracy(found, read_rows(path.with_suffix(".crp"), height_px), width_px))
+        print(f"{path.name} {marks[-1]:.3f}")
+    print(f"classical: crop row detection accuracy {np.mean(marks):.3f} in {len(marks)} pictures")
+    return 0
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    """Runs the command; returns the exit code, 2 for bad input."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="pictures with their rows")
+    try:
+        return judge(parser.parse_args(arguments).folder)
+    except GeneratorError as error:
+        print(f"judge_vision: {error}", file=sys.stderr)
+        return 2

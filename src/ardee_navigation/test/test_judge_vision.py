@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""Tests the crop row detection accuracy, and what is found in pictures of rows drawn in known places."""
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from ardee_navigation.evaluation import judge_vision
+from ardee_navigation.vision.field_fit import FieldRows
+
+V_PX = np.arange(240) + 0.5
+
+
+def rows_of(offset: float, heading: float, bend: float) -> FieldRows:
+    """Returns rows 24 pixels apart at the picture's top and 96 at its bottom; offset, heading and bend in rows."""
+    period_px = 24.0 + 0.3 * V_PX
+    far = 24.0 / period_px
+    return FieldRows((offset + heading * far + bend * far**2) * period_px, period_px)
+
+
+def write(folder: Path, name: str, rows: FieldRows) -> None:
+    """Writes a picture of rows a third as wide as their period, with noise and a weed, and its truth."""
+    u_px = np.arange(320) + 0.5 - 160.0
+    across = (u_px - rows.offset_px[:, None]) / rows.period_px[:, None]
+    is_crop = np.abs(across - np.round(across)) < 1.0 / 6.0
+    is_crop[100:120, 40:60] = True
+    rgb = np.where(is_crop[..., None], (70, 120, 50), (120, 95, 75))
+    noise = np.random.default_rng(7).normal(0.0, 12.0, rgb.shape)
+    picture = np.clip(rgb + noise, 0, 255).astype(np.uint8)
+    cv2.imwrite(str(folder / f"{name}.jpg"), np.ascontiguousarray(picture[:, :, ::-1]))
+    np.savetxt(folder / f"{name}.crp", np.column_stack((rows.offset_px, rows.period_px))[2:])
+
+
+def test_drawn_rows_are_found(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    for name, numbers in enumerate([(0.0, 0.0, 0.0), (0.3, -2.0, 0.0), (-0.2, 1.0, 0.8)]):
+        write(tmp_path, str(name), rows_of(*numbers))
+    assert judge_vision.main([str(tmp_path)]) == 0
+    *pictures, mean = capsys.readouterr().out.splitlines()
+    marks = [float(line.split()[1]) for line in pictures]
+    assert len(marks) == 3 and min(marks) > 0.9
+    words = mean.split()
+    assert words[:5] + words[6:] == "classical: crop row detection accuracy in 3 pictures".split()
+    assert float(words[5]) == pytest.approx(np.mean(marks), abs=0.0011)
+
+
+@pytest.mark.parametrize("error, mark", [(0.0, 1.0), (0.05, 0.75), (0.1, 0.0), (0.5, 0.0)])
+def test_the_accuracy_by_hand(error: float, mark: float) -> None:
+    true = rows_of(0.1, 0.4, 0.0)
+    moved = FieldRows(true.offset_px + error * true.period_px, true.period_px)
+    assert judge_vision.accuracy(moved, true, 320) == pytest.approx(mark, abs=1e-9)
+
+
+def test_a_bad_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+    assert judge_vision.main([str(tmp_path)]) == 2
+    write(tmp_path, "a", rows_of(0.0, 0.0, 0.0))
+    (tmp_path / "a.crp").write_text("1 2 3\n")
+    assert judge_vision.main([str(tmp_path)]) == 2
+    empty, wrong = capsys.readouterr().err.splitlines()
+    assert "found no NAME.jpg with NAME.crp" in empty
+    assert "a.crp: found 1 x 3 numbers, expected an offset and a positive period" in wrong
