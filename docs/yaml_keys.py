@@ -11,6 +11,7 @@ from markdown_text import code, table
 from ardee_bridge.nodes import settings
 from ardee_campaigns import campaign_file
 from ardee_common.options import kind_of, range_text, unit_of
+from ardee_datasets import light
 from ardee_datasets import recipe as dataset
 from ardee_models.plant.species import SpeciesFile
 from ardee_models.terrain.recipe import Recipe
@@ -37,6 +38,7 @@ FILES = (
     ("Fields of a data set", "an entry of `fields`", dataset.FieldKeys),
     ("A camera of a data set", "an entry of `cameras`", dataset.CameraKeys),
     ("A lidar of a data set", "an entry of `lidars`", dataset.LidarKeys),
+    ("Light of a data set", "its entry `light`", light.LightKeys),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),
     ("A GPS of the sensor server", "an entry of `sources`", settings.GpsSource),
     ("A camera of the sensor server", "an entry of `sources`", settings.ImageSource),

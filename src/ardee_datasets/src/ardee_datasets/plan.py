@@ -3,10 +3,12 @@
 
 import hashlib
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List
+from typing import Any, Dict, Iterator, List, Optional
 
 import numpy as np
+from ardee_sim import Daylight
 
+from ardee_datasets.light import LightKeys
 from ardee_datasets.recipe import FieldKeys, Recipe
 
 
@@ -17,6 +19,11 @@ class Scene:
     name: str
     keys: FieldKeys
     seed: int
+    light_keys: Optional[LightKeys] = None
+
+    def light(self) -> Optional[Daylight]:
+        """Returns the light over the field, if the recipe has some."""
+        return self.light_keys.draw(stream(self.seed, "light")) if self.light_keys else None
 
     def options(self) -> Dict[str, Any]:
         """Returns the options of its field: the fixed ones, and those drawn from ranges."""
@@ -56,7 +63,8 @@ def scenes(recipe: Recipe) -> List[Scene]:
     for name, keys in sorted(recipe.fields.items()):
         for number in range(keys.fields):
             scene = f"{name}_{number:04d}"
-            made.append(Scene(scene, keys, child_seed(recipe.seed, "field", scene)))
+            seed = child_seed(recipe.seed, "field", scene)
+            made.append(Scene(scene, keys, seed, recipe.light))
     return made
 
 

@@ -12,6 +12,7 @@ from ardee_sim.packages import find_package
 from ardee_common.config import Mapping, build, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import kind_of, option
+from ardee_datasets.light import LightKeys
 from ardee_world.request import all_fields
 
 SPLITS = ("train", "val", "test")
@@ -73,6 +74,7 @@ class Recipe:
     fields: dict = option(dataclasses.MISSING, "kinds of fields, by name")
     cameras: dict = option(dataclasses.MISSING, "cameras, by name")
     lidars: Optional[dict] = option(None, "3D lidars, by name")
+    light: Optional[dict] = option(None, "light of sun and sky; none: each field has the same noon")
     seed: int = option(0, "root of all random numbers", (0, 2**63))
     licence: str = option("CC0-1.0", "licence of the data set, an SPDX identifier")
 
@@ -175,4 +177,5 @@ def read_recipe(path: Path) -> Recipe:
     lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
     for name, keys in lidars.items():
         _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
-    return dataclasses.replace(recipe, fields=fields, cameras=cameras, lidars=lidars)
+    light = build(LightKeys, recipe.light) if recipe.light else None
+    return dataclasses.replace(recipe, fields=fields, cameras=cameras, lidars=lidars, light=light)

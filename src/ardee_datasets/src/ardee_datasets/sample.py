@@ -4,6 +4,7 @@
 import io
 import json
 import math
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
@@ -165,6 +166,7 @@ def take(
         "X_WC": X_WC.tolist(),
         "stamp_ns": 0,
         "field_seed": scene.seed,
+        "light": asdict(scenery.light) if scenery.light else None,
         "shot_seed": shot.seed,
         "clouds": _write_clouds(split, shot, pose, scenery, lidars),
         "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},

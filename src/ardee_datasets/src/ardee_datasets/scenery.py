@@ -89,6 +89,9 @@ class Scenery:
             if placement.label
         }
         self.simulation = Simulation(world, seed=scene.seed)
+        self.light = scene.light()
+        if self.light:
+            self.simulation.set_light(self.light)
         self._lanes = self._find_lanes()
 
     def _find_lanes(self) -> List[Tuple[np.ndarray, np.ndarray]]:
