@@ -17,9 +17,10 @@ class KeepRight:
         """Returns speed and turn rate for the present scan."""
         scan = observation["scan"]
         angles = scan.angle_min_rad + scan.angle_increment_rad * np.arange(len(scan.ranges_m))
-        lateral_m = scan.ranges_m * np.sin(angles)
-        ahead_m = scan.ranges_m * np.cos(angles)
-        near = np.isfinite(lateral_m) & (ahead_m > 0.0) & (ahead_m < 1.0)
+        ranges_m = np.where(np.isfinite(scan.ranges_m), scan.ranges_m, 0.0)  # 0 is on neither side
+        lateral_m = ranges_m * np.sin(angles)
+        ahead_m = ranges_m * np.cos(angles)
+        near = (ahead_m > 0.0) & (ahead_m < 1.0)
         left = lateral_m[near & (lateral_m > 0.1)]
         right = -lateral_m[near & (lateral_m < -0.1)]
         if not len(left) or not len(right):
