@@ -8,7 +8,7 @@ import math
 import socket
 import time
 from types import TracebackType
-from typing import Any, Dict, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Type
 
 import numpy as np
 import viser
@@ -18,6 +18,9 @@ from ardee_sim.view.panel import NO_CAMERA, Panel, Wanted
 from ardee_sim.view.readings import CloudView, PictureView, link_of, topics_of
 from ardee_sim.view.rows import row_lines
 from ardee_sim.view.scene import SceneView, node, remove
+
+if TYPE_CHECKING:
+    from ardee_sim.envs import Episode
 
 PERIOD_S = 0.04  # of simulated time between two updates, in run()
 _WAIT_S = 0.02  # between two looks into the inbox while paused
@@ -259,3 +262,39 @@ class Viewer:
         traceback: Optional[TracebackType],
     ) -> None:
         self.close()
+
+
+def view(sim: Simulation, **options: Any) -> Viewer:
+    """Shows a simulation of yours, and returns the Viewer, whose update() is called after each of your steps.
+
+    options : those of Viewer
+    Raises ArdeeError if the port is taken.
+    """
+    return Viewer(sim, **options)
+
+
+def play(episode: "Episode", *, turns: float = math.inf, **options: Any) -> None:
+    """Shows a recorded episode again and again, paused at its end, until Ctrl-C or so many turns.
+
+    options : those of Viewer
+    """
+    env = episode.make()
+    viewer = None
+    try:
+        while turns > 0:
+            for _ in episode.play(env):
+                sim = env.unwrapped.simulation
+                if viewer is None:
+                    viewer = Viewer(sim, robot="robot", drive=False, **options)
+                    print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
+                viewer.update()
+            turns -= 1
+            if turns > 0 and viewer:
+                viewer.wanted.is_paused = True
+                viewer.update()
+    except KeyboardInterrupt:
+        return
+    finally:
+        if viewer:
+            viewer.close()
+        env.close()
