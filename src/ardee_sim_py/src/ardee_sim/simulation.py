@@ -2,6 +2,7 @@
 """A simulation: a world with robots, stepped by its owner."""
 
 import math
+from collections import Counter
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Union
@@ -44,6 +45,7 @@ class Simulation:
         self.world = world
         self.seed = seed
         self._core = _core.Simulation(world._core, seed, ray_threads)
+        self._demand_counts: Counter = Counter()
 
     def __enter__(self) -> "Simulation":
         return self
@@ -212,6 +214,7 @@ class Simulation:
             raise ValueError(f"found keep={keep}, expected 1 or more")
         for topic in topics:
             self._core.demand(topic, keep)
+            self._demand_counts[topic.strip("/")] += 1
 
     def undemand(self, *topics: str) -> None:
         """Lets devices measure for these topics no more; their last readings stay."""
@@ -221,6 +224,10 @@ class Simulation:
     def demands(self, topic: str) -> bool:
         """Returns whether the topic is demanded."""
         return self._core.demands(topic)
+
+    def demand_count(self, topic: str) -> int:
+        """Returns how often demand() was called for the topic: who demanded it sees whether others did since."""
+        return self._demand_counts[topic.strip("/")]
 
     def latest(self, topic: str) -> Any:
         """Returns the last reading of a demanded topic, of the class that topics() names; None before the first."""
@@ -249,6 +256,14 @@ class Simulation:
                 frame_id = frame_id if frame_id == other.frame_id else ""
             found[name] = TopicInfo(kind, role, rate_hz, frame_id)
         return found
+
+    def description(self, name: str) -> Any:
+        """Returns what a model was made of: its `name` and `links()`; another object once it was spawned anew."""
+        return self._core.description(name)
+
+    def scenery(self, x_m: float, y_m: float, radius_m: float) -> List[Tuple[Any, np.ndarray]]:
+        """Returns the static models near a place: each description, and its poses and scale, [n, 8]."""
+        return self._core.scenery(x_m, y_m, radius_m)
 
     def contacts(self) -> List[Contact]:
         """Returns the contacts of the last step; the first call is empty and asks for them from the next step on."""

@@ -3,7 +3,7 @@
 
 import json
 from dataclasses import asdict, dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, Dict, Iterator, List, Mapping, Optional, SupportsFloat, Tuple
 
 import gymnasium
@@ -12,6 +12,21 @@ from ardee_sim.errors import ArdeeError
 from ardee_sim.world import PathLike, read_text
 
 _KEYS = ("environment", "arguments", "replay", "actions")
+
+
+def _plain(value: Any) -> Any:
+    """Returns what JSON has not as what it has. Raises ArdeeError for what would not come back equal in effect."""
+    if isinstance(value, (np.generic, np.ndarray)) and value.dtype.kind in "biufU":
+        return value.tolist()
+    if isinstance(value, PurePath):
+        return str(value)
+    raise ArdeeError(
+        f"found {value!r} in an episode, expected numbers, texts, paths, and lists and dicts of them"
+    )
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True)
@@ -30,8 +45,8 @@ class Episode:
     actions: List[List[float]]
 
     def save(self, path: PathLike) -> None:
-        """Writes a JSON file."""
-        Path(path).write_text(json.dumps(asdict(self), indent=1, default=str) + "\n")
+        """Writes a JSON file. Raises ArdeeError if an argument is neither number, text nor path."""
+        Path(path).write_text(json.dumps(asdict(self), indent=1, default=_plain) + "\n")
 
     @classmethod
     def load(cls, path: PathLike) -> "Episode":
@@ -42,6 +57,16 @@ class Episode:
             raise ArdeeError(f"{path}: {error}, expected JSON") from None
         if not isinstance(given, dict) or sorted(given) != sorted(_KEYS):
             raise ArdeeError(f"{path}: found no episode, expected the keys {', '.join(_KEYS)}")
+        for key, kind in zip(_KEYS, (str, dict, dict, list)):
+            if not isinstance(given[key], kind):
+                raise ArdeeError(
+                    f"{path}: {key}: found {given[key]!r:.60}, expected a {kind.__name__}"
+                )
+        for number, action in enumerate(given["actions"]):
+            if not isinstance(action, list) or not all(map(_is_number, action)):
+                raise ArdeeError(
+                    f"{path}: actions[{number}]: found {action!r:.60}, expected a list of numbers"
+                )
         return cls(**given)
 
     def make(self) -> gymnasium.Env:

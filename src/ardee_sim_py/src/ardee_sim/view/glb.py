@@ -3,6 +3,7 @@
 
 import warnings
 from functools import lru_cache
+from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence
 
 import numpy as np
@@ -15,8 +16,8 @@ _MOST_PX = 512  # width and height of a texture in the page
 
 
 @lru_cache(maxsize=256)
-def _texture(path: str) -> Optional[Image.Image]:
-    """Returns a texture, no larger than the page needs; None if it cannot be read."""
+def _texture(path: str, changed_ns: int) -> Optional[Image.Image]:
+    """Returns a texture as it was changed last, no larger than the page needs; None if it cannot be read."""
     try:
         with Image.open(path) as opened:
             picture = opened.convert("RGBA")
@@ -30,7 +31,9 @@ def _texture(path: str) -> Optional[Image.Image]:
 def _look(material: Dict[str, Any]) -> Any:
     """Returns trimesh's material."""
     rgba = np.asarray(material["rgba"], float)
-    texture = _texture(material["texture"]) if material["texture"] else None
+    path = material["texture"]
+    changed_ns = Path(path).stat().st_mtime_ns if Path(path).is_file() else 0
+    texture = _texture(path, changed_ns) if path else None
     rejection = material["alpha_rejection"]
     is_holed = rgba[3] >= 1 and rejection >= 0 and texture is not None
     return load_trimesh().visual.material.PBRMaterial(

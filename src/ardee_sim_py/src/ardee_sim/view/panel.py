@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Controls of the page. What its people do waits in an inbox until the thread that steps takes it."""
 
+import math
 import queue
 from dataclasses import dataclass
 from typing import Any, Dict, List, Optional, Tuple
@@ -13,7 +14,7 @@ SPEEDS = ("0.1", "0.25", "0.5", "1", "2", "5", "10", UNLIMITED)
 NO_CAMERA = "none"
 _STEP_M_S, _STEP_RAD_S = 0.1, 0.2  # of a key
 _KEYS = """I and K change the speed, J and L the turn rate, space stops; P pauses, N makes one step.
-The mouse, W, A, S, D and the arrows move the eye."""
+Stop gives the drive back to the program. The mouse, W, A, S, D and the arrows move the eye."""
 
 
 @dataclass
@@ -27,7 +28,8 @@ class Wanted:
     rows: bool = True
     speed_m_s: float = 0.0
     turn_rad_s: float = 0.0
-    is_driven: bool = False  # somebody has driven
+    is_driven: bool = False  # by people, who have not stopped since
+    is_stopping: bool = False  # people stopped: one command of zero is due, then they drive no more
     clouds: Tuple[str, ...] = ()
     camera: str = NO_CAMERA
 
@@ -47,6 +49,7 @@ class Panel:
         limits: Tuple[float, float],
     ) -> None:
         self.wanted, self._limits = wanted, limits
+        self._cameras = (NO_CAMERA, *topics["pictures"])
         self._inbox: "queue.SimpleQueue[Tuple[str, Any]]" = queue.SimpleQueue()
         self._gui = gui = server.gui
         self._parts: List[Any] = []
@@ -64,8 +67,8 @@ class Panel:
         self._image: Optional[Any] = None
         self._drives: List[Any] = []
         if topics["pictures"]:
-            cameras = (NO_CAMERA, *topics["pictures"])
-            self._input(gui.add_dropdown("camera", cameras, initial_value=wanted.camera), "camera")
+            camera = gui.add_dropdown("camera", self._cameras, initial_value=wanted.camera)
+            self._input(camera, "camera")
         if topics["drives"]:
             self._add_drive()
 
@@ -113,8 +116,20 @@ class Panel:
             except queue.Empty:
                 return
 
+    def _is_valid(self, name: str, value: Any) -> bool:
+        """Returns whether the page can have sent this; other clients send what they like."""
+        if name == "pace":
+            return value in SPEEDS
+        if name == "camera":
+            return value in self._cameras
+        if name in ("speed_m_s", "turn_rad_s"):
+            return type(value) in (int, float) and math.isfinite(value)
+        return value is None or isinstance(value, bool)
+
     def _apply(self, name: str, value: Any) -> None:
         wanted = self.wanted
+        if not self._is_valid(name, value):
+            return
         if name == "step":
             wanted.steps += 1
         elif name == "pause":
@@ -131,9 +146,11 @@ class Panel:
 
     def _drive(self, name: str, value: Any) -> None:
         wanted, (v, w) = self.wanted, self._limits
-        wanted.is_driven = True
-        if name in ("speed_m_s", "turn_rad_s"):
-            setattr(wanted, name, float(value))
+        wanted.is_driven, wanted.is_stopping = name != "stop", name == "stop"
+        if name == "speed_m_s":
+            wanted.speed_m_s = float(np.clip(value, -v, v))
+        elif name == "turn_rad_s":
+            wanted.turn_rad_s = float(np.clip(value, -w, w))
         elif name == "stop":
             wanted.speed_m_s = wanted.turn_rad_s = 0.0
         else:

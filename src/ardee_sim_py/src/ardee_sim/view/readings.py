@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Shows a robot's readings: scans and clouds in the scene, pictures beside it."""
 
+import contextlib
 from typing import Any, Callable, Dict, List, Optional
 
 import numpy as np
@@ -51,7 +52,7 @@ def picture_of(reading: ImageReading) -> np.ndarray:
 
 
 class Wish:
-    """A topic that the page shows. It is demanded if nobody else does, and left alone at the end."""
+    """A topic that the page shows, demanded if nobody else does; at the end undemanded unless others did since."""
 
     def __init__(self, sim: Simulation, topic: str) -> None:
         self._sim, self.topic = sim, topic
@@ -59,6 +60,7 @@ class Wish:
         self._last: Any = None
         if self._is_ours:
             sim.demand(topic)
+        self._demand_count = sim.demand_count(topic)
 
     def take(self) -> Any:
         """Returns the last reading if it is a new one, else None."""
@@ -70,8 +72,10 @@ class Wish:
 
     def close(self) -> None:
         """Ends the demand."""
-        if self._is_ours:
-            self._sim.undemand(self.topic)
+        if self._is_ours and self._sim.demand_count(self.topic) == self._demand_count:
+            # a simulation that was closed, or lost the robot, measures no more
+            with contextlib.suppress(RuntimeError, KeyError):
+                self._sim.undemand(self.topic)
 
 
 class CloudView:

@@ -78,7 +78,7 @@ class SceneView:
         old, self._scenery = self._scenery, []
         for handle in old:
             remove(handle)
-        found = self._sim._core.scenery(center_m[0], center_m[1], self._radius_m)
+        found = self._sim.scenery(center_m[0], center_m[1], self._radius_m)
         for number, (description, places) in enumerate(found):
             name = node("scenery", f"{number}_{description.name}")
             if description not in self._models_glb:
@@ -119,7 +119,7 @@ class SceneView:
             self._scenery.append(handle)
 
     def _show_model(self, name: str, is_there: bool) -> None:
-        description = self._sim._core.description(name) if is_there else None
+        description = self._sim.description(name) if is_there else None
         if name in self._models and self._models[name][0] is not description:
             remove(self._models.pop(name)[1][""])  # and all below it
         if description is None:

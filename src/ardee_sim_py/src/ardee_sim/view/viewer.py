@@ -7,17 +7,18 @@ import logging
 import math
 import socket
 import time
+import warnings
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Type
 
 import numpy as np
-import viser
 from ardee_sim.errors import ArdeeError
 from ardee_sim.simulation import Simulation, Twist
 from ardee_sim.view.panel import NO_CAMERA, Panel, Wanted
 from ardee_sim.view.readings import CloudView, PictureView, link_of, topics_of
 from ardee_sim.view.rows import row_lines
 from ardee_sim.view.scene import SceneView, node, remove
+from ardee_sim.view.server import start_server
 
 if TYPE_CHECKING:
     from ardee_sim.envs import Episode
@@ -67,21 +68,25 @@ class Viewer:
     ) -> None:
         if not 0 < radius_m < math.inf:
             raise ArdeeError(f"radius_m: found {radius_m}, expected a positive number")
+        if not all(0 < limit < math.inf for limit in limits):
+            raise ArdeeError(f"limits: found {limits}, expected two positive numbers")
         _require_free(host, port)
         self._sim, self._robot_name, self._radius_m, self._limits = sim, robot, radius_m, limits
-        self._drives = drive
+        self._drives, self._is_closed = drive, False
         self._robot = self._find_robot(sim)
         # browsers open connections that they do not use, each of which would be a traceback
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
-        with contextlib.redirect_stdout(io.StringIO()):  # viser's own banner
-            self._server = viser.ViserServer(host, port, label="ARDEE", verbose=False)
-        self._server.gui.configure_theme(show_share_button=False)
-        self._server.scene.configure_default_lights(cast_shadow=False)
-        self.url = f"http://{host}:{self._server.get_port()}"
-        self._world = self._server.scene.add_frame(node(), show_axes=False)
-        self.wanted = Wanted()
-        self._is_first = True
-        self._show(sim)
+        self._server = start_server(host, port)
+        try:
+            self._server.scene.configure_default_lights(cast_shadow=False)
+            self.url = f"http://{host}:{self._server.get_port()}"
+            self._world = self._server.scene.add_frame(node(), show_axes=False)
+            self.wanted = Wanted()
+            self._is_first = True
+            self._show(sim)
+        except BaseException:
+            self._stop_server()
+            raise
 
     def _find_robot(self, sim: Simulation) -> Optional[str]:
         names = [entity.name for entity in sim.entities() if not entity.is_static]
@@ -116,12 +121,14 @@ class Viewer:
         self._clouds: Dict[str, CloudView] = {}
         self._camera: Optional[Tuple[str, PictureView]] = None
         self._rows: Optional[Any] = None
+        plants = sim.world.plants()
+        self._rest_m = np.mean([p.xyz_m for p in plants], axis=0) if plants else np.zeros(3)
         self._place_m = self._place()
         self._world.position = -self._place_m
         if self._is_first:
             self._look_at_robot()
             self._is_first = False
-        self._clock = time.monotonic(), sim.time_ns
+        self._start_clock()
         self._draw()
 
     def _hide(self) -> None:
@@ -136,10 +143,7 @@ class Viewer:
 
     def _place(self) -> np.ndarray:
         """Returns where the robot is, or the middle of the world's plants."""
-        if self._robot:
-            return self._sim.state(self._robot).xyz_m
-        plants = self._sim.world.plants()
-        return np.mean([p.xyz_m for p in plants], axis=0) if plants else np.zeros(3)
+        return self._sim.state(self._robot).xyz_m if self._robot else self._rest_m
 
     def _look_at_robot(self) -> None:
         yaw = self._sim.state(self._robot).yaw_rad if self._robot else 0.0
@@ -155,6 +159,11 @@ class Viewer:
 
         It waits while the page has paused the simulation, or if simulated time is ahead of the page's pace.
         """
+        if self._robot and all(e.name != self._robot for e in self._sim.entities()):
+            warnings.warn(f"'{self._robot}' was removed; the page shows the rest", stacklevel=2)
+            self._hide()
+            self._robot = None
+            self._show(self._sim)
         self._panel.take()
         self._draw()
         wanted = self.wanted
@@ -162,23 +171,30 @@ class Viewer:
             time.sleep(_WAIT_S)
             self._panel.take()
             self._draw()
-            self._clock = time.monotonic(), self._sim.time_ns
+            self._start_clock()
         if wanted.steps:
             wanted.steps -= 1
         self._keep_pace()
-        if wanted.is_driven and self._topics["drives"]:
+        if (wanted.is_driven or wanted.is_stopping) and self._topics["drives"]:
             twist = Twist(linear_x_m_s=wanted.speed_m_s, angular_z_rad_s=wanted.turn_rad_s)
             self._sim.command(self._topics["drives"][0], twist)
+            wanted.is_stopping = False
+
+    def _start_clock(self) -> None:
+        self._clock = time.monotonic(), self._sim.time_ns, self.wanted.pace
+
+    def _ahead_s(self) -> float:
+        """Returns how long to wait for simulated time to be due; negative if it is late."""
+        start_s, start_ns, pace = self._clock
+        return start_s + (self._sim.time_ns - start_ns) * 1e-9 / pace - time.monotonic()
 
     def _keep_pace(self) -> None:
-        start_s, start_ns = self._clock
-        gone_s = (self._sim.time_ns - start_ns) * 1e-9
-        ahead_s = start_s + gone_s / self.wanted.pace - time.monotonic()
-        if self.wanted.pace < math.inf and 0 < ahead_s:
-            time.sleep(min(ahead_s, 1.0))
         # a simulation that is late, or was reset, does not hurry afterwards
-        if not 0 <= ahead_s < 1.0:
-            self._clock = time.monotonic(), self._sim.time_ns
+        if self._clock[2] != self.wanted.pace or self._ahead_s() < 0:
+            self._start_clock()
+        while self._ahead_s() > 0 and self._clock[2] == self.wanted.pace:
+            time.sleep(min(self._ahead_s(), _WAIT_S))
+            self._panel.take()
 
     def _draw(self) -> None:
         """Shows the present. What fails as remove() says is shown the next time."""
@@ -248,7 +264,15 @@ class Viewer:
 
     def close(self) -> None:
         """Ends the page. The simulation lives on."""
-        self._hide()
+        if self._is_closed:
+            return
+        self._is_closed = True
+        try:
+            self._hide()
+        finally:
+            self._stop_server()
+
+    def _stop_server(self) -> None:
         with contextlib.redirect_stdout(io.StringIO()):
             self._server.stop()
 
