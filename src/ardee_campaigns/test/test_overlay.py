@@ -7,6 +7,7 @@ from typing import Dict
 
 import numpy as np
 import pytest
+from ardee_sim import LidarReading
 from browser import NEEDS, look_at
 from small_campaign import run, write
 
@@ -15,20 +16,22 @@ from ardee_campaigns.__main__ import main
 from ardee_campaigns.overlay import figures
 from ardee_campaigns.overlay.look import QUANTITIES, compare, distance, look
 from ardee_campaigns.overlay.sources import read_recorded
+from ardee_campaigns.replay import ScanLog
 from ardee_navigation.control import make
 from ardee_navigation.evaluation.real_run import read_scans, write_scans
 from ardee_navigation.evaluation.scan_run import Scans
 
-LEFT_M, RIGHT_M, COUNT = 0.40, 0.36, 30
+LEFT_M, RIGHT_M, COUNT, NEAR_BEAM = 0.40, 0.36, 30, 100
 FIRST_RAD, STEP_RAD = -np.radians(135.0), np.radians(0.25)
 
 
 def walls(left_m: float = LEFT_M, right_m: float = RIGHT_M, count: int = COUNT) -> Scans:
-    """Scans between two walls, 40 a second; nothing is met within 2 degrees of the axis."""
+    """Scans between two walls, 40 a second; nothing is met within 2 degrees of the axis; a leaf is too near."""
     sines = np.sin(FIRST_RAD + STEP_RAD * np.arange(1081))
     with np.errstate(divide="ignore"):
         ranges = np.where(sines > 0.0, left_m, right_m) / np.abs(sines)
     ranges[np.abs(sines) < np.sin(np.radians(2.0))] = np.inf
+    ranges[NEAR_BEAM] = 0.0
     return Scans(5.0 + 0.025 * np.arange(count), np.tile(ranges, (count, 1)), FIRST_RAD, STEP_RAD)
 
 
@@ -41,6 +44,28 @@ def test_what_is_perceived_between_walls() -> None:
     assert line["period_s"].real == pytest.approx(0.025)
     assert np.median(line["side_change_m"].real) == 0.0
     assert line["points"].real.min() > 50
+
+
+def test_a_controller_gets_a_leaf_too_near_as_in_a_run() -> None:
+    given = []
+
+    class Listener:
+        def reset(self) -> None:
+            pass
+
+        def step(self, observation: dict, time_s: float) -> tuple:
+            given.append(observation["scan"].ranges_m)
+            return 0.0, 0.0
+
+    look("", walls(), lambda *_: Listener(), {}, 0.0)
+    log = ScanLog()
+    for number, ranges_m in enumerate(given):
+        numbers = (FIRST_RAD, 0.0, STEP_RAD, 0.0, 0.025, 0.02, 30.0)
+        log.watch(
+            {"scan": LidarReading(number, "lidar", *numbers, ranges_m, np.zeros(len(ranges_m)))}
+        )
+    assert given[0][NEAR_BEAM] == -np.inf
+    assert log.scans().ranges_m == pytest.approx(walls().ranges_m, abs=1e-5)
 
 
 def test_a_shift_of_a_distribution_is_its_distance() -> None:
@@ -112,6 +137,8 @@ def bag(path: Path, scans: Scans) -> Path:
     with rosbag.Bag(str(path), "w") as file:
         file.write("/said", String("a word"), rospy.Time(1))
         for time_s, ranges in zip(scans.time_s, scans.ranges_m):
+            ranges = np.where(ranges > 0.0, ranges, -np.inf)
+            ranges[NEAR_BEAM + 1] = 0.01  # less than range_min
             message = LaserScan(range_min=0.02, range_max=30.0, ranges=ranges.tolist())
             message.angle_min, message.angle_increment = scans.angle_min_rad, scans.increment_rad
             message.header.stamp = rospy.Time.from_sec(time_s)
@@ -121,8 +148,9 @@ def bag(path: Path, scans: Scans) -> Path:
 
 def test_a_bag_is_read(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     path = bag(tmp_path / "run.bag", walls())
-    read = read_recorded(path, "/scan")
-    assert read.ranges_m == pytest.approx(walls().ranges_m, abs=1e-5)
+    read, expected_m = read_recorded(path, "/scan"), walls().ranges_m
+    expected_m[:, NEAR_BEAM + 1] = 0.0
+    assert read.ranges_m == pytest.approx(expected_m, abs=1e-5)
     assert read.time_s == pytest.approx(walls().time_s)
     for topic, message in (("/scam", "did you mean '/scan'?"), ("/said", "expected a LaserScan")):
         with pytest.raises(SystemExit) as ended:

@@ -101,8 +101,9 @@ def test_speed_is_found_in_scans_of_plants_that_pass_by(speed_m_s: float) -> Non
 
 
 def test_a_leaf_too_near_to_measure_is_a_return() -> None:
-    ranges_m = returns_m(np.array([-math.inf, 0.02, math.inf, math.nan]))
-    assert ranges_m.tolist() == [0.0, 0.02, math.inf, math.inf]
+    ranges_m = np.array([-math.inf, 0.0, 0.02, 31.0, math.inf, math.nan])
+    assert returns_m(ranges_m).tolist() == [0.0, math.inf, 0.02, 31.0, math.inf, math.inf]
+    assert returns_m(ranges_m, 0.1, 30.0).tolist() == [0.0, math.inf, 0.0, *[math.inf] * 3]
 
 
 def test_the_ride_is_the_spread_of_the_robots_own_angles() -> None:

@@ -13,7 +13,7 @@ from ardee_campaigns.plan import Job, Planner
 from ardee_campaigns.robot import Observation
 from ardee_common.errors import GeneratorError
 from ardee_common.output import write_file
-from ardee_navigation.evaluation.scan_run import Scans
+from ardee_navigation.evaluation.scan_run import Scans, returns_m
 
 FILE = "campaign_file.txt"  # in a campaign's folder: where the campaign's file lies
 ROBOTS = "robots"  # folder of descriptions in a campaign's folder
@@ -71,9 +71,8 @@ class ScanLog:
             raise GeneratorError(f"{found}, expected 2 or more of a lidar")
         first = self.readings[0]
         ranges = np.array([reading.ranges_m for reading in self.readings], dtype=float)
-        ranges[~(np.isfinite(ranges) & (ranges > 0.0))] = np.inf
         time_s = np.array([reading.stamp_ns for reading in self.readings]) * 1e-9
-        return Scans(time_s, ranges, first.angle_min_rad, first.angle_increment_rad)
+        return Scans(time_s, returns_m(ranges), first.angle_min_rad, first.angle_increment_rad)
 
 
 def in_lane(scans: Scans, run: tables.RunFile) -> Scans:

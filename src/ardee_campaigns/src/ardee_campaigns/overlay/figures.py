@@ -21,7 +21,7 @@ _LARGEST_POINTS = 40_000
 def _raw(run: Looked, end_s: float) -> Tuple[np.ndarray, np.ndarray]:
     """Returns times [s] and lateral distances [m] of the returns abeam of the lidar."""
     angles, ranges = run.scans.angles_rad, run.scans.ranges_m[run.time_s <= end_s]
-    ranges = np.where(np.isfinite(ranges), ranges, np.nan)
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0.0), ranges, np.nan)  # those with a place
     ahead, lateral = ranges * np.cos(angles), ranges * np.sin(angles)
     scan, beam = np.nonzero((np.abs(ahead) < BESIDE_M) & (np.abs(lateral) < WITHIN_M))
     step = max(len(scan) // _LARGEST_POINTS, 1)

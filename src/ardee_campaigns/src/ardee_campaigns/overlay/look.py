@@ -68,7 +68,7 @@ def look(
 
 
 def _reading(scans: Scans, time_s: float, ranges_m: np.ndarray, period_s: float) -> LidarReading:
-    ranges = ranges_m.astype(np.float32)
+    ranges = np.where(ranges_m > 0.0, ranges_m, -np.inf).astype(np.float32)  # as messages have them
     first, increment = float(scans.angle_min_rad), float(scans.increment_rad)
     last = first + increment * (len(ranges) - 1)
     farthest = float(ranges[np.isfinite(ranges)].max(initial=0.0))

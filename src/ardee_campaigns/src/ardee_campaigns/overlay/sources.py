@@ -11,7 +11,7 @@ from ardee_campaigns.run import run_one
 from ardee_common.cli import steps
 from ardee_common.errors import GeneratorError, known_names
 from ardee_navigation.evaluation.real_run import LIDAR_LOG, read_scans
-from ardee_navigation.evaluation.scan_run import Scans
+from ardee_navigation.evaluation.scan_run import Scans, returns_m
 
 Named = Tuple[str, Scans]
 
@@ -58,8 +58,8 @@ def _scans_of(messages: Sequence[Any], path: Path) -> Scans:
             f"{path}: scan {number}: found a stamp not later than the one before, expected a later"
         )
     ranges = np.array([message.ranges for message in messages], dtype=float)
-    seen = np.isfinite(ranges) & (ranges >= first.range_min) & (ranges <= first.range_max)
-    return Scans(time_s, np.where(seen, ranges, np.inf), first.angle_min, first.angle_increment)
+    ranges = returns_m(ranges, first.range_min, first.range_max)
+    return Scans(time_s, ranges, first.angle_min, first.angle_increment)
 
 
 def is_campaign(folder: Path) -> bool:

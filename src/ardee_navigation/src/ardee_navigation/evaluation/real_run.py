@@ -2,8 +2,9 @@
 """Reads the logs of a real TerraSentia's run, as github.com/Hlwy/terra_data_utils has them.
 
 `lidar_log.csv`: a scan a line, first the time [ms], then the UST-10LX's ranges [mm] from -135 degrees in steps of
-0.25, counter-clockwise; of another lidar after a line `angle_min_rad,NUMBER,increment_rad,NUMBER`, where 0 alone is
-no return. `perception_lidar_log.csv`: settings (name, value, ...), names of columns, LBIRNT's outputs.
+0.25, counter-clockwise; 0, and 65000 and more, is no return. Of another lidar after a line
+`angle_min_rad,NUMBER,increment_rad,NUMBER`, where 0 alone is no return, and -1 (any negative number) a return nearer
+than the lidar measures. `perception_lidar_log.csv`: settings (name, value, ...), names of columns, LBIRNT's outputs.
 """
 import csv
 import math
@@ -84,7 +85,8 @@ def read_scans(path: Path) -> Scans:
     """Reads a lidar_log.csv."""
     lines, rows, first_line = _lines(path), [], 1
     angles, beams, most_mm = (ANGLE_MIN_RAD, INCREMENT_RAD), BEAMS, NO_RETURN_MM
-    if lines and lines[0][:1] == ["angle_min_rad"]:
+    has_head = bool(lines) and lines[0][:1] == ["angle_min_rad"]
+    if has_head:
         angles, first_line = _angles(lines.pop(0), f"{path}:1"), 2
         beams, most_mm = ((len(lines[0]) - 1,) if lines else BEAMS), math.inf
     for number, line in enumerate(lines, first_line):
@@ -96,7 +98,8 @@ def read_scans(path: Path) -> Scans:
     time_s = _check_times(values[:, 0] if rows else np.empty(0), path, first_line)
     ranges_mm = values[:, 1:]
     seen = (ranges_mm > 0.0) & (ranges_mm < most_mm)
-    return Scans(time_s, np.where(seen, ranges_mm / 1e3, np.inf), *angles)
+    near = has_head & (ranges_mm < 0.0)
+    return Scans(time_s, np.where(near, 0.0, np.where(seen, ranges_mm / 1e3, np.inf)), *angles)
 
 
 def write_scans(scans: Scans, path: Path) -> None:
@@ -105,7 +108,8 @@ def write_scans(scans: Scans, path: Path) -> None:
         first, increment = float(scans.angle_min_rad), float(scans.increment_rad)
         file.write(f"angle_min_rad,{first!r},increment_rad,{increment!r}\n")
         for time_s, ranges_m in zip(scans.time_s, scans.ranges_m):
-            cells = (f"{1e3 * value:.3f}" if np.isfinite(value) else "0" for value in ranges_m)
+            numbers = np.where(ranges_m > 0.0, 1e3 * ranges_m, -1.0)
+            cells = (f"{value:.3f}" if np.isfinite(value) else "0" for value in numbers)
             file.write(f"{1e3 * time_s:.3f},{','.join(cells)}\n")
 
 

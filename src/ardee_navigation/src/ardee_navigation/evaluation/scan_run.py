@@ -72,10 +72,16 @@ class Recorder:
         )
 
 
-def returns_m(ranges_m: np.ndarray) -> np.ndarray:
-    """Ranges of Scans from those of messages, where a return too near to measure is -inf (REP 117)."""
-    near = np.where(ranges_m == -math.inf, 0.0, ranges_m)
-    return np.where(near >= 0.0, near, math.inf)
+def returns_m(
+    ranges_m: np.ndarray, range_min_m: float = 0.0, range_max_m: float = math.inf
+) -> np.ndarray:
+    """Ranges of Scans from those of messages: -inf (REP 117) and less than the least are too near to measure.
+
+    0 is no return, as some drivers write it.
+    """
+    near = (ranges_m == -math.inf) | (ranges_m > 0.0) & (ranges_m < range_min_m)
+    measured = (ranges_m > 0.0) & (ranges_m <= range_max_m)
+    return np.where(near, 0.0, np.where(measured, ranges_m, math.inf))
 
 
 def _spread_m(points: np.ndarray) -> float:
