@@ -8,6 +8,7 @@ from pictures import picture_of, rotation
 
 from ardee_navigation.lane_following import State
 from ardee_navigation.vision import VisionFollower, VisionParameters
+from ardee_navigation.vision.camera import Camera
 from ardee_navigation.vision.classical import Classical
 from ardee_navigation.vision.follower import camera_of
 from ardee_navigation.vision.rows import RowModel
@@ -45,6 +46,14 @@ def test_excess_green_does_not_depend_on_exposure() -> None:
     assert excess_green(picture, 4) == pytest.approx(np.full((2, 4), 100 / 140), abs=1e-6)
     assert excess_green(2 * picture, 8) == pytest.approx(np.full((4, 8), 100 / 140), abs=1e-6)
     assert not excess_green(0 * picture, 8).any()
+
+
+@pytest.mark.parametrize("height_px", [725, 1305, 1421])
+def test_a_picture_and_its_camera_shrink_alike(height_px: int) -> None:
+    """Their heights shrunk to 160 pixels of width lie halfway between two whole numbers."""
+    index = excess_green(np.full((height_px, 1856, 3), (20, 90, 10), np.uint8), 160)
+    assert index.dtype == np.float32
+    assert index.shape == (Camera(1856, height_px, 900.0, 1.0).shrunk(160).height_px, 160)
 
 
 @pytest.mark.parametrize("lateral_m", [-0.08, 0.0, 0.05])

@@ -6,6 +6,11 @@ from dataclasses import dataclass
 from ardee_navigation.vision.rows import RowModel
 
 
+def shrunk_height_px(width_px: int, height_px: int, to_width_px: int) -> int:
+    """Returns the height of a picture shrunk to a width."""
+    return round(height_px * to_width_px / width_px)
+
+
 @dataclass(frozen=True)
 class Sight:
     """What a picture shows of the lane before the camera.
@@ -43,7 +48,7 @@ class Camera:
     def shrunk(self, width_px: int) -> "Camera":
         """Returns the camera of the picture shrunk to a width."""
         factor = width_px / self.width_px
-        height_px = round(self.height_px * factor)
+        height_px = shrunk_height_px(self.width_px, self.height_px, width_px)
         return Camera(width_px, height_px, self.focal_px * factor, self.height_m, self.pitch_rad)
 
     def spacing(self, lane_width_m: float) -> float:
