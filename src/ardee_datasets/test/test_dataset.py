@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Data sets of a small recipe: what is written agrees with the pictures, and does not depend on how it was made."""
 
+import dataclasses
 import json
 import math
 import os
@@ -17,7 +18,9 @@ import yaml
 from PIL import Image
 
 from ardee_datasets import rle, show_dataset
+from ardee_datasets.assemble import assemble, data_card
 from ardee_datasets.generate_dataset import main
+from ardee_datasets.light import LightKeys
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
 from ardee_datasets.sample import LAYERS
@@ -196,6 +199,40 @@ def test_sheets_show_every_sample(made: Path, capsys: pytest.CaptureFixture) -> 
     with pytest.raises(SystemExit):
         show_dataset.main([str(made.parent)])
     assert "found no dataset.yaml" in capsys.readouterr().err
+
+
+def test_sheets_of_the_current_folder_replace_those_of_before(
+    made: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sheets = made.parent / "made_sheets"
+    sheets.mkdir(exist_ok=True)
+    (sheets / "sheet_009.png").touch()
+    (sheets / "notes.txt").touch()
+    monkeypatch.chdir(made)
+    assert show_dataset.main([".", "--samples", "1"]) == 0
+    assert {path.name for path in sheets.iterdir()} == {"sheet_001.png", "notes.txt"}
+    (sheets / "notes.txt").unlink()
+
+
+def test_the_manifest_lists_every_file_that_was_written_and_no_other(made: Path) -> None:
+    there = {str(path.relative_to(made)) for path in made.rglob("*") if path.is_file()}
+    cache = made / "yolo" / "labels" / "train.cache"
+    cache.touch()
+    assemble(made, read_recipe(made / "dataset.yaml"))
+    cache.unlink()
+    assert set(json.loads((made / "manifest.json").read_text())) == there - {"manifest.json"}
+
+
+def test_the_card_tells_of_the_light_and_of_what_yolo_lacks(made: Path, recipe: Path) -> None:
+    read, lacking = (
+        read_recipe(recipe),
+        "Ultralytics trains with a train and a val split; the set has no val.",
+    )
+    text = (made / "README.md").read_text()
+    assert "each picture has the same sun" in text and lacking in text
+    sun = data_card("", dataclasses.replace(read, light=LightKeys()), {"train": [], "val": []})
+    assert "the same sun" not in sun and "each field has its own sun" in sun
+    assert "ltralytics" not in sun
 
 
 def test_points_of_clouds_lead_to_the_truth(made: Path) -> None:

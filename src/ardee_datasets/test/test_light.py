@@ -37,6 +37,7 @@ def test_moments_are_those_of_the_day() -> None:
     "keys, said",
     [
         (dict(cloud=(0.5, 0.1)), r"cloud: found \[0.5, 0.1\], expected \[least, most\]"),
+        (dict(place_deg=(-91.0, 0.0), times=DAY), "found a latitude of -91.0, expected -90 to 90"),
         (dict(times=DAY), "found one of place_deg and times"),
         (dict(place_deg=URBANA_DEG, times=("2026-06-21", DAY[1])), "times: found '2026-06-21'"),
         (dict(place_deg=URBANA_DEG, times=DAY[::-1]), r"expected \[first, last\]"),
@@ -66,6 +67,9 @@ def test_each_field_of_a_recipe_has_its_light(tmp_path: pathlib.Path) -> None:
     file.write_text(text + "light: {cloud: [0, 1]}\n")
     lights = [scene.light() for scene in scenes(read_recipe(file))]
     assert len({light.cloud for light in lights if light}) == 3
+    file.write_text(text + "light: {}\n")
+    drawn = [scene.light() for scene in scenes(read_recipe(file))]
+    assert len({light.azimuth_deg for light in drawn if light}) == 3
     file.write_text(text + "light: {clouds: [0, 1]}\n")
     with pytest.raises(GeneratorError, match="recipe.yaml:3.*clouds.*cloud"):
         read_recipe(file)

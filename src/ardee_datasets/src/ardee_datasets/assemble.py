@@ -7,13 +7,13 @@ import io
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, List
+from typing import Any, Collection, Dict, List, Optional
 
 import yaml
 
 from ardee_common.output import write_file
 from ardee_datasets.recipe import SPLITS, Recipe
-from ardee_datasets.sample import ORGANS, json_bytes
+from ardee_datasets.sample import LAYERS, ORGANS, json_bytes
 
 _CROP = {"supercategory": "crop", "keypoints": ["foot"], "skeleton": []}
 CATEGORIES = (
@@ -26,6 +26,16 @@ CATEGORIES = (
 )
 _YOLO_CLASS = {category["id"]: number for number, category in enumerate(CATEGORIES)}
 _POSE = ("x_m", "y_m", "z_m")
+# Files of a data set; what others put there, such as ultralytics its *.cache, is not in the manifest
+_WRITTEN = (
+    *("dataset.yaml", "README.md", "categories.json", "organs.json"),
+    *("truth/*/truth.csv", "truth/*/truth.json", "truth/*/clutter.csv"),
+    *("*/annotations.json", "*/poses.csv", "*/samples/*.json"),
+    *(f"*/{layer}/*.{ending}" for layer, ending in LAYERS.items()),
+    *("*/clouds/*/velodyne/*.bin", "*/clouds/*/labels/*.label"),
+    *("yolo/data.yaml", "yolo/images/*/*.png", "yolo/labels/*/*.txt"),
+)
+_DRAWN_SUN = "each field has its own sun, which stands still over all its pictures"
 _CARD = """# {name}
 
 Labelled pictures of simulated crop fields, made by ARDEE from dataset.yaml (seed {seed}). Licence: {licence}.
@@ -54,9 +64,11 @@ Files of a split, by the id of a sample, SCENE_FRAME:
 - poses.csv: positions of the cameras.
 
 yolo/ has the boxes in YOLO's form: data.yaml, labels/SPLIT/*.txt, images/SPLIT/*.png (the same files as rgb/*.png).
+{yolo}
 
-A field's pictures all belong to one split. manifest.json lists the sha256 of every file.
-The pictures are simulated: nothing moves in the wind, and each picture has the same sun.
+A field's pictures all belong to one split. manifest.json lists the sha256 of every file
+that was written with the pictures.
+The pictures are simulated: nothing moves in the wind, and {sun}.
 """
 
 
@@ -102,7 +114,8 @@ def _poses(samples: List[Dict[str, Any]]) -> str:
     return text.getvalue()
 
 
-def _card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]]]) -> str:
+def data_card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]]]) -> str:
+    """Returns the text of README.md."""
     rows, objects, pixels = [], {}, {}
     for split, samples in by_split.items():
         fields = len({sample["scene"] for sample in samples})
@@ -117,21 +130,32 @@ def _card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]]]) 
         for c in CATEGORIES
         if c["id"] in objects
     ]
+    lack = yolo_lack(by_split)
     return _CARD.format(
         name=name,
         seed=recipe.seed,
         licence=recipe.licence,
+        sun=_DRAWN_SUN if recipe.light else "each picture has the same sun",
+        yolo="" if lack is None else f"{lack[0].upper()}{lack[1:]}.\n",
         rows="\n".join(rows),
         categories="\n".join(categories),
     )
 
 
+def yolo_lack(splits: Collection[str]) -> Optional[str]:
+    """Returns in words why ultralytics refuses to train on a data set of these splits, if it does."""
+    missing = [split for split in ("train", "val") if split not in splits]
+    if not missing:
+        return None
+    return f"ultralytics trains with a train and a val split; the set has no {' and no '.join(missing)}"
+
+
 def _manifest(folder: Path) -> Dict[str, str]:
-    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    files = sorted(path for pattern in _WRITTEN for path in folder.glob(pattern))
     return {
         str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in files
-        if path.name != "manifest.json" and not path.name.startswith(".")
+        if not path.name.startswith(".")
     }
 
 
@@ -181,5 +205,5 @@ def assemble(folder: Path, recipe: Recipe) -> None:
     write_file(folder / "categories.json", json_bytes(list(CATEGORIES)))
     organs = [{"id": number, "name": name} for number, name in ORGANS.items()]
     write_file(folder / "organs.json", json_bytes(organs))
-    write_file(folder / "README.md", _card("Data set", recipe, by_split).encode())
+    write_file(folder / "README.md", data_card("Data set", recipe, by_split).encode())
     write_file(folder / "manifest.json", json_bytes(_manifest(folder)))

@@ -17,7 +17,7 @@ from ardee_sim import ArdeeError
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
-from ardee_datasets.assemble import assemble
+from ardee_datasets.assemble import assemble, yolo_lack
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot, scenes, shots
 from ardee_datasets.recipe import Recipe, read_recipe
@@ -120,6 +120,9 @@ def generate(args: argparse.Namespace) -> Optional[str]:
         raise GeneratorError("found no --output, expected a folder for the data set")
     with output_folder(args.output) as folder, locked(folder):
         _check_same(folder, args.recipe)
+        lack = yolo_lack({keys.split for keys in recipe.fields.values()})
+        if lack:
+            say("generate_dataset", f"warning: {lack}")
         todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
         shutil.rmtree(folder / _SOWN, ignore_errors=True)
         (folder / _SOWN).mkdir()

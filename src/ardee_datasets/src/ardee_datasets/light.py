@@ -35,7 +35,7 @@ class LightKeys:
         (0.0, 0.0), "share of the sky that clouds cover", (0.0, 1.0)
     )
     place_deg: Optional[Tuple[float, float]] = option(
-        None, "latitude and longitude, north and east", (-180.0, 180.0)
+        None, "latitude, -90 to 90, and longitude, north and east", (-180.0, 180.0)
     )
     times: Optional[Tuple[str, str]] = option(
         None, "first and last moment, such as '2026-06-01T08:00-05:00'"
@@ -46,6 +46,9 @@ class LightKeys:
             low, high = getattr(self, key)
             if low > high:
                 raise GeneratorError(f"{key}: found [{low}, {high}], expected [least, most]")
+        if self.place_deg and abs(self.place_deg[0]) > 90.0:
+            found = f"found a latitude of {self.place_deg[0]}"
+            raise GeneratorError(f"place_deg: {found}, expected -90 to 90, before the longitude")
         if (self.place_deg is None) != (self.times is None):
             raise GeneratorError("found one of place_deg and times, expected both or neither")
         if self.times:

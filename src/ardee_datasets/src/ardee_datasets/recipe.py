@@ -177,5 +177,5 @@ def read_recipe(path: Path) -> Recipe:
     lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
     for name, keys in lidars.items():
         _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
-    light = build(LightKeys, recipe.light) if recipe.light else None
+    light = build(LightKeys, recipe.light) if recipe.light is not None else None
     return dataclasses.replace(recipe, fields=fields, cameras=cameras, lidars=lidars, light=light)

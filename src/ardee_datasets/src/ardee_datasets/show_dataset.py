@@ -3,6 +3,8 @@
 
 import argparse
 import json
+import os
+import tempfile
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence
 
@@ -130,7 +132,7 @@ def _spread(paths: List[Path], count: int) -> List[Path]:
 
 def show(args: argparse.Namespace) -> str:
     """Writes the contact sheets that the arguments ask for; returns their folder."""
-    folder = args.dataset
+    folder = Path(os.path.abspath(args.dataset))  # '.' has no name
     if not (folder / "dataset.yaml").is_file():
         raise GeneratorError(f"{folder}: found no dataset.yaml, expected a data set")
     found = [p for split in SPLITS for p in sorted((folder / split / "samples").glob("*.json"))]
@@ -138,10 +140,15 @@ def show(args: argparse.Namespace) -> str:
         raise GeneratorError(f"{folder}: found no samples, expected those of generate_dataset")
     samples = [json.loads(path.read_text()) for path in _spread(found, args.samples)]
     starts = range(0, len(samples), _ON_SHEET)
-    with output_folder(args.output or folder.with_name(f"{folder.name}_sheets")) as output:
+    target = args.output or folder.with_name(f"{folder.name}_sheets")
+    with output_folder(target) as output, tempfile.TemporaryDirectory(dir=output) as new:
         for start in steps(_PROG, starts):
             sheet = contact_sheet(folder, samples[start : start + _ON_SHEET])
-            sheet.save(output / f"sheet_{start // _ON_SHEET + 1:03d}.png")
+            sheet.save(Path(new) / f"sheet_{start // _ON_SHEET + 1:03d}.png")
+        for old in output.glob("sheet_*.png"):  # of a run before, which may have made more
+            old.unlink()
+        for made in Path(new).iterdir():
+            made.rename(output / made.name)
     return str(output)
 
 
