@@ -178,6 +178,15 @@ def test_slow_paces_are_kept(
     assert now_s[0] == pytest.approx(15.0, abs=0.1)
 
 
+def test_a_program_sets_the_pace(yard: ardee_sim.Simulation, shown: Viewer) -> None:
+    shown.wanted.pace = 300.0
+    shown.attach(yard)
+    shown.update()
+    shown.wanted.pace = 0.0
+    with pytest.raises(ardee_sim.ArdeeError, match="wanted.pace: found 0.0"):
+        shown.update()
+
+
 def test_a_texture_that_changed_is_read_again(tmp_path: pathlib.Path) -> None:
     material: Dict[str, Any] = {"rgba": np.ones(4), "emissive": np.zeros(3), "two_sided": False}
     material.update(texture=str(tmp_path / "leaf.png"), alpha_rejection=-1.0)

@@ -58,7 +58,9 @@ class Panel:
         step = gui.add_button("step")
         step.on_click(lambda _: self._inbox.put(("step", None)))
         pace = UNLIMITED if wanted.pace == float("inf") else f"{wanted.pace:g}"
-        self._input(gui.add_dropdown("times real time", SPEEDS, initial_value=pace), "pace")
+        # a program may have set another pace
+        self._paces = SPEEDS if pace in SPEEDS else (pace, *SPEEDS)
+        self._input(gui.add_dropdown("times real time", self._paces, initial_value=pace), "pace")
         self._input(gui.add_checkbox("follow the robot", wanted.follow), "follow")
         self._input(gui.add_checkbox("rows", wanted.rows), "rows")
         self._parts += [self._status, step]
@@ -119,7 +121,7 @@ class Panel:
     def _is_valid(self, name: str, value: Any) -> bool:
         """Returns whether the page can have sent this; other clients send what they like."""
         if name == "pace":
-            return value in SPEEDS
+            return value in self._paces
         if name == "camera":
             return value in self._cameras
         if name in ("speed_m_s", "turn_rad_s"):

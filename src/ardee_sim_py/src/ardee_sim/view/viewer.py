@@ -181,6 +181,8 @@ class Viewer:
             wanted.is_stopping = False
 
     def _start_clock(self) -> None:
+        if not self.wanted.pace > 0:
+            raise ArdeeError(f"wanted.pace: found {self.wanted.pace}, expected a positive number")
         self._clock = time.monotonic(), self._sim.time_ns, self.wanted.pace
 
     def _ahead_s(self) -> float:
