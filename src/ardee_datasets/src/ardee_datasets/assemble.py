@@ -35,7 +35,7 @@ _WRITTEN = (
     *("*/clouds/*/velodyne/*.bin", "*/clouds/*/labels/*.label"),
     *("yolo/data.yaml", "yolo/images/*/*.png", "yolo/labels/*/*.txt"),
 )
-_DRAWN_SUN = "each field has its own sun, which stands still over all its pictures"
+_DRAWN_SUN = "each field has its own sun, which stands still"
 _CARD = """# {name}
 
 Labelled pictures of simulated crop fields, made by ARDEE from dataset.yaml (seed {seed}). Licence: {licence}.
@@ -65,9 +65,7 @@ Files of a split, by the id of a sample, SCENE_FRAME:
 
 yolo/ has the boxes in YOLO's form: data.yaml, labels/SPLIT/*.txt, images/SPLIT/*.png (the same files as rgb/*.png).
 {yolo}
-
-A field's pictures all belong to one split. manifest.json lists the sha256 of every file
-that was written with the pictures.
+A field's pictures all belong to one split. manifest.json lists the sha256 of every file of it.
 The pictures are simulated: nothing moves in the wind, and {sun}.
 """
 
