@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Answers scans by a constant command, for a number of scans: ros_program.py SPEED_M_S SCANS. Then it ends."""
+"""Answers scans by a constant command: ros_program.py SPEED_M_S SCANS. Then it ends; with -1 SCANS it is mute."""
 import sys
 
 import rospy
@@ -18,6 +18,8 @@ def answer(scan: LaserScan) -> None:
     assert len(scan.ranges) == 1081 and rospy.get_param("/use_sim_time")
     if not left:
         rospy.signal_shutdown("that was the last scan")
+        return
+    if left < 0:
         return
     left -= 1
     command = Twist()

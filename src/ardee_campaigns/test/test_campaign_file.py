@@ -8,9 +8,10 @@ from typing import Any, Dict
 import pytest
 import small_campaign
 
-from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.campaign_file import ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
+from ardee_campaigns.program import files_of
 from ardee_campaigns.run_campaign import half_width
 from ardee_common.errors import GeneratorError
 
@@ -133,12 +134,29 @@ def test_a_controller_is_known_by_all_files_of_its_package_or_folder(
     for file in (*files, package / "__init__.py", package / "main.py"):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("")
+    (tmp_path / ".#lone.py").symlink_to("no_file")  # as Emacs makes of a file that is edited
     monkeypatch.syspath_prepend(tmp_path)
     found = []
     for changed in (None, *files):
         if changed:
             changed.write_text("x = 1")
-        found.append([source_digest(f"{name}:make") for name in ("lone", "the_package.main")])
+        keys = (ControllerKeys(factory=f"{name}:make") for name in ("lone", "the_package.main"))
+        found.append([source_digest(one) for one in keys])
     lone, packaged = zip(*found)
     assert len(set(lone)) == 3 and lone[2] == lone[3]
     assert len(set(packaged)) == 2 and packaged[2] != packaged[3]
+
+
+def test_a_program_is_known_by_the_files_that_its_command_names(tmp_path: Path) -> None:
+    script = tmp_path / "node.py"
+    keys = ControllerKeys(kind="ros", command=("python3", str(script), "{speed}"))
+    found = []
+    for text in ("x = 1", "x = 2", "x = 1"):
+        script.write_text(text)
+        found.append(source_digest(keys))
+    assert found[0] == found[2] != found[1]
+    (script,) = files_of(["rosrun", "ardee_navigation", "row_follower"])
+    assert script.parts[-3:] == ("ardee_navigation", "scripts", "row_follower")
+    (launch,) = files_of(["roslaunch", "--log", "gazebo_ros", "empty_world.launch", "a:=b"])
+    assert launch.name == "empty_world.launch"
+    assert files_of(["rosrun", "no_package", "node"]) == []

@@ -117,3 +117,14 @@ def test_a_node_that_cannot_be_meant_is_refused(tmp_path: Path, keys: dict, said
     with pytest.raises(GeneratorError) as caught:
         Planner(read_campaign(file))
     assert said in str(caught.value) and str(caught.value).startswith(f"{file}:")
+
+
+def test_a_node_needs_readings_or_a_command_in_the_end(tmp_path: Path) -> None:
+    robots = {"a": {"model": "tsv1_default", "period_s": 0.05, "topics": {"command": "cmd_vel"}}}
+    file = write(tmp_path, controllers={"a": controller("1", "1")}, robots=robots)
+    with pytest.raises(GeneratorError, match="found no topic of its pace 'scan'.*realtime: true"):
+        Planner(read_campaign(file))
+    file = write(tmp_path, controllers={"mute": controller("0", "-1")}, replicates=1)
+    run(file, "--output", tmp_path / "out")
+    (row,) = tables.read_runs(tmp_path / "out").to_pylist()
+    assert row["status"] == tables.FAILED and "sent nothing on /cmd_vel" in row["error"]

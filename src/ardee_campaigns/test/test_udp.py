@@ -44,6 +44,7 @@ def test_a_program_drives_and_one_that_ends_fails_its_run(tmp_path: Path) -> Non
         ({"kind": "udp", "command": ["no_such_program"]}, "found no program 'no_such_program'"),
         ({"kind": "udp", "command": ["true", "{port}"]}, "expected {bind}, {sensors}, {controls}"),
         (controller(speed_m_s=1), "params: found 'speed_m_s'"),
+        (controller(bind="here:1"), "params: found 'bind', expected another name"),
         ({"kind": "udp", "command": ["true"], "factory": "a:b"}, "found factory and kind udp"),
         ({"kind": "tcp"}, "expected one of python, udp, ros"),
     ],

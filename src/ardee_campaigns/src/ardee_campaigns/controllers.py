@@ -15,6 +15,7 @@ from typing import Any, Callable, Mapping, Tuple
 import ardee_sim
 
 from ardee_campaigns.campaign_file import ControllerKeys
+from ardee_campaigns.program import files_of
 from ardee_campaigns.robot import Robot
 from ardee_campaigns.udp import UdpController
 from ardee_common.errors import GeneratorError
@@ -37,11 +38,16 @@ def load_function(name: str, what: str) -> Callable[..., Any]:
     return found
 
 
-def source_digest(name: str) -> str:
-    """Returns a hash of the Python files of a module:function's package, or of its folder if it is in none.
+def source_digest(keys: ControllerKeys) -> str:
+    """Returns a hash of a controller's source, so that one whose algorithm has changed is run anew.
 
-    A controller whose algorithm has changed, be it in a module that it imports from there, is thus run anew.
+    It is that of the Python files of its factory's package, or of their folder if they are in none; of kind ros and udp
+    that of the files that its command names.
     """
+    if keys.command:
+        contents = [file.read_bytes() for file in files_of(keys.command)]
+        return hashlib.sha256(b"\0".join(contents)).hexdigest()
+    name = keys.factory
     spec = importlib.util.find_spec(name.partition(":")[0]) if name else None
     if spec is None or not spec.origin or not Path(spec.origin).is_file():
         return ""
@@ -52,6 +58,7 @@ def source_digest(name: str) -> str:
     texts = [
         f"{file.relative_to(folder)}\0".encode() + file.read_bytes()
         for file in sorted(folder.glob(pattern))
+        if file.is_file() and not any(part[0] == "." for part in file.relative_to(folder).parts)
     ]
     return hashlib.sha256(b"\0".join(texts)).hexdigest()
 

@@ -122,8 +122,7 @@ class Planner:
         }
         self._check_robots()
         self._sources = {
-            name: controllers.source_digest(keys.factory)
-            for name, keys in campaign.controllers.items()
+            name: controllers.source_digest(keys) for name, keys in campaign.controllers.items()
         }
 
     def _probe(self, kind: str, name: str) -> Cell:

@@ -87,6 +87,8 @@ class Run:
                 ends.callback(controller.close)
             controller.reset()
             self._loop(driven, controller, judge, lane, trial, watch)
+            if is_ros(job):
+                controller.check_end()
         self.end = judge.end
         recorded = measures.Recorded(
             self._recorder.columns(),

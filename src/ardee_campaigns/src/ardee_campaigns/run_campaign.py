@@ -253,19 +253,29 @@ def _write_csv(folder: Path) -> None:
         pyarrow.csv.write_csv(table, (folder / name).with_suffix(".csv"))
 
 
-def _write_bag(folder: Path, job: Job, done: tables.RunFile) -> None:
-    """Writes the bag of a run: of the campaign's, which need not be `done` if it was in real time."""
-    from ardee_campaigns.ros.process import apart
-
+def _bag_writer() -> Any:
+    """Returns the function that writes a bag, which needs ROS."""
     try:
         from ardee_campaigns.ros.bag import write_bag
     except ImportError as error:
         expected = "ROS and its set-up file sourced"
         raise GeneratorError(f"--bag: found {error}, expected {expected}") from None
+    return write_bag
+
+
+def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None:
+    """Writes the bag of a run: of the campaign's, which need not be `done` if it was in real time."""
+    from ardee_campaigns.engine import EngineError
+    from ardee_campaigns.ros.process import Lost, apart
+    from ardee_navigation.evaluation.simulation import SimulationError
+
     if tables.run_path(folder, job.run_id).is_file():
         done = tables.read_run(folder, job.run_id)
     path = folder / f"{job.run_id}.bag"
-    apart(write_bag, job, done, path)
+    try:
+        apart(write, job, done, path)
+    except (Lost, SimulationError) as error:
+        raise EngineError(f"--bag: {' '.join(str(error).split())}") from None
     print(path)
 
 
@@ -276,6 +286,7 @@ def _replay(session: Session, run_id: str, is_bag: bool) -> int:
     from ardee_campaigns.run import run_one
     from ardee_navigation.evaluation.real_run import write_scans
 
+    write_bag = _bag_writer() if is_bag else None
     keys = session.campaign.keys
     is_until = keys.plan.kind == "until"
     jobs = session.jobs(keys.plan.most_replicates if is_until else keys.replicates)
@@ -294,8 +305,8 @@ def _replay(session: Session, run_id: str, is_bag: bool) -> int:
     if scans is not None and len(scans.time_s) > 1:
         write_scans(scans, session.folder / f"{run_id}_scans.csv")
     print(path)
-    if is_bag:
-        _write_bag(session.folder, job, done)
+    if write_bag:
+        _write_bag(session.folder, job, done, write_bag)
     return 0
 
 

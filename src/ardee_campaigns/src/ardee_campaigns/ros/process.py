@@ -42,14 +42,14 @@ def apart(function: Callable[..., Any], *arguments: Any, watch: Optional[Watch] 
             pickle.dump((function, arguments, watch is not None), asked)
             asked.flush()
             while True:
-                what, value = pickle.load(told)
+                what, value = pickle.load(told)  # cut short if it is killed while it writes
                 if what == _SEEN and watch is not None:
                     watch(value)
                 elif what == _DONE:
                     return value
                 elif what == _RAISED:
                     raise value
-    except (EOFError, BrokenPipeError):
+    except (EOFError, BrokenPipeError, pickle.UnpicklingError):
         raise Lost(f"its process ended with exit code {child.wait()}") from None
     finally:
         stop_child(child)
