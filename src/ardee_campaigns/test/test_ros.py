@@ -47,7 +47,7 @@ def test_nodes_drive_as_the_same_controllers_without_ros(tmp_path: Path) -> None
         pair = (run.samples[name].to_numpy() for run in (node, lidar))
         assert next(pair) == pytest.approx(next(pair), rel=1e-12), name
     energies_j = (run.samples["energy_j"][-1].as_py() for run in (node, lidar))
-    assert next(energies_j) == pytest.approx(next(energies_j), rel=0.1)  # it comes a scan later
+    assert next(energies_j) == pytest.approx(next(energies_j), rel=1e-6)
     assert realtime.timing.wall_s > realtime.row.sim_s
     straight_m = found["straight"]["distance_m"]
     assert found["realtime"]["distance_m"] == pytest.approx(straight_m, abs=0.1)

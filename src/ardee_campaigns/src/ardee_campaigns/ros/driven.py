@@ -5,6 +5,7 @@ The evaluated node's commands reach the campaign, which passes them on between t
 the same step on, however fast the machine is.
 """
 import math
+import queue
 from pathlib import Path
 from typing import Any, Optional
 
@@ -17,9 +18,13 @@ from sensor_msgs.msg import BatteryState, LaserScan
 
 from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import SETTLE_S, Observation, Robot, describe, height_m
+from ardee_common.ros_graph import wait_until
 from ardee_navigation.evaluation.ros_simulation import RosSimulation
 from ardee_world.row_truth import Pose
 from ardee_world.trial import Trial
+
+_UNKNOWN_S = SETTLE_S / 2  # period of a battery until two of its messages tell it
+_LATE_S = 1.0  # wall time after which a message that seemed due is not waited for
 
 
 def _lidar(scan: LaserScan) -> LidarReading:
@@ -76,8 +81,9 @@ class RosDriven:
         log = work / "simulator.log"
         self._simulator = RosSimulation(trial.world, job.seed, trial.models, log, words=remap)
         self._reading: Any = None
+        self._charges: "queue.Queue[BatteryState]" = queue.Queue()
         self._charge: Optional[BatteryState] = None
-        self._last_charge: Optional[BatteryState] = None
+        self._charge_period_s, self._charge_due_s = _UNKNOWN_S, math.inf
 
     def __enter__(self) -> "RosDriven":
         self._simulator.__enter__()
@@ -95,12 +101,13 @@ class RosDriven:
             pace = self.pace, roslib.message.get_message_class(kind)
         self._simulator.connect(pace, self._commands)
         if "battery" in self.topics:
-            rospy.Subscriber(self.topics["battery"], BatteryState, self._on_battery)
+            topic, self._charge_due_s = self.topics["battery"], 0.0
+            told = rospy.Subscriber(topic, BatteryState, self._charges.put, tcp_nodelay=True)
+            wait_until(told.get_num_connections, topic)
         self.settle()
+        if self._charge_period_s == _UNKNOWN_S:  # a slow one: its messages count when they come
+            self._charge_period_s = self._charge_due_s = math.inf
         return self._robot
-
-    def _on_battery(self, state: BatteryState) -> None:
-        self._charge = state
 
     def settle(self) -> None:
         """Lets the robot come to rest."""
@@ -109,13 +116,27 @@ class RosDriven:
 
     def _step(self, steps: int) -> float:
         """Takes physics steps, and the last reading of the pace's sensor in them; returns the time [s]."""
-        self._last_charge = self._charge  # whether one of these steps comes in time is chance
         end_s = self._simulator.step(steps)
+        self._take_charge(end_s)
         while self.pace:
             self._reading = self._simulator.message()
             if self._reading.header.stamp.to_sec() > end_s - self._robot.period_s + 1e-6:
                 break
         return end_s
+
+    def _take_charge(self, end_s: float) -> None:
+        """Takes the battery's messages up to a time, and waits for them: which have come already is chance."""
+        while True:
+            is_due = self._charge_due_s <= end_s + 1e-6
+            try:
+                state = self._charges.get(is_due, _LATE_S)
+            except queue.Empty:
+                return
+            stamp_s = state.header.stamp.to_sec()
+            if self._charge:
+                apart_s = stamp_s - self._charge.header.stamp.to_sec()
+                self._charge_period_s = min(self._charge_period_s, apart_s)
+            self._charge, self._charge_due_s = state, stamp_s + self._charge_period_s
 
     def advance(self) -> int:
         """Steps to the next reading of the pace's sensor; returns its time [ns]."""
@@ -127,8 +148,8 @@ class RosDriven:
         seen: Observation = {}
         if isinstance(self._reading, LaserScan):
             seen[self._keys.pace] = _lidar(self._reading)
-        if self._last_charge:
-            seen["battery"] = _battery(self._last_charge)
+        if self._charge:
+            seen["battery"] = _battery(self._charge)
         return seen
 
     def command(self, speed_m_s: float, turn_rad_s: float) -> None:
