@@ -27,11 +27,15 @@ def test_the_sun_passes_over_the_equator_at_an_equinox() -> None:
     assert ardee_sim.Daylight.at(0.0, 0.0, noon).elevation_deg > 89.7
 
 
-def test_night_and_a_time_without_zone_are_refused() -> None:
+def test_night_a_time_without_zone_and_no_place_are_refused() -> None:
     with pytest.raises(ardee_sim.ArdeeError, match="deg below the horizon at 2026-01-01T00:00"):
         ardee_sim.Daylight.at(40.0, 0.0, datetime(2026, 1, 1, tzinfo=timezone.utc))
     with pytest.raises(ardee_sim.ArdeeError, match="expected one with a time zone"):
         ardee_sim.Daylight.at(40.0, 0.0, datetime(2026, 1, 1, 12))
+    noon = datetime(2026, 6, 1, 12, tzinfo=timezone.utc)
+    for latitude_deg, longitude_deg in ((95.0, 0.0), (40.0, -8800.0), (float("nan"), 0.0)):
+        with pytest.raises(ardee_sim.ArdeeError, match="expected latitude -90 to 90"):
+            ardee_sim.Daylight.at(latitude_deg, longitude_deg, noon)
 
 
 def test_pictures_show_the_light_and_snapshots_hold_it(corn: ardee_sim.World) -> None:

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -23,19 +22,20 @@ struct BoxSource {
   void* owner;
 };
 
-/// The process's device, with its errors and bytes.
+/// First error of a call of this thread, which Embree reports in the thread that called it.
+thread_local std::string message;
+
+/// The process's device, which counts its bytes.
 class Device {
  public:
   Device() : device_(rtcNewDevice(nullptr)) {
     if (device_ == nullptr) throw Error("Embree cannot make a device on this machine");
     rtcSetDeviceErrorFunction(
         device_,
-        [](void* user, RTCError, const char* text) {
-          auto* self = static_cast<Device*>(user);
-          const std::lock_guard<std::mutex> lock(self->mutex_);
-          if (self->message_.empty()) self->message_ = text != nullptr ? text : "unknown error";
+        [](void*, RTCError, const char* text) {
+          if (message.empty()) message = text != nullptr ? text : "unknown error";
         },
-        this);
+        nullptr);
     rtcSetDeviceMemoryMonitorFunction(
         device_,
         [](void* user, ssize_t bytes, bool) {
@@ -55,15 +55,9 @@ class Device {
   std::size_t bytes() const {
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, bytes_));
   }
-  std::string take_message() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return std::exchange(message_, {});
-  }
 
  private:
   RTCDevice device_;
-  std::mutex mutex_;
-  std::string message_;
   std::atomic<std::ptrdiff_t> bytes_{0};
 };
 
@@ -74,8 +68,7 @@ RTCDeviceTy* embree_device() { return Device::get().device(); }
 std::size_t embree_bytes() { return Device::get().bytes(); }
 
 void check_embree() {
-  const std::string message = Device::get().take_message();
-  if (!message.empty()) throw Error("Embree: " + message);
+  if (!message.empty()) throw Error("Embree: " + std::exchange(message, {}));
 }
 
 EmbreeScene::EmbreeScene(std::size_t count, const BoxOf& box_of, Meet meet, void* owner,

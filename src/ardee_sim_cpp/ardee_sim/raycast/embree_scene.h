@@ -17,7 +17,7 @@ namespace ardee::raycast {
 RTCDeviceTy* embree_device();
 /// Returns the bytes that Embree holds for all scenes of this process.
 std::size_t embree_bytes();
-/// Throws an error that Embree has reported since the last call.
+/// Throws the first error that Embree has reported to this thread since the last call.
 void check_embree();
 
 enum class BuildQuality { kLow, kMedium };

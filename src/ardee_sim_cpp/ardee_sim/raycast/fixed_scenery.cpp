@@ -32,23 +32,21 @@ bool are_equal(const std::shared_ptr<const SceneryGroup>& a,
                      [](const auto& x, const auto& y) { return are_equal(x, y); }));
 }
 
-bool serves(const LocalScene& scene, const LocalSceneRequest& made,
-            const LocalSceneRequest& wanted) {
-  if (made.half_size_m != wanted.half_size_m || made.budget.entries != wanted.budget.entries ||
-      made.budget.triangle_bytes != wanted.budget.triangle_bytes) {
-    return false;
-  }
-  if (made.center_W == wanted.center_W) return true;
-  const double off_m = (made.center_W - wanted.center_W).cwiseAbs().maxCoeff();
-  const double most_m = scene.half_size_m() * (scene.holds_all() ? 1.0 : kNearShare);
-  return !scene.is_for_pictures() && off_m < most_m;
+bool have_equal_limits(const LocalSceneRequest& a, const LocalSceneRequest& b) {
+  return a.half_size_m == b.half_size_m && a.budget.entries == b.budget.entries &&
+         a.budget.triangle_bytes == b.budget.triangle_bytes;
 }
 
-template <typename Entry, typename Weak>
-void forget_expired(std::vector<Entry>& entries, Weak weak) {
-  entries.erase(std::remove_if(entries.begin(), entries.end(),
-                               [&](const Entry& entry) { return weak(entry).expired(); }),
-                entries.end());
+bool are_equal(const LocalSceneRequest& a, const LocalSceneRequest& b) {
+  return a.center_W == b.center_W && have_equal_limits(a, b);
+}
+
+bool serves(const LocalScene& scene, const LocalSceneRequest& made,
+            const LocalSceneRequest& wanted) {
+  if (scene.is_for_pictures()) return are_equal(made, wanted);
+  const double off_m = (made.center_W - wanted.center_W).cwiseAbs().maxCoeff();
+  const double most_m = scene.half_size_m() * (scene.holds_all() ? 1.0 : kNearShare);
+  return have_equal_limits(made, wanted) && off_m < most_m;
 }
 
 }  // namespace
@@ -68,7 +66,9 @@ std::shared_ptr<const FixedScenery> FixedScenery::of(Groups groups) {
   static std::mutex mutex;
   static std::vector<std::weak_ptr<const FixedScenery>> known;
   const std::lock_guard<std::mutex> lock(mutex);
-  forget_expired(known, [](const auto& entry) { return entry; });
+  known.erase(std::remove_if(known.begin(), known.end(),
+                             [](const auto& entry) { return entry.expired(); }),
+              known.end());
   for (const auto& entry : known) {
     auto scenery = entry.lock();
     if (scenery != nullptr &&
@@ -92,16 +92,43 @@ void FixedScenery::intersect_unbounded(RayQuery& query) const {
   }
 }
 
+std::shared_ptr<const LocalScene> FixedScenery::find(const LocalSceneRequest& request,
+                                                     std::shared_ptr<Slot>& slot) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  slots_.erase(std::remove_if(slots_.begin(), slots_.end(),
+                              [](const auto& each) {  // nobody makes it or uses it
+                                return each.use_count() == 1 && each->scene.expired();
+                              }),
+               slots_.end());
+  for (const auto& each : slots_) {
+    auto scene = each->scene.lock();
+    if (scene != nullptr && serves(*scene, each->request, request)) return scene;
+  }
+  const auto found = std::find_if(slots_.begin(), slots_.end(), [&](const auto& each) {
+    return are_equal(each->request, request);
+  });
+  if (found != slots_.end()) {
+    slot = *found;
+  } else {
+    slot = std::make_shared<Slot>();
+    slot->request = request;
+    slots_.push_back(slot);
+  }
+  return nullptr;
+}
+
 std::shared_ptr<const LocalScene> FixedScenery::local_scene(
     const LocalSceneRequest& request) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  forget_expired(local_scenes_, [](const Kept& kept) { return kept.scene; });
-  for (const Kept& kept : local_scenes_) {
-    auto scene = kept.scene.lock();
-    if (scene != nullptr && serves(*scene, kept.request, request)) return scene;
+  std::shared_ptr<Slot> slot;
+  if (auto scene = find(request, slot)) return scene;
+  const std::lock_guard<std::mutex> making(slot->making);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (auto scene = slot->scene.lock()) return scene;  // another thread has just made it
   }
   auto made = std::make_shared<const LocalScene>(shared_from_this(), StillInstances{}, request);
-  local_scenes_.push_back({request, made});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  slot->scene = made;
   return made;
 }
 

@@ -54,18 +54,23 @@ class FixedScenery : public std::enable_shared_from_this<FixedScenery> {
   std::shared_ptr<const LocalScene> local_scene(const LocalSceneRequest& request) const;
 
  private:
-  struct Kept {
+  /// A local scene that is being made, or was.
+  struct Slot {
     LocalSceneRequest request;
-    std::weak_ptr<const LocalScene> scene;
+    std::mutex making;
+    std::weak_ptr<const LocalScene> scene;  // guarded by mutex_
   };
 
   explicit FixedScenery(Groups groups);
+  /// Returns a local scene that serves, or the slot in which one is to be made.
+  std::shared_ptr<const LocalScene> find(const LocalSceneRequest& request,
+                                         std::shared_ptr<Slot>& slot) const;
 
   Groups groups_;
   PlaceTree places_;
   std::vector<const TraceableInstance*> unbounded_;
   mutable std::mutex mutex_;
-  mutable std::vector<Kept> local_scenes_;
+  mutable std::vector<std::shared_ptr<Slot>> slots_;
 };
 
 }  // namespace ardee::raycast

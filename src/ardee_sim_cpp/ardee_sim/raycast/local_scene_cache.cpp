@@ -132,7 +132,8 @@ void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool p
   ++tick_;
   collect();
   if (pictures && !for_pictures_) {
-    if (next_.valid()) keep(next_.get());  // it was started before the change
+    // Those of scans may have come from another simulation, and pictures must not depend on that.
+    clear();
     for_pictures_ = true;
   }
   const bool any = !store_.fixed()->places().empty() || (for_pictures_ && !moving_.tree().empty());

@@ -8,7 +8,7 @@ namespace ardee::render {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Illuminance of the sun outside the air [klx].
+/// Illuminance of the sun outside the air [klx] (Darula, Kittler and Gueymard, Solar Energy 79, 2005).
 constexpr double kSolar_klx = 133.8;
 /// Share of light that a field sends back (nominal: leaves and soil in sunlight, 0.15 to 0.25).
 constexpr float kReflected = 0.2f;
@@ -120,10 +120,11 @@ SkyModel::SkyModel(const Daylight& day)
   const float direct_light = sine * sun_[1];
   const float diffuse_light = luminance(clear);
   const auto cloud = static_cast<float>(day.cloud);
-  const float all = (direct_light + diffuse_light) * (1.0f - 0.75f * std::pow(cloud, 3.4f));
+  const float through = 1.0f - 0.75f * std::pow(cloud, 3.4f);
+  const float all = through * (direct_light + diffuse_light);
   const float clear_share = diffuse_light / (direct_light + diffuse_light);
   const float diffuse = all * (clear_share + (1.0f - clear_share) * cloud * cloud);
-  if (direct_light > 0.0f) sun_ *= (all - diffuse) / direct_light;
+  sun_ *= through * (1.0f - cloud * cloud);
   // The clear part of the sky is that between the clouds.
   const float between = 1.0f - cloud;
   clear_ *= between;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <future>
 
 #include "ardee_sim/raycast/embree_scene.h"
@@ -87,6 +88,33 @@ TEST(SharedScenery, OfOneSceneStaysWhenAnotherLosesIt) {
   loses.scene.remove_scenery(0);
   EXPECT_EQ(ranges_from(loses), std::vector<float>(541, kInfinity));
   EXPECT_EQ(ranges_from(stays), before);
+}
+
+/// A scan of another scene may have left a local scene with another centre.
+TEST(SharedScenery, OfScansIsNotThatOfPictures) {
+  const auto placements = field();
+  const auto picture = [&](bool beside_another) {
+    TestScene other(SceneKind::kVisual, {}, 0, placements);
+    TestScene scene(SceneKind::kVisual, {}, 0, placements);
+    if (beside_another) ranges_from(other, kEye + Eigen::Vector3d(0.4, 0.3, 0));
+    ranges_from(scene);
+    std::vector<std::uint64_t> numbers;
+    for (int k = 0; k < 20; ++k) {
+      const Eigen::Vector3d eye_W = kEye + Eigen::Vector3d(0.3 * k, 0, 0);
+      scene.scene.prepare({eye_W}, true);
+      auto blocks = blocks_of(random_pattern(4096, 3), 0.05f, 50.0f);
+      scene.scene.pictures().trace_primary(eye_W, blocks.data(), blocks.size());
+      for (const PrimaryRayPacket& block : blocks) {
+        for (int i = 0; i < PrimaryRayPacket::kRays; ++i) {
+          std::uint32_t bits;
+          std::memcpy(&bits, &block.range_m[i], sizeof bits);
+          numbers.push_back(bits);
+        }
+      }
+    }
+    return numbers;
+  };
+  EXPECT_EQ(picture(true), picture(false));
 }
 
 /// Each scene finds what a scene without local scenes finds, whichever of them made the shared

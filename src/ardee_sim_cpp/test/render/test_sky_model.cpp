@@ -41,6 +41,7 @@ TEST(Daylight, NumbersOutOfRangeAreRefused) {
   }
   try {
     check_daylight(day_of(-5));
+    FAIL() << "expected an error";
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "daylight: found elevation_deg -5, expected 0 to 90");
   }
@@ -52,6 +53,26 @@ TEST(Daylight, NumbersOutOfRangeAreRefused) {
 TEST(SkyModel, SunIsDimmedByItsWayThroughTheAir) {
   EXPECT_NEAR(SkyModel(day_of(60)).sun()[1], SkyModel::kNoonSun, 1e-6);
   EXPECT_NEAR(decoded(SkyModel(day_of(90)).sun())[1], 0.7400 / 0.7065, 0.001);
+}
+
+/// Preetham at the zenith, the sun there too, turbidity 3: chi is (4/9 - 3/120) pi = 1.3177 and the
+/// luminance (4.0453 * 3 - 4.9710) tan(chi) - 0.2155 * 3 + 2.4192 = 29.48 kcd/m^2. The noon sun lights
+/// a white surface to 133.8 * 0.7065 / pi = 30.09 kcd/m^2. Perez at 60 degrees, relative to that:
+/// (1 - 0.9269 exp(-0.6387 / 0.5)) (1 + 5.2572 exp(-2.2153 pi / 3) + 0.1693 / 4)
+/// / ((1 - 0.9269 exp(-0.6387)) (1 + 5.2572 + 0.1693)) = 0.3523.
+TEST(SkyModel, ClearSkyIsThatOfThePaper) {
+  const SkyModel sky(day_of(90));
+  const float zenith = luminance(sky.color({0, 0, 1}));
+  EXPECT_NEAR(zenith, 29.48f / 30.09f, 0.003f);
+  EXPECT_NEAR(luminance(sky.color(towards_sky(40, 30))) / zenith, 0.3523f, 0.002f);
+}
+
+TEST(SkyModel, LightIsSteadyDownToTheHorizon) {
+  const auto red = [](double elevation_deg) { return SkyModel(day_of(elevation_deg, 2)).sun()[0]; };
+  for (const double elevation_deg : {1e-6, 1e-4, 1e-3, 1e-2}) {
+    EXPECT_NEAR(red(elevation_deg), red(0.0), 0.01f * red(0.0) + 10.0 * elevation_deg);
+  }
+  EXPECT_EQ(SkyModel(day_of(0, 2, 1.0)).sun()[0], 0.0f);
 }
 
 TEST(SkyModel, NoonIsWhiteAndALowSunRed) {

@@ -61,7 +61,7 @@ TEST(Golden, MotionAndForceSensors) {
   EXPECT_EQ(drive_with(devices), 0x09c58bc629a6631fu);
 }
 
-TEST(Golden, RaySensors) { EXPECT_EQ(drive_with(ray_devices()), 0xec31f9c2c558f1ccu); }
+TEST(Golden, RaySensors) { EXPECT_EQ(drive_with(ray_devices()), 0xe2b2b754fa1e7e11u); }
 
 TEST(Golden, Cameras) { EXPECT_EQ(drive_with(camera_devices()), 0xbcaba0c59f7b864bu); }
 
