@@ -66,9 +66,9 @@ std::shared_ptr<const FixedScenery> FixedScenery::of(Groups groups) {
   static std::mutex mutex;
   static std::vector<std::weak_ptr<const FixedScenery>> known;
   const std::lock_guard<std::mutex> lock(mutex);
-  known.erase(std::remove_if(known.begin(), known.end(),
-                             [](const auto& entry) { return entry.expired(); }),
-              known.end());
+  known.erase(
+      std::remove_if(known.begin(), known.end(), [](const auto& entry) { return entry.expired(); }),
+      known.end());
   for (const auto& entry : known) {
     auto scenery = entry.lock();
     if (scenery != nullptr &&

@@ -8,7 +8,8 @@ namespace ardee::render {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-/// Illuminance of the sun outside the air [klx] (Darula, Kittler and Gueymard, Solar Energy 79, 2005).
+/// Illuminance of the sun outside the air [klx] (Darula, Kittler and Gueymard, Solar Energy 79,
+/// 2005).
 constexpr double kSolar_klx = 133.8;
 /// Share of light that a field sends back (nominal: leaves and soil in sunlight, 0.15 to 0.25).
 constexpr float kReflected = 0.2f;

@@ -56,10 +56,10 @@ TEST(SkyModel, SunIsDimmedByItsWayThroughTheAir) {
 }
 
 /// Preetham at the zenith, the sun there too, turbidity 3: chi is (4/9 - 3/120) pi = 1.3177 and the
-/// luminance (4.0453 * 3 - 4.9710) tan(chi) - 0.2155 * 3 + 2.4192 = 29.48 kcd/m^2. The noon sun lights
-/// a white surface to 133.8 * 0.7065 / pi = 30.09 kcd/m^2. Perez at 60 degrees, relative to that:
-/// (1 - 0.9269 exp(-0.6387 / 0.5)) (1 + 5.2572 exp(-2.2153 pi / 3) + 0.1693 / 4)
-/// / ((1 - 0.9269 exp(-0.6387)) (1 + 5.2572 + 0.1693)) = 0.3523.
+/// luminance (4.0453 * 3 - 4.9710) tan(chi) - 0.2155 * 3 + 2.4192 = 29.48 kcd/m^2. The noon sun
+/// lights a white surface to 133.8 * 0.7065 / pi = 30.09 kcd/m^2. Perez at 60 degrees, relative to
+/// that: (1 - 0.9269 exp(-0.6387 / 0.5)) (1 + 5.2572 exp(-2.2153 pi / 3) + 0.1693 / 4) / ((1 -
+/// 0.9269 exp(-0.6387)) (1 + 5.2572 + 0.1693)) = 0.3523.
 TEST(SkyModel, ClearSkyIsThatOfThePaper) {
   const SkyModel sky(day_of(90));
   const float zenith = luminance(sky.color({0, 0, 1}));

@@ -47,7 +47,7 @@ class Daylight:
             raise ArdeeError(f"found the time {time.isoformat()}, expected one with a time zone")
         if not (abs(latitude_deg) <= 90 and abs(longitude_deg) <= 360):  # nor NaN
             raise ArdeeError(
-                f"found the place {latitude_deg}, {longitude_deg}, expected latitude -90 to 90 and longitude -360 to 360"
+                f"found the place {latitude_deg}, {longitude_deg}, expected latitude -90 to 90, longitude -360 to 360"
             )
         place = ephem.Observer()
         place.lat, place.lon = math.radians(latitude_deg), math.radians(longitude_deg)
