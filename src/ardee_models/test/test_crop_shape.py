@@ -120,16 +120,6 @@ def test_flat_blade_has_the_area_of_its_outline(species, columns, segments):
     np.testing.assert_allclose(mesh.normals, up, atol=1e-9)
 
 
-def test_a_blade_that_has_lost_its_tip_and_shrunk_has_the_area_of_what_is_left():
-    shape = _flat()
-    mesh = blade_mesh(_blade(kept=0.5, shrunk=0.8), shape, 20, 3)
-    s = np.linspace(0.0, 0.5, 2001)
-    width = width_profile(s, shape.blade_klig, shape.blade_s_wmax, shape.blade_tip_power)
-    assert mesh.area_m2() == pytest.approx(0.8 * 0.8 * 0.08 * 0.5 * width.mean(), rel=1e-3)
-    assert mesh.vertices[:, 0].max() == pytest.approx(0.4)
-    assert mesh.texcoords[:, 1].max() == pytest.approx(0.5)
-
-
 def test_a_buckled_midrib_is_straight_before_and_behind_its_kink():
     blade = _blade(curvature_rad=0.0, insertion_rad=0.5, buckle_rad=0.8, buckle_at=0.5)
     _, tangents = midrib(blade, 1.5, 20)

@@ -17,7 +17,6 @@ from ardee_models.plant.plant import Plant
 from ardee_models.plant.plant_metrics import measure
 from ardee_models.plant.plant_textures import plant_textures
 from ardee_models.plant.species import CropParams, load_params
-from ardee_models.plant.wear import wear
 
 
 @dataclass(frozen=True)
@@ -33,10 +32,9 @@ class Crop:
 
 
 def generate_crop(params: CropParams, seed: int) -> Crop:
-    """Generates a crop. Geometry, textures and wear have separate random streams: one does not change the others."""
-    geometry_seed, texture_seed, wear_seed = np.random.SeedSequence(seed).spawn(3)
+    """Generates a crop. Geometry and textures have separate random streams, so that one does not change the other."""
+    geometry_seed, texture_seed = np.random.SeedSequence(seed).spawn(2)
     plan = grow(params, np.random.default_rng(geometry_seed))
-    plan = wear(params, plan, np.random.default_rng(wear_seed))
     levels = tuple(assemble(params, plan, detail) for detail in LEVELS)
     cylinder = fit_cylinder(levels[0].organ("Stem").mesh.vertices)
     metrics = measure(params, plan, levels, cylinder, seed)

@@ -37,8 +37,6 @@ class Blade:
     dryness: float
     strip: int
     strips: int
-    kept: float = 1.0  # part of the length up to where the tip has broken off
-    shrunk: float = 1.0  # width over that of the green blade
 
 
 def width_profile(s: np.ndarray, klig: float, s_wmax: float, tip_power: float) -> np.ndarray:
@@ -61,7 +59,7 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
     At `buckle_at` of its length the midrib has kinked, within a few per cent of it, by `buckle_rad`. From where it
     reaches the ground it lies there, away from the stalk.
     """
-    fine = np.linspace(0.0, blade.kept, segments * _FINE_STEPS + 1)
+    fine = np.linspace(0.0, 1.0, segments * _FINE_STEPS + 1)
     middle = (fine[1:] + fine[:-1]) / 2
 
     def direction(s: np.ndarray) -> np.ndarray:
@@ -73,7 +71,7 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
             (np.sin(angle) * np.cos(azimuth), np.sin(angle) * np.sin(azimuth), np.cos(angle)), -1
         )
 
-    step_m = blade.kept * blade.length_m / len(middle)
+    step_m = blade.length_m / len(middle)
     path = np.concatenate((np.zeros((1, 3)), np.cumsum(direction(middle) * step_m, axis=0)))
     path += blade.origin
     tangents = direction(fine)
@@ -86,21 +84,12 @@ def midrib(blade: Blade, power: float, segments: int) -> tuple:
     return path[::_FINE_STEPS], tangents[::_FINE_STEPS]
 
 
-def _mean_width(outline: tuple, kept: float) -> float:
-    """Mean relative width from the base to where the tip has broken off."""
-    if kept == 1.0:
-        return profile_area(*outline)
-    return float(np.mean(width_profile(np.linspace(0.0, kept, 401), *outline)))
-
-
 def _half_widths(blade: Blade, shape: Leaves, s: np.ndarray) -> np.ndarray:
     """Half widths whose trapezoids have the outline's area, however few they are."""
     outline = (shape.blade_klig, shape.blade_s_wmax, shape.blade_tip_power)
     relative = width_profile(s, *outline)
     polygon = float(np.sum((relative[1:] + relative[:-1]) / 2) / (len(s) - 1))
-    return (
-        0.5 * blade.shrunk * blade.width_m * relative * _mean_width(outline, blade.kept) / polygon
-    )
+    return 0.5 * blade.width_m * relative * profile_area(*outline) / polygon
 
 
 def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarray) -> tuple:
@@ -119,7 +108,7 @@ def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarr
 
 def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
     """Mesh of `columns` of vertices (odd: one is the midrib; 2: edges only); normals point to the upper side."""
-    s = np.linspace(0.0, blade.kept, segments + 1)
+    s = np.linspace(0.0, 1.0, segments + 1)
     centre, tangent = midrib(blade, shape.curvature_power, segments)
     azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
     flat_side = np.stack((np.sin(azimuth), -np.cos(azimuth), np.zeros_like(s)), -1)

@@ -16,7 +16,6 @@ from ardee_models.plant.species import CropParams, Leaves
 from ardee_models.plant.stalk import stalk_mesh
 
 _LEAF_GROUPS = (("LeavesBase", "leavesb"), ("LeavesMid", "leavesm"), ("LeavesTop", "leavest"))
-_SHEATH_SEGMENTS = 1
 _FEWEST_ABREAST = ((5, 16), (3, 4))  # columns of a blade, and segments it must then still get
 
 
@@ -71,12 +70,8 @@ def assemble(params: CropParams, plan: Plan, detail: Detail) -> Plant:
         Organ(name, name.lower(), name.lower(), _bodies_mesh(bodies, detail))
         for name, bodies in plan.bodies.items()
     ]
-    leaves, shoots = params.architecture.leaves, (plan.main, *plan.tillers)
-    sheaths = [sheath for shoot in shoots for sheath in shoot.sheaths][:: detail.minor_every]
-    if sheaths:
-        mesh = join([blade_mesh(sheath, leaves, _SHEATH_SEGMENTS, 3) for sheath in sheaths])
-        heads.append(Organ("Sheaths", "sheaths", "leaves", mesh))
     used = sum(len(organ.mesh.triangles) for organ in organs + heads)
-    blades = tuple(blade for shoot in shoots for blade in shoot.blades)
+    blades = tuple(blade for shoot in (plan.main, *plan.tillers) for blade in shoot.blades)
+    leaves = params.architecture.leaves
     organs += _leaf_organs(blades, leaves, max(detail.triangles - used, 0), detail)
     return Plant(params.species, params.stage_name, params.label, tuple(organs + heads))

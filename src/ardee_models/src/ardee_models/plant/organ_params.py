@@ -73,21 +73,6 @@ class BraceRoots:
 
 
 @dataclass(frozen=True)
-class Wear:
-    """What age and wind do to leaves; `kept` and `break_at` are parts of a blade's length, from its base."""
-
-    dead_width: float = bounded(0.1, 1)
-    roll_deg: float = bounded(0, 85)
-    roll_sd_deg: float = bounded(0, 40)
-    tip_loss: float = bounded(0, 1)
-    kept_min: float = bounded(0.2, 1)
-    break_at_min: float = bounded(0.1, 1)
-    break_at_max: float = bounded(0.1, 1)
-    peel: float = bounded(0, 1)
-    peel_deg: float = bounded(0, 90)
-
-
-@dataclass(frozen=True)
 class Colours:
     """Mean colours, RGB 0..255."""
 

@@ -56,7 +56,7 @@ def measure(
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     blades = [blade for shoot in (plan.main, *plan.tillers) for blade in shoot.blades]
     area = full.leaf_area_m2()
-    sizes = np.array([b.kept * b.length_m * b.shrunk * b.width_m for b in blades])
+    sizes = np.array([blade.length_m * blade.width_m for blade in blades])
     green = np.array([blade.dryness < _GREEN for blade in blades])
     longest = max(blades, key=lambda blade: blade.length_m)
     widest = max(blades, key=lambda blade: blade.width_m)

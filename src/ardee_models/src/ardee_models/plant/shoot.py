@@ -42,7 +42,6 @@ class Shoot:
     stalk: StalkPlan
     blades: Tuple[Blade, ...]
     emerged: int
-    sheaths: Tuple[Blade, ...] = ()  # that have peeled from the stalk
 
 
 def main_size(shape: Architecture, stage: Stage, rng: np.random.Generator) -> ShootSize:

@@ -17,7 +17,6 @@ from ardee_models.plant.organ_params import (
     Panicle,
     Tassel,
     Tillers,
-    Wear,
 )
 from ardee_models.plant.stages import Stage, resolve_stage
 
@@ -104,7 +103,6 @@ class Architecture:
     flowers: Optional[Flowers] = None
     tillers: Optional[Tillers] = None
     brace_roots: Optional[BraceRoots] = None
-    wear: Optional[Wear] = None
 
 
 @dataclass(frozen=True)

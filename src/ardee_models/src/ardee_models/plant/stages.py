@@ -20,7 +20,6 @@ class Stage:
     """State of a mean plant; `inflorescence`, `ears` and `maturity` run from 0 to 1.
 
     `hanging_leaves` of the lost ones, the topmost, have died and broken at the collar but hang there yet.
-    `broken_leaves` is the mean number of green leaves that hang from a broken midrib.
     `leaf_scale` is the present over the final size of leaves that still grow when the next leaves appear.
     """
 
@@ -33,7 +32,6 @@ class Stage:
     young_leaves: int = bounded(0, 30, 0)
     lost_leaves: int = bounded(0, 59, 0)
     hanging_leaves: int = bounded(0, 59, 0)
-    broken_leaves: float = bounded(0, 4, 0.0)
     dry_leaves: float = bounded(0, 60, 0.0)
     tillers: float = bounded(0, 10, 0.0)
     inflorescence: float = bounded(0, 1, 0.0)
