@@ -14,7 +14,13 @@ def start(log: pathlib.Path) -> subprocess.Popen:
     with log.open("wb") as output:
         return subprocess.Popen(
             ["rosrun", "ardee_bringup", "demo", "--output", str(log.parent / "output")],
-            env=dict(env, ARDEE_DEMO_TEST=str(log), TMPDIR=str(log.parent), PYTHONUNBUFFERED="1"),
+            env=dict(
+                env,
+                ARDEE_DEMO_TEST=str(log),
+                TMPDIR=str(log.parent),
+                XDG_RUNTIME_DIR=str(log.parent.parent),  # else Qt makes one in TMPDIR
+                PYTHONUNBUFFERED="1",
+            ),
             stdout=output,
             stderr=subprocess.STDOUT,
             start_new_session=True,
