@@ -309,7 +309,8 @@ def play(episode: "Episode", *, turns: float = math.inf, **options: Any) -> None
     try:
         while turns > 0:
             for _ in episode.play(env):
-                sim = env.unwrapped.simulation
+                own: Any = env.unwrapped  # a FieldEnv
+                sim = own.simulation
                 if viewer is None:
                     viewer = Viewer(sim, robot="robot", drive=False, **options)
                     print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
