@@ -47,12 +47,12 @@ py::tuple tuple_of(const RelativeState& state) {
   return py::make_tuple(state.pose.p, xyzw, state.twist.linear, state.twist.angular);
 }
 
-std::map<std::uint32_t, std::string> visuals_of(const Model& model) {
-  std::map<std::uint32_t, std::string> names;
+py::dict visuals_of(const Model& model) {
+  py::dict names;
   for (std::uint32_t i = 0; i < model.links.size(); ++i) {
     const std::vector<Visual>& visuals = model.links[i].visuals;
     for (std::uint32_t k = 0; k < visuals.size(); ++k) {
-      names.emplace(render::visual_number(i, k), visuals[k].name);
+      names[py::int_(render::visual_number(i, k))] = visuals[k].name;
     }
   }
   return names;
@@ -63,6 +63,7 @@ std::map<std::uint32_t, std::string> visuals_of(const Model& model) {
 /// visuals by their numbers in pictures of visuals.
 py::list placements_of(const LoadedWorld& loaded) {
   py::list made;
+  std::map<const Model*, py::dict> visuals;  // of many plants of one model
   std::int64_t instance_number = 1;
   // A simulation numbers a world's models in the order of their names.
   std::map<std::string, Instance> models;
@@ -74,9 +75,11 @@ py::list placements_of(const LoadedWorld& loaded) {
     for (std::size_t k = 0; k < placements.size(); ++k) {
       const Placement& placed = placements[k];
       const Eigen::Vector4d xyzw = placed.X_WM.q.coeffs();
-      made.append(py::make_tuple(
-          name(k), each.model->source.file, placed.X_WM.p, xyzw, placed.scale, placed.label,
-          instance_number + static_cast<std::int64_t>(k), visuals_of(*placed.model)));
+      const auto [names, is_new] = visuals.try_emplace(placed.model.get());
+      if (is_new) names->second = visuals_of(*placed.model);
+      made.append(py::make_tuple(name(k), each.model->source.file, placed.X_WM.p, xyzw,
+                                 placed.scale, placed.label,
+                                 instance_number + static_cast<std::int64_t>(k), names->second));
     }
     instance_number += std::max<std::int64_t>(1, static_cast<std::int64_t>(placements.size()));
   }

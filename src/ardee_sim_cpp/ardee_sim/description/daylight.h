@@ -5,7 +5,7 @@
 
 namespace ardee {
 
-/// Where the sun stands, and the air that its light comes through.
+/// Place of the sun, and the air that its light comes through.
 struct Daylight {
   double azimuth_deg = 180.0;   // clockwise from north, which is the world's y axis
   double elevation_deg = 60.0;  // above the horizon

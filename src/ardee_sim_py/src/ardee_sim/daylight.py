@@ -11,7 +11,7 @@ from ardee_sim.errors import ArdeeError
 
 @dataclass(frozen=True)
 class Daylight:
-    """Where the sun stands, and the air that its light comes through; x points east, y north.
+    """Place of the sun, and the air that its light comes through; x points east, y north.
 
     azimuth_deg : clockwise from north
     elevation_deg : above the horizon, 0 to 90

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a simulation tells of itself, and what moves its robots."""
+"""States of a simulation and its models, and velocities that are commanded."""
 
 import math
 from dataclasses import dataclass

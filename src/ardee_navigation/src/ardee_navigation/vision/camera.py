@@ -13,7 +13,7 @@ def shrunk_height_px(width_px: int, height_px: int, to_width_px: int) -> int:
 
 @dataclass(frozen=True)
 class Sight:
-    """What a picture shows of the lane before the camera.
+    """Sight of the lane before the camera, in one picture.
 
     heading_rad : of the camera, counter-clockwise from the rows
     lateral_offset_m : of the camera, to the left of the lane's middle

@@ -19,7 +19,7 @@ Stop gives the drive back to the program. The mouse, W, A, S, D and the arrows m
 
 @dataclass
 class Wanted:
-    """What the page's people want."""
+    """Wishes of the page's people."""
 
     is_paused: bool = False
     steps: int = 0  # that a paused simulation is to make

@@ -7,7 +7,6 @@ import ipaddress
 import socket
 import threading
 from typing import Any, List, Optional
-from unittest import mock
 from urllib.parse import urlsplit
 
 import viser
@@ -62,7 +61,11 @@ def start_server(host: str, port: int) -> Any:
         return serve(*arguments, process_request=check, **options)
 
     quiet = contextlib.redirect_stdout(io.StringIO())  # viser's own banner
-    with _starting, quiet, mock.patch.object(websockets.asyncio.server, "serve", serve_own):
-        server = _Server(host, port, label="ARDEE", verbose=False)
+    with _starting, quiet:
+        websockets.asyncio.server.serve = serve_own  # type: ignore[assignment,misc]
+        try:
+            server = _Server(host, port, label="ARDEE", verbose=False)
+        finally:
+            websockets.asyncio.server.serve = serve  # type: ignore[misc]
     server.gui.configure_theme(show_share_button=False)
     return server
