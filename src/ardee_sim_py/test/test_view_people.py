@@ -98,6 +98,29 @@ def test_a_removed_robot_is_said_once(yard: ardee_sim.Simulation, shown: Viewer)
     assert not is_served(shown.url)
 
 
+def test_a_robot_that_is_spawned_again_is_shown_and_driven(
+    yard: ardee_sim.Simulation, shown: Viewer, terrasentia: str
+) -> None:
+    def scan_is_shown() -> bool:
+        yard.step(round(0.1e9 / yard.step_ns))
+        shown.update()
+        return any(name.endswith("hokuyo") for name in shown._server.scene._handle_from_node_name)
+
+    assert scan_is_shown()
+    yard.remove("robot")
+    with pytest.warns(UserWarning, match="'robot' was removed"):
+        assert not scan_is_shown()
+    yard.spawn("robot", terrasentia, xyz_m=(1, 0, 0.175))
+    assert scan_is_shown() and "robot: x 1.00 m" in shown._panel._status.content
+    yard.remove("robot")  # and at once another one has its name
+    yard.spawn("robot", terrasentia.replace("cmd_vel", "drive"), xyz_m=(2, 0, 0.175))
+    assert scan_is_shown() and "robot: x 2.00 m" in shown._panel._status.content
+    shown._panel._inbox.put(("faster", None))
+    shown.update()  # commands the topic that this robot has
+    yard.step(40)
+    assert yard.state("robot").v_m_s[0] > 0.02
+
+
 def test_a_demand_made_since_stays(yard: ardee_sim.Simulation, shown: Viewer) -> None:
     yard.demand(SCAN.strip("/"), keep=5)
     shown.wanted.clouds, shown.wanted.camera = (), PICTURE

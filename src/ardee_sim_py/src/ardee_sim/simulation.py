@@ -258,7 +258,7 @@ class Simulation:
         return found
 
     def description(self, name: str) -> Any:
-        """Returns what a model was made of: its `name` and `links()`; another object once it was spawned anew."""
+        """Returns what a model was made of: its `name` and `links()`; another object if another model has its name."""
         return self._core.description(name)
 
     def scenery(self, x_m: float, y_m: float, radius_m: float) -> List[Tuple[Any, np.ndarray]]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Type
 
 import numpy as np
 from ardee_sim.errors import ArdeeError
-from ardee_sim.simulation import Simulation, Twist
+from ardee_sim.simulation import Entity, Simulation, Twist
 from ardee_sim.view.panel import NO_CAMERA, Panel, Wanted
 from ardee_sim.view.readings import CloudView, PictureView, link_of, topics_of
 from ardee_sim.view.rows import row_lines
@@ -48,7 +48,8 @@ class Viewer:
     same bytes with a viewer and without one, unless somebody drives.
 
     sim : to be shown; attach() shows another one
-    robot : the model that is followed and driven; by default the first one that can be driven
+    robot : name of the model that is followed and driven, again after it was removed and spawned anew; by default the
+        first one that can be driven
     host, port : of the page; port 0: any free one
     radius_m : fields and grounds are shown up to here around the robot
     limits : greatest speed [m/s] and turn rate [rad/s] that the page commands
@@ -73,7 +74,7 @@ class Viewer:
         _require_free(host, port)
         self._sim, self._robot_name, self._radius_m, self._limits = sim, robot, radius_m, limits
         self._drives, self._is_closed = drive, False
-        self._robot = self._find_robot(sim)
+        self._followed = self._find_robot(sim)
         # browsers open connections that they do not use, each of which would be a traceback
         logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
         self._server = start_server(host, port)
@@ -99,12 +100,35 @@ class Viewer:
 
     def attach(self, sim: Simulation) -> None:
         """Shows another simulation from now on, with the same controls."""
-        self._robot = self._find_robot(sim)
+        self._followed = self._find_robot(sim)
         self._hide()
         self._show(sim)
 
+    def _present(self, sim: Simulation) -> Optional[Tuple[Entity, Any]]:
+        """Returns the followed robot and its description, which tell it from another one of its name; None if gone."""
+        for entity in sim.entities():
+            if entity.name == self._followed:
+                return entity, sim.description(entity.name)
+        return None
+
+    def _follow(self) -> None:
+        """Shows the robot anew if it was removed, came back, or is another one now."""
+        if self._followed is None:
+            self._followed = self._find_robot(self._sim)
+        if self._present(self._sim) == self._shown:
+            return
+        self._hide()
+        self._show(self._sim)
+        if not self._robot:
+            warnings.warn(
+                f"'{self._followed}' was removed; the page shows the rest until it is back",
+                stacklevel=3,
+            )
+
     def _show(self, sim: Simulation) -> None:
         self._sim = sim
+        self._shown = self._present(sim)
+        self._robot = self._followed if self._shown else None
         nothing: Dict[str, Any] = {"clouds": [], "pictures": [], "drives": []}
         self._topics = topics_of(sim, self._robot) if self._robot else nothing
         self._topics["clouds"] = [
@@ -159,11 +183,7 @@ class Viewer:
 
         It waits while the page has paused the simulation, or if simulated time is ahead of the page's pace.
         """
-        if self._robot and all(e.name != self._robot for e in self._sim.entities()):
-            warnings.warn(f"'{self._robot}' was removed; the page shows the rest", stacklevel=2)
-            self._hide()
-            self._robot = None
-            self._show(self._sim)
+        self._follow()
         self._panel.take()
         self._draw()
         wanted = self.wanted
