@@ -246,6 +246,27 @@ def test_launch_file_drives_the_row(graph: RosGraph) -> None:
     assert_behind_the_row(graph.call(model_position, "TerraSentia_0"))
 
 
+def overlay_and_way() -> Tuple[Tuple[str, int, int], Tuple[float, float]]:
+    """Returns the form of the picture with rows, and where the robot is 0.6 m behind the first stalks, at x = -1 m."""
+    from probes import collect
+
+    (picture,) = collect("/row_follower/overlay", "sensor_msgs/Image", 1)
+
+    def is_inside() -> bool:
+        return model_position("TerraSentia_0")[0] < -1.6
+
+    wait_until(is_inside, "the robot between the rows", 60.0)
+    return (picture.encoding, picture.width, picture.height), model_position("TerraSentia_0")
+
+
+def test_launch_file_drives_a_row_by_camera(graph: RosGraph) -> None:
+    arguments = ("scenario:=early_corn", "follower:=vision", "rviz:=false", "rtf:=2")
+    launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
+    form, (_, y) = graph.call(overlay_and_way)
+    assert form == ("rgb8", 640, 480) and abs(y) < 0.1
+    assert "]: following" in launched.output()
+
+
 def test_a_process_without_ros_drives_the_row_over_udp(graph: RosGraph) -> None:
     ports = (f"sensors_port:={free_port()}", f"controls_port:={free_port()}")
     arguments = ("scenario:=artificial", "rviz:=false", "hil:=true", *ports)

@@ -19,6 +19,7 @@ from ardee_navigation.evaluation.scenario_files import read_parameters, read_sce
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.nodes import hil_row_follower, row_follower_node
 from ardee_navigation.nodes.row_follower_node import Settings
+from ardee_navigation.vision import VisionParameters
 
 PACKAGE = Path(__file__).resolve().parents[1]
 WORLD = PACKAGE.parent / "ardee_world"
@@ -95,7 +96,7 @@ def test_bad_parameters_are_named_with_their_line(tmp_path: Path, text: str, mes
     path = tmp_path / "p.yaml"
     path.write_text(text)
     with pytest.raises(GeneratorError, match=message):
-        read_parameters(path)
+        read_parameters(path, Parameters())
 
 
 @pytest.mark.parametrize(
@@ -122,6 +123,7 @@ def test_bad_scenarios_are_named_with_their_line(tmp_path: Path, text: str, mess
         ({"drive": "no"}, "^drive: found 'no', expected true or false"),
         ({"drive": 1}, "^drive: found 1, expected true or false"),
         ({"parameters": 7}, "^parameters: found 7, expected a text"),
+        ({"follower": "eye"}, "^follower: found 'eye', expected one of lbirnt, vision"),
         ({"scan": ""}, "^scan: found '', expected a ROS name"),
         ({"cmd": "cmd vel"}, "^cmd: found 'cmd vel', expected a ROS name"),
         (5, "^found 5, expected a mapping of keys to values"),
@@ -147,7 +149,7 @@ def test_parameters_beyond_their_limits_are_refused_in_python_too(name: str, val
 def test_parameters_default_to_the_listed_ones(tmp_path: Path) -> None:
     path = tmp_path / "p.yaml"
     path.write_text("kd: 4\n")
-    assert read_parameters(path) == Parameters(kd=4.0)
+    assert read_parameters(path, Parameters()) == Parameters(kd=4.0)
 
 
 def test_a_file_of_parameters_leaves_the_others_as_the_scenario_has_them(tmp_path: Path) -> None:
@@ -159,5 +161,7 @@ def test_a_file_of_parameters_leaves_the_others_as_the_scenario_has_them(tmp_pat
     assert run_experiment._scenario(run_experiment._arguments(words)).parameters == wanted
     settings = Settings(scenario="tobacco", parameters=str(path))
     assert row_follower_node._parameters(settings) == wanted
+    by_camera = row_follower_node._parameters(Settings(follower="vision", scenario="tobacco"))
+    assert by_camera == VisionParameters(lane_width_m=1.0)
     words += ["--scenarios", str(WORLD / "config" / "scenarios.yaml")]
     assert hil_row_follower._parameters(hil_row_follower._arguments(words)) == wanted

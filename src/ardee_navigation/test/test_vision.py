@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests what pictures of rows in known places say, and by driving a robot of unicycle kinematics."""
 import math
+from dataclasses import astuple
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from ardee_navigation.vision import VisionFollower, VisionParameters
 from ardee_navigation.vision.camera import Camera
 from ardee_navigation.vision.classical import Classical
 from ardee_navigation.vision.follower import camera_of
+from ardee_navigation.vision.overlay import CENTRE, VALID, drawn
 from ardee_navigation.vision.rows import RowModel
 from ardee_navigation.vision.vegetation import excess_green
 
@@ -39,6 +41,7 @@ def test_the_lines_of_two_rows_give_heading_and_offset(
     sight = CAMERA.sight(rows, 1.0)
     assert sight.heading_rad == pytest.approx(heading_rad, abs=1e-9)
     assert sight.lateral_offset_m == pytest.approx(lateral_m, abs=1e-9)
+    assert astuple(CAMERA.rows(heading_rad, lateral_m, rows)) == pytest.approx(astuple(rows))
 
 
 def test_excess_green_does_not_depend_on_exposure() -> None:
@@ -91,6 +94,17 @@ def test_waits_for_a_row_and_stands_after_a_long_gap() -> None:
     assert follower.update(rows, 1.55).speed_m_s == P.speed_m_s
     assert follower.update(bare, 1.60).speed_m_s == P.speed_m_s
     assert follower.update(bare, 1.60 + P.max_gap_s + DT_S).speed_m_s == 0.0
+
+
+def test_what_is_seen_is_drawn_where_it_is() -> None:
+    picture = picture_of(CAMERA, 0.05, 0.1)
+    output = VisionFollower(P).update(picture, 0.0)
+    shown = drawn(picture, output, P)
+    assert shown.shape == (480, 640, 3)
+    rows = output.sight.rows.scaled(2.0)
+    for row, colour in ((0.0, VALID), (0.5, CENTRE), (1.0, VALID)):
+        u_px = 320.0 + rows.offset_px(row, np.float64(350.0))
+        assert (shown[350, round(u_px)] == colour).all()
 
 
 def drive(lateral_m: float, heading_rad: float, length_m: float = 3.0) -> np.ndarray:

@@ -2,11 +2,14 @@
 """Files of scenarios and parameters, read without ROS: a target computer reads them too."""
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Dict, Optional
+from typing import Dict, Optional, TypeVar
 
 from ardee_common.config import build, build_group, read_yaml_lines
 from ardee_common.options import option
+from ardee_navigation.lane_following import LaneParameters
 from ardee_navigation.lbirnt import Parameters
+
+P = TypeVar("P", bound=LaneParameters)
 
 
 @dataclass(frozen=True)
@@ -24,9 +27,9 @@ def read_scenarios(path: Path) -> Dict[str, Scenario]:
     return {name: build_group(Scenario, mapping, name) for name in mapping}
 
 
-def read_parameters(path: Path, usual: Parameters = Parameters()) -> Parameters:
-    """Reads a YAML file with any names of the row follower's parameters as keys; the others are the usual ones."""
+def read_parameters(path: Path, usual: P) -> P:
+    """Reads a YAML file with any names of a row follower's parameters as keys; the others are the usual ones."""
     mapping = read_yaml_lines(path)
     for name, value in asdict(usual).items():
         mapping.setdefault(name, value)
-    return build(Parameters, mapping)
+    return build(type(usual), mapping)

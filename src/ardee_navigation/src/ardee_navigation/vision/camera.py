@@ -67,3 +67,13 @@ class Camera:
         offset_m = self.height_m * (slope + tangent * math.tan(pitch_rad))
         heading_rad = math.atan(tangent)
         return Sight(heading_rad, offset_m * math.cos(heading_rad), confidence, rows)
+
+    def rows(self, heading_rad: float, lateral_offset_m: float, like: RowModel) -> RowModel:
+        """Returns the rows that give this heading and offset by `sight`; horizon and spacing are those of `like`."""
+        pitch_rad = math.atan((self.height_px / 2.0 - like.horizon_px) / self.focal_px)
+        tangent = math.tan(heading_rad)
+        offset_m = lateral_offset_m / math.cos(heading_rad)
+        slope = offset_m / self.height_m - tangent * math.tan(pitch_rad)
+        phase = slope * math.cos(pitch_rad) / like.spacing - 0.5
+        heading_px = tangent * self.focal_px / math.cos(pitch_rad)
+        return RowModel(like.horizon_px, like.spacing, phase, heading_px)
