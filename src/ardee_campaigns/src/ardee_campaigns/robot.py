@@ -78,7 +78,7 @@ class Driven:
     """A robot in a simulation."""
 
     def __init__(self, sim: ardee_sim.Simulation, name: str, keys: RobotKeys, urdf: str) -> None:
-        self._sim, self._keys = sim, keys
+        self.sim, self._keys = sim, keys
         self._topics = topics_of(keys)
         self._name, self._urdf = name, urdf
         self._has_pace_sensor = keys.period_s is None
@@ -86,11 +86,11 @@ class Driven:
     def spawn(self, pose: Pose, trial: Optional[Trial]) -> Robot:
         """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
         place = (pose.x_m, pose.y_m, height_m(self._keys, pose, trial))
-        self._sim.spawn(NAME, self._urdf, xyz_m=place, rpy_rad=(0.0, 0.0, pose.yaw_rad))
+        self.sim.spawn(NAME, self._urdf, xyz_m=place, rpy_rad=(0.0, 0.0, pose.yaw_rad))
         self._check_topics()
         for use, topic in self._topics.items():
             if use != "command":
-                self._sim.demand(topic, keep=_KEPT if use == self._keys.pace else 1)
+                self.sim.demand(topic, keep=_KEPT if use == self._keys.pace else 1)
         readings = self.settle()
         period_s = self._period_s(readings)
         sensor = self._sensor_xyz_m(readings[-1].frame_id) if readings else np.zeros(3)
@@ -101,7 +101,7 @@ class Driven:
         return self.robot
 
     def _check_topics(self) -> None:
-        known = {name.lstrip("/"): info for name, info in self._sim.topics().items()}
+        known = {name.lstrip("/"): info for name, info in self.sim.topics().items()}
         for use, topic in self._topics.items():
             role = "command" if use == "command" else "reading"
             info = known.get(topic.lstrip("/"))
@@ -121,8 +121,8 @@ class Driven:
     def settle(self) -> List[ardee_sim.Reading]:
         """Lets the robot come to rest; returns the readings of the pace's sensor in that time."""
         self.command(0.0, 0.0)
-        self._sim.step(math.ceil(SETTLE_S * 1e9 / self._sim.step_ns))
-        return self._sim.drain(self._topics[self._keys.pace]) if self._has_pace_sensor else []
+        self.sim.step(math.ceil(SETTLE_S * 1e9 / self.sim.step_ns))
+        return self.sim.drain(self._topics[self._keys.pace]) if self._has_pace_sensor else []
 
     def _period_s(self, readings: List[ardee_sim.Reading]) -> float:
         """Returns the control period; sets its physics steps."""
@@ -135,28 +135,28 @@ class Driven:
             period_ns = readings[-1].stamp_ns - readings[-2].stamp_ns
         else:
             period_ns = round(self._keys.period_s * 1e9)
-        self._steps, rest = divmod(period_ns, self._sim.step_ns)
+        self._steps, rest = divmod(period_ns, self.sim.step_ns)
         if rest or not self._steps:
             found = f"a period of {period_ns * 1e-9:g} s"
-            step = f"{self._sim.step_ns * 1e-9:g} s"
+            step = f"{self.sim.step_ns * 1e-9:g} s"
             raise GeneratorError(
                 f"robot {self._name}: found {found}, expected a whole number of steps of {step}"
             )
         return period_ns * 1e-9
 
     def _sensor_xyz_m(self, frame: str) -> np.ndarray:
-        entity = next(e for e in self._sim.entities() if e.name == NAME)
+        entity = next(e for e in self.sim.entities() if e.name == NAME)
         link = frame.rpartition("/")[2]
         if link not in entity.links:
             return np.zeros(3)
-        return self._sim.state(f"{NAME}::{link}", relative_to=NAME).xyz_m
+        return self.sim.state(f"{NAME}::{link}", relative_to=NAME).xyz_m
 
     def advance(self) -> int:
         """Steps to the next reading of the pace's sensor; returns its time [ns]."""
-        self._sim.step(self._steps)
+        self.sim.step(self._steps)
         if not self._has_pace_sensor:
-            return self._sim.time_ns
-        self._paced = self._sim.drain(self._topics[self._keys.pace])
+            return self.sim.time_ns
+        self._paced = self.sim.drain(self._topics[self._keys.pace])
         if not self._paced:
             topic = self._topics[self._keys.pace]
             raise GeneratorError(f"found no reading of {topic}, expected one of every period")
@@ -169,24 +169,24 @@ class Driven:
             if use == self._keys.pace and self._has_pace_sensor:
                 seen[use] = self._paced[-1]
             elif use != "command":
-                seen[use] = self._sim.latest(topic)
+                seen[use] = self.sim.latest(topic)
         return seen
 
     def command(self, speed_m_s: float, turn_rad_s: float) -> None:
         """Commands the robot from the next step on."""
         twist = ardee_sim.Twist(linear_x_m_s=speed_m_s, angular_z_rad_s=turn_rad_s)
-        self._sim.command(self._topics["command"], twist)
+        self.sim.command(self._topics["command"], twist)
 
     def pose(self) -> Pose:
         """Returns the robot's true pose on the ground plan."""
-        state = self._sim.state(NAME)
+        state = self.sim.state(NAME)
         return Pose(float(state.xyz_m[0]), float(state.xyz_m[1]), state.yaw_rad)
 
     def set_pose(self, pose: Pose, trial: Trial) -> None:
         """Sets the robot down at a pose, at rest."""
         place = (pose.x_m, pose.y_m, height_m(self._keys, pose, trial))
         turn = (0.0, 0.0, math.sin(pose.yaw_rad / 2), math.cos(pose.yaw_rad / 2))
-        self._sim.set_state(NAME, xyz_m=place, quat_xyzw=turn)
+        self.sim.set_state(NAME, xyz_m=place, quat_xyzw=turn)
 
 
 def describe(name: str, keys: RobotKeys, urdf: str) -> Robot:

@@ -29,6 +29,7 @@ FULL = (errno.ENOSPC, errno.EDQUOT)  # error numbers of a full disk
 _ADDRESS = re.compile(r"0x[0-9a-f]{6,}")  # of an object: differs from run to run
 _LONGEST_ERROR = 500
 Watch = Callable[[Observation], None]
+Show = Callable[[ardee_sim.Simulation, bool], None]  # of each period; whether the run is over
 
 
 class FullDisk(Exception):
@@ -52,8 +53,8 @@ def sow(job: Job, folder: Path) -> Trial:
 class Run:
     """A run while it goes, and what it left behind even if it failed."""
 
-    def __init__(self, job: Job) -> None:
-        self._job = job
+    def __init__(self, job: Job, show: Optional[Show] = None) -> None:
+        self._job, self._show = job, show
         self._keys = job.campaign.keys
         self._recorder: Optional[Recorder] = None
         self.about: Dict[str, Any] = {}
@@ -139,6 +140,8 @@ class Run:
                 driven.set_pose(back, trial)
                 driven.settle()
                 controller.reset()
+            if self._show:
+                self._show(driven.sim, bool(judge.end))
 
     def file(self, error: str, wall_s: float) -> tables.RunFile:
         """Returns what is to be kept."""
@@ -167,18 +170,23 @@ def is_ros(job: Job) -> bool:
     return job.campaign.controllers[job.cell.controller].kind == "ros"
 
 
-def run_one(job: Job, watch: Optional[Watch] = None) -> tables.RunFile:
-    """Returns what a run leaves behind. A failure of its world, robot, controller or measures is a failed row."""
+def run_one(job: Job, watch: Optional[Watch] = None, show: Optional[Show] = None) -> tables.RunFile:
+    """Returns what a run leaves behind. A failure of its world, robot, controller or measures is a failed row.
+
+    `show` sees the simulation, which one whose controller is a ROS node has not in this process.
+    """
     if is_ros(job):
         from ardee_campaigns.ros.process import run_apart
 
         return run_apart(job, watch)
-    return run_here(job, watch)
+    return run_here(job, watch, show)
 
 
-def run_here(job: Job, watch: Optional[Watch] = None) -> tables.RunFile:
+def run_here(
+    job: Job, watch: Optional[Watch] = None, show: Optional[Show] = None
+) -> tables.RunFile:
     """Returns the same of a run in this process."""
-    began, run, error = time.monotonic(), Run(job), ""
+    began, run, error = time.monotonic(), Run(job, show), ""
     try:
         with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:
             run.drive(Path(work), watch or (lambda observation: None))

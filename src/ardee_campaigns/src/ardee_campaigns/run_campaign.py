@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Command `run_campaign`: works off a campaign's file, goes on where it stopped, writes tables."""
 import argparse
+import contextlib
 import math
 import os
 import sys
@@ -11,9 +12,10 @@ import numpy as np
 
 from ardee_campaigns import measures, tables
 from ardee_campaigns.campaign_file import Campaign, read_campaign
+from ardee_campaigns.page_view import Page
 from ardee_campaigns.plan import Cell, Job, Planner, about
 from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file
-from ardee_common.cli import Parser, say
+from ardee_common.cli import Parser, say, whole_in
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.output import locked
 from ardee_common.process import Ended, end_by_signals
@@ -65,9 +67,19 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
         help="with --replay: write RUN_ID.bag, too, with all topics of the node simulator but cameras and clouds that"
         " are not among the robot's topics; needs ROS",
     )
+    parser.add_argument(
+        "--view",
+        nargs="?",
+        type=whole_in(0, 65535),
+        const=8080,
+        metavar="PORT",
+        help="with --replay: show it in real time in a page of the browser, paused at its start and at its end, at this"
+        " port (default: 8080; 0: any free one); needs viser",
+    )
     args = parser.parse_args(argv)
-    if args.bag and not args.replay:
-        parser.error("--bag: found no --replay, expected the run that is written to a bag")
+    for flag, is_given in (("--bag", args.bag), ("--view", args.view is not None)):
+        if is_given and not args.replay:
+            parser.error(f"{flag}: found no --replay, expected the run that it is for")
     return args
 
 
@@ -279,14 +291,15 @@ def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None
     print(path)
 
 
-def _replay(session: Session, run_id: str, is_bag: bool) -> int:
+def _replay(session: Session, args: argparse.Namespace) -> int:
     """Does one run again in this process."""
     import pyarrow.csv
 
     from ardee_campaigns.run import run_one
     from ardee_navigation.evaluation.real_run import write_scans
 
-    write_bag = _bag_writer() if is_bag else None
+    run_id = args.replay
+    write_bag = _bag_writer() if args.bag else None
     keys = session.campaign.keys
     is_until = keys.plan.kind == "until"
     jobs = session.jobs(keys.plan.most_replicates if is_until else keys.replicates)
@@ -296,7 +309,9 @@ def _replay(session: Session, run_id: str, is_bag: bool) -> int:
         raise GeneratorError(f"--replay: found {run_id!r}, {known_names(run_id, known)}")
     session.write_robots([job])
     log = ScanLog()
-    done = run_one(job, log.watch)
+    with contextlib.ExitStack() as ends:
+        page = None if args.view is None else ends.enter_context(Page(args.view, job))
+        done = run_one(job, log.watch, page)
     samples = done.samples.select([name for name, _ in tables.SAMPLE_FIELDS])
     path = session.folder / f"{run_id}.csv"
     pyarrow.csv.write_csv(samples, path)
@@ -317,7 +332,7 @@ def _command(args: argparse.Namespace) -> int:
     if args.list:
         _list(session)
         return 0
-    return _replay(session, args.replay, args.bag) if args.replay else _work(session, args)
+    return _replay(session, args) if args.replay else _work(session, args)
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
