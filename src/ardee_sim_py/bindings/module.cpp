@@ -31,9 +31,17 @@ const char* level_name(LogLevel level) {
   throw std::logic_error("found a level without a name");
 }
 
+/// Messages quote files, which may hold bytes that are no UTF-8.
+py::object readable(const std::string& text) {
+  const auto size = static_cast<Py_ssize_t>(text.size());
+  return py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(text.data(), size, "replace"));
+}
+
 py::list log_of(const std::vector<LogLine>& lines) {
   py::list made;
-  for (const LogLine& line : lines) made.append(py::make_tuple(level_name(line.level), line.text));
+  for (const LogLine& line : lines) {
+    made.append(py::make_tuple(level_name(line.level), readable(line.text)));
+  }
   return made;
 }
 
@@ -118,7 +126,7 @@ void bind_world(py::module_& module) {
 
 void raise(const char* name, const Error& error) {
   const py::object type = py::module_::import("ardee_sim.errors").attr(name);
-  PyErr_SetString(type.ptr(), error.what());
+  PyErr_SetObject(type.ptr(), readable(error.what()).ptr());
 }
 
 void bind_state(py::class_<BoundSimulation>& bound) {

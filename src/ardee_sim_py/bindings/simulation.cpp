@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ardee_sim/controllers/ros_control.h"
 #include "ardee_sim/core/nearest_names.h"
 #include "arrays.h"
 #include "commands.h"
@@ -27,7 +28,9 @@ std::string whole(const std::string& topic) {
 }
 
 py::key_error unknown(const std::string& kind, const std::string& name,
-                      const std::vector<std::string>& known) {
+                      std::vector<std::string> known) {
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   return py::key_error("found no " + kind + " '" + name +
                        "', expected one of: " + nearest_names(name, known));
 }
@@ -83,7 +86,13 @@ void BoundSimulation::spawn(const Spawn& wanted) {
   request.is_static = wanted.is_static;
   request.scale = wanted.scale;
   request.label = wanted.label;
-  use->spawn(request);
+  for (const auto& device : use->spawn(request).devices) {
+    if (dynamic_cast<const control::RosControl*>(device.get()) == nullptr) continue;
+    log_.push_back({LogLevel::kWarning, "model '" + wanted.name + "': found the plugin '" +
+                                            device->name() +
+                                            "' of ros_control, whose controllers ROS alone "
+                                            "loads: nothing moves its joints here"});
+  }
   spawned_[wanted.name] = wanted.model;
   apply_demands();
 }

@@ -2,6 +2,7 @@
 #include "ardee_sim/simulation/simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -83,6 +84,13 @@ void Simulation::add_world_models(const std::vector<Instance>& models) {
 
 Entity& Simulation::spawn(const SpawnRequest& request) {
   const LogGroup group(log_);
+  const Model& model = *request.model;
+  const bool moves = !request.is_static && !model.is_static && !model.links.empty();
+  if (moves ? request.scale != 1.0 : !(request.scale > 0.0 && std::isfinite(request.scale))) {
+    throw Error(model.source, "model '" + request.name + "': found the scale " +
+                                  std::to_string(request.scale) + ", expected " +
+                                  (moves ? "1 of a model that moves" : "a positive number"));
+  }
   auto entity = std::make_unique<Entity>();
   entity->instance = {request.model, request.name,  request.X_WM * request.model->own_pose,
                       request.scale, request.label, request.is_static};

@@ -8,7 +8,7 @@ from typing import List, Union
 
 from ardee_sim.errors import ArdeeError
 from ardee_sim.packages import find_package
-from ardee_sim.world import PathLike
+from ardee_sim.world import PathLike, read_text
 
 
 def _xacro_file(name_or_path: PathLike) -> Path:
@@ -33,7 +33,7 @@ def robot(name_or_path: PathLike, **xacro_arguments: Union[str, float, bool]) ->
     if path.suffix != ".xacro":
         if xacro_arguments:
             raise ArdeeError(f"{path}: found xacro arguments for a file that is not .xacro")
-        return path.read_text()
+        return read_text(path)
     arguments = [f"{key}:={_text(value)}" for key, value in xacro_arguments.items()]
     return _expand(path, arguments)
 

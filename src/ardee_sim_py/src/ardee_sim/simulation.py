@@ -15,6 +15,8 @@ from ardee_sim.readings import make_reading
 from ardee_sim.state import Contact, Entity, LogLine, Snapshot, State, TopicInfo, Twist
 from ardee_sim.world import World, read_text
 
+_MOST_THREADS = 1024
+_MOST_LABEL = 2**16 - 1  # that a label picture holds
 Vector = Union[Sequence[float], np.ndarray]
 Command = Union[Twist, float, bool, Sequence[float], Mapping[str, Any]]
 
@@ -23,9 +25,16 @@ def _vector(values: Vector, size: int, name: str) -> np.ndarray:
     try:
         vector = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
-        raise ValueError(f"{name}: found {values!r}, expected {size} numbers") from None
+        raise ArdeeError(f"{name}: found {values!r}, expected {size} numbers") from None
     if vector.shape != (size,) or not np.isfinite(vector).all():
-        raise ValueError(f"{name}: found {values!r}, expected {size} finite numbers")
+        raise ArdeeError(f"{name}: found {values!r}, expected {size} finite numbers")
+    return vector
+
+
+def _quaternion(values: Vector) -> np.ndarray:
+    vector = _vector(values, 4, "quat_xyzw")
+    if not 1e-6 < np.linalg.norm(vector) < 1e6:
+        raise ArdeeError(f"quat_xyzw: found {values!r}, expected a quaternion of about length 1")
     return vector
 
 
@@ -37,11 +46,20 @@ class Simulation:
 
     Simulations of one World share what rays meet and does not change, as long as one of them is open: beside the first
     in the shipped corn, each further one takes a ninth of the time to the first scan, and of the memory of a picture.
+
+    seed : of all noise
+    ray_threads : that measure together, 0: as many as the computer has cores
     """
 
     def __init__(self, world: World, *, seed: int = 0, ray_threads: int = 1) -> None:
+        if not isinstance(world, World):
+            raise TypeError(
+                f"found world={world!r}, expected a World, as World.from_file() returns"
+            )
         if not 0 <= seed < 2**64:
             raise ArdeeError(f"found seed={seed}, expected 0 to 2^64 - 1")
+        if not 0 <= ray_threads <= _MOST_THREADS:
+            raise ArdeeError(f"found ray_threads={ray_threads}, expected 0 to {_MOST_THREADS}")
         self.world = world
         self.seed = seed
         self._core = _core.Simulation(world._core, seed, ray_threads)
@@ -81,11 +99,17 @@ class Simulation:
         xyz_m, rpy_rad : pose in the world; roll, pitch, yaw about the fixed axes
         namespace : of the robot's topics
         joint_positions : initial ones, rad or m, by the joint's name; others as described
-        scale : of static models
+        scale : of a static model
         label : class in label pictures
 
         Raises ArdeeError, and then nothing is left behind.
         """
+        if isinstance(model, str) and not model.lstrip().startswith("<"):
+            raise ArdeeError(
+                f"found the model {model[:80]!r}, expected URDF or SDF text, as robot() returns it, or a pathlib.Path"
+            )
+        if not 0 <= label <= _MOST_LABEL:
+            raise ArdeeError(f"found label={label}, expected 0 to {_MOST_LABEL}")
         text, file = (model, name) if isinstance(model, str) else (read_text(model), str(model))
         loaded = self.world.load_model(text, file)
         pose = _vector(xyz_m, 3, "xyz_m"), _vector(rpy_rad, 3, "rpy_rad")
@@ -103,7 +127,7 @@ class Simulation:
         Raises PhysicsError if a model's state became invalid.
         """
         if n < 0:
-            raise ValueError(f"found {n} steps, expected 0 or more")
+            raise ArdeeError(f"found {n} steps, expected 0 or more")
         self._core.step(n)
 
     def reset(self) -> None:
@@ -154,6 +178,8 @@ class Simulation:
 
         Models spawned since are gone, removed ones are back. Kept readings are forgotten.
         """
+        if not isinstance(snapshot, Snapshot):
+            raise TypeError(f"found a {type(snapshot).__name__}, expected a Snapshot")
         self._core.restore(snapshot.data)
 
     def state(self, name: str, *, relative_to: str = "world") -> State:
@@ -177,7 +203,7 @@ class Simulation:
         self._core.set_state(
             name,
             _vector(xyz_m, 3, "xyz_m"),
-            _vector(quat_xyzw, 4, "quat_xyzw"),
+            _quaternion(quat_xyzw),
             _vector(v_m_s, 3, "v_m_s"),
             _vector(w_rad_s, 3, "w_rad_s"),
             relative_to,
@@ -211,7 +237,9 @@ class Simulation:
     def demand(self, *topics: str, keep: int = 1) -> None:
         """Lets devices measure for these topics from now on; `keep` readings of each wait for drain()."""
         if keep < 1:
-            raise ValueError(f"found keep={keep}, expected 1 or more")
+            raise ArdeeError(f"found keep={keep}, expected 1 or more")
+        for topic in topics:
+            self._core.demands(topic)  # raises KeyError before any is demanded
         for topic in topics:
             self._core.demand(topic, keep)
             self._demand_counts[topic.strip("/")] += 1
@@ -329,13 +357,13 @@ class Simulation:
         near_m: float = 0.0,
     ) -> Dict[str, np.ndarray]:
         if not (1 <= width_px <= 10_000 and 1 <= height_px <= 10_000):
-            raise ValueError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
+            raise ArdeeError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
         if not 0 < horizontal_fov_rad < math.pi:
-            raise ValueError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
+            raise ArdeeError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
         if not 0 <= near_m < math.inf:
-            raise ValueError(f"found near_m={near_m}, expected 0 or more")
+            raise ArdeeError(f"found near_m={near_m}, expected 0 or more")
         has_ids = "labels" in parts or "instances" in parts
         wanted = ("rgb" in parts, "depth_m" in parts, has_ids, "visuals" in parts)
-        pose = _vector(xyz_m, 3, "xyz_m"), _vector(quat_xyzw, 4, "quat_xyzw")
+        pose = _vector(xyz_m, 3, "xyz_m"), _quaternion(quat_xyzw)
         size = width_px, height_px
         return self._core.picture(*pose, *size, horizontal_fov_rad, near_m, *wanted)

@@ -40,7 +40,7 @@ class TopicInfo:
     rate_hz : readings per simulated second, of all the topic's devices; None: no readings, or not periodic (a trigger)
     frame_id : of all readings; empty if they have none or several
 
-    Of ros_control controllers, whose parameters say it, they are None and empty.
+    A robot's ros_control controllers have none: ROS alone loads them, with its parameters.
     """
 
     kind: str

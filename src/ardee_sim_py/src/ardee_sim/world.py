@@ -112,6 +112,8 @@ class World:
         """
         if os.path.isdir(path):
             raise ArdeeError(f"{path}: found a folder, expected a world's file")
+        if not os.fspath(path):
+            raise ArdeeError("found an empty path, expected a world's file")
         return cls(_core.World.from_file(os.fspath(path), *cls._folders(model_paths)))
 
     @classmethod
@@ -124,6 +126,11 @@ class World:
 
     @staticmethod
     def _folders(model_paths: Sequence[PathLike]) -> Tuple[List[str], List[str], List[str]]:
+        if isinstance(model_paths, (str, os.PathLike)):
+            raise ArdeeError(f"model_paths: found {model_paths!r}, expected a list of folders")
+        for path in model_paths:
+            if not os.path.isdir(path):
+                raise ArdeeError(f"model_paths: found {path!r}, expected a folder")
         models = [os.path.abspath(path) for path in model_paths] + packages.model_folders()
         return models, packages.media_folders(), packages.package_folders()
 
@@ -148,9 +155,14 @@ class World:
             raise ArdeeError(f"{file}: found no file, expected a start pose of the world")
         try:
             given = yaml.safe_load(file.read_text())
-            x, y, z, yaw = (float(given[key]) for key in ("x_m", "y_m", "z_m", "yaw_rad"))
-        except (yaml.YAMLError, KeyError, TypeError, ValueError) as error:
+            x, y, z, yaw = (float(given.pop(key)) for key in ("x_m", "y_m", "z_m", "yaw_rad"))
+        except (yaml.YAMLError, AttributeError, KeyError, TypeError, ValueError) as error:
             raise ArdeeError(f"{file}: {error}, expected x_m, y_m, z_m, yaw_rad") from None
+        if given or not np.isfinite([x, y, z, yaw]).all():
+            found = ", ".join(map(str, given)) or f"{x}, {y}, {z}, {yaw}"
+            raise ArdeeError(
+                f"{file}: found {found}, expected x_m, y_m, z_m, yaw_rad alone, finite"
+            )
         return {"xyz_m": (x, y, z), "rpy_rad": (0.0, 0.0, yaw)}
 
     def placements(self) -> List[Placement]:

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: MIT
+"""Tests that bad input is one exception of a documented type, which says the place, and that the simulation goes on."""
+import pathlib
+from typing import Callable, List, Tuple, Type
+
+import ardee_sim
+import numpy as np
+import pytest
+from ardee_sim import ArdeeError, World
+
+CONTROLLED = """<robot name="arm"><link name="base"><inertial><mass value="1"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo></robot>"""
+
+
+def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia: str) -> None:
+    calls: List[Tuple[Type[Exception], str, Callable[[], object]]] = [
+        (KeyError, "/cmd_vel", lambda: sim.command("cmd_vell", ardee_sim.Twist())),
+        (KeyError, "/ardee/hokuyo", lambda: sim.demand("ardee/hokuyu")),
+        (KeyError, "calibrate", lambda: sim.call("ardee/imu/custom/calibrat")),
+        (TypeError, "expected a Twist", lambda: sim.command("cmd_vel", 1.0)),
+        (ArdeeError, "not finite", lambda: sim.command("cmd_vel", ardee_sim.Twist(float("nan")))),
+        (ArdeeError, "was not demanded", lambda: sim.latest("ardee/imu/custom")),
+        (ArdeeError, "already exists", lambda: sim.spawn("robot", terrasentia)),
+        (ArdeeError, "expected 3 finite", lambda: sim.spawn("x", terrasentia, xyz_m=(0, 1))),
+        (ArdeeError, "expected 0 or more", lambda: sim.step(-1)),
+        (ArdeeError, "no model 'nobody'", lambda: sim.remove("nobody")),
+        (ArdeeError, "as robot\\(\\) returns", lambda: sim.spawn("x", "tsv1_default")),
+        (ArdeeError, "the scale 2.*1 of a model", lambda: sim.spawn("x", terrasentia, scale=2)),
+        (ArdeeError, "label=65536", lambda: sim.spawn("x", terrasentia, label=2**16)),
+        (ArdeeError, "length 1", lambda: sim.set_state("robot", quat_xyzw=np.zeros(4))),
+        (ArdeeError, "length 1", lambda: sim.render((0, 0, 1), (0, 0, 0, 1e300))),
+        (TypeError, "expected a Snapshot", lambda: sim.restore(b"")),  # type: ignore[arg-type]
+        (TypeError, "expected a World", lambda: ardee_sim.Simulation("corn.world")),  # type: ignore[arg-type]
+        (ArdeeError, "ray_threads=-1", lambda: ardee_sim.Simulation(sim.world, ray_threads=-1)),
+    ]
+    for error, text, call in calls:
+        with pytest.raises(error, match=text):
+            call()
+    sim.step()
+
+
+def test_no_topic_is_demanded_if_one_is_unknown(sim: ardee_sim.Simulation) -> None:
+    with pytest.raises(KeyError, match="hokuyu"):
+        sim.demand("ardee/hokuyo", "ardee/hokuyu")
+    assert not sim.demands("ardee/hokuyo")
+
+
+def test_a_topic_of_several_devices_is_named_once(sim: ardee_sim.Simulation) -> None:
+    with pytest.raises(KeyError) as caught:
+        sim.command("cmd_vell", ardee_sim.Twist())
+    assert str(caught.value).count("/cmd_vel,") == 1
+
+
+def test_a_robot_that_is_refused_says_where_and_leaves_nothing(
+    sim: ardee_sim.Simulation, tmp_path: pathlib.Path
+) -> None:
+    file = tmp_path / "bad.urdf"
+    file.write_text("<robot name='r'>\n<link name='a'>\n<inertial><mass value='nan'/></inertial>")
+    before = sim.entities()
+    for text, line in [
+        ("</link></robot>", 3),  # no inertia
+        ("</link>", 3),  # not closed
+    ]:
+        broken = tmp_path / "broken.urdf"
+        broken.write_text(file.read_text() + text)
+        with pytest.raises(ArdeeError) as caught:
+            sim.spawn("other", broken)
+        assert caught.value.file == str(broken) and 1 <= (caught.value.line or 0) <= line
+    with pytest.raises(ArdeeError, match="nowhere.urdf"):
+        sim.spawn("other", tmp_path / "nowhere.urdf")
+    with pytest.raises(ArdeeError, match="found seed=-1"):
+        ardee_sim.Simulation(sim.world, seed=-1)
+    assert sim.entities() == before
+    sim.step()
+
+
+def test_a_world_that_cannot_be_read_is_refused(tmp_path: pathlib.Path) -> None:
+    accent = tmp_path / "accent.world"
+    accent.write_bytes(
+        b"<sdf version='1.6'><world name='w'>\n<gravity>\xe9</gravity></world></sdf>"
+    )
+    calls: List[Tuple[str, Callable[[], object]]] = [
+        ("found a folder", lambda: World.from_file(tmp_path)),
+        ("found an empty path", lambda: World.from_file("")),
+        ("accent.world:2: <gravity>: found '\ufffd'", lambda: World.from_file(accent)),
+        ("expected a list of folders", lambda: World.from_file(accent, model_paths=str(tmp_path))),
+        ("'lost', expected a folder", lambda: World.from_file(accent, model_paths=["lost"])),
+    ]
+    for text, call in calls:
+        with pytest.raises(ArdeeError, match=text):
+            call()
+    binary = tmp_path / "robot.urdf"
+    binary.write_bytes(b"\xff\xfe")
+    with pytest.raises(ArdeeError, match="robot.urdf: .*expected a text file"):
+        ardee_sim.robot(binary)
+
+
+@pytest.mark.parametrize(
+    "text, expected",
+    [
+        ("{x_m: .nan, y_m: 0, z_m: 0, yaw_rad: 0}", "found nan, 0.0, 0.0, 0.0"),
+        ("{x_m: 0, y_m: 0, z_m: 0, yaw_rad: 0, yaw_deg: 90}", "found yaw_deg"),
+        ("[1, 2]", "expected x_m, y_m, z_m, yaw_rad"),
+    ],
+)
+def test_a_bad_start_pose_is_refused(tmp_path: pathlib.Path, text: str, expected: str) -> None:
+    world = tmp_path / "w.world"
+    world.write_text("<sdf version='1.6'><world name='w'/></sdf>")
+    world.with_suffix(".start.yaml").write_text(text)
+    with pytest.raises(ArdeeError, match=expected):
+        World.from_file(world).start
+
+
+def test_a_robot_of_ros_control_is_warned_about(sim: ardee_sim.Simulation) -> None:
+    sim.log()
+    sim.spawn("arm", CONTROLLED, xyz_m=(0, 5, 1))
+    assert [line.level for line in sim.log() if "ROS alone" in line.text] == ["warning"]
+
+
+def test_a_closed_simulation_says_so(sim: ardee_sim.Simulation) -> None:
+    sim.close()
+    sim.close()
+    for call in (sim.step, sim.reset, sim.snapshot, sim.entities, lambda: sim.time_ns):
+        with pytest.raises(RuntimeError, match="closed"):
+            call()
