@@ -57,6 +57,12 @@ class FieldEnv(gymnasium.Env):
     ) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ArdeeError(f"render_mode: found {render_mode!r}, expected None or rgb_array")
+        given = dict(
+            control_period_s=control_period_s, v_max_m_s=v_max_m_s, w_max_rad_s=w_max_rad_s
+        )
+        for name, value in given.items():
+            if not 0 < value < math.inf:
+                raise ArdeeError(f"{name}: found {value}, expected a positive number")
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": round(1 / control_period_s)}
         self._task, self._period_s = task, control_period_s

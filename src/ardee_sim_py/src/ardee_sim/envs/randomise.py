@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Dict, Mapping, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
+import numpy as np
 from ardee_sim.errors import ArdeeError
 
 from ardee_common.errors import known_names
@@ -54,7 +55,7 @@ def check_ranges(ranges: Ranges, is_sown: bool) -> None:
         if name not in SCENE and not is_sown:
             raise ArdeeError(f"randomise: found '{name}' for a field that is not sown anew")
         least, greatest = SCENE.get(name, (-math.inf, math.inf))
-        if len(given) != 2 or not least <= given[0] <= given[1] <= greatest:
+        if np.shape(given) != (2,) or not least <= given[0] <= given[1] <= greatest:
             bounds = f" within {least:g} and {greatest:g}" if name in SCENE else ""
             raise ArdeeError(
                 f"randomise: {name}: found {given}, expected least and greatest value{bounds}"
