@@ -62,14 +62,22 @@ def begun(output: Path) -> List[str]:
 
 
 @pytest.fixture
-def start() -> Callable[..., subprocess.Popen]:
+def scratch(tmp_path: Path) -> Path:
+    """Returns the folder for temporary files of the children of `start`."""
+    folder = tmp_path / "scratch"
+    folder.mkdir()
+    return folder
+
+
+@pytest.fixture
+def start(scratch: Path) -> Callable[..., subprocess.Popen]:
     """Returns a function that starts a child of the test; what is left of it is ended."""
     children: List[subprocess.Popen] = []
 
     def started(*words: object) -> subprocess.Popen:
         made = subprocess.Popen(
             [str(word) for word in words],
-            env=small_campaign.environment(),
+            env={**small_campaign.environment(), "TMPDIR": str(scratch)},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -106,13 +114,18 @@ def test_a_killed_worker_costs_its_run_a_retry_and_a_line(
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
 def test_a_campaign_that_was_ended_goes_on(
-    tmp_path: Path, reference: bytes, number: int, start: Callable[..., subprocess.Popen]
+    tmp_path: Path,
+    reference: bytes,
+    number: int,
+    start: Callable[..., subprocess.Popen],
+    scratch: Path,
 ) -> None:
     output, file = tmp_path / "out", write(tmp_path)
     child = start(*small_campaign.command(file, "--output", output))
     until(lambda: finished(output), "the first finished run")
     os.kill(child.pid, number)
     assert child.wait(30) == (130 if number == signal.SIGINT else -number)
+    assert number == signal.SIGKILL or not list(scratch.iterdir())
     kept = finished(output)
     assert 0 < len(kept) < 4
     run(file, "--output", output)

@@ -3,6 +3,8 @@
 import contextlib
 import logging
 import os
+import shutil
+import tempfile
 from pathlib import Path
 from typing import Any, Callable, Iterator, List, Optional, Sequence
 
@@ -43,6 +45,9 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
     with dask.config.set(settings), contextlib.ExitStack() as stack:
         target: Any = address
         if not address:
+            # Ended workers leave their temporary files: in a folder that goes with the cluster.
+            scratch = tempfile.mkdtemp(prefix="ardee_campaign_")
+            stack.callback(shutil.rmtree, scratch, ignore_errors=True)
             target = stack.enter_context(
                 LocalCluster(
                     n_workers=workers,
@@ -53,6 +58,8 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
                     worker_dashboard_address="127.0.0.1:0",
                     host="127.0.0.1",
                     silence_logs=logging.CRITICAL,
+                    local_directory=scratch,
+                    env={"TMPDIR": scratch},
                 )
             )
         try:
