@@ -15,6 +15,10 @@ def rgb_of(image: Image) -> np.ndarray:
     """Returns the pixels of an image, uint8[h, w, 3] in red, green, blue."""
     if image.encoding not in _CHANNELS:
         raise GeneratorError(f"found a picture in {image.encoding!r}, expected rgb8 or bgr8")
+    expected = image.height * image.step
+    if len(image.data) != expected or image.step < 3 * image.width or not expected:
+        size = f"{image.width} x {image.height} pixels, {image.step} bytes a row"
+        raise GeneratorError(f"found a picture of {size}, with {len(image.data)} bytes")
     rows = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
     pixels = rows[:, : 3 * image.width].reshape(image.height, image.width, 3)
     return np.ascontiguousarray(pixels[:, :, _CHANNELS[image.encoding]])
