@@ -11,8 +11,10 @@ setup(
             "ardee_navigation.lane_following",
             "ardee_navigation.lbirnt",
             "ardee_navigation.nodes",
+            "ardee_navigation.training",
             "ardee_navigation.vision",
         ],
         package_dir={"": "src"},
+        package_data={"ardee_navigation.vision": ["*.onnx"]},
     )
 )

@@ -36,12 +36,14 @@ def test_drawn_rows_are_found(tmp_path: Path, capsys: pytest.CaptureFixture) -> 
     for name, numbers in enumerate([(0.0, 0.0, 0.0), (0.3, -2.0, 0.0), (-0.2, 1.0, 0.8)]):
         write(tmp_path, str(name), rows_of(*numbers))
     assert judge_vision.main([str(tmp_path)]) == 0
-    *pictures, mean = capsys.readouterr().out.splitlines()
-    marks = [float(line.split()[1]) for line in pictures]
-    assert len(marks) == 3 and min(marks) > 0.9
-    words = mean.split()
-    assert words[:5] + words[6:] == "classical: crop row detection accuracy in 3 pictures".split()
-    assert float(words[5]) == pytest.approx(np.mean(marks), abs=0.0011)
+    *pictures, classical, learned = capsys.readouterr().out.splitlines()
+    marks = np.array([line.split()[1:] for line in pictures], float)
+    assert marks.shape == (3, 2) and marks[:, 0].min() > 0.9
+    for way, line, mark in zip(("classical", "learned"), (classical, learned), marks.T):
+        words = line.split()
+        expected = f"{way}: crop row detection accuracy in 3 pictures"
+        assert words[:5] + words[6:] == expected.split()
+        assert float(words[5]) == pytest.approx(np.mean(mark), abs=0.0011)
 
 
 @pytest.mark.parametrize("error, mark", [(0.0, 1.0), (0.05, 0.75), (0.1, 0.0), (0.5, 0.0)])

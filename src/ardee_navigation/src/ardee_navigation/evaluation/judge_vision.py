@@ -8,13 +8,14 @@ with offset c and period d of the crop rows in pixels: row m passes at u = width
 import argparse
 import sys
 from pathlib import Path
-from typing import Dict, Optional, Sequence, Tuple
+from typing import Callable, Dict, Optional, Sequence, Tuple
 
 import cv2
 import numpy as np
 
 from ardee_common.errors import GeneratorError
 from ardee_navigation.vision.field_fit import FieldFitter, FieldRows
+from ardee_navigation.vision.learned import RowHeat
 from ardee_navigation.vision.vegetation import excess_green
 
 _WIDTH_PX = 160  # to which pictures are shrunk
@@ -54,9 +55,14 @@ def accuracy(found: FieldRows, true: FieldRows, width_px: int) -> float:
     return float(np.mean(np.concatenate(marks)))
 
 
-def find_rows(rgb: np.ndarray, fitter: FieldFitter) -> FieldRows:
-    """Returns the crop rows in a picture uint8[h, w, 3]."""
-    small = fitter.fit(np.clip(excess_green(rgb, _WIDTH_PX) / _GREEN, 0.0, 1.0))
+def greenness(rgb: np.ndarray) -> np.ndarray:
+    """Returns where a picture uint8[h, w, 3] shows plants, float32[h, w]: 0 to 1."""
+    return np.clip(excess_green(rgb, _WIDTH_PX) / _GREEN, 0.0, 1.0)
+
+
+def find_rows(rgb: np.ndarray, index: np.ndarray, fitter: FieldFitter) -> FieldRows:
+    """Returns the crop rows in a picture uint8[h, w, 3] with an index of its plants or rows."""
+    small = fitter.fit(index)
     scale, height_px = rgb.shape[1] / _WIDTH_PX, rgb.shape[0]
     v = (np.arange(height_px) + 0.5) / scale - 0.5
     known = np.arange(len(small.offset_px))
@@ -65,7 +71,9 @@ def find_rows(rgb: np.ndarray, fitter: FieldFitter) -> FieldRows:
 
 
 def judge(folder: Path) -> int:
-    """Prints the accuracy of each picture of a folder, and their mean."""
+    """Prints the accuracy of both ways in each picture of a folder, and their means."""
+    ways: Dict[str, Callable[[np.ndarray], np.ndarray]]
+    ways = {"classical": greenness, "learned": RowHeat().look}
     pictures = sorted(path for path in folder.glob("*.jpg") if path.with_suffix(".crp").is_file())
     if not pictures:
         raise GeneratorError(f"{folder}: found no NAME.jpg with NAME.crp, expected at least one")
@@ -79,10 +87,13 @@ def judge(folder: Path) -> int:
         size = _WIDTH_PX, round(height_px * _WIDTH_PX / width_px)
         if size not in fitters:
             fitters[size] = FieldFitter(*size)
-        found = find_rows(np.ascontiguousarray(bgr[:, :, ::-1]), fitters[size])
-        marks.append(accuracy(found, read_rows(path.with_suffix(".crp"), height_px), width_px))
-        print(f"{path.name} {marks[-1]:.3f}")
-    print(f"classical: crop row detection accuracy {np.mean(marks):.3f} in {len(marks)} pictures")
+        rgb = np.ascontiguousarray(bgr[:, :, ::-1])
+        true = read_rows(path.with_suffix(".crp"), height_px)
+        found = [find_rows(rgb, look(rgb), fitters[size]) for look in ways.values()]
+        marks.append([accuracy(rows, true, width_px) for rows in found])
+        print(path.name, *(f"{mark:.3f}" for mark in marks[-1]))
+    for way, mean in zip(ways, np.mean(marks, axis=0)):
+        print(f"{way}: crop row detection accuracy {mean:.3f} in {len(marks)} pictures")
     return 0
 
 

@@ -42,7 +42,13 @@ class LaneParameters:
     def __post_init__(self) -> None:
         """Raises ValueError for a value beyond its limits, or a speed above the largest."""
         for one in fields(self):
-            value, (low, high) = getattr(self, one.name), one.metadata["limits"]
+            value, choices = getattr(self, one.name), one.metadata["choices"]
+            if choices:
+                if value not in choices:
+                    expected = " or ".join(choices)
+                    raise ValueError(f"{one.name}: found {value!r}, expected {expected}")
+                continue
+            low, high = one.metadata["limits"]
             if not (math.isfinite(value) and low <= value <= high):
                 raise ValueError(f"{one.name}: found {value}, expected {low:g} to {high:g}")
         if self.speed_m_s > self.max_speed_m_s:

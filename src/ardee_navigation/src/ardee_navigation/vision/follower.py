@@ -2,7 +2,7 @@
 """The row follower by camera: a picture in, a motion command and what was seen on the way out."""
 import math
 from dataclasses import dataclass
-from typing import Optional
+from typing import Union
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from ardee_navigation.lane_following.control import centre_error_m
 from ardee_navigation.lane_following.line import blend, turned
 from ardee_navigation.vision.camera import Camera, Sight
 from ardee_navigation.vision.classical import Classical
+from ardee_navigation.vision.learned import Learned
 from ardee_navigation.vision.parameters import VisionParameters
 
 
@@ -46,7 +47,7 @@ class VisionFollower:
     def __init__(self, parameters: VisionParameters = VisionParameters()) -> None:
         self._parameters = parameters
         self._run = LaneFollower(parameters)
-        self._perception = None  # type: Optional[Classical]
+        self._perception = None  # type: Union[Classical, Learned, None]
         self.reset()
 
     def reset(self) -> None:
@@ -79,7 +80,8 @@ class VisionFollower:
     def _look(self, rgb: np.ndarray) -> Sight:
         if self._perception is None:
             camera = camera_of(rgb.shape[1], rgb.shape[0], self._parameters)
-            self._perception = Classical(camera, self._parameters.lane_width_m)
+            estimator = {"classical": Classical, "learned": Learned}[self._parameters.estimator]
+            self._perception = estimator(camera, self._parameters.lane_width_m)
         return self._perception.look(rgb)
 
     def _predict(self, dt_s: float) -> Line:
