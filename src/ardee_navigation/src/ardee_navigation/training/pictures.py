@@ -13,10 +13,8 @@ from ardee_common.errors import GeneratorError
 SIZE_PX = 160, 112  # width, height of the network's picture
 HEAT_PX = 80, 56  # of its answer
 _WIDTH = 0.14  # of a row's heat: standard deviation, rows' distances
-_LEAST_PX, _FAR_PX = (
-    1.5,
-    8.0,
-)  # least standard deviation; rows that are nearer to each other are not told apart
+_LEAST_PX = 1.5  # least standard deviation
+_FAR_PX = 8.0  # rows that are nearer to each other are not told apart
 
 
 def heat_of(sample: dict) -> np.ndarray:
