@@ -37,9 +37,9 @@ def test_a_scenario_has_its_world_its_plan_and_its_rows(name: str) -> None:
     assert scenario.parameters.lane_width_m == plan.get("row_spacing_m", 0.762)
 
 
-def roslaunch(option: str, *arguments: str) -> str:
+def roslaunch(option: str, *arguments: str, display: str = "") -> str:
     environment = dict(os.environ, ROS_PACKAGE_PATH=str(PACKAGE.parent), PATH="/usr/bin:/bin")
-    environment.pop("DISPLAY", None)
+    environment["DISPLAY"] = display
     command = [
         "roslaunch",
         *option.split(),
@@ -57,6 +57,12 @@ def test_launch_file_starts_what_is_asked_for() -> None:
     udp = {"/sim_sensor_node", "/udp_control_node", "/hil_row_follower"}
     without_display = usual | udp | {"/no_window"}
     assert set(roslaunch("--nodes", "hil:=true", "rviz:=true").split()) == without_display
+
+
+@pytest.mark.parametrize("follower, view", [("lbirnt", "row_following"), ("vision", "vision")])
+def test_rviz_opens_on_the_view_of_the_follower(follower: str, view: str) -> None:
+    command = roslaunch("--args /rviz", f"follower:={follower}", display=":9")
+    assert f"-d {PACKAGE}/rviz/{view}.rviz" in command
 
 
 def test_every_argument_of_the_launch_file_has_a_doc() -> None:
