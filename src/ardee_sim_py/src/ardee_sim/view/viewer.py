@@ -48,8 +48,7 @@ class Viewer:
     same bytes with a viewer and without one, unless somebody drives.
 
     sim : to be shown; attach() shows another one
-    robot : name of the model that is followed and driven, again after it was removed and spawned anew; by default the
-        first one that can be driven
+    robot : name of the model that is followed and driven, even if spawned anew; by default the first that can be driven
     host, port : of the page; port 0: any free one
     radius_m : fields and grounds are shown up to here around the robot
     limits : greatest speed [m/s] and turn rate [rad/s] that the page commands
