@@ -2,6 +2,7 @@
 #include "ardee_sim/raycast/picture_tracer.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "ardee_sim/raycast/approximate_tracer.h"
 #include "ardee_sim/raycast/traced_scene.h"
@@ -100,13 +101,19 @@ void PictureTracer::interpolate_hits(const Eigen::Vector3d& eye_W, const SceneRa
                                      const std::uint32_t* triangles, std::size_t count,
                                      SurfaceInteraction* points) const {
   const ApproximateTracer tracer = tracer_at(scene_, eye_W);
+  std::vector<SceneRay> outside;  // together, because single rays take several times as long
+  std::vector<std::size_t> places;
   for (std::size_t i = 0; i < count; ++i) {
     if ((triangles[i] & PrimaryRayPacket::kOutside) == 0) {
       tracer.interpolate_hit(rays[i], triangles[i], points[i]);
     } else {
-      trace_approximately(rays + i, 1, points + i);
+      outside.push_back(rays[i]);
+      places.push_back(i);
     }
   }
+  std::vector<SurfaceInteraction> hits(outside.size());
+  trace_approximately(outside.data(), outside.size(), hits.data());
+  for (std::size_t k = 0; k < hits.size(); ++k) points[places[k]] = hits[k];
 }
 
 std::uint64_t PictureTracer::find_texels(const Eigen::Vector3d& eye_W,

@@ -299,7 +299,10 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
     test.scene.pictures().trace_primary(eye_W, blocks.data(), blocks.size());
     std::vector<SurfaceInteraction> looks(whole.size());
     test.scene.pictures().trace_approximately(whole.data(), whole.size(), looks.data());
-    int same_points = 0, of_model = 0;
+    std::vector<SceneRay> rays;  // those that both trace_primary() and a whole look let hit
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::size_t> places;
+    int same_points = 0, of_model = 0, outside = 0;
     for (std::size_t k = 0; k < whole.size(); ++k) {
       const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
       const int i = static_cast<int>(k % PrimaryRayPacket::kRays);
@@ -307,8 +310,19 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
         same_points += looks[k].met() == block.met(i) ? 1 : 0;
         continue;
       }
-      SurfaceInteraction closer;
-      test.scene.pictures().interpolate_hits(eye_W, &whole[k], &block.triangle[i], 1, &closer);
+      rays.push_back(whole[k]);
+      triangles.push_back(block.triangle[i]);
+      places.push_back(k);
+      outside += (block.triangle[i] & PrimaryRayPacket::kOutside) != 0 ? 1 : 0;
+    }
+    std::vector<SurfaceInteraction> all(rays.size());
+    test.scene.pictures().interpolate_hits(eye_W, rays.data(), triangles.data(), rays.size(),
+                                           all.data());
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const std::size_t k = places[n];
+      const PrimaryRayPacket& block = blocks[k / PrimaryRayPacket::kRays];
+      const int i = static_cast<int>(k % PrimaryRayPacket::kRays);
+      const SurfaceInteraction& closer = all[n];
       const double normals = block.normal_W(i).cast<double>().dot(looks[k].normal_W);
       const bool same =
           std::abs(looks[k].range_m - closer.range_m) < 1e-4 &&
@@ -319,6 +333,8 @@ TEST(QuickLooks, GlancesAndLooksThatFollowAgreeWithWholeOnes) {
     }
     EXPECT_GE(same_points, 3196);
     EXPECT_GT(of_model, 50);
+    EXPECT_GT(outside, 50);
+    EXPECT_EQ(outside < static_cast<int>(rays.size()), pictures);
   }
 }
 
