@@ -114,7 +114,7 @@ def sow(
     values["model_path"] = (*values.get("model_path", ()), *map(str, shipped))
     values.update(name=name, output=str(folder), seed=seed)
     folder.mkdir(parents=True, exist_ok=True)
-    make_configured(values)
+    make_configured(values, has_map=False)
     world = folder / name / f"{name}.world"
     x_m, y_m, yaw_rad = values.get("world_pose", FieldConfig().world_pose)
     terrain = values.get("terrain") or "ground_plane"

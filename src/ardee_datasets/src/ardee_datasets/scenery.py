@@ -72,7 +72,7 @@ class Scenery:
             "format": "sdf",
             "model_path": tuple(map(str, shipped)),
         }
-        self.folder = make_configured(values)
+        self.folder = make_configured(values, has_map=False)
         self._ground = ground_model(terrain, search_path(shipped))
         text = world_text(terrain, "field")
         world = World.from_string(text, base_dir=folder, model_paths=[folder, *shipped])

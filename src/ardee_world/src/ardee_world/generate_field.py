@@ -171,8 +171,8 @@ def make_field(args: argparse.Namespace) -> Path:
     return path
 
 
-def make_configured(values: Values) -> Path:
-    """Writes the field of options by key; returns its path."""
+def make_configured(values: Values, *, has_map: bool = True) -> Path:
+    """Writes the field of options by key; returns its path. The map takes longer than all the rest."""
     sources, config = configure(values)
     folders = search_path([Path(folder) for folder in sources.model_path])
     pool = tuple(crop_model(name, folders) for name in sources.models)
@@ -187,9 +187,8 @@ def make_configured(values: Values) -> Path:
         raise GeneratorError(
             f"emergence: found no plant that emerged of {len(layout.planned.centres_m)} planned, expected some"
         )
-    return write_field(
-        layout, sources.name, Path(sources.output or default_output()), sources.format, terrain
-    )
+    parent = Path(sources.output or default_output())
+    return write_field(layout, sources.name, parent, sources.format, terrain, has_map=has_map)
 
 
 def main() -> int:

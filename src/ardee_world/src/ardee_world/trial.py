@@ -79,7 +79,7 @@ def _sow(
     values.update(changes)
     values["model_path"] = (*values.get("model_path", ()), *map(str, models))
     values.update(name=plan.stem, output=str(folder), seed=seed)
-    make_configured(values)
+    make_configured(values, has_map=False)
 
 
 def start_near(start: Start, seed: int) -> Pose:

@@ -46,6 +46,8 @@ def write_field(
     parent: Path,
     form: str = "auto",
     terrain: Optional[Ground] = None,
+    *,
+    has_map: bool = True,
 ) -> Path:
     """Writes parent/name, replacing an earlier model of that name; returns its path."""
     columns, clutter = plant_columns(layout), clutter_columns(layout)
@@ -61,5 +63,6 @@ def write_field(
             with (folder / "clutter.csv").open("w") as file:
                 file.writelines(csv_text(clutter))
         (folder / "truth.json").write_text(json_text(layout, columns, clutter, name))
-        draw_map(layout).save(folder / "map.png")
+        if has_map:
+            draw_map(layout).save(folder / "map.png")
     return parent / name
