@@ -21,6 +21,7 @@ from ardee_datasets import rle, show_dataset
 from ardee_datasets.assemble import assemble, data_card
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.light import LightKeys
+from ardee_datasets.plan import scenes, shots
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
 from ardee_datasets.sample import LAYERS
@@ -283,6 +284,7 @@ def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, m
         ("width_px: 96", "sensor: reelsense_d435", "recipe.yaml:14: sensor: .*realsense_d435"),
         ("sensor: vlp16", "sensor: imu", "recipe.yaml:16: sensor: found 'imu'.*vlp16"),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
+        ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
     ],
 )
 def test_a_bad_recipe_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
@@ -290,6 +292,17 @@ def test_a_bad_recipe_is_refused(tmp_path: Path, old: str, new: str, message: st
     path.write_text(RECIPE.replace(old, new, 1))
     with pytest.raises(Exception, match=message):
         read_recipe(path)
+
+
+def test_a_field_is_seen_by_its_own_cameras(tmp_path: Path) -> None:
+    path = tmp_path / "recipe.yaml"
+    two = RECIPE.replace(
+        "lidars:", "  down: {width_px: 8, height_px: 8, horizontal_fov_deg: 60}\nlidars:"
+    )
+    path.write_text(two.replace("frames: 1", "frames: 1\n    cameras: [down]"))
+    recipe = read_recipe(path)
+    seen = {scene.name: [shot.camera for shot in shots(recipe, scene)] for scene in scenes(recipe)}
+    assert seen["late_0000"] == ["down"] and seen["corn_0001"] == 2 * ["down"] + 2 * ["front"]
 
 
 def test_pycocotools_reads_the_masks(made: Path) -> None:

@@ -71,7 +71,7 @@ def scenes(recipe: Recipe) -> List[Scene]:
 def shots(recipe: Recipe, scene: Scene) -> Iterator[Shot]:
     """Yields the pictures of a scene, in the order of their ids."""
     frame = 0
-    for camera in sorted(recipe.cameras):
+    for camera in sorted(scene.keys.cameras or recipe.cameras):
         for _ in range(scene.keys.frames):
             seed = child_seed(scene.seed, "shot", frame)
             yield Shot(f"{scene.name}_{frame:06d}", camera, seed)

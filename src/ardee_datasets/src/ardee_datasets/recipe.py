@@ -29,6 +29,7 @@ class FieldKeys:
     split: str = option("train", "part of the data set", choices=SPLITS)
     fields: int = option(1, "number of fields", _COUNT)
     frames: int = option(10, "number of pictures that each camera takes in a field", _COUNT)
+    cameras: Tuple[str, ...] = option((), "names of the cameras that look at them; none: all")
     options: Optional[dict] = option(None, "options of generate_field, as in a field's YAML file")
     ranges: Optional[dict] = option(
         None, "options of generate_field that each field draws from [least, most]"
@@ -174,6 +175,13 @@ def read_recipe(path: Path) -> Recipe:
         name: _with_sensor(keys, recipe.cameras[name], name)
         for name, keys in _named(CameraKeys, recipe.cameras, "cameras").items()
     }
+    for name, keys in fields.items():
+        for camera in keys.cameras:
+            if camera not in cameras:
+                at = recipe.fields[name]
+                raise at.error(
+                    "cameras", f"cameras: found {camera!r}, {known_names(camera, cameras)}"
+                )
     lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
     for name, keys in lidars.items():
         _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
