@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ardee_navigation.evaluation import judge_vision
+from ardee_navigation.evaluation.vision_sheet import Judged, sheet
 from ardee_navigation.vision.field_fit import FieldRows
 
 V_PX = np.arange(240) + 0.5
@@ -35,7 +36,8 @@ def write(folder: Path, name: str, rows: FieldRows) -> None:
 def test_drawn_rows_are_found(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     for name, numbers in enumerate([(0.0, 0.0, 0.0), (0.3, -2.0, 0.0), (-0.2, 1.0, 0.8)]):
         write(tmp_path, str(name), rows_of(*numbers))
-    assert judge_vision.main([str(tmp_path)]) == 0
+    output = tmp_path / "sheet.png"
+    assert judge_vision.main([str(tmp_path), "--output", str(output)]) == 0
     *pictures, classical, learned = capsys.readouterr().out.splitlines()
     marks = np.array([line.split()[1:] for line in pictures], float)
     assert marks.shape == (3, 2) and marks[:, 0].min() > 0.9
@@ -44,6 +46,20 @@ def test_drawn_rows_are_found(tmp_path: Path, capsys: pytest.CaptureFixture) -> 
         expected = f"{way}: crop row detection accuracy in 3 pictures"
         assert words[:5] + words[6:] == expected.split()
         assert float(words[5]) == pytest.approx(np.mean(mark), abs=0.0011)
+    assert cv2.imread(str(output)).shape == (240, 3 * 2 * 320, 3)
+
+
+def test_the_sheet_shows_true_rows_and_those_found() -> None:
+    """Upright rows 40 pixels apart: the true ones at 160 + 40 m; one way found these, the other 10 pixels beside."""
+    rows = FieldRows(np.zeros(240), np.full(240, 40.0))
+    moved = FieldRows(np.full(240, 10.0), rows.period_px)
+    grey = np.full((240, 320, 3), 90, np.uint8)
+    found, marks = {"one": rows, "other": moved}, {"one": 1.0, "other": 0.0}
+    picture = sheet([Judged("a.jpg", grey, rows, found, marks)])[120, :640].astype(int)
+    is_red = (picture[:, 0] - picture[:, 1] > 50).reshape(2, 320)
+    is_white = (picture.min(axis=1) > 200).reshape(2, 320)
+    assert not is_white[0].any() and set(np.flatnonzero(is_white[1]) % 40) == {0}
+    assert [set(np.flatnonzero(one) % 40) for one in is_red] == [{0}, {10}]
 
 
 @pytest.mark.parametrize("error, mark", [(0.0, 1.0), (0.05, 0.75), (0.1, 0.0), (0.5, 0.0)])
@@ -56,8 +72,12 @@ def test_the_accuracy_by_hand(error: float, mark: float) -> None:
 def test_a_bad_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
     assert judge_vision.main([str(tmp_path)]) == 2
     write(tmp_path, "a", rows_of(0.0, 0.0, 0.0))
+    assert (
+        judge_vision.main([str(tmp_path), "--output", str(tmp_path / "a.jpg" / "sheet.png")]) == 2
+    )
     (tmp_path / "a.crp").write_text("1 2 3\n")
     assert judge_vision.main([str(tmp_path)]) == 2
-    empty, wrong = capsys.readouterr().err.splitlines()
+    empty, nowhere, wrong = capsys.readouterr().err.splitlines()
     assert "found no NAME.jpg with NAME.crp" in empty
+    assert "a.jpg" in nowhere
     assert "a.crp: found 1 x 3 numbers, expected an offset and a positive period" in wrong

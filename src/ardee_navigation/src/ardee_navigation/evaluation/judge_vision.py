@@ -8,12 +8,14 @@ with offset c and period d of the crop rows in pixels: row m passes at u = width
 import argparse
 import sys
 from pathlib import Path
-from typing import Callable, Dict, Optional, Sequence, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 import cv2
 import numpy as np
 
 from ardee_common.errors import GeneratorError
+from ardee_common.output import write_file
+from ardee_navigation.evaluation.vision_sheet import Judged, Ways, sheet
 from ardee_navigation.vision.field_fit import FieldFitter, FieldRows
 from ardee_navigation.vision.learned import RowHeat
 from ardee_navigation.vision.vegetation import excess_green
@@ -21,6 +23,7 @@ from ardee_navigation.vision.vegetation import excess_green
 _WIDTH_PX = 160  # to which pictures are shrunk
 _TOLERANCE = 0.1  # of the period: an error that large counts nothing
 _GREEN = 0.2  # excess green of a plant
+_WORST = 12  # pictures of the sheet
 
 
 def read_rows(path: Path, height_px: int) -> FieldRows:
@@ -70,30 +73,41 @@ def find_rows(rgb: np.ndarray, index: np.ndarray, fitter: FieldFitter) -> FieldR
     return FieldRows(offset * scale, period * scale)
 
 
-def judge(folder: Path) -> int:
-    """Prints the accuracy of both ways in each picture of a folder, and their means."""
-    ways: Dict[str, Callable[[np.ndarray], np.ndarray]]
-    ways = {"classical": greenness, "learned": RowHeat().look}
+def judged(path: Path, ways: Ways, fitters: Dict[Tuple[int, int], FieldFitter]) -> Judged:
+    """Returns what the ways find in a picture."""
+    bgr = cv2.imread(str(path))
+    if bgr is None:
+        raise GeneratorError(f"{path}: found no picture")
+    height_px, width_px = bgr.shape[:2]
+    size = _WIDTH_PX, round(height_px * _WIDTH_PX / width_px)
+    if size not in fitters:
+        fitters[size] = FieldFitter(*size)
+    rgb = np.ascontiguousarray(bgr[:, :, ::-1])
+    true = read_rows(path.with_suffix(".crp"), height_px)
+    found = {way: find_rows(rgb, look(rgb), fitters[size]) for way, look in ways.items()}
+    marks = {way: accuracy(rows, true, width_px) for way, rows in found.items()}
+    return Judged(path.name, rgb, true, found, marks)
+
+
+def judge(args: argparse.Namespace) -> int:
+    """Prints the accuracy of both ways in each picture of a folder, and their means; writes the sheet."""
+    ways: Ways = {"classical": greenness, "learned": RowHeat().look}
+    folder = args.folder
     pictures = sorted(path for path in folder.glob("*.jpg") if path.with_suffix(".crp").is_file())
     if not pictures:
         raise GeneratorError(f"{folder}: found no NAME.jpg with NAME.crp, expected at least one")
     fitters: Dict[Tuple[int, int], FieldFitter] = {}
-    marks = []
+    results = []
     for path in pictures:
-        bgr = cv2.imread(str(path))
-        if bgr is None:
-            raise GeneratorError(f"{path}: found no picture")
-        height_px, width_px = bgr.shape[:2]
-        size = _WIDTH_PX, round(height_px * _WIDTH_PX / width_px)
-        if size not in fitters:
-            fitters[size] = FieldFitter(*size)
-        rgb = np.ascontiguousarray(bgr[:, :, ::-1])
-        true = read_rows(path.with_suffix(".crp"), height_px)
-        found = [find_rows(rgb, look(rgb), fitters[size]) for look in ways.values()]
-        marks.append([accuracy(rows, true, width_px) for rows in found])
-        print(path.name, *(f"{mark:.3f}" for mark in marks[-1]))
-    for way, mean in zip(ways, np.mean(marks, axis=0)):
-        print(f"{way}: crop row detection accuracy {mean:.3f} in {len(marks)} pictures")
+        results.append(judged(path, ways, fitters))
+        print(path.name, *(f"{mark:.3f}" for mark in results[-1].marks.values()))
+    for way in ways:
+        mean = np.mean([one.marks[way] for one in results])
+        print(f"{way}: crop row detection accuracy {mean:.3f} in {len(results)} pictures")
+    if args.output:
+        worst = sorted(results, key=lambda one: one.marks["learned"])[:_WORST]
+        made = cv2.imencode(".png", sheet(worst)[:, :, ::-1])[1]
+        write_file(args.output, made.tobytes())
     return 0
 
 
@@ -103,8 +117,14 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="pictures with their rows")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="SHEET.png",
+        help=f"the {_WORST} pictures in which the learned way is worst, with the rows of both ways",
+    )
     try:
-        return judge(parser.parse_args(arguments).folder)
-    except GeneratorError as error:
+        return judge(parser.parse_args(arguments))
+    except (GeneratorError, OSError) as error:
         print(f"judge_vision: {error}", file=sys.stderr)
         return 2
