@@ -30,6 +30,8 @@ T cast(const py::object& value, const std::string& expected) {
     return value.cast<T>();
   } catch (const py::cast_error&) {
     refuse(value, expected);
+  } catch (const py::error_already_set&) {  // of an array without dimensions
+    refuse(value, expected);
   }
 }
 

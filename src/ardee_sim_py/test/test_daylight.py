@@ -34,7 +34,9 @@ def test_night_a_time_without_zone_and_no_place_are_refused() -> None:
         ardee_sim.Daylight.at(40.0, 0.0, datetime(2026, 1, 1, 12))
     noon = datetime(2026, 6, 1, 12, tzinfo=timezone.utc)
     for latitude_deg, longitude_deg in ((95.0, 0.0), (40.0, -8800.0), (float("nan"), 0.0)):
-        with pytest.raises(ardee_sim.ArdeeError, match="expected latitude -90 to 90"):
+        with pytest.raises(
+            ardee_sim.ArdeeError, match="itude_deg: found .*, expected a finite number"
+        ):
             ardee_sim.Daylight.at(latitude_deg, longitude_deg, noon)
 
 

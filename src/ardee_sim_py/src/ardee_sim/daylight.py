@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 
 import ephem
+from ardee_sim import checks
 from ardee_sim.errors import ArdeeError
 
 
@@ -43,12 +44,12 @@ class Daylight:
         ArdeeError
             The sun is below the horizon, the time has no time zone, or there is no such place.
         """
+        if not isinstance(time, datetime):
+            raise TypeError(f"{checks.found(time, 'time')}, expected a datetime")
         if time.tzinfo is None:
             raise ArdeeError(f"found the time {time.isoformat()}, expected one with a time zone")
-        if not (abs(latitude_deg) <= 90 and abs(longitude_deg) <= 360):  # nor NaN
-            raise ArdeeError(
-                f"found the place {latitude_deg}, {longitude_deg}, expected latitude -90 to 90, longitude -360 to 360"
-            )
+        checks.number(latitude_deg, "latitude_deg", -90, 90)
+        checks.number(longitude_deg, "longitude_deg", -360, 360)
         place = ephem.Observer()
         place.lat, place.lon = math.radians(latitude_deg), math.radians(longitude_deg)
         place.date = ephem.Date(time.astimezone(timezone.utc).replace(tzinfo=None))

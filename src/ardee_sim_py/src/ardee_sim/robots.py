@@ -1,23 +1,25 @@
 # SPDX-License-Identifier: MIT
 """Robots' descriptions: expands xacro without ROS."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
 from typing import List, Union
 
+from ardee_sim import checks
 from ardee_sim.errors import ArdeeError
 from ardee_sim.packages import find_package
 from ardee_sim.world import PathLike, read_text
 
 
 def _xacro_file(name_or_path: PathLike) -> Path:
-    path = Path(name_or_path)
-    if path.is_file():
+    path = Path(checks.path(name_or_path, "name_or_path"))
+    if os.path.isfile(path):  # False of a name that is too long, too
         return path
     robots = find_package("terrasentia_description") / "robots"
     shipped = robots / f"{name_or_path}.urdf.xacro"
-    if shipped.is_file():
+    if os.path.isfile(shipped):
         return shipped
     names = ", ".join(sorted(file.name[: -len(".urdf.xacro")] for file in robots.glob("*.xacro")))
     raise ArdeeError(f"found no robot '{name_or_path}', expected a file or one of: {names}")
@@ -39,7 +41,8 @@ def robot(name_or_path: PathLike, **xacro_arguments: Union[str, float, bool]) ->
 
 
 def _text(value: Union[str, float, bool]) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    text = str(value).lower() if isinstance(value, bool) else str(value)
+    return checks.text(text, "xacro argument")
 
 
 def _expand(path: Path, arguments: List[str]) -> str:

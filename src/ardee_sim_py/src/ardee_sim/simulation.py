@@ -2,13 +2,15 @@
 """A simulation: a world with robots, stepped by its owner."""
 
 import math
+import zlib
 from collections import Counter
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
-from ardee_sim import _core
+from ardee_sim import _core, checks
+from ardee_sim.checks import Vector
 from ardee_sim.daylight import Daylight
 from ardee_sim.errors import ArdeeError
 from ardee_sim.readings import make_reading
@@ -16,26 +18,11 @@ from ardee_sim.state import Contact, Entity, LogLine, Snapshot, State, TopicInfo
 from ardee_sim.world import World, read_text
 
 _MOST_THREADS = 1024
+_MOST_PX = 10_000
+_WIDEST_RAD = math.pi - 1e-6  # of a picture
 _MOST_LABEL = 2**16 - 1  # that a label picture holds
-Vector = Union[Sequence[float], np.ndarray]
+_CHECK_BYTES = 4  # of a snapshot, its last: CRC-32 of the others
 Command = Union[Twist, float, bool, Sequence[float], Mapping[str, Any]]
-
-
-def _vector(values: Vector, size: int, name: str) -> np.ndarray:
-    try:
-        vector = np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise ArdeeError(f"{name}: found {values!r}, expected {size} numbers") from None
-    if vector.shape != (size,) or not np.isfinite(vector).all():
-        raise ArdeeError(f"{name}: found {values!r}, expected {size} finite numbers")
-    return vector
-
-
-def _quaternion(values: Vector) -> np.ndarray:
-    vector = _vector(values, 4, "quat_xyzw")
-    if not 1e-6 < np.linalg.norm(vector) < 1e6:
-        raise ArdeeError(f"quat_xyzw: found {values!r}, expected a quaternion of about length 1")
-    return vector
 
 
 class Simulation:
@@ -47,6 +34,8 @@ class Simulation:
     Simulations of one World share what rays meet and does not change, as long as one of them is open: beside the first
     in the shipped corn, each further one takes a ninth of the time to the first scan, and of the memory of a picture.
 
+    An argument of a wrong type raises TypeError, one of a wrong value ArdeeError; the simulation stays as it was.
+
     seed : of all noise
     ray_threads : that measure together, 0: as many as the computer has cores
     """
@@ -54,15 +43,12 @@ class Simulation:
     def __init__(self, world: World, *, seed: int = 0, ray_threads: int = 1) -> None:
         if not isinstance(world, World):
             raise TypeError(
-                f"found world={world!r}, expected a World, as World.from_file() returns"
+                f"{checks.found(world, 'world')}, expected a World, as World.from_file() returns"
             )
-        if not 0 <= seed < 2**64:
-            raise ArdeeError(f"found seed={seed}, expected 0 to 2^64 - 1")
-        if not 0 <= ray_threads <= _MOST_THREADS:
-            raise ArdeeError(f"found ray_threads={ray_threads}, expected 0 to {_MOST_THREADS}")
+        ray_threads = checks.whole(ray_threads, "ray_threads", 0, _MOST_THREADS)
         self.world = world
-        self.seed = seed
-        self._core = _core.Simulation(world._core, seed, ray_threads)
+        self.seed = checks.whole(seed, "seed")
+        self._core = _core.Simulation(world._core, self.seed, ray_threads)
         self._demand_counts: Counter = Counter()
 
     def __enter__(self) -> "Simulation":
@@ -104,31 +90,45 @@ class Simulation:
 
         Raises ArdeeError, and then nothing is left behind.
         """
-        if isinstance(model, str) and not model.lstrip().startswith("<"):
+        checks.text(name, "name")
+        loaded = self._loaded(name, model)
+        places = (
+            {}
+            if joint_positions is None
+            else checks.named_numbers(joint_positions, "joint_positions")
+        )
+        self._core.spawn(
+            name,
+            loaded,
+            checks.vector(xyz_m, "xyz_m"),
+            checks.vector(rpy_rad, "rpy_rad"),
+            checks.text(namespace, "namespace"),
+            places,
+            checks.flag(is_static, "is_static"),
+            checks.number(scale, "scale"),
+            checks.whole(label, "label", 0, _MOST_LABEL),
+        )
+        return next(entity for entity in self.entities() if entity.name == name)
+
+    def _loaded(self, name: str, model: Union[str, Path]) -> "_core.Model":
+        if not isinstance(model, str):
+            return self.world.load_model(read_text(checks.path(model, "model")), str(model))
+        if not model.lstrip().startswith("<"):
             raise ArdeeError(
                 f"found the model {model[:80]!r}, expected URDF or SDF text, as robot() returns it, or a pathlib.Path"
             )
-        if not 0 <= label <= _MOST_LABEL:
-            raise ArdeeError(f"found label={label}, expected 0 to {_MOST_LABEL}")
-        text, file = (model, name) if isinstance(model, str) else (read_text(model), str(model))
-        loaded = self.world.load_model(text, file)
-        pose = _vector(xyz_m, 3, "xyz_m"), _vector(rpy_rad, 3, "rpy_rad")
-        places = dict(joint_positions or {})
-        self._core.spawn(name, loaded, *pose, namespace, places, is_static, scale, label)
-        return next(entity for entity in self.entities() if entity.name == name)
+        return self.world.load_model(checks.text(model, "model"), name)
 
     def remove(self, name: str) -> None:
         """Takes a model out of the world."""
-        self._core.remove(name)
+        self._core.remove(checks.text(name, "name"))
 
     def step(self, n: int = 1) -> None:
         """Advances the world by n steps of step_ns; other threads of Python run meanwhile, and Ctrl-C ends it.
 
         Raises PhysicsError if a model's state became invalid.
         """
-        if n < 0:
-            raise ArdeeError(f"found {n} steps, expected 0 or more")
-        self._core.step(n)
+        self._core.step(checks.whole(n, "n"))
 
     def reset(self) -> None:
         """Puts the clock to 0 and all models where they were spawned; what follows repeats the first run."""
@@ -139,15 +139,14 @@ class Simulation:
 
         Under 0 the streams are those of the simulation's own seed. A reset keeps the noise seed; snapshots hold it.
         """
-        if not 0 <= seed < 2**64:
-            raise ArdeeError(f"found the noise seed {seed}, expected 0 to 2^64 - 1")
-        self._core.set_noise_seed(seed)
+        self._core.set_noise_seed(checks.whole(seed, "seed"))
 
     def set_light(self, light: Daylight) -> None:
         """Sets the light of sun and sky for later pictures; resets keep it, snapshots hold it."""
-        self._core.set_daylight(
-            light.azimuth_deg, light.elevation_deg, light.turbidity, light.cloud
-        )
+        if not isinstance(light, Daylight):
+            raise TypeError(f"{checks.found(light, 'light')}, expected a Daylight")
+        names = ("azimuth_deg", "elevation_deg", "turbidity", "cloud")
+        self._core.set_daylight(*(checks.number(getattr(light, name), name) for name in names))
 
     @property
     def time_ns(self) -> int:
@@ -171,20 +170,27 @@ class Simulation:
 
     def snapshot(self) -> Snapshot:
         """Returns the present moment."""
-        return Snapshot(self._core.snapshot())
+        data = self._core.snapshot()
+        return Snapshot(data + zlib.crc32(data).to_bytes(_CHECK_BYTES, "little"))
 
     def restore(self, snapshot: Snapshot) -> None:
         """Goes on from a snapshot of a simulation of the same world and seed: what follows is equal, byte for byte.
 
         Models spawned since are gone, removed ones are back. Kept readings are forgotten.
         """
-        if not isinstance(snapshot, Snapshot):
-            raise TypeError(f"found a {type(snapshot).__name__}, expected a Snapshot")
-        self._core.restore(snapshot.data)
+        if not isinstance(snapshot, Snapshot) or not isinstance(snapshot.data, bytes):
+            raise TypeError(f"{checks.found(snapshot, 'snapshot')}, expected a Snapshot of bytes")
+        data, check = snapshot.data[:-_CHECK_BYTES], snapshot.data[-_CHECK_BYTES:]
+        if zlib.crc32(data).to_bytes(_CHECK_BYTES, "little") != check:
+            raise ArdeeError(
+                "found a snapshot that is damaged or of an older version, expected the bytes that snapshot() returned"
+            )
+        self._core.restore(data)
 
     def state(self, name: str, *, relative_to: str = "world") -> State:
         """Returns the state of "model" or "model::link", in the axes of another such name or of the world."""
-        return State(*self._core.state(name, relative_to))
+        checks.text(name, "name")
+        return State(*self._core.state(name, checks.text(relative_to, "relative_to")))
 
     def set_state(
         self,
@@ -202,10 +208,10 @@ class Simulation:
         quat_xyzw = present.quat_xyzw if quat_xyzw is None else quat_xyzw
         self._core.set_state(
             name,
-            _vector(xyz_m, 3, "xyz_m"),
-            _quaternion(quat_xyzw),
-            _vector(v_m_s, 3, "v_m_s"),
-            _vector(w_rad_s, 3, "w_rad_s"),
+            checks.vector(xyz_m, "xyz_m"),
+            checks.quaternion(quat_xyzw),
+            checks.vector(v_m_s, "v_m_s"),
+            checks.vector(w_rad_s, "w_rad_s"),
             relative_to,
         )
 
@@ -224,22 +230,21 @@ class Simulation:
                 value.angular_y_rad_s,
                 value.angular_z_rad_s,
             )
-        self._core.command(topic, value)
+        self._core.command(checks.text(topic, "topic"), value)
 
     def trigger(self, topic: str) -> None:
         """Sends a command without content."""
-        self._core.command(topic, None)
+        self._core.command(checks.text(topic, "topic"), None)
 
     def call(self, service: str, *arguments: float) -> Optional[Dict[str, Any]]:
         """Calls a device's service, with no argument, a vector, or latitude, longitude [deg] and altitude [m]."""
-        return self._core.call(service, *arguments)
+        return self._core.call(checks.text(service, "service"), *arguments)
 
     def demand(self, *topics: str, keep: int = 1) -> None:
         """Lets devices measure for these topics from now on; `keep` readings of each wait for drain()."""
-        if keep < 1:
-            raise ArdeeError(f"found keep={keep}, expected 1 or more")
+        checks.whole(keep, "keep", 1)
         for topic in topics:
-            self._core.demands(topic)  # raises KeyError before any is demanded
+            self.demands(topic)  # raises KeyError before any is demanded
         for topic in topics:
             self._core.demand(topic, keep)
             self._demand_counts[topic.strip("/")] += 1
@@ -247,28 +252,28 @@ class Simulation:
     def undemand(self, *topics: str) -> None:
         """Lets devices measure for these topics no more; their last readings stay."""
         for topic in topics:
-            self._core.undemand(topic)
+            self._core.undemand(checks.text(topic, "topic"))
 
     def demands(self, topic: str) -> bool:
         """Returns whether the topic is demanded."""
-        return self._core.demands(topic)
+        return self._core.demands(checks.text(topic, "topic"))
 
     def demand_count(self, topic: str) -> int:
         """Returns how often demand() was called for the topic: who demanded it sees whether others did since."""
-        return self._demand_counts[topic.strip("/")]
+        return self._demand_counts[checks.text(topic, "topic").strip("/")]
 
     def latest(self, topic: str) -> Any:
         """Returns the last reading of a demanded topic, of the class that topics() names; None before the first."""
-        made = self._core.latest(topic)
+        made = self._core.latest(checks.text(topic, "topic"))
         return None if made is None else make_reading(made)
 
     def drain(self, topic: str) -> List[Any]:
         """Returns the readings since the last call, in the order of time, up to the `keep` of demand()."""
-        return [make_reading(made) for made in self._core.drain(topic)]
+        return [make_reading(made) for made in self._core.drain(checks.text(topic, "topic"))]
 
     def dropped(self, topic: str) -> int:
         """Returns how many readings drain() came too late for; none with keep=1, where only the last counts."""
-        return self._core.dropped(topic)
+        return self._core.dropped(checks.text(topic, "topic"))
 
     def entities(self) -> List[Entity]:
         """Returns all models, in the order of the world's file, then of spawning."""
@@ -287,11 +292,12 @@ class Simulation:
 
     def description(self, name: str) -> Any:
         """Returns what a model was made of: its `name` and `links()`; another object if another model has its name."""
-        return self._core.description(name)
+        return self._core.description(checks.text(name, "name"))
 
     def scenery(self, x_m: float, y_m: float, radius_m: float) -> List[Tuple[Any, np.ndarray]]:
         """Returns the static models near a place: each description, and its poses and scale, [n, 8]."""
-        return self._core.scenery(x_m, y_m, radius_m)
+        place = checks.number(x_m, "x_m"), checks.number(y_m, "y_m")
+        return self._core.scenery(*place, checks.number(radius_m, "radius_m", 0.0))
 
     def contacts(self) -> List[Contact]:
         """Returns the contacts of the last step; the first call is empty and asks for them from the next step on."""
@@ -356,14 +362,11 @@ class Simulation:
         horizontal_fov_rad: float = 1.2,
         near_m: float = 0.0,
     ) -> Dict[str, np.ndarray]:
-        if not (1 <= width_px <= 10_000 and 1 <= height_px <= 10_000):
-            raise ArdeeError(f"found {width_px} x {height_px} px, expected 1 to 10,000 each")
-        if not 0 < horizontal_fov_rad < math.pi:
-            raise ArdeeError(f"found a view of {horizontal_fov_rad} rad, expected 0 to pi")
-        if not 0 <= near_m < math.inf:
-            raise ArdeeError(f"found near_m={near_m}, expected 0 or more")
+        width_px = checks.whole(width_px, "width_px", 1, _MOST_PX)
+        height_px = checks.whole(height_px, "height_px", 1, _MOST_PX)
+        view_rad = checks.number(horizontal_fov_rad, "horizontal_fov_rad", 1e-6, _WIDEST_RAD)
+        checks.number(near_m, "near_m", 0.0)
         has_ids = "labels" in parts or "instances" in parts
         wanted = ("rgb" in parts, "depth_m" in parts, has_ids, "visuals" in parts)
-        pose = _vector(xyz_m, 3, "xyz_m"), _quaternion(quat_xyzw)
-        size = width_px, height_px
-        return self._core.picture(*pose, *size, horizontal_fov_rad, near_m, *wanted)
+        pose = checks.vector(xyz_m, "xyz_m"), checks.quaternion(quat_xyzw)
+        return self._core.picture(*pose, width_px, height_px, view_rad, near_m, *wanted)

@@ -3,13 +3,14 @@
 
 import csv
 import os
+from collections.abc import Sequence as SequenceABC
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
 import yaml
-from ardee_sim import _core, packages
+from ardee_sim import _core, checks, packages
 from ardee_sim.errors import ArdeeError
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -17,10 +18,10 @@ _MOST_MODELS = 16  # that stay loaded
 _SPECIES = {1: "corn", 2: "sorghum", 3: "tobacco"}
 
 
-def read_text(file: Path) -> str:
+def read_text(file: PathLike) -> str:
     """Returns a file's text. Raises ArdeeError if it cannot be read."""
     try:
-        return file.read_text()
+        return Path(file).read_text()
     except (OSError, UnicodeDecodeError) as error:
         raise ArdeeError(f"{file}: {error}, expected a text file") from None
 
@@ -110,28 +111,31 @@ class World:
 
         Raises ArdeeError with file, line and element if the file, or one that it refers to, cannot be read.
         """
-        if os.path.isdir(path):
-            raise ArdeeError(f"{path}: found a folder, expected a world's file")
-        if not os.fspath(path):
-            raise ArdeeError("found an empty path, expected a world's file")
-        return cls(_core.World.from_file(os.fspath(path), *cls._folders(model_paths)))
+        name = checks.path(path, "path")
+        if os.path.isdir(name):
+            raise ArdeeError(f"{name}: found a folder, expected a world's file")
+        return cls(_core.World.from_file(name, *cls._folders(model_paths)))
 
     @classmethod
     def from_string(
         cls, sdf: str, *, base_dir: PathLike = ".", model_paths: Sequence[PathLike] = ()
     ) -> "World":
         """Returns the world of an SDF text; relative files are searched for in `base_dir`."""
-        path = os.path.join(os.fspath(base_dir), "world")
-        return cls(_core.World.from_string(sdf, path, *cls._folders(model_paths)))
+        path = os.path.join(checks.path(base_dir, "base_dir"), "world")
+        text = checks.text(sdf, "sdf")
+        return cls(_core.World.from_string(text, path, *cls._folders(model_paths)))
 
     @staticmethod
     def _folders(model_paths: Sequence[PathLike]) -> Tuple[List[str], List[str], List[str]]:
-        if isinstance(model_paths, (str, os.PathLike)):
-            raise ArdeeError(f"model_paths: found {model_paths!r}, expected a list of folders")
-        for path in model_paths:
+        if isinstance(model_paths, str) or not isinstance(model_paths, SequenceABC):
+            raise TypeError(
+                f"{checks.found(model_paths, 'model_paths')}, expected a list of folders"
+            )
+        models = [os.path.abspath(checks.path(path, "model_paths")) for path in model_paths]
+        for path in models:
             if not os.path.isdir(path):
                 raise ArdeeError(f"model_paths: found {path!r}, expected a folder")
-        models = [os.path.abspath(path) for path in model_paths] + packages.model_folders()
+        models += packages.model_folders()
         return models, packages.media_folders(), packages.package_folders()
 
     @property
