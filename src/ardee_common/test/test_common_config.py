@@ -40,6 +40,11 @@ def test_a_good_file(tmp_path: Path) -> None:
         ("xyz: 1\n", ":1: unknown key 'xyz', known: depth_m, count"),
         ("\ndepth_m: 11\n", ":2: depth_m: found 11, expected 0 to 10 m"),
         ("count: 1\ncount: 2\n", ":2: found key 'count' a second time, first in line 1"),
+        (
+            "count: 1\n<<: 2\n",
+            ":2: <<: found 2, expected a mapping or a list of them",
+        ),
+        ("<<: {count: 2,\n  depth_m: 11}\n", ":2: depth_m: found 11, expected 0 to 10 m"),
     ],
 )
 def test_bad_files(text: str, message: str, tmp_path: Path) -> None:
@@ -52,9 +57,20 @@ def test_a_few_aliases_are_read(tmp_path: Path) -> None:
     assert read(tmp_path, "depth_m: &depth 2\ncount: *depth\n") == Ditch(2.0, 2)
 
 
-def test_aliases_of_aliases_are_refused(tmp_path: Path) -> None:
-    lines = ["a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]"]
-    lines += [f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]" for n in range(1, 10)]
+def test_keys_are_merged_as_yaml_says(tmp_path: Path) -> None:
+    """A key of the mapping's own comes first, then those of the mappings in their order."""
+    merged = "<<: [{count: 3}, {<<: {depth_m: 3}, count: 4}]\n"
+    assert read(tmp_path, merged) == Ditch(3.0, 3)
+    assert read(tmp_path, f"{merged}depth_m: 1\n") == Ditch(1.0, 3)
+
+
+LIST = "[{0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}, {0}]"
+
+
+@pytest.mark.parametrize("form", [LIST, "{{<<: " + LIST + "}}"])
+def test_aliases_of_aliases_are_refused(tmp_path: Path, form: str) -> None:
+    lines = ["a0: &a0 " + form.format("{b: 1}")]
+    lines += [f"a{n}: &a{n} {form.format(f'*a{n - 1}')}" for n in range(1, 10)]
     with pytest.raises(
         GeneratorError, match="found aliases that stand for more than 100000 values, expected fewer"
     ):

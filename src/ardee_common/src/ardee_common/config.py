@@ -4,7 +4,7 @@
 import dataclasses
 import re
 from pathlib import Path
-from typing import Any, Dict, Iterable, Union
+from typing import Any, Dict, Iterable, List, Union
 
 import yaml
 
@@ -17,6 +17,7 @@ _MAX_BYTES = 64 << 20
 _MAX_REPEATED = 100_000  # values that aliases may stand for, beside those that are written out
 # YAML 1.1 takes 1e-4 (without a dot) for a text; people mean the number.
 _EXPONENT = re.compile(r"[-+]?\d+[eE][-+]?\d+")
+_MERGE = "tag:yaml.org,2002:merge"  # of the key <<
 
 
 class Mapping(dict):
@@ -59,7 +60,11 @@ class _Converter:
 
     def _mapping(self, node: yaml.MappingNode, depth: int) -> Mapping:
         made = Mapping(self._path, node.start_mark.line + 1)
+        merged: List[Mapping] = []
         for key_node, value_node in node.value:
+            if key_node.tag == _MERGE:
+                merged += self._merged(value_node, depth)
+                continue
             key, at = str(self._loader.construct_object(key_node)), key_node.start_mark.line + 1
             if key in made:
                 raise GeneratorError(
@@ -67,7 +72,21 @@ class _Converter:
                 )
             made.line[key] = at
             made[key] = self.convert(value_node, depth + 1)
+        for other in merged:
+            for key in [key for key in other if key not in made]:
+                made[key], made.line[key] = other[key], other.line[key]
         return made
+
+    def _merged(self, node: yaml.Node, depth: int) -> List[Mapping]:
+        """Returns the mappings whose keys a `<<` adds, the first of them before the others."""
+        value = self.convert(node, depth + 1)
+        found = value if isinstance(value, list) else [value]
+        if not all(isinstance(each, Mapping) for each in found):
+            where = f"{self._path}:{node.start_mark.line + 1}"
+            raise GeneratorError(
+                f"{where}: <<: found {value!r}, expected a mapping or a list of them"
+            )
+        return found
 
 
 def read_yaml_lines(path: Path) -> Mapping:
