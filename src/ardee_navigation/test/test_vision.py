@@ -96,6 +96,17 @@ def test_waits_for_a_row_and_stands_after_a_long_gap() -> None:
     assert follower.update(bare, 1.60 + P.max_gap_s + DT_S).speed_m_s == 0.0
 
 
+def test_pictures_may_change_their_size() -> None:
+    """The same lane is seen in the same place in wider and higher pictures of the camera."""
+    follower, sights = VisionFollower(P), []
+    for size_px in ((320, 240), (640, 400), (320, 240)):
+        picture = picture_of(camera_of(*size_px, P), 0.05, 0.0)
+        sights.append(follower.update(picture, DT_S * len(sights)).sight)
+        assert sights[-1].lateral_offset_m == pytest.approx(0.05, abs=0.03)
+        assert sights[-1].heading_rad == pytest.approx(0.0, abs=0.02)
+    assert sights[2] == sights[0] != sights[1]
+
+
 def test_what_is_seen_is_drawn_where_it_is() -> None:
     picture = picture_of(CAMERA, 0.05, 0.1)
     output = VisionFollower(P).update(picture, 0.0)

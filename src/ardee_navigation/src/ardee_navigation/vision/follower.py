@@ -42,12 +42,13 @@ def centre_line(sight: Sight) -> Line:
 
 
 class VisionFollower:
-    """Follows the lane between two rows, picture by picture; all pictures have the size of the first."""
+    """Follows the lane between two rows, picture by picture, of one camera; its pictures may change their size."""
 
     def __init__(self, parameters: VisionParameters = VisionParameters()) -> None:
         self._parameters = parameters
         self._run = LaneFollower(parameters)
         self._perception = None  # type: Union[Classical, Learned, None]
+        self._size_px = (0, 0)  # of the pictures that it is for: width, height
         self.reset()
 
     def reset(self) -> None:
@@ -78,8 +79,10 @@ class VisionFollower:
         return Output(self._run.state, *command, self._centre, is_valid, sight, error_m)
 
     def _look(self, rgb: np.ndarray) -> Sight:
-        if self._perception is None:
-            camera = camera_of(rgb.shape[1], rgb.shape[0], self._parameters)
+        size_px = rgb.shape[1], rgb.shape[0]
+        if self._perception is None or size_px != self._size_px:
+            self._size_px = size_px
+            camera = camera_of(*size_px, self._parameters)
             estimator = {"classical": Classical, "learned": Learned}[self._parameters.estimator]
             self._perception = estimator(camera, self._parameters.lane_width_m)
         return self._perception.look(rgb)
