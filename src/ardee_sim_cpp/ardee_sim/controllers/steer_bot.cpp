@@ -42,6 +42,20 @@ bool is_linked(const Setting& settings, Log& log) {
   return true;
 }
 
+/// Warns of each parameter that is not read.
+void warn_of_unused(const Setting& settings, Log& log) {
+  static const std::vector<std::string> kKnown{"rear_wheel",           "front_steer",
+                                               "virtual_rear_wheels",  "virtual_front_wheels",
+                                               "virtual_front_steers", "enable_ackermann_link",
+                                               "wheel_separation_w",   "wheel_separation_h"};
+  for (const auto& [key, setting] : settings.group("a group of parameters")) {
+    if (std::find(kKnown.begin(), kKnown.end(), key) != kKnown.end()) continue;
+    log.warn(setting.path() + (key == "gains" ? ": has no effect: joints follow at once"
+                                              : ": found an unknown parameter, nearest: " +
+                                                    nearest_names(key, kKnown)));
+  }
+}
+
 }  // namespace
 
 SteerBot::SteerBot(const Setting& settings, const Model& model, Log& log)
@@ -49,6 +63,7 @@ SteerBot::SteerBot(const Setting& settings, const Model& model, Log& log)
       front_steer_(settings.text("front_steer")),
       has_rear_wheel_(has_joint(model, rear_wheel_)),
       has_front_steer_(has_joint(model, front_steer_)) {
+  warn_of_unused(settings, log);
   joints_[rear_wheel_] = JointInterface::kVelocity;
   joints_[front_steer_] = JointInterface::kPosition;
   for (const char* key : {"virtual_rear_wheels", "virtual_front_wheels"}) {

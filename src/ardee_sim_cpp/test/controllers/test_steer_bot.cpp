@@ -86,9 +86,15 @@ TEST_F(SteerBotTest, AWheelThatTheCarHasNotRollsAndIsReset) {
 
 TEST_F(SteerBotTest, SaysWhatIsWrong) {
   parameters["enable_ackermann_link"] = std::string("false");
+  parameters["gains/rear_left/p"] = 1.0;
+  parameters["rear_wheels"] = names({"rear_left"});
   make();
-  EXPECT_EQ(rig.messages, std::vector<std::string>{"/base/enable_ackermann_link: found no truth "
-                                                   "value, expected true or false; true is taken"});
+  const std::vector<std::string> said{
+      "/base/gains: has no effect: joints follow at once",
+      "/base/rear_wheels: found an unknown parameter, nearest: rear_wheel, ",
+      "/base/enable_ackermann_link: found no truth value, expected true or false; true is taken"};
+  ASSERT_EQ(rig.messages.size(), said.size());
+  for (std::size_t i = 0; i < said.size(); ++i) EXPECT_EQ(rig.messages[i].find(said[i]), 0U);
   const auto why = [this] { return message_of([this] { make(); }); };
   parameters["virtual_rear_wheels"] = names({"knee"});
   EXPECT_EQ(
