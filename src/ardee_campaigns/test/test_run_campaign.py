@@ -133,6 +133,18 @@ def test_a_campaign_that_was_ended_goes_on(
     assert kept.items() <= finished(output).items()
 
 
+def test_ctrl_c_while_workers_start_ends_in_a_line(
+    tmp_path: Path, start: Callable[..., subprocess.Popen], scratch: Path
+) -> None:
+    """All processes of a terminal get it."""
+    child = start(*small_campaign.command(write(tmp_path), "--output", tmp_path / "out"))
+    until(lambda: list(scratch.glob("ardee_campaign_*/*")), "the first worker")
+    os.killpg(child.pid, signal.SIGINT)
+    _, said = child.communicate(timeout=60)
+    assert (child.returncode, said.count("\n")) == (130, 1) and "interrupted" in said, said
+    assert not list(scratch.iterdir())
+
+
 def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
 ) -> None:

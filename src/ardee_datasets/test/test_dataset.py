@@ -260,14 +260,26 @@ def test_points_of_clouds_lead_to_the_truth(made: Path) -> None:
     assert len(away_m) > 20 and max(away_m) < 0.6 and np.median(away_m) < 0.2
 
 
-def test_any_number_of_workers_and_a_kill_give_the_same_manifest(recipe: Path, made: Path) -> None:
-    folder = recipe.parent / "killed"
-    first = subprocess.Popen(command(recipe, folder, 2), stderr=subprocess.DEVNULL, process_group=0)
+def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Popen:
+    """Sends all processes of the command a signal once files of a pattern are there; returns the command at its end."""
+    pipes = {"stderr": subprocess.PIPE, "text": True, "process_group": 0}
+    first = subprocess.Popen(command(recipe, folder, 2), **pipes)
     limit = time.monotonic() + 60
-    while not list(folder.glob("*/samples/*.json")) and time.monotonic() < limit:
+    while not list(folder.glob(when)) and time.monotonic() < limit:
         time.sleep(0.01)
-    os.killpg(first.pid, signal.SIGKILL)
-    first.wait()
+    os.killpg(first.pid, number)
+    first.wait(60)
+    return first
+
+
+def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, made: Path) -> None:
+    folder = recipe.parent / "killed"
+    interrupted = ended(recipe, folder, signal.SIGINT, ".sown")  # while its workers start
+    assert interrupted.returncode == 130
+    warning, last = interrupted.stderr.read().splitlines()
+    assert "warning: ultralytics" in warning and last == "generate_dataset: interrupted"
+    assert [file.name for file in folder.iterdir()] == ["dataset.yaml"]
+    ended(recipe, folder, signal.SIGKILL, "*/samples/*.json")
     assert not (folder / "manifest.json").exists()
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
     assert not (folder / ".sown").exists()

@@ -18,6 +18,7 @@ from ardee_campaigns.attempts import Attempts
 from ardee_campaigns.plan import Job
 from ardee_campaigns.run import FULL, FullDisk, failed, work
 from ardee_common.errors import GeneratorError
+from ardee_common.process import end_put_off
 
 _MOST_LOSSES = 3  # of a run's workers: then it has failed
 _PATIENCE_S = 30.0  # for a scheduler and its first worker
@@ -43,32 +44,37 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
         "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
     }
     with dask.config.set(settings), contextlib.ExitStack() as stack:
-        target: Any = address
-        if not address:
-            # Ended workers leave their temporary files: in a folder that goes with the cluster.
-            scratch = tempfile.mkdtemp(prefix="ardee_campaign_")
-            stack.callback(shutil.rmtree, scratch, ignore_errors=True)
-            target = stack.enter_context(
-                LocalCluster(
-                    n_workers=workers,
-                    threads_per_worker=1,
-                    processes=True,
-                    memory_limit=0,
-                    dashboard_address="127.0.0.1:0",  # None would be all addresses
-                    worker_dashboard_address="127.0.0.1:0",
-                    host="127.0.0.1",
-                    silence_logs=logging.CRITICAL,
-                    local_directory=scratch,
-                    env={"TMPDIR": scratch},
-                )
-            )
-        try:
-            client = stack.enter_context(Client(target, set_as_default=False))
-        except (OSError, TimeoutError, ValueError) as error:
-            why = " ".join(str(error).split())
-            raise GeneratorError(f"--scheduler: found {address!r}, no scheduler: {why}") from None
-        _check_workers(client, address)
+        with contextlib.nullcontext() if address else end_put_off():
+            target: Any = address or _local(workers, stack)
+            try:
+                client = stack.enter_context(Client(target, set_as_default=False))
+            except (OSError, TimeoutError, ValueError) as error:
+                why = " ".join(str(error).split())
+                found = f"found {address!r}, no scheduler: {why}"
+                raise GeneratorError(f"--scheduler: {found}") from None
+            _check_workers(client, address)
         yield client
+
+
+def _local(workers: int, stack: contextlib.ExitStack) -> LocalCluster:
+    """Returns a scheduler with worker processes; it ends with the stack."""
+    # Ended workers leave their temporary files: in a folder that goes with the cluster.
+    scratch = tempfile.mkdtemp(prefix="ardee_campaign_")
+    stack.callback(shutil.rmtree, scratch, ignore_errors=True)
+    return stack.enter_context(
+        LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=0,
+            dashboard_address="127.0.0.1:0",  # None would be all addresses
+            worker_dashboard_address="127.0.0.1:0",
+            host="127.0.0.1",
+            silence_logs=logging.CRITICAL,
+            local_directory=scratch,
+            env={"TMPDIR": scratch},
+        )
+    )
 
 
 def _check_workers(client: Client, address: Optional[str]) -> None:

@@ -2,6 +2,7 @@
 """Command lines of controllers that are programs: parameters put into their words, and their end with a worker."""
 import ctypes
 import shutil
+import signal
 from pathlib import Path
 from typing import Any, List, Mapping, Optional, Sequence
 
@@ -12,7 +13,11 @@ _SYSTEM = ("/bin/", "/usr/bin/", "/opt/ros/")  # programs of the machine, no par
 
 
 def end_with_parent(number: int) -> None:
-    """Makes the kernel send this child a signal when the worker that started it ends, however that ends."""
+    """Makes the kernel send this child a signal when the worker that started it ends, however that ends.
+
+    The child gets Ctrl-C, which its worker does not.
+    """
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)
 
 

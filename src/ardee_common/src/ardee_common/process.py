@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Starts and stops child processes, each in a session of its own, a ROS master too; ends programs by signals."""
+import contextlib
 import os
 import signal
 import subprocess
+from multiprocessing import resource_tracker
 from pathlib import Path
-from typing import Any, Dict, List, NoReturn, Optional, Sequence
+from typing import Any, Dict, Iterator, List, NoReturn, Optional, Sequence
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # Signals that end a child, each with the time [s] that it is given to follow.
@@ -41,6 +43,27 @@ def end_if_told() -> None:
     """Raises Ended again if a signal has raised it and it was lost: in a fork, or in a library's bare `except`."""
     if _told:
         raise Ended(_told[0])
+
+
+@contextlib.contextmanager
+def end_put_off() -> Iterator[None]:
+    """Puts an end by signals off to the end of the block, and keeps Ctrl-C from all processes that the block starts.
+
+    A terminal sends Ctrl-C to them, too, and few libraries bear an exception while they start some.
+    """
+    resource_tracker.ensure_running()  # multiprocessing's: where it starts later, it unblocks Ctrl-C
+    came: List[int] = []
+    heeded = [number for number in END_SIGNALS if signal.getsignal(number) != signal.SIG_IGN]
+    before = [signal.signal(number, lambda now, _: came.append(now)) for number in heeded]
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # which children inherit
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for number, handler in zip(heeded, before):
+            signal.signal(number, handler)
+        for number in came[:1]:
+            signal.raise_signal(number)
 
 
 def ignore_end_signals() -> None:

@@ -5,7 +5,6 @@ import argparse
 import multiprocessing
 import os
 import shutil
-import signal
 import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
@@ -17,6 +16,7 @@ from ardee_sim import ArdeeError
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
+from ardee_common.process import Ended, end_by_signals, end_if_told, end_put_off
 from ardee_datasets.assemble import assemble, yolo_lack
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot, scenes, shots
@@ -42,6 +42,7 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
 
     All in order, also those that are there: a picture may depend on the ones that its simulation took before.
     """
+    end_if_told()  # of a worker whose last field was ended
     try:
         with tempfile.TemporaryDirectory(dir=folder / _SOWN) as temporary:
             scenery = Scenery(scene, Path(temporary))
@@ -62,7 +63,7 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
 
 
 def _start_worker(parent: int) -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's, which ends the pool
+    end_by_signals()
     if os.getppid() != parent:
         os._exit(1)
 
@@ -75,12 +76,17 @@ def _work_off(folder: Path, recipe: Recipe, todo: Sequence[Scene], workers: int)
         return
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(workers, context, _start_worker, (os.getpid(),)) as pool:
-        futures = [pool.submit(make_scene, folder, recipe, scene) for scene in todo]
         try:
+            with end_put_off():
+                futures = [pool.submit(make_scene, folder, recipe, scene) for scene in todo]
             for number, future in enumerate(as_completed(futures), 1):
                 say("generate_dataset", f"{future.result()}: {number} of {len(todo)} fields")
         except BrokenProcessPool:
             raise GeneratorError("a worker ended; start again to go on") from None
+        except Ended:
+            for worker in multiprocessing.active_children():
+                worker.terminate()  # which ends its field half done
+            raise
         finally:
             pool.shutdown(cancel_futures=True)
 
