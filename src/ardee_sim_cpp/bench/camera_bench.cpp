@@ -61,7 +61,8 @@ struct Drive {
   double wall_s = 1e300;
   double cpu_s = 1e300;
   int frames = 0;
-  std::vector<Pose> poses_W;  // poses of the carrier when pictures were taken
+  std::vector<double> steps_ms;  // of all rounds but the first: steps with pictures
+  std::vector<Pose> poses_W;     // poses of the carrier when pictures were taken
 };
 
 /// Drives down the lane for a while, `rounds` times, each from the end of the last; the best times
@@ -83,8 +84,11 @@ Drive drive(const BenchArguments& arguments, Simulation& simulation, Entity& car
     const CpuStopwatch cpu;
     for (int k = 0; k < steps; ++k) {
       const int before = counter.frames;
+      const Stopwatch step;
       simulation.step();
-      if (counter.frames != before) poses_W.push_back(carrier_entity.robot->pose());
+      if (counter.frames == before) continue;
+      if (round > 0) best.steps_ms.push_back(1e3 * step.elapsed_s());
+      poses_W.push_back(carrier_entity.robot->pose());
     }
     if (round == 0) continue;  // textures and near regions are made here
     best.wall_s = std::min(best.wall_s, wall.elapsed_s());
@@ -150,6 +154,8 @@ void run(const BenchArguments& arguments, std::ostream& out) {
   const double embree = embree_rays_per_s(arguments, simulation, done);
   out << "{\"frames\": " << done.frames << ", \"frames_per_s\": " << done.frames / done.wall_s
       << ", \"real_time_factor\": " << arguments.number("--duration-s") / done.wall_s
+      << ",\n \"step_ms\": " << median(done.steps_ms)
+      << ", \"longest_step_ms\": " << percentile(done.steps_ms, 1.0)
       << ",\n \"cpu_ms_a_frame\": " << 1e3 * cpu_a_frame_s
       << ", \"pixels_per_cpu_s\": " << rays_a_frame / cpu_a_frame_s
       << ",\n \"embree_rays_per_s\": " << embree

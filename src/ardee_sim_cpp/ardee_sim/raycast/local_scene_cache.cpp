@@ -16,6 +16,12 @@ constexpr double kPictureRadius_m = 12.0;
 /// Distance of the next local scene's centre ahead of the sensor, as a share of the way that a
 /// sensor may go from a centre: less than 1, so that a sensor that turns back is still within it.
 constexpr double kAhead = 0.75;
+/// For pictures, distance from the centre at which the next local scene is asked for, as a share of
+/// half the side.
+constexpr double kPictureReserve = 0.25;
+/// Distance from the centre at which pictures take the next local scene over, as a share of the way
+/// at which it is asked for: it is made in between.
+constexpr double kLatest = 1.5;
 /// Number of calls after which a local scene without a sensor is dropped.
 constexpr std::uint64_t kIdleCalls = 2000;
 
@@ -25,7 +31,9 @@ Eigen::Vector2d way_from(const LocalScene& local, const Eigen::Vector3d& eye_W) 
 
 /// Returns how far a sensor may be from the centre before another local scene is made.
 double reserve_m(const LocalScene& local) {
-  return local.half_size_m() * (kSpareShare / (1.0 + kSpareShare));
+  const double share =
+      local.is_for_pictures() ? kPictureReserve : kSpareShare / (1.0 + kSpareShare);
+  return share * local.half_size_m();
 }
 
 }  // namespace
@@ -53,10 +61,16 @@ StillInstances LocalSceneCache::still_instances() const {
   return for_pictures_ ? moving_.still_instances() : StillInstances{};
 }
 
-bool LocalSceneCache::serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W) const {
+bool LocalSceneCache::serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W,
+                             double share) const {
   const LocalScene& scene = *local.scene;
   if (for_pictures_ && (!scene.is_for_pictures() || local.beside.outdate())) return false;
-  return scene.holds_all() || way_from(scene, eye_W).norm() <= reserve_m(scene);
+  return scene.holds_all() || way_from(scene, eye_W).norm() <= share * reserve_m(scene);
+}
+
+bool LocalSceneCache::is_served(const Eigen::Vector3d& eye_W, double share) const {
+  return std::any_of(kept_.begin(), kept_.end(),
+                     [&](const auto& kept) { return serves(kept, eye_W, share); });
 }
 
 void LocalSceneCache::clear() {
@@ -99,13 +113,15 @@ void LocalSceneCache::keep(LocalSceneInUse local) {
   ++taken_;
 }
 
-void LocalSceneCache::collect() {
+void LocalSceneCache::collect(const std::vector<Eigen::Vector3d>& eyes_W) {
   if (!next_.valid()) return;
   // Scans are the same in any local scene. Pictures may differ where floats decide: so the time at
   // which a local scene is taken over must not depend on the machine's speed.
-  const bool ready = next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-  if (!ready && !for_pictures_) return;
-  keep(next_.get());
+  const bool due = for_pictures_
+                       ? !std::all_of(eyes_W.begin(), eyes_W.end(),
+                                      [&](const auto& eye_W) { return is_served(eye_W, kLatest); })
+                       : next_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (due) keep(next_.get());
 }
 
 void LocalSceneCache::prepare(const Eigen::Vector3d& eye_W) {
@@ -118,19 +134,20 @@ void LocalSceneCache::prepare(const Eigen::Vector3d& eye_W) {
   for (LocalSceneInUse& kept : kept_) {
     if (&kept == local) kept.last_used = tick_;
   }
-  if (next_.valid() || std::any_of(kept_.begin(), kept_.end(),
-                                   [&](const auto& kept) { return serves(kept, eye_W); })) {
-    return;
-  }
+  if (next_.valid() || is_served(eye_W, 1.0)) return;
   const Eigen::Vector2d way = way_from(scene, eye_W);
-  const Eigen::Vector2d center = eye_W.head<2>() + kAhead * reserve_m(scene) * way.normalized();
+  double ahead_m = kAhead * reserve_m(scene);
+  if (for_pictures_ && serves(*local, eye_W, kLatest)) {
+    ahead_m += kLatest * reserve_m(scene) - way.norm();
+  }
+  const Eigen::Vector2d center = eye_W.head<2>() + ahead_m * way.normalized();
   next_ = std::async(std::launch::async,
                      [this, still = still_instances(), center] { return make(still, center); });
 }
 
 void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures) {
   ++tick_;
-  collect();
+  collect(eyes_W);
   if (pictures && !for_pictures_) {
     // Those of scans may have come from another simulation, and pictures must not depend on that.
     clear();

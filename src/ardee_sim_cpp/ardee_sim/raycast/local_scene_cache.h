@@ -21,7 +21,7 @@ struct LocalSceneInUse {
 
 /// Keeps a local scene about each place with sensors. A sensor's first local scene is made at once;
 /// while it drives, a background thread makes the next one, which replaces the first once it is
-/// ready. Rays return the same with either, or none.
+/// ready; for pictures, once the sensor is far enough. Rays return the same with either, or none.
 class LocalSceneCache {
  public:
   LocalSceneCache(const SceneryStore& store, const MovingModels& moving, const RayOptions& options)
@@ -44,8 +44,12 @@ class LocalSceneCache {
   double slack_m() const;
   LocalSceneInUse make(const StillInstances& still, const Eigen::Vector2d& center_W) const;
   StillInstances still_instances() const;
-  bool serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W) const;
-  void collect();
+  /// Returns whether the point is less far from the centre than `share` of the way at which the
+  /// next local scene is asked for.
+  bool serves(const LocalSceneInUse& local, const Eigen::Vector3d& eye_W, double share) const;
+  bool is_served(const Eigen::Vector3d& eye_W, double share) const;
+  /// Takes the next local scene over if it is time.
+  void collect(const std::vector<Eigen::Vector3d>& eyes_W);
   void prepare(const Eigen::Vector3d& eye_W);
   void keep(LocalSceneInUse local);
 

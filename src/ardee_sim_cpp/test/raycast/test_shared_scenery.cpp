@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
 #include <future>
+#include <thread>
 
 #include "ardee_sim/raycast/embree_scene.h"
 #include "ardee_sim/raycast/fixed_scenery.h"
@@ -115,6 +117,30 @@ TEST(SharedScenery, OfScansIsNotThatOfPictures) {
     return numbers;
   };
   EXPECT_EQ(picture(true), picture(false));
+}
+
+/// Returns how many local scenes were in use so far at each of some places, 5 cm apart, of a camera
+/// whose local scenes reach some 2 m.
+std::vector<std::size_t> taken_on_the_way(std::chrono::milliseconds pause) {
+  RayOptions options;
+  options.local_scene_budget_bytes = 16u << 20;
+  TestScene scene(SceneKind::kVisual, options, 0, field());
+  std::vector<std::size_t> taken;
+  for (int k = 0; k < 30; ++k) {
+    scene.scene.prepare({kEye + Eigen::Vector3d(0.05 * k, 0, 0)}, true);
+    taken.push_back(scene.scene.local_scenes_taken());
+    std::this_thread::sleep_for(pause);
+  }
+  return taken;
+}
+
+/// The next one is asked for after a quarter of the reach, and taken over after three eighths.
+TEST(SharedScenery, OfPicturesIsTakenOverAtOnePlaceHoweverSoonItIsReady) {
+  const auto taken = taken_on_the_way(std::chrono::milliseconds(0));
+  EXPECT_EQ(taken_on_the_way(std::chrono::milliseconds(20)), taken);
+  EXPECT_EQ(taken[12], 1u);
+  EXPECT_EQ(taken[18], 2u);
+  EXPECT_EQ(taken.back(), 2u);
 }
 
 /// Each scene finds what a scene without local scenes finds, whichever of them made the shared
