@@ -275,6 +275,16 @@ def test_a_mass_of_zero_is_no_inertia(tmp_path: pathlib.Path):
     assert 'found mass_kg 0.1 of sensor "a"; expected at least 0.55' in said
 
 
+def test_what_a_camera_in_motion_sees_is_a_key_of_its_plugins(tmp_path: pathlib.Path):
+    given = 'exposure_time_s="0.01" readout_time_s="0.02" white_balance="5600"'
+    keys = {"exposureTime": "0.01", "readoutTime": "0.02", "whiteBalance": "5600"}
+    for device in ("ueye_cp_gige", "zed2", "realsense_d435"):
+        root = robot(tmp_path, call(device, "a", given) + call(device, "b"))
+        for sensor in root.iter("sensor"):
+            found = {key: sensor.findtext(f"plugin/{key}") for key in keys}
+            assert found == (keys if sensor.get("name").startswith("a") else dict.fromkeys(keys))
+
+
 TWO_CAMERAS = ("zed2", "realsense_d435", "kinectv2")
 IMPOSSIBLE = {  # argument and value: the `expected` part of the message
     ("rate_hz", "-30"): "more than 0",
@@ -285,6 +295,8 @@ IMPOSSIBLE = {  # argument and value: the `expected` part of the message
     ("horizontal_fov_deg", "180"): "more than 0 and less than 180",
     ("noise_std", "-0.1"): "0 or more",
     ("exposure", "0"): "auto, or more than 0",
+    ("exposure_time_s", "2"): "a number from 0 to 1",
+    ("readout_time_s", "-0.1"): "a number from 0 to 1",
     ("clip_far_m", "0.01"): "more than clip_near_m",
     ("depth_max_m", "0.1"): "more than depth_min_m",
 }

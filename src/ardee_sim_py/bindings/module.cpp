@@ -155,6 +155,22 @@ void bind_state(py::class_<BoundSimulation>& bound) {
       .def("restore", &BoundSimulation::restore);
 }
 
+/// Place, rotation, width, height, horizontal field of view, near_m; velocities, times of exposure
+/// and readout.
+using GivenCamera = std::tuple<Eigen::Vector3d, Eigen::Vector4d, int, int, double, double,
+                               Eigen::Vector3d, Eigen::Vector3d, double, double>;
+
+render::Camera camera_of(const GivenCamera& given) {
+  render::Camera camera;
+  Eigen::Vector4d quat_xyzw;
+  Twist& twist_W = camera.motion.twist_W;
+  std::tie(camera.X_WC.p, quat_xyzw, camera.width, camera.height, camera.horizontal_fov_rad,
+           camera.near_m, twist_W.linear, twist_W.angular, camera.motion.exposure_time_s,
+           camera.motion.readout_time_s) = given;
+  camera.X_WC.q = quaternion(quat_xyzw);
+  return camera;
+}
+
 void bind_readings(py::class_<BoundSimulation>& bound) {
   bound.def("demand", &BoundSimulation::demand)
       .def("undemand", &BoundSimulation::undemand)
@@ -166,17 +182,22 @@ void bind_readings(py::class_<BoundSimulation>& bound) {
       .def("contacts", &BoundSimulation::contacts)
       .def("take_touches", &BoundSimulation::take_touches)
       .def("picture",
-           [](BoundSimulation& sim, const Eigen::Vector3d& xyz_m, const Eigen::Vector4d& quat_xyzw,
-              int width, int height, double horizontal_fov_rad, double near_m, bool light,
-              bool depth, bool ids, bool visuals) {
-             render::Camera camera;
-             camera.X_WC = {xyz_m, quaternion(quat_xyzw)};
-             camera.width = width;
-             camera.height = height;
-             camera.horizontal_fov_rad = horizontal_fov_rad;
-             camera.near_m = near_m;
-             return sim.picture(camera, {light, depth, ids, visuals});
-           });
+           [](BoundSimulation& sim, const GivenCamera& given, std::optional<float> exposure,
+              const std::string& white_balance, bool light, bool depth, bool ids, bool visuals) {
+             render::ImageFormation development;
+             development.exposure = exposure;
+             const auto balance = render::parse_white_balance(white_balance);
+             if (!balance) {
+               throw Error("white_balance: found '" + white_balance + "', " +
+                           render::kWhiteBalanceForms);
+             }
+             development.white_balance = *balance;
+             return sim.picture(camera_of(given), {light, depth, ids, visuals}, development);
+           })
+      .def("lone_pixels", [](BoundSimulation& sim, const GivenCamera& given,
+                             const std::vector<std::int32_t>& instances) {
+        return sim.lone_pixels(camera_of(given), instances);
+      });
 }
 
 }  // namespace

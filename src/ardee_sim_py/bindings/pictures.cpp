@@ -14,14 +14,15 @@ py::array_t<T> picture_of(std::vector<T> values, const render::Frame& frame) {
 
 }  // namespace
 
-py::dict BoundSimulation::picture(const render::Camera& camera, const render::FrameParts& parts) {
+py::dict BoundSimulation::picture(const render::Camera& camera, const render::FrameParts& parts,
+                                  const render::ImageFormation& development) {
   const Use use(*this);
   render::Frame frame;
   std::vector<std::uint8_t> rgb;
   {
     const py::gil_scoped_release free;
     frame = use->take_picture(camera, parts);
-    if (parts.light) rgb = render::form_image(frame, {}, CounterRng(0));
+    if (parts.light) rgb = render::form_image(frame, development, CounterRng(0));
   }
   py::dict made;
   if (parts.light) made["rgb"] = hold(std::move(rgb), {frame.height, frame.width, 3});
@@ -37,6 +38,16 @@ py::dict BoundSimulation::picture(const render::Camera& camera, const render::Fr
   }
   if (parts.visuals) made["visuals"] = picture_of(std::move(frame.visuals), frame);
   return made;
+}
+
+std::vector<std::size_t> BoundSimulation::lone_pixels(const render::Camera& camera,
+                                                      const std::vector<std::int32_t>& instances) {
+  const Use use(*this);
+  const py::gil_scoped_release free;
+  std::vector<std::uint32_t> entities;
+  for (const std::int32_t each : instances)
+    entities.push_back(static_cast<std::uint32_t>(each - 1));
+  return use->lone_pixels(camera, entities);
 }
 
 }  // namespace ardee::python

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ardee_sim/render/image_formation.h"
 #include "ardee_sim/simulation/simulation.h"
 #include "inbox.h"
 #include "world.h"
@@ -86,7 +87,10 @@ class BoundSimulation {
   /// Returns the pairs of names of collisions that touched in any step since the last call.
   py::list take_touches();
   /// Returns a dict with the requested parts of rgb, depth_m, labels, instances.
-  py::dict picture(const render::Camera& camera, const render::FrameParts& parts);
+  py::dict picture(const render::Camera& camera, const render::FrameParts& parts,
+                   const render::ImageFormation& development);
+  std::vector<std::size_t> lone_pixels(const render::Camera& camera,
+                                       const std::vector<std::int32_t>& instances);
 
   /// Returns the description of a model.
   py::object description(const std::string& name);

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kLongestSide_px = 8192;
 constexpr double kMostPixels = 1 << 24;
+constexpr double kLongestShutter_s = 1.0;
 constexpr double kLeastFov_rad = 1e-3;
 constexpr double kMostFov_rad = M_PI - 1e-3;
 
@@ -82,6 +83,12 @@ std::optional<float> read_exposure(Parameters& parameters) {
   const double factor = parameters.number("exposure", 1.0, 0.0, limits::kMostFactor);
   if (factor == 0.0) throw parameters.error("exposure", "expected auto or a number above 0");
   return static_cast<float>(factor);
+}
+
+render::WhiteBalance read_white_balance(Parameters& parameters) {
+  const auto read = render::parse_white_balance(parameters.text("whiteBalance", "off"));
+  if (!read) throw parameters.error("whiteBalance", render::kWhiteBalanceForms);
+  return *read;
 }
 
 DepthParams read_depth(Parameters& parameters, const CameraParams& camera, CameraKind kind) {
@@ -155,6 +162,9 @@ void read_plugin(Parameters& parameters, CameraKind kind, const std::string& suf
   camera.frame = resolve_frame(parameters.text("frameName", "/world"), robot, context,
                                WithoutPrefix::kNamespace);
   camera.development.exposure = read_exposure(parameters);
+  camera.development.white_balance = read_white_balance(parameters);
+  camera.exposure_time_s = parameters.number("exposureTime", 0.0, 0.0, kLongestShutter_s);
+  camera.readout_time_s = parameters.number("readoutTime", 0.0, 0.0, kLongestShutter_s);
   read_image_encoding(parameters, camera);
   all.triggered = parameters.boolean("triggered", all.triggered);
   all.trigger_topic = topic("triggerTopicName", "image_trigger");

@@ -56,6 +56,8 @@ struct CameraParams {
   double fov_max_rad = 0.0;
   double near_m = 0.1;
   double far_m = 100.0;
+  double exposure_time_s = 0.0;        // of each row
+  double readout_time_s = 0.0;         // from the first row to the last
   render::ImageFormation development;  // of the image
   std::string encoding;                // of the image, as in sensor_msgs
   render::PixelFormat cloud_format =

@@ -34,6 +34,8 @@ void CameraSensor::add_eye(const CameraParams& params, DeviceContext& context) {
   eye.camera.height = params.height;
   eye.camera.near_m = params.near_m;
   eye.camera.far_m = params.far_m;
+  eye.camera.motion.exposure_time_s = params.exposure_time_s;
+  eye.camera.motion.readout_time_s = params.readout_time_s;
   set_lens(eye);
   eye.unzoomed = params.lens.actual;
   eye.unzoomed_table = eye.camera.lens;
@@ -120,6 +122,9 @@ void CameraSensor::sample(Eye& eye, TimeNs now_ns, const CounterRng& noise, Read
   };
   if (parts.any()) {
     eye.camera.X_WC = pose() * eye.params.X_SC;
+    Twist& twist_W = eye.camera.motion.twist_W;
+    twist_W = twist();
+    twist_W.linear += twist_W.angular.cross(eye.camera.X_WC.p - pose().p);
     const render::Frame frame = pictures_.take(eye.camera, parts);
     ImageReading image;
     if (asked_for(eye.image)) image = color_image(frame, eye.params, noise.frame(0));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ardee::render {
 namespace {
@@ -60,6 +61,18 @@ void AdaptiveTile::shade(const TileShading& shading, const TileArea& area, Shade
                        kInRow,      width_ / 2,  height_ / 2, false};
   refine(fine, kSameLight);
   write(frame);
+}
+
+float AdaptiveTile::nearest_m() const {
+  const Eigen::Vector3f ahead_W = (s_->camera.X_WC.q * Eigen::Vector3d::UnitX()).cast<float>();
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const raycast::PrimaryRayPacket& block : blocks_) {
+    for (int i = 0; i < raycast::PrimaryRayPacket::kRays; ++i) {
+      if (!block.met(i)) continue;
+      nearest = std::min(nearest, block.range_m[i] * ahead_W.dot(block.direction_W(i)));
+    }
+  }
+  return nearest;
 }
 
 void AdaptiveTile::lay_out(int width, int height) {

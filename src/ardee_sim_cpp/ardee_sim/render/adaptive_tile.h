@@ -23,6 +23,8 @@ class AdaptiveTile {
   static constexpr int kMostSide_px = 32;
 
   void shade(const TileShading& shading, const TileArea& area, Shader& shader, Frame& frame);
+  /// Returns the least distance along the camera's axis of what the last tile shows; +inf: nothing.
+  float nearest_m() const;
 
  private:
   /// Pixels of the rays of a block.

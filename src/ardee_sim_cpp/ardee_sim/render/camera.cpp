@@ -7,6 +7,14 @@
 
 namespace ardee::render {
 
+Pose Camera::pose_at(double time_s) const {
+  const Twist& twist = motion.twist_W;
+  const double speed_rad_per_s = twist.angular.norm();
+  if (speed_rad_per_s == 0.0) return {X_WC.p + time_s * twist.linear, X_WC.q};
+  const Eigen::AngleAxisd turn(time_s * speed_rad_per_s, twist.angular / speed_rad_per_s);
+  return {X_WC.p + time_s * twist.linear, (turn * X_WC.q).normalized()};
+}
+
 double Camera::focal_length_px() const {
   return lens ? lens->lens().fx_px : 0.5 * width / std::tan(0.5 * horizontal_fov_rad);
 }

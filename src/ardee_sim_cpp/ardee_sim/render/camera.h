@@ -10,9 +10,23 @@
 
 namespace ardee::render {
 
+/// Constant motion of a camera while it takes a picture. Each row is exposed for
+/// `exposure_time_s`; row r of n begins r / n of `readout_time_s` after the first one.
+struct CameraMotion {
+  Twist twist_W;  // linear velocity of the camera's origin, angular velocity
+  double exposure_time_s = 0.0;
+  double readout_time_s = 0.0;
+
+  bool is_seen() const {
+    return (exposure_time_s > 0.0 || readout_time_s > 0.0) &&
+           !(twist_W.linear.isZero(0.0) && twist_W.angular.isZero(0.0));
+  }
+};
+
 /// Camera with SDF's axes: x forward, y left, z up.
 struct Camera {
-  Pose X_WC;
+  Pose X_WC;  // when the exposure of the first row begins
+  CameraMotion motion;
   int width = 1280;
   int height = 720;
   double horizontal_fov_rad = 1.0471975511965976;  // 60 degrees; only without a lens
@@ -20,6 +34,8 @@ struct Camera {
   double near_m = 0.0;                             // along the axis: nearer points are invisible
   double far_m = std::numeric_limits<double>::infinity();
 
+  /// Returns the pose at a time since the exposure of the first row began.
+  Pose pose_at(double time_s) const;
   /// Returns the number of pixels between the middle of the picture and 45 degrees off axis.
   double focal_length_px() const;
   /// Returns the direction in the camera's axes through (x, y) in pixels, of length 1 along the

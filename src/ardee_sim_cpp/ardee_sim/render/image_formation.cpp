@@ -191,12 +191,20 @@ std::vector<std::uint8_t> form_image(const Frame& frame, const ImageFormation& h
   const auto size = static_cast<std::size_t>(bytes_per_pixel(how.format));
   std::vector<std::uint8_t> bytes(frame.light.size() * size);
   const Writer writer(how, noise, how.exposure ? *how.exposure : automatic_exposure(frame));
+  const WhiteBalance& balance = how.white_balance;
+  const Eigen::Vector3f gains = balance.automatic ? grey_world(frame) : balance.gains;
   const auto write_row = [&](int row) {
     const auto width = static_cast<std::size_t>(frame.width);
+    std::array<Eigen::Vector3f, kPiece> balanced;
     for (std::size_t column = 0; column < width; column += kPiece) {
       const std::size_t pixel = frame.index(0, row) + column;
-      writer.write(&frame.light[pixel], row, pixel, std::min(kPiece, width - column),
-                   &bytes[pixel * size]);
+      const std::size_t count = std::min(kPiece, width - column);
+      const Eigen::Vector3f* light = &frame.light[pixel];
+      if (balance.is_on()) {
+        for (std::size_t k = 0; k < count; ++k) balanced[k] = gains.cwiseProduct(light[k]);
+        light = balanced.data();
+      }
+      writer.write(light, row, pixel, count, &bytes[pixel * size]);
     }
   };
   tbb::task_arena arena(frame.threads > 0 ? frame.threads : tbb::task_arena::automatic);

@@ -8,6 +8,7 @@
 
 #include "ardee_sim/core/rng.h"
 #include "ardee_sim/render/frame.h"
+#include "ardee_sim/render/white_balance.h"
 
 namespace ardee::render {
 
@@ -30,6 +31,7 @@ int bytes_per_pixel(PixelFormat format);
 struct ImageFormation {
   PixelFormat format = PixelFormat::kRgb8;
   std::optional<float> exposure;  // factor on the light; none: automatic
+  WhiteBalance white_balance;     // acts after automatic exposure is metered
   double noise_mean = 0.0;        // as a share of full brightness
   double noise_std = 0.0;
 };

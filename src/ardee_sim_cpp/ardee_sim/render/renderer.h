@@ -40,14 +40,21 @@ class Renderer {
                const Progress& progress = nullptr) const;
 
   /// Renders what a sensor behind the lens receives, with one ray through the middle of each pixel;
-  /// ignores `options.samples`.
-  Frame render_frame(const Camera& camera, const FrameParts& parts,
-                     const RenderOptions& options) const;
+  /// ignores `options.samples`. While the camera moves, light is the mean over the exposure, all
+  /// else is that of its middle; four rows at a time share their times. The scene stands still.
+  /// Outside of `area` some pixels see nothing.
+  Frame render_frame(const Camera& camera, const FrameParts& parts, const RenderOptions& options,
+                     const std::optional<TileArea>& area = std::nullopt) const;
 
  private:
   /// Calls `work(tile, worker)` for each tile of the picture, in parallel.
-  static void for_each_tile(const Camera& camera, int threads,
+  static void for_each_tile(const Camera& camera, int tile_height_px, int threads,
                             const std::function<void(const TileArea&, TileWorker&)>& work);
+  TileShading shading_by(const Camera& camera, const RenderOptions& options) const {
+    return {rays_, materials_, scene_, sky_, lights_, camera, options, store_};
+  }
+  void render_moving(const Camera& camera, const FrameParts& parts, const RenderOptions& options,
+                     const std::optional<TileArea>& area, Frame& frame) const;
 
   const raycast::PictureTracer& rays_;
   const MaterialLibrary& materials_;

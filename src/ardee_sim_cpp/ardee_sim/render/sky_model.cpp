@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ardee_sim/render/srgb.h"
+
 namespace ardee::render {
 namespace {
 
@@ -62,14 +64,6 @@ Eigen::Array3d zenith_xyY(double t, double sun_angle) {
               t * cubic(-0.04214, 0.08970, -0.04153, 0.00516, s) +
               cubic(0.15346, -0.26756, 0.06670, 0.26688, s),
           std::max(0.0, (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192)};
-}
-
-/// Converts a colour to linear sRGB (IEC 61966-2-1); colours outside it end at its border.
-Eigen::Vector3f to_rgb(double x, double y, double luminance) {
-  const Eigen::Vector3d xyz(luminance * x / y, luminance, luminance * (1.0 - x - y) / y);
-  Eigen::Matrix3d from_xyz;
-  from_xyz << 3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570;
-  return (from_xyz * xyz).cwiseMax(0.0).cast<float>();
 }
 
 /// Returns the display value of a share of the noon sun's light.
@@ -139,9 +133,9 @@ Eigen::Vector3f SkyModel::clear_sky(const Eigen::Vector3d& direction_W) const {
   const double angle = std::acos(std::clamp(direction_W.z(), 0.0, 1.0));
   const double from_sun = std::acos(std::clamp(direction_W.dot(to_sun_W_), -1.0, 1.0));
   const Eigen::Array3d zenith = zenith_xyY(turbidity_, sun_angle_rad_);
-  return clear_ * to_rgb(zenith[0] * kX(turbidity_, angle, sun_angle_rad_, from_sun),
-                         zenith[1] * kY(turbidity_, angle, sun_angle_rad_, from_sun),
-                         zenith[2] * kLuminance(turbidity_, angle, sun_angle_rad_, from_sun));
+  return clear_ * linear_srgb(zenith[0] * kX(turbidity_, angle, sun_angle_rad_, from_sun),
+                              zenith[1] * kY(turbidity_, angle, sun_angle_rad_, from_sun),
+                              zenith[2] * kLuminance(turbidity_, angle, sun_angle_rad_, from_sun));
 }
 
 Eigen::Vector3f SkyModel::sky(const Eigen::Vector3d& direction_W) const {

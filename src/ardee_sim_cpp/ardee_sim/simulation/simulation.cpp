@@ -8,6 +8,7 @@
 
 #include "ardee_sim/core/limits.h"
 #include "ardee_sim/core/rng.h"
+#include "ardee_sim/simulation/lone_pixels.h"
 #include "ardee_sim/simulation/plugins.h"
 
 namespace ardee {
@@ -326,6 +327,23 @@ render::Frame Simulation::take_picture(const render::Camera& camera,
       scenes_.register_eye(raycast::SceneKind::kVisual, [&camera] { return camera.X_WC.p; });
   scenes_.invalidate();
   return pictures_.take(camera, parts);
+}
+
+std::vector<std::size_t> Simulation::lone_pixels(const render::Camera& camera,
+                                                 const std::vector<std::uint32_t>& entities) const {
+  std::map<std::uint32_t, const Entity*> by_first;
+  for (const auto& entity : entities_) by_first[entity->robot->entity()] = entity.get();
+  std::vector<std::size_t> counts;
+  for (const std::uint32_t number : entities) {
+    const auto after = by_first.upper_bound(number);
+    const Entity* owner = after == by_first.begin() ? nullptr : std::prev(after)->second;
+    const std::size_t k = owner ? number - owner->robot->entity() : 0;
+    if (!owner || k >= owner->placements.size()) {
+      throw Error("found instance " + std::to_string(number + 1) + ", expected one of the scenery");
+    }
+    counts.push_back(ardee::lone_pixels(owner->placements[k], camera, options_.rays, log_));
+  }
+  return counts;
 }
 
 void Simulation::set_noise_seed(std::uint64_t seed) {

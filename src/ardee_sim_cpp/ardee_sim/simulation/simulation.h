@@ -175,6 +175,10 @@ class Simulation {
   const std::vector<physics::Contact>& contacts() const { return physics_.contacts(); }
   /// Takes a picture of the present world by a camera of nobody's.
   render::Frame take_picture(const render::Camera& camera, const render::FrameParts& parts);
+  /// The number of pixels that each of these models of the scenery, by ray entity, would cover in
+  /// that picture if nothing hid it. Throws Error for another number.
+  std::vector<std::size_t> lone_pixels(const render::Camera& camera,
+                                       const std::vector<std::uint32_t>& entities) const;
   /// Rays into the present world, for tools (pictures, labels).
   devices::RaySceneProvider& scenes() { return scenes_; }
 

@@ -156,5 +156,48 @@ TEST(Develop, AutomaticExposureLiftsADarkSceneAndLowersABrightOne) {
             automatic_exposure(even_frame(40, 40, {0.01f, 0, 0})));  // within limits
 }
 
+TEST(Develop, WhiteBalanceMultipliesTheLight) {
+  const Frame frame = uneven_frame(70, 3);
+  ImageFormation how = fixed(PixelFormat::kRgb8, 0.02);
+  how.white_balance = *parse_white_balance("1.25 1 0.5");
+  Frame multiplied = frame;
+  for (Eigen::Vector3f& light : multiplied.light)
+    light = {1.25f * light[0], light[1], 0.5f * light[2]};
+  EXPECT_EQ(form_image(frame, how, CounterRng(3)),
+            form_image(multiplied, fixed(PixelFormat::kRgb8, 0.02), CounterRng(3)));
+  how.white_balance = *parse_white_balance("off");
+  EXPECT_EQ(form_image(frame, how, CounterRng(3)),
+            form_image(frame, fixed(PixelFormat::kRgb8, 0.02), CounterRng(3)));
+}
+
+TEST(Develop, AGreyWorldHasEqualMeans) {
+  Frame frame = even_frame(8, 8, {0.2f, 0.4f, 0.1f});
+  frame.light[3] = {0.5f, 0.3f, 0.2f};
+  ImageFormation how = fixed(PixelFormat::kRgb8);
+  how.white_balance = *parse_white_balance("auto");
+  const Eigen::Vector3f gains = grey_world(frame);
+  EXPECT_NEAR(gains[0], (63 * 0.4 + 0.3) / (63 * 0.2 + 0.5), 1e-5);
+  EXPECT_NEAR(gains[2], (63 * 0.4 + 0.3) / (63 * 0.1 + 0.2), 1e-5);
+  const auto bytes = form_image(frame, how, CounterRng(1));
+  EXPECT_EQ(bytes[0], 99);  // 255 * 0.2 * gains[0]
+  EXPECT_EQ(bytes[1], 102);
+  EXPECT_EQ(bytes[2], 100);
+  EXPECT_EQ(grey_world(even_frame(8, 8, {0, 0, 0})), Eigen::Vector3f(1, 1, 1));
+  EXPECT_EQ(grey_world(even_frame(8, 8, {0.9f, 0.1f, 0.001f})), Eigen::Vector3f(0.25f, 1.0f, 4.0f));
+}
+
+TEST(Develop, DaylightOfATemperatureIsShownAsGrey) {
+  // sRGB's white is D65; D50, x 0.3457 and y 0.3585, is (1.1763, 0.9757, 0.7218) in linear sRGB.
+  EXPECT_NEAR((daylight_gains(6504.0) - Eigen::Vector3f(1, 1, 1)).norm(), 0.0, 2e-3);
+  const Eigen::Vector3f d50 = daylight_gains(5003.0);
+  EXPECT_NEAR(d50[0], std::pow(0.9757 / 1.1763, 1 / 2.2), 2e-3);
+  EXPECT_EQ(d50[1], 1.0f);
+  EXPECT_NEAR(d50[2], std::pow(0.9757 / 0.7218, 1 / 2.2), 2e-3);
+  for (const char* bad :
+       {"", "on", "3999", "25001", "1 2", "1 2 3 4", "1 0 1", "1 1 nan", "5000 K"}) {
+    EXPECT_FALSE(parse_white_balance(bad)) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace ardee

@@ -387,6 +387,10 @@ INSTANTIATE_TEST_SUITE_P(
         std::array<const char*, 3>{
             "", "<horizontalFovMin>1</horizontalFovMin><horizontalFovMax>0.9</horizontalFovMax>",
             "expected at least <horizontalFovMin>"},
+        std::array<const char*, 3>{"", "<whiteBalance>3000</whiteBalance>",
+                                   "expected off, auto, a colour temperature of 4000"},
+        std::array<const char*, 3>{"", "<exposureTime>2</exposureTime>", "found 2, expected"},
+        std::array<const char*, 3>{"", "<readoutTime>-1</readoutTime>", "found -1, expected"},
         std::array<const char*, 3>{"", "<depthNoiseLinear>-0.1</depthNoiseLinear>", "found -0.1"},
         std::array<const char*, 3>{"", "<pointCloudCutoffMax>0.1</pointCloudCutoffMax>",
                                    "expected more than <pointCloudCutoff>"},

@@ -12,6 +12,11 @@ _Placement = Tuple[str, str, np.ndarray, np.ndarray, float, int, int, Dict[int, 
 # name, position and quaternion in the model at rest, visible shapes
 _Link = Tuple[str, np.ndarray, np.ndarray, List[Dict[str, Any]]]
 
+# position, quaternion, width, height, field of view, near; velocities, times of exposure and readout
+_Camera = Tuple[
+    np.ndarray, np.ndarray, int, int, float, float, np.ndarray, np.ndarray, float, float
+]
+
 class Description:
     @property
     def name(self) -> str: ...
@@ -104,15 +109,13 @@ class Simulation:
     def take_log(self) -> List[Tuple[str, str]]: ...
     def picture(
         self,
-        xyz_m: np.ndarray,
-        quat_xyzw: np.ndarray,
-        width_px: int,
-        height_px: int,
-        horizontal_fov_rad: float,
-        near_m: float,
+        camera: _Camera,
+        exposure: Optional[float],
+        white_balance: str,
         light: bool,
         depth: bool,
         ids: bool,
         visuals: bool,
         /,
     ) -> Dict[str, np.ndarray]: ...
+    def lone_pixels(self, camera: _Camera, instances: Sequence[int], /) -> List[int]: ...

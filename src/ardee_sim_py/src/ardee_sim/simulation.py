@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A simulation: a world with robots, stepped by its owner."""
 
-import math
 import zlib
 from collections import Counter
 from pathlib import Path
@@ -13,13 +12,12 @@ from ardee_sim import _core, checks
 from ardee_sim.checks import Vector
 from ardee_sim.daylight import Daylight
 from ardee_sim.errors import ArdeeError
+from ardee_sim.pictures import camera_of, take_picture
 from ardee_sim.readings import make_reading
 from ardee_sim.state import Contact, Entity, LogLine, Snapshot, State, TopicInfo, Twist
 from ardee_sim.world import World, read_text
 
 _MOST_THREADS = 1024
-_MOST_PX = 10_000
-_WIDEST_RAD = math.pi - 1e-6  # of a picture
 _MOST_LABEL = 2**16 - 1  # that a label picture holds
 _CHECK_BYTES = 4  # of a snapshot, its last: CRC-32 of the others
 Command = Union[Twist, float, bool, Sequence[float], Mapping[str, Any]]
@@ -319,27 +317,32 @@ class Simulation:
     def render(self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any) -> np.ndarray:
         """Returns a picture, uint8[h, w, 3], of a camera at this pose: x forward, y left, z up.
 
-        lens : width_px=640, height_px=480, horizontal_fov_rad=1.2, near_m=0 (what is nearer is invisible)
+        lens : width_px=640, height_px=480, horizontal_fov_rad=1.2, near_m=0 (what is nearer is invisible);
+            v_m_s=(0, 0, 0), w_rad_s=(0, 0, 0): motion of the camera in the world's axes, which is seen if
+            exposure_time_s=0 (motion blur) or readout_time_s=0 (rolling shutter: row r of n begins r / n of it later)
+            is more than 0; the pose is that at the first row's start;
+            exposure=None: factor on the light, None chooses it by the picture;
+            white_balance="off": or "auto" (grey world), the colour temperature of daylight in K, or gains (r, g, b)
         """
-        return self._picture(xyz_m, quat_xyzw, ("rgb",), **lens)["rgb"]
+        return take_picture(self._core, xyz_m, quat_xyzw, ("rgb",), **lens)["rgb"]
 
     def depth_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns depths along the camera's axis, float32[h, w] in m, +inf where nothing is met. As render()."""
-        return self._picture(xyz_m, quat_xyzw, ("depth_m",), **lens)["depth_m"]
+        return take_picture(self._core, xyz_m, quat_xyzw, ("depth_m",), **lens)["depth_m"]
 
     def label_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns classes, uint16[h, w]: 0 nothing, 1 corn, 2 sorghum, 3 tobacco, 10 weed, ... As render()."""
-        return self._picture(xyz_m, quat_xyzw, ("labels",), **lens)["labels"]
+        return take_picture(self._core, xyz_m, quat_xyzw, ("labels",), **lens)["labels"]
 
     def instance_image(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
     ) -> np.ndarray:
         """Returns numbers of models, int32[h, w]: 0 nothing, Plant.instance, ... As render()."""
-        return self._picture(xyz_m, quat_xyzw, ("instances",), **lens)["instances"]
+        return take_picture(self._core, xyz_m, quat_xyzw, ("instances",), **lens)["instances"]
 
     def picture(
         self, xyz_m: Vector, quat_xyzw: Vector = (0, 0, 0, 1), **lens: Any
@@ -349,24 +352,20 @@ class Simulation:
         visuals : uint32[h, w], numbers of a model's parts: 0 nothing, those of Placement.visuals
         """
         layers = ("rgb", "depth_m", "labels", "instances", "visuals")
-        return self._picture(xyz_m, quat_xyzw, layers, **lens)
+        return take_picture(self._core, xyz_m, quat_xyzw, layers, **lens)
 
-    def _picture(
+    def lone_pixels(
         self,
+        instances: Sequence[int],
         xyz_m: Vector,
-        quat_xyzw: Vector,
-        parts: Sequence[str],
-        *,
-        width_px: int = 640,
-        height_px: int = 480,
-        horizontal_fov_rad: float = 1.2,
-        near_m: float = 0.0,
-    ) -> Dict[str, np.ndarray]:
-        width_px = checks.whole(width_px, "width_px", 1, _MOST_PX)
-        height_px = checks.whole(height_px, "height_px", 1, _MOST_PX)
-        view_rad = checks.number(horizontal_fov_rad, "horizontal_fov_rad", 1e-6, _WIDEST_RAD)
-        checks.number(near_m, "near_m", 0.0)
-        has_ids = "labels" in parts or "instances" in parts
-        wanted = ("rgb" in parts, "depth_m" in parts, has_ids, "visuals" in parts)
-        pose = checks.vector(xyz_m, "xyz_m"), checks.quaternion(quat_xyzw)
-        return self._core.picture(*pose, width_px, height_px, view_rad, near_m, *wanted)
+        quat_xyzw: Vector = (0, 0, 0, 1),
+        **lens: Any,
+    ) -> np.ndarray:
+        """Returns how many pixels of a picture each plant or piece of scenery would cover if nothing hid it, int64[n].
+
+        instances : numbers of instance_image(), of what stands still
+        lens : as render(), without exposure and white_balance
+        """
+        camera = camera_of(xyz_m, quat_xyzw, **lens)
+        numbers = [checks.whole(each, "instances", 1, 2**31 - 1) for each in instances]
+        return np.array(self._core.lone_pixels(camera, numbers), dtype=np.int64)

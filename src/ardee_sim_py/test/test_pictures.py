@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""Pictures of cameras in motion, their white balance, and what hides what, against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from ardee_sim import ArdeeError, Simulation, World
+
+EMPTY = (
+    "<sdf version='1.6'><world name='w'><gravity>0 0 0</gravity><scene><background>0 0 0 1</background></scene>"
+    "</world></sdf>"
+)
+LENS = {
+    "width_px": 320,
+    "height_px": 240,
+    "horizontal_fov_rad": 2 * math.atan(0.8),
+}  # 200 px of focal length
+FOCAL_PX = 200.0
+WALL = ((2.5, 4, 0), "1 8 8")  # ends in the middle of the picture, 2 m ahead
+NEAR, BEHIND = ((2, 0.4, 0), "0.2 0.8 0.8"), ((4, 0, 0), "0.2 1.6 0.8")
+
+
+def box(size: str) -> str:
+    """A box that glows in one grey."""
+    return (
+        f"<sdf version='1.6'><model name='m'><link name='l'><visual name='v'><geometry><box><size>{size}</size></box>"
+        "</geometry><material><ambient>0 0 0 1</ambient><diffuse>0 0 0 1</diffuse><emissive>0.4 0.4 0.4 1</emissive>"
+        "</material></visual></link></model></sdf>"
+    )
+
+
+def simulation(*boxes: tuple) -> Simulation:
+    sim = Simulation(World.from_string(EMPTY))
+    for k, (xyz_m, size) in enumerate(boxes):
+        sim.spawn(f"box{k}", box(size), xyz_m=xyz_m, is_static=True, label=k + 1)
+    return sim
+
+
+def test_a_camera_in_motion_sees_edges_lean_and_blur() -> None:
+    sim, speed, time_s = simulation(WALL), 0.5, 0.4
+    lean_px = speed * FOCAL_PX * time_s / 2.0
+    moving = {"xyz_m": (0, 0, 0), "v_m_s": (0, speed, 0), "exposure": 1.0, **LENS}
+    leaning = sim.picture(**moving, readout_time_s=time_s)
+    rows = np.arange(240)
+    for edge in ((leaning["labels"] == 1).sum(axis=1), (leaning["rgb"][:, :, 1] > 50).sum(axis=1)):
+        assert np.abs(edge - (160 + lean_px * rows / 240)).max() <= 1.5
+    blurred = sim.render(**moving, exposure_time_s=time_s)[100, :, 1]
+    ramp = 102 * np.clip((160 + lean_px - np.arange(320) - 0.5) / lean_px, 0, 1)
+    assert np.abs(blurred - ramp).max() <= 0.51 * 102 / lean_px + 1
+    still = sim.render(**{**moving, "v_m_s": (0, 0, 0)}, exposure_time_s=0.1, readout_time_s=0.1)
+    assert np.array_equal(still, sim.render((0, 0, 0), exposure=1.0, **LENS))
+
+
+def test_white_balance_is_a_gain() -> None:
+    sim, eye = simulation(WALL), {"xyz_m": (0, 0, 0), "exposure": 1.0, **LENS}
+    assert sim.render(**eye)[100, 10].tolist() == [102, 102, 102]
+    gained = sim.render(**eye, white_balance=(1.5, 1, 0.5))[100, 10]
+    assert gained.tolist() == [153, 102, 51]
+    assert sim.render(**eye, white_balance=6504)[100, 10].tolist() == [102, 102, 102]
+    warm = sim.render(**eye, white_balance=4500)[100, 10].astype(int)
+    assert warm[0] < 102 < warm[2]
+    assert sim.render(**{**eye, "exposure": 0.5})[100, 10].tolist() == [51, 51, 51]
+
+
+def test_lone_pixels_are_those_of_a_world_without_the_others() -> None:
+    sim, eye = simulation(NEAR, BEHIND), {"xyz_m": (0, 0, 0.1), **LENS}
+    seen = sim.label_image(**eye)
+    instances = [int(sim.instance_image(**eye)[seen == label][0]) for label in (1, 2)]
+    lone = sim.lone_pixels(instances, **eye)
+    alone = [int((simulation(each).label_image(**eye) > 0).sum()) for each in (NEAR, BEHIND)]
+    assert lone.tolist() == alone
+    assert (seen == 1).sum() == lone[0] and 0.2 < (seen == 2).sum() / lone[1] < 0.8
+    leaning = {**eye, "v_m_s": (0, 1, 0), "readout_time_s": 0.5}
+    moved = simulation(BEHIND).label_image(**leaning)
+    assert sim.lone_pixels(instances[1:], **leaning).tolist() == [int((moved > 0).sum())]
+    with pytest.raises(ArdeeError, match="found instance 9, expected one of the scenery"):
+        sim.lone_pixels([9], **eye)
+
+
+@pytest.mark.parametrize(
+    "given, message",
+    [
+        ({"exposure_time_s": 2}, "exposure_time_s: found 2, expected .*from 0 to 1"),
+        ({"readout_time_s": -1}, "readout_time_s: found -1, expected .*from 0 to 1"),
+        ({"exposure": 0}, "exposure: found 0, expected"),
+        ({"white_balance": 100}, "white_balance: found '100.0', expected off, auto"),
+        ({"v_m_s": (0, 1)}, "v_m_s: found .*expected 3 finite numbers"),
+    ],
+)
+def test_bad_arguments_are_refused(given: dict, message: str) -> None:
+    with pytest.raises(ArdeeError, match=message):
+        simulation().render((0, 0, 0), **given)
