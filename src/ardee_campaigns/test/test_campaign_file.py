@@ -129,34 +129,41 @@ def test_the_half_width_of_an_interval_is_students() -> None:
 def test_a_controller_is_known_by_all_files_of_its_package_or_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    package = tmp_path / "the_package"
+    package, other = tmp_path / "the_package", tmp_path / "other"
     files = [tmp_path / "lone.py", tmp_path / "helper.py", package / "deep/__init__.py"]
-    for file in (*files, package / "__init__.py", package / "main.py"):
+    files += [other / "deep/__init__.py"]
+    for file in (*files, package / "__init__.py", package / "main.py", other / "__init__.py"):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("")
     (tmp_path / ".#lone.py").symlink_to("no_file")  # as Emacs makes of a file that is edited
+    files[1].write_text("def f():\n    import other.deep")
     monkeypatch.syspath_prepend(tmp_path)
     found = []
     for changed in (None, *files):
         if changed:
-            changed.write_text("x = 1")
-        keys = (ControllerKeys(factory=f"{name}:make") for name in ("lone", "the_package.main"))
+            changed.write_text(f"import helper\n{changed.read_text()}\nx = 1")
+        keys = [ControllerKeys(factory=f"{name}:make") for name in ("lone", "the_package.main")]
+        keys.append(ControllerKeys(kind="udp", command=("python3", str(files[0]))))
         found.append([source_digest(one) for one in keys])
-    lone, packaged = zip(*found)
-    assert len(set(lone)) == 3 and lone[2] == lone[3]
+    for lone in [lone for lone, _, _ in found], [program for _, _, program in found]:
+        assert len(set(lone)) == 4 and lone[2] == lone[3]
+    packaged = [packaged for _, packaged, _ in found]
     assert len(set(packaged)) == 2 and packaged[2] != packaged[3]
 
 
-def test_a_program_is_known_by_the_files_that_its_command_names(tmp_path: Path) -> None:
+def test_a_program_is_known_by_the_files_that_its_command_names_and_those_they_load(
+    tmp_path: Path,
+) -> None:
     script = tmp_path / "node.py"
     keys = ControllerKeys(kind="ros", command=("python3", str(script), "{speed}"))
     found = []
-    for text in ("x = 1", "x = 2", "x = 1"):
+    for text in ("x = 1", "x = ", "x = 1"):
         script.write_text(text)
         found.append(source_digest(keys))
     assert found[0] == found[2] != found[1]
-    (script,) = files_of(["rosrun", "ardee_navigation", "row_follower"])
+    script, *loaded = files_of(["rosrun", "ardee_navigation", "row_follower"])
     assert script.parts[-3:] == ("ardee_navigation", "scripts", "row_follower")
-    (launch,) = files_of(["roslaunch", "--log", "gazebo_ros", "empty_world.launch", "a:=b"])
+    assert {"row_following.launch", "row_follower_node.py"} <= {file.name for file in loaded}
+    launch, *_ = files_of(["roslaunch", "--log", "gazebo_ros", "empty_world.launch", "a:=b"])
     assert launch.name == "empty_world.launch"
     assert files_of(["rosrun", "no_package", "node"]) == []

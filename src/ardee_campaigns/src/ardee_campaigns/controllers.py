@@ -15,7 +15,7 @@ from typing import Any, Callable, Mapping, Tuple
 import ardee_sim
 
 from ardee_campaigns.campaign_file import ControllerKeys
-from ardee_campaigns.program import files_of
+from ardee_campaigns.program import files_of, python_files
 from ardee_campaigns.robot import Robot
 from ardee_campaigns.udp import UdpController
 from ardee_common.errors import GeneratorError
@@ -41,25 +41,17 @@ def load_function(name: str, what: str) -> Callable[..., Any]:
 def source_digest(keys: ControllerKeys) -> str:
     """Returns a hash of a controller's source, so that one whose algorithm has changed is run anew.
 
-    It is that of the Python files of its factory's package, or of their folder if they are in none; of kind ros and udp
-    that of the files that its command names.
+    It is that of the names and contents of the files that python_files or, of kind ros and udp, files_of returns.
     """
     if keys.command:
-        contents = [file.read_bytes() for file in files_of(keys.command)]
-        return hashlib.sha256(b"\0".join(contents)).hexdigest()
-    name = keys.factory
-    spec = importlib.util.find_spec(name.partition(":")[0]) if name else None
-    if spec is None or not spec.origin or not Path(spec.origin).is_file():
-        return ""
-    folder = Path(spec.origin).parent
-    pattern = "**/*.py" if (folder / "__init__.py").is_file() else "*.py"
-    while (folder.parent / "__init__.py").is_file():
-        folder = folder.parent
-    texts = [
-        f"{file.relative_to(folder)}\0".encode() + file.read_bytes()
-        for file in sorted(folder.glob(pattern))
-        if file.is_file() and not any(part[0] == "." for part in file.relative_to(folder).parts)
-    ]
+        files = files_of(keys.command)
+    else:
+        name = keys.factory
+        spec = importlib.util.find_spec(name.partition(":")[0]) if name else None
+        if spec is None or not spec.origin or not Path(spec.origin).is_file():
+            return ""
+        files = python_files(Path(spec.origin))
+    texts = [f"{file.name}\0".encode() + file.read_bytes() for file in files]
     return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 

@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""Command lines of controllers that are programs: parameters put into their words, and their end with a worker."""
+"""Command lines of controllers that are programs: parameters put into their words, their end with a worker; sources."""
+import contextlib
 import ctypes
 import shutil
 import signal
+from modulefinder import ModuleFinder
 from pathlib import Path
-from typing import Any, List, Mapping, Optional, Sequence
+from typing import Any, Iterable, List, Mapping, Optional, Sequence
 
 from ardee_common.errors import GeneratorError
 
 _PR_SET_PDEATHSIG = 1
-_SYSTEM = ("/bin/", "/usr/bin/", "/opt/ros/")  # programs of the machine, no part of a controller
+_SYSTEM = (
+    "/bin/",
+    "/usr/bin/",
+    "/usr/share/",
+    "/opt/ros/",
+)  # the machine's, no part of a controller
+_SOURCES = ("**/*.py", "**/*.launch", "**/*.yaml")  # of a ROS package
 
 
 def end_with_parent(number: int) -> None:
@@ -47,12 +55,49 @@ def check(command: Sequence[str], params: Mapping[str, Any], places: Sequence[st
 
 
 def files_of(command: Sequence[str]) -> List[Path]:
-    """Returns the files that a command names: by path, as program on PATH, as what rosrun or roslaunch starts."""
-    found = [shutil.which(command[0])] + [word for word in command[1:] if Path(word).is_file()]
+    """Returns the files that a command names, and those that they may load.
+
+    Named are files by path, a program on PATH, and what rosrun or roslaunch starts. Loaded may be the Python and launch
+    files and parameters of the ROS package in which a named file lies; of one in none, what it imports from its folder.
+    """
+    names = [shutil.which(command[0])] + [word for word in command[1:] if Path(word).is_file()]
     if Path(command[0]).name in ("rosrun", "roslaunch"):
         words = [word for word in command[1:] if not word.startswith("-")]
-        found.append(_resource(*words[:2]) if len(words) > 1 else None)
-    return [Path(name) for name in found if name and not name.startswith(_SYSTEM)]
+        names.append(_resource(*words[:2]) if len(words) > 1 else None)
+    named = [Path(name) for name in names if name and not name.startswith(_SYSTEM)]
+    return named + [other for file in named for other in _loaded_by(file) if other not in named]
+
+
+def _loaded_by(file: Path) -> List[Path]:
+    for folder in file.resolve().parents:
+        if (folder / "package.xml").is_file():
+            return _shown(folder, (each for pattern in _SOURCES for each in folder.glob(pattern)))
+    with file.open("rb") as lines:
+        is_python = file.suffix == ".py" or b"python" in lines.readline(100)
+    return python_files(file) if is_python else []
+
+
+def python_files(file: Path) -> List[Path]:
+    """Returns the Python files of a file's package, or those of its folder and of packages there that it imports."""
+    folder = file.parent
+    if not (folder / "__init__.py").is_file():
+        finder = ModuleFinder([str(folder)])  # which reads files and runs none
+        with contextlib.suppress(SyntaxError, ValueError):  # of a file that Python cannot read
+            finder.run_script(str(file))
+        imported = [Path(each.__file__) for each in finder.modules.values() if each.__file__]
+        return _shown(folder, [*folder.glob("*.py"), *imported])
+    while (folder.parent / "__init__.py").is_file():
+        folder = folder.parent
+    return _shown(folder, folder.glob("**/*.py"))
+
+
+def _shown(folder: Path, files: Iterable[Path]) -> List[Path]:
+    """Returns the files, each once and in order, without those that are hidden or lead nowhere."""
+    return sorted(
+        file
+        for file in set(files)
+        if file.is_file() and not any(part[0] == "." for part in file.relative_to(folder).parts)
+    )
 
 
 def _resource(package: str, name: str) -> Optional[str]:
