@@ -17,7 +17,9 @@ class Page:
         kind = job.campaign.controllers[job.cell.controller].kind
         if kind != "python":  # its time is real, or its simulation in another process
             found = f"controller {job.cell.controller} of kind {kind}"
-            raise GeneratorError(f"--view: found {found}, expected one of kind python")
+            raise GeneratorError(
+                f"--view: found {found}, expected one of kind python; --bag takes any"
+            )
         try:
             from ardee_sim.view import Viewer
         except ImportError as error:

@@ -39,6 +39,11 @@ std::unique_ptr<Device> GazeboImu::make_on_sensor(const SensorDescription& senso
                                                   DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, link, sensor.X_LS * read_mounting(parameters), 0.0, context.seed}};
+  if (!parameters.has("updateRateHZ")) {
+    context.log.warn(parameters.source().to_string() +
+                     ": found no <updateRateHZ>, expected one: it defaults to 1, whatever the "
+                     "sensor's <update_rate>, as in Gazebo");
+  }
   const double rate_hz = parameters.number("updateRateHZ", 1.0, 0.0, limits::kMostRate_hz);
   params.mount.rate_hz = slower_rate_hz(sensor.update_rate_hz, rate_hz);
   params.gaussian_noise = parameters.number("gaussianNoise", 0.0, 0.0);

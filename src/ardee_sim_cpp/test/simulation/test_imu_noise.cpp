@@ -165,6 +165,8 @@ TEST(ImuNoise, stock_sensor_measures_once_a_second_unless_told) {
   world.spawn(ball("", "<static>true</static>", sensor), "ball");
   world.run(3.5);
   EXPECT_EQ(world.recorder().on<ImuReading>("/imu_data").size(), 3u);
+  ASSERT_EQ(world.messages().size(), 1u);
+  EXPECT_NE(world.messages()[0].find("found no <updateRateHZ>, expected one"), std::string::npos);
 }
 
 TEST(Vibration, has_its_deviation_and_its_band_at_any_step) {
