@@ -11,8 +11,9 @@ from markdown_text import code, table
 from ardee_bridge.nodes import settings
 from ardee_campaigns import campaign_file
 from ardee_common.options import kind_of, range_text, unit_of
-from ardee_datasets import light
+from ardee_datasets import camera, light
 from ardee_datasets import recipe as dataset
+from ardee_datasets import robots
 from ardee_models.plant.species import SpeciesFile
 from ardee_models.terrain.recipe import Recipe
 from ardee_navigation.evaluation.scenario_files import Scenario
@@ -36,7 +37,8 @@ FILES = (
     ("A factor of a campaign", "an entry of `factors`", campaign_file.FactorKeys),
     ("Data set", "a recipe of `rosrun ardee_datasets generate_dataset`", dataset.Recipe),
     ("Fields of a data set", "an entry of `fields`", dataset.FieldKeys),
-    ("A camera of a data set", "an entry of `cameras`", dataset.CameraKeys),
+    ("A camera of a data set", "an entry of `cameras`", camera.CameraKeys),
+    ("A robot of a data set", "an entry of `robots`", robots.RobotKeys),
     ("A lidar of a data set", "an entry of `lidars`", dataset.LidarKeys),
     ("Light of a data set", "its entry `light`", light.LightKeys),
     ("Sensor server", "`config/sensor_server.yaml` of ardee_bridge", settings.ServerSettings),

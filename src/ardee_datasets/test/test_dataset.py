@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from PIL import Image
+from small_sets import MOVING, RECIPE, generated, pixels, samples
 
 from ardee_datasets import rle, show_dataset
 from ardee_datasets.assemble import assemble, data_card
@@ -26,28 +26,6 @@ from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
 from ardee_datasets.sample import LAYERS
 from ardee_world.row_truth import Polyline, read_field
-
-RECIPE = """
-seed: 3
-fields:
-  corn:
-    fields: 2
-    frames: 2
-    options: {models: [corn_variant_1], row_length_m: 3.0, weed_density_per_m2: 2.0}
-    ranges: {row_spacing_m: [0.7, 0.8]}
-  late:
-    split: test
-    frames: 1
-    options: {models: [corn_variant_7], row_length_m: 3.0}
-cameras:
-  front: {width_px: 96, height_px: 72, horizontal_fov_deg: 70, height_m: [0.4, 0.6], pitch_deg: [10, 30]}
-lidars:
-  top: {sensor: vlp16, above_m: 0.2}
-"""
-
-
-def pixels(path: Path) -> np.ndarray:
-    return np.asarray(Image.open(path))
 
 
 def command(recipe: Path, folder: Path, workers: int) -> list:
@@ -67,6 +45,11 @@ def made(recipe: Path) -> Path:
     folder = recipe.parent / "made"
     assert main([str(recipe), "--output", str(folder), "--workers", "1"]) == 0
     return folder
+
+
+@pytest.fixture(scope="module")
+def moving(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return generated(tmp_path_factory.mktemp("moving"), MOVING)
 
 
 def test_annotations_agree_with_the_pictures(made: Path) -> None:
@@ -126,10 +109,6 @@ def test_organs_lie_where_a_plant_has_them(made: Path) -> None:
     assert seen == {"train": {"stalk", "leaf"}, "test": {"stalk", "leaf", "ear", "root"}}
 
 
-def samples(made: Path) -> list:
-    return [json.loads(path.read_text()) for path in sorted(made.glob("*/samples/*.json"))]
-
-
 def test_a_visible_foot_lies_in_the_mask_of_its_plant(made: Path) -> None:
     visible = 0
     for sample in samples(made):
@@ -143,12 +122,15 @@ def test_a_visible_foot_lies_in_the_mask_of_its_plant(made: Path) -> None:
     assert visible > 5
 
 
-def test_lines_of_rows_lie_on_the_rows_of_the_truth(made: Path) -> None:
+@pytest.mark.parametrize("which", ["made", "moving"])
+def test_lines_of_rows_lie_on_the_rows_of_the_truth(
+    which: str, request: pytest.FixtureRequest
+) -> None:
     """Ground that a line crosses, by its depth in the world, is nearest to the row at a place within a pixel of it."""
-    checked = 0
-    for sample in samples(made):
-        rows = read_field(made / "truth" / sample["scene"] / "truth.json").rows
-        split, name, X_WC = made / sample["split"], sample["id"], np.array(sample["X_WC"])
+    folder, checked, moved_px = request.getfixturevalue(which), 0, [0.0]
+    for sample in samples(folder):
+        rows = read_field(folder / "truth" / sample["scene"] / "truth.json").rows
+        split, name, X_WC = folder / sample["split"], sample["id"], np.array(sample["X_WC"])
         labels = pixels(split / "labels" / f"{name}.png")
         depth_m = pixels(split / "depth" / f"{name}.tiff")
         for u, v in (point for piece in sample["rows"] for point in piece["line_px"]):
@@ -158,14 +140,34 @@ def test_lines_of_rows_lie_on_the_rows_of_the_truth(made: Path) -> None:
             ):  # farther away, a ridge may hide the row
                 continue
             ray = np.linalg.inv(sample["K"]) @ (round(u), round(v), 1)
-            ground = X_WC[:3, :3] @ (ray * z) + X_WC[:3, 3]
+            then = X_WC.copy()  # when this row was exposed
+            time_s = sample["motion"]["readout_time_s"] * (round(v) / sample["height_px"] - 0.5)
+            then[:3, 3] += time_s * np.array(sample["motion"]["v_m_s"])
+            ground = then[:3, :3] @ (ray * z) + then[:3, 3]
             lines = [Polyline(row) for row in rows]
             line = min(lines, key=lambda line: abs(line.project(*ground[:2]).left_m))
             nearest = (*line.at(line.project(*ground[:2]).along_m)[:2], ground[2])
-            pixel, _ = project(np.array([nearest]), np.array(sample["K"]), X_WC)
+            pixel, _ = project(np.array([nearest]), np.array(sample["K"]), then)
             assert np.hypot(*(pixel[0] - (round(u), round(v)))) < 1.0
+            at_rest, _ = project(np.array([nearest]), np.array(sample["K"]), X_WC)
+            moved_px.append(np.hypot(*(at_rest[0] - pixel[0])))
             checked += 1
     assert checked > 50
+    assert (max(moved_px) > 5.0) == (which == "moving")
+
+
+def test_annotations_tell_row_place_and_the_hidden_share(made: Path) -> None:
+    hidden = []
+    for sample in samples(made):
+        truth = json.loads((made / "truth" / sample["scene"] / "truth.json").read_text())["plants"]
+        places = dict(zip(truth["id"], zip(truth["plot"], truth["row"], truth["place"])))
+        for one in sample["annotations"]:
+            assert ("row" in one) == (one["kind"] == "plant")
+            if one["kind"] == "plant":
+                number = int(one["truth_id"].rpartition("_")[2])
+                assert (one["plot"], one["row"], one["place"]) == tuple(places[number])
+            hidden.append(one["occluded"])
+    assert min(hidden) == 0.0 and 0.5 < max(hidden) < 1.0
 
 
 def test_boxes_of_yolo_are_those_of_coco(made: Path) -> None:
@@ -295,6 +297,17 @@ def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, m
         ("height_px: 72, ", "", "recipe.yaml:14: found neither sensor nor height_px"),
         ("width_px: 96", "sensor: reelsense_d435", "recipe.yaml:14: sensor: .*realsense_d435"),
         ("sensor: vlp16", "sensor: imu", "recipe.yaml:16: sensor: found 'imu'.*vlp16"),
+        (
+            "width_px: 96",
+            "white_balance: 3000, width_px: 96",
+            "14: white_balance: found 3000, expected off",
+        ),
+        ("width_px: 96", "lens: {dust: [2, 1]}, width_px: 96", "14: dust: found.*least, most"),
+        (
+            "lidars:",
+            "robots: {r: {robot: tsv9}}\nlidars:",
+            "15: robot: found no robot 'tsv9'.*tsv3",
+        ),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
         ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
     ],

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from ardee_datasets.motion import Motion
 from ardee_datasets.rows import (
     Row,
     foot_keypoint,
@@ -80,3 +81,34 @@ def test_a_foot_is_visible_only_where_its_own_stalk_shows() -> None:
     assert found() == [119.5, 74.5, 1]
     assert foot_keypoint(-foot, K, camera(0.0), mask, depth_m) == [0, 0, 0]
     assert foot_keypoint(foot * 0.5, K, camera(0.0), mask, depth_m) == [0, 0, 0]
+
+
+def test_points_appear_where_a_rolling_shutter_sees_them() -> None:
+    """Each apparent point projects to the pixel of the true one at its row's time; the middle row's are the true."""
+    motion = Motion(np.array([0.6, 0.9, 0.0]), np.array([0.1, -0.3, 0.4]), 0.02, 0.08)
+    X_WC, points = camera(10.0), np.random.default_rng(1).uniform((1, -1, 0), (4, 1, 1), (50, 3))
+    pixels, _ = project(motion.apparent(points, K, X_WC, SIZE), K, X_WC)
+    body = CameraPose(np.array([0.0, 0.0, HEIGHT_M]), Rotation.from_euler("Z", 10.0, degrees=True))
+    away_px = []
+    for point, (u, v) in zip(points, pixels):
+        if not (0 < u < SIZE[0] and 0 < v < SIZE[1]):
+            continue
+        time_s = 0.08 * (v / SIZE[1] - 0.5)
+        turned = Rotation.from_rotvec(time_s * motion.w_rad_s) * body.rotation
+        then = CameraPose(body.xyz_m + time_s * motion.v_m_s, turned).matrix()
+        assert np.allclose(project(point[None], K, then)[0], (u, v), atol=1e-3)
+        away_px.append(np.hypot(*(project(point[None], K, X_WC)[0][0] - (u, v))))
+    assert len(away_px) > 20 and max(away_px) > 1.0
+    begun_m, begun = motion.begin(body.xyz_m, body.rotation)
+    assert np.allclose(begun_m, (-0.03, -0.045, HEIGHT_M))
+    assert np.allclose(
+        (begun.inv() * body.rotation).magnitude(), 0.05 * np.linalg.norm(motion.w_rad_s)
+    )
+
+
+def test_at_rest_points_are_where_they_are() -> None:
+    motion = Motion(np.zeros(3), np.zeros(3), 0.1, 0.1)
+    body = Rotation.from_euler("Z", 10.0, degrees=True)
+    assert motion.begin(np.ones(3), body)[1] is body
+    points = np.random.default_rng(1).normal(size=(50, 3))
+    assert np.allclose(motion.apparent(points, K, camera(0.0), SIZE), points, atol=1e-15)

@@ -59,7 +59,8 @@ Files of a split, by the id of a sample, SCENE_FRAME:
 - clouds/LIDAR/velodyne/*.bin, labels/*.label: as SemanticKITTI has them: x, y, z [m], intensity, float32, in the
   lidar's frame X_WL of samples/*.json, which has the instances too; uint32, category id in the low 16 bits, instance
   above.
-- annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv. The keypoint
+- annotations.json: COCO with compressed RLE; truth_id is the row of truth.csv (plant_ID) or clutter.csv; occluded is
+  the share of its pixels that others hide; row and place are those of truth.csv. The keypoint
   of a plant is its stalk's foot on the ground: 2 if it is in sight, 1 if hidden, 0 if outside of the picture.
 - poses.csv: positions of the cameras.
 
@@ -67,6 +68,7 @@ yolo/ has the boxes in YOLO's form: data.yaml, labels/SPLIT/*.txt, images/SPLIT/
 {yolo}
 A field's pictures all belong to one split. manifest.json lists the sha256 of every file of it.
 The pictures are simulated: nothing moves in the wind, and {sun}.
+A camera in motion has X_WC in the middle of its exposure (key motion of samples/*.json).
 """
 
 

@@ -9,7 +9,7 @@ import tempfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
-from typing import Optional, Sequence
+from typing import Iterator, Optional, Sequence, Tuple
 
 from ardee_sim import ArdeeError
 
@@ -18,11 +18,13 @@ from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
 from ardee_common.process import Ended, end_by_signals, end_if_told, end_put_off
 from ardee_datasets.assemble import assemble, yolo_lack
+from ardee_datasets.camera import CameraKeys
+from ardee_datasets.drive import Drive
 from ardee_datasets.lidar import Lidar
 from ardee_datasets.plan import Scene, Shot, scenes, shots
 from ardee_datasets.recipe import Recipe, read_recipe
 from ardee_datasets.sample import take
-from ardee_datasets.scenery import Scenery
+from ardee_datasets.scenery import CameraPose, Scenery
 
 _SOWN = ".sown"  # folder of the fields at work; what a killed worker left goes with the next start
 _TRUTH = ("truth.csv", "truth.json", "clutter.csv")
@@ -35,6 +37,26 @@ def _is_done(folder: Path, scene: Scene, shot: Shot) -> bool:
 def is_complete(folder: Path, recipe: Recipe, scene: Scene) -> bool:
     """Returns whether all pictures of a scene are there."""
     return all(_is_done(folder, scene, shot) for shot in shots(recipe, scene))
+
+
+def _views(
+    recipe: Recipe, scene: Scene, scenery: Scenery
+) -> Iterator[Tuple[Shot, CameraKeys, CameraPose]]:
+    """Yields the pictures of a scene with their cameras and poses; robots come and drive after all other cameras."""
+    drive = None
+    for shot in shots(recipe, scene):
+        if not shot.robot:
+            keys = recipe.cameras[shot.camera]
+            yield shot, keys, scenery.draw_pose(keys, shot.seed)
+            continue
+        robot = recipe.robots[shot.robot]
+        if drive is None or drive.name != shot.robot:
+            if drive is not None:
+                drive.close()
+            drive = Drive(scenery, shot.robot, robot, scene.seed)
+        drive.to((shot.place + 0.5) / scene.keys.frames * drive.length_m)
+        camera = robot.cameras[shot.camera]
+        yield shot, camera.keys, drive.pose(camera)
 
 
 def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
@@ -54,9 +76,8 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
                 name: Lidar(scenery.simulation, name, keys)
                 for name, keys in sorted((recipe.lidars or {}).items())
             }
-            for shot in shots(recipe, scene):
-                camera = recipe.cameras[shot.camera]
-                take(scene, shot, camera, scenery, lidars, folder)
+            for shot, camera, pose in _views(recipe, scene, scenery):
+                take(scene, shot, camera, pose, scenery, lidars, folder)
     except (GeneratorError, ArdeeError) as error:
         raise GeneratorError(f"{scene.name}: {error}") from None
     return scene.name

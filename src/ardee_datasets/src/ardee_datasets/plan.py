@@ -44,6 +44,8 @@ class Shot:
     id: str
     camera: str
     seed: int
+    robot: str = ""  # which carries the camera; empty: none
+    place: int = 0  # of the robot's places along its lane
 
 
 def child_seed(seed: int, *names: object) -> int:
@@ -70,9 +72,14 @@ def scenes(recipe: Recipe) -> List[Scene]:
 
 def shots(recipe: Recipe, scene: Scene) -> Iterator[Shot]:
     """Yields the pictures of a scene, in the order of their ids."""
-    frame = 0
-    for camera in sorted(scene.keys.cameras or recipe.cameras):
-        for _ in range(scene.keys.frames):
-            seed = child_seed(scene.seed, "shot", frame)
-            yield Shot(f"{scene.name}_{frame:06d}", camera, seed)
-            frame += 1
+    wanted = scene.keys.cameras or (*(recipe.cameras or ()), *(recipe.robots or ()))
+    places = range(scene.keys.frames)
+    views = [
+        (name, "", k) for name in sorted(recipe.cameras or ()) if name in wanted for k in places
+    ]
+    for robot, read in sorted((recipe.robots or {}).items()):
+        if robot in wanted:
+            views += [(camera, robot, k) for k in places for camera in read.cameras]
+    for frame, (camera, robot, k) in enumerate(views):
+        seed = child_seed(scene.seed, "shot", frame)
+        yield Shot(f"{scene.name}_{frame:06d}", camera, seed, robot, k)

@@ -12,14 +12,14 @@ from ardee_sim.packages import find_package
 from ardee_common.config import Mapping, build, read_yaml_lines, unknown_key, value_of
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import kind_of, option
+from ardee_datasets.camera import CameraKeys
 from ardee_datasets.light import LightKeys
+from ardee_datasets.robots import Robot, RobotKeys, read_robot
 from ardee_world.request import all_fields
 
 SPLITS = ("train", "val", "test")
 _SOURCE_KEYS = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
-_HEIGHT_M = (0.05, 20.0)
 _COUNT = (1, 100_000)
-Range = Tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -29,35 +29,13 @@ class FieldKeys:
     split: str = option("train", "part of the data set", choices=SPLITS)
     fields: int = option(1, "number of fields", _COUNT)
     frames: int = option(10, "number of pictures that each camera takes in a field", _COUNT)
-    cameras: Tuple[str, ...] = option((), "names of the cameras that look at them; none: all")
+    cameras: Tuple[str, ...] = option(
+        (), "names of the cameras and robots that take pictures in them; none: all"
+    )
     options: Optional[dict] = option(None, "options of generate_field, as in a field's YAML file")
     ranges: Optional[dict] = option(
         None, "options of generate_field that each field draws from [least, most]"
     )
-
-
-@dataclass(frozen=True)
-class CameraKeys:
-    """A camera that looks along the rows; a pose is drawn for each picture."""
-
-    sensor: Optional[str] = option(None, "camera of ardee_sensors, such as realsense_d435")
-    width_px: Optional[int] = option(None, "width of the picture", (8, 8192))
-    height_px: Optional[int] = option(None, "height of the picture", (8, 8192))
-    horizontal_fov_deg: Optional[float] = option(None, "horizontal field of view", (1.0, 170.0))
-    height_m: Range = option((0.5, 0.5), "height above the ground", _HEIGHT_M)
-    pitch_deg: Range = option((0.0, 0.0), "tilt below the horizon", (-90.0, 90.0))
-    yaw_deg: Range = option((0.0, 0.0), "turn to the left of the lane", (-180.0, 180.0))
-    offset_m: Range = option((0.0, 0.0), "offset to the left of the lane's middle", (-10.0, 10.0))
-
-    def __post_init__(self) -> None:
-        for key in ("height_m", "pitch_deg", "yaw_deg", "offset_m"):
-            low, high = getattr(self, key)
-            if low > high:
-                raise GeneratorError(f"{key}: found [{low}, {high}], expected [least, most]")
-        numbers = ("width_px", "height_px", "horizontal_fov_deg")
-        missing = [key for key in numbers if getattr(self, key) is None]
-        if not self.sensor and missing:
-            raise GeneratorError(f"found neither sensor nor {', '.join(missing)}, expected one")
 
 
 @dataclass(frozen=True)
@@ -73,7 +51,8 @@ class Recipe:
     """A data set; the same recipe gives the same bytes."""
 
     fields: dict = option(dataclasses.MISSING, "kinds of fields, by name")
-    cameras: dict = option(dataclasses.MISSING, "cameras, by name")
+    cameras: Optional[dict] = option(None, "cameras, by name")
+    robots: Optional[dict] = option(None, "robots that drive with their cameras, by name")
     lidars: Optional[dict] = option(None, "3D lidars, by name")
     light: Optional[dict] = option(None, "light of sun and sky; none: each field has the same noon")
     seed: int = option(0, "root of all random numbers", (0, 2**63))
@@ -159,6 +138,26 @@ def _with_sensor(keys: CameraKeys, given: Mapping, name: str) -> CameraKeys:
     return dataclasses.replace(keys, **changes)
 
 
+def _cameras(recipe: Recipe) -> Dict[str, CameraKeys]:
+    if not recipe.cameras:
+        return {}
+    return {
+        name: _with_sensor(keys, recipe.cameras[name], name)
+        for name, keys in _named(CameraKeys, recipe.cameras, "cameras").items()
+    }
+
+
+def _robots(recipe: Recipe, folder: Path) -> Dict[str, Robot]:
+    robots = {}
+    for name, keys in (_named(RobotKeys, recipe.robots, "robots") if recipe.robots else {}).items():
+        try:
+            robots[name] = read_robot(keys, folder)
+        except GeneratorError as error:
+            assert recipe.robots
+            raise recipe.robots[name].error("", str(error)) from None
+    return robots
+
+
 def read_recipe(path: Path) -> Recipe:
     """Reads and checks a recipe. Raises GeneratorError with file and line."""
     given = read_yaml_lines(path)
@@ -171,19 +170,22 @@ def read_recipe(path: Path) -> Recipe:
             at = recipe.fields.error(name, "")
             text = str(error)
             raise error if text.startswith(str(path)) else GeneratorError(f"{at}{name}: {text}")
-    cameras = {
-        name: _with_sensor(keys, recipe.cameras[name], name)
-        for name, keys in _named(CameraKeys, recipe.cameras, "cameras").items()
-    }
+    cameras, robots = _cameras(recipe), _robots(recipe, path.parent)
+    if not cameras and not robots:
+        raise given.error("", "found neither cameras nor robots, expected some")
+    for name in sorted(set(cameras) & set(robots)):
+        raise recipe.robots.error(
+            name, f"robots: found {name!r}, expected another name than a camera's"
+        )
     for name, keys in fields.items():
         for camera in keys.cameras:
-            if camera not in cameras:
-                at = recipe.fields[name]
-                raise at.error(
-                    "cameras", f"cameras: found {camera!r}, {known_names(camera, cameras)}"
-                )
+            if camera not in cameras and camera not in robots:
+                known = known_names(camera, (*cameras, *robots))
+                raise recipe.fields[name].error("cameras", f"cameras: found {camera!r}, {known}")
     lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
     for name, keys in lidars.items():
         _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
     light = build(LightKeys, recipe.light) if recipe.light is not None else None
-    return dataclasses.replace(recipe, fields=fields, cameras=cameras, lidars=lidars, light=light)
+    return dataclasses.replace(
+        recipe, fields=fields, cameras=cameras, robots=robots, lidars=lidars, light=light
+    )

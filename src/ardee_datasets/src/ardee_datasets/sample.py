@@ -4,7 +4,7 @@
 import io
 import json
 import math
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Dict, List, Sequence, Tuple
 
@@ -13,10 +13,11 @@ from PIL import Image
 
 from ardee_common.output import write_file
 from ardee_datasets import rle
+from ardee_datasets.camera import CameraKeys
 from ardee_datasets.lidar import Lidar
+from ardee_datasets.motion import Motion
 from ardee_datasets.plan import Scene, Shot
-from ardee_datasets.recipe import CameraKeys
-from ardee_datasets.rows import foot_keypoint, nearest_direction, vanishing_point
+from ardee_datasets.rows import Row, Size, foot_keypoint, nearest_direction, vanishing_point
 from ardee_datasets.scenery import CameraPose, Item, Scenery
 
 # Layer to the ending of its files
@@ -70,8 +71,8 @@ def organs(own: np.ndarray, visuals: np.ndarray, items: Sequence[Item]) -> np.nd
     return table[own, column.reshape(own.shape)]
 
 
-def annotation(mask: np.ndarray, item: Item) -> Dict[str, Any]:
-    """Returns the COCO annotation of a mask, without its ids."""
+def annotation(mask: np.ndarray, item: Item, lone_px: int) -> Dict[str, Any]:
+    """Returns the COCO annotation of a mask, without its ids; `lone_px` counts its pixels if nothing hid it."""
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     x, y = int(columns[0]), int(rows[0])
     area = int(mask.sum())
@@ -80,20 +81,49 @@ def annotation(mask: np.ndarray, item: Item) -> Dict[str, Any]:
         "segmentation": {"size": list(mask.shape), "counts": rle.encode(mask)},
         "area": area,
         "visible_px": area,
+        "occluded": round(1.0 - area / lone_px, 4),
         "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
         "iscrowd": 0,
         "truth_id": item.truth_id,
         "kind": item.truth_id.rpartition("_")[0],
+        **item.place,
     }
 
 
-def keypoints(
-    mask: np.ndarray, item: Item, depth_m: np.ndarray, K: np.ndarray, X_WC: np.ndarray
-) -> Dict[str, Any]:
+@dataclass(frozen=True)
+class View:
+    """Geometry of a picture: intrinsics, optical frame in the world, width and height, motion."""
+
+    K: np.ndarray
+    X_WC: np.ndarray
+    size: Size
+    motion: Motion
+
+    def apparent(self, points_m: np.ndarray) -> np.ndarray:
+        """Returns points [n, 3] where the shutter lets them appear to a camera at rest."""
+        return self.motion.apparent(points_m, self.K, self.X_WC, self.size)
+
+    def description(self, rows: Sequence[Row]) -> Dict[str, Any]:
+        """Returns the entries of a sample about its camera and the rows in its picture."""
+        meeting = vanishing_point(nearest_direction(rows, self.X_WC[:2, 3]), self.K, self.X_WC)
+        seen = (replace(row, line_m=self.apparent(row.line_m)) for row in rows)
+        return {
+            "width_px": self.size[0],
+            "height_px": self.size[1],
+            "K": self.K.tolist(),
+            "X_WC": self.X_WC.tolist(),
+            "motion": self.motion.description(),
+            "rows": [one for row in seen for one in row.in_picture(self.K, self.X_WC, self.size)],
+            "vanishing_point_px": None if meeting is None else np.round(meeting, 2).tolist(),
+        }
+
+
+def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> Dict[str, Any]:
     """Returns the COCO keypoints of a plant, which are its foot; of clutter none."""
     if item.foot_m is None:
         return {}
-    foot = foot_keypoint(item.foot_m, K, X_WC, mask, depth_m)
+    (apparent,) = view.apparent(item.foot_m[None])
+    foot = foot_keypoint(apparent, view.K, view.X_WC, mask, depth_m)
     return {"keypoints": foot, "num_keypoints": int(foot[2] > 0)}
 
 
@@ -122,29 +152,47 @@ def _write_clouds(
     return made
 
 
+def _camera(keys: CameraKeys, pose: CameraPose, motion: Motion) -> Dict[str, Any]:
+    """Returns the arguments of Simulation.lone_pixels() for a camera."""
+    assert keys.width_px and keys.height_px and keys.horizontal_fov_deg
+    xyz_m, rotation = motion.begin(pose.xyz_m, pose.rotation)
+    return {
+        "xyz_m": xyz_m,
+        "quat_xyzw": rotation.as_quat(),
+        "width_px": keys.width_px,
+        "height_px": keys.height_px,
+        "near_m": keys.near_m,
+        "horizontal_fov_rad": math.radians(keys.horizontal_fov_deg),
+        "v_m_s": motion.v_m_s,
+        "w_rad_s": motion.w_rad_s,
+        "exposure_time_s": motion.exposure_time_s,
+        "readout_time_s": motion.readout_time_s,
+    }
+
+
 def take(
     scene: Scene,
     shot: Shot,
     keys: CameraKeys,
+    pose: CameraPose,
     scenery: Scenery,
     lidars: Dict[str, Lidar],
     folder: Path,
 ) -> None:
     """Takes a picture and writes its layers into folder/<split>; samples/<id>.json is last: with it, all is there."""
-    assert keys.width_px and keys.height_px and keys.horizontal_fov_deg
-    pose = scenery.draw_pose(keys, shot.seed)
+    motion = Motion(pose.v_m_s, pose.w_rad_s, keys.exposure_time_s, keys.readout_time_s)
+    camera = _camera(keys, pose, motion)
     taken = scenery.simulation.picture(
-        pose.xyz_m,
-        pose.rotation.as_quat(),
-        width_px=keys.width_px,
-        height_px=keys.height_px,
-        horizontal_fov_rad=math.radians(keys.horizontal_fov_deg),
+        **camera, exposure=keys.exposure, white_balance=keys.white_balance
     )
+    name = f"{shot.robot}_{shot.camera}" if shot.robot else shot.camera
+    lens = scenery.lens(name, keys)
     own, seen = numbered(taken["instances"], scenery.items)
     items = [scenery.items[instance] for instance in seen]
+    lone_px = scenery.simulation.lone_pixels(seen, **camera)
     depth = taken["depth_m"]
     layers = {
-        "rgb": taken["rgb"],
+        "rgb": lens.applied(taken["rgb"]),
         "labels": taken["labels"],
         "instances": own,
         "organs": organs(own, taken["visuals"], items),
@@ -153,32 +201,23 @@ def take(
     split = folder / scene.keys.split
     for layer, ending in LAYERS.items():
         write_file(split / layer / f"{shot.id}.{ending}", _picture_bytes(layers[layer], ending))
-    K, X_WC = intrinsics(keys), pose.matrix()
-    meeting = vanishing_point(nearest_direction(scenery.rows, pose.xyz_m), K, X_WC)
+    view = View(intrinsics(keys), pose.matrix(), (own.shape[1], own.shape[0]), motion)
     sample = {
         "id": shot.id,
         "scene": scene.name,
         "split": scene.keys.split,
-        "camera": shot.camera,
-        "width_px": keys.width_px,
-        "height_px": keys.height_px,
-        "K": K.tolist(),
-        "X_WC": X_WC.tolist(),
+        "camera": name,
         "stamp_ns": 0,
         "field_seed": scene.seed,
         "light": asdict(scenery.light) if scenery.light else None,
         "shot_seed": shot.seed,
+        "lens": lens.description(),
         "clouds": _write_clouds(split, shot, pose, scenery, lidars),
         "instances": {str(n): item.truth_id for n, item in enumerate(items, 1)},
         "annotations": [
-            {**annotation(own == n, item), **keypoints(own == n, item, depth, K, X_WC)}
-            for n, item in enumerate(items, 1)
+            {**annotation(own == n, item, alone), **keypoints(own == n, item, depth, view)}
+            for n, (item, alone) in enumerate(zip(items, lone_px.tolist()), 1)
         ],
-        "rows": [
-            piece
-            for row in scenery.rows
-            for piece in row.in_picture(K, X_WC, (keys.width_px, keys.height_px))
-        ],
-        "vanishing_point_px": None if meeting is None else np.round(meeting, 2).tolist(),
+        **view.description(scenery.rows),
     }
     write_file(split / "samples" / f"{shot.id}.json", json_bytes(sample))

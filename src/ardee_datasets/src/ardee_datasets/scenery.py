@@ -2,22 +2,25 @@
 """The field of a scene: sown in a folder, opened as a simulation, with poses for cameras in its lanes."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 from ardee_sim import Simulation, World, packages
+from ardee_sim.world import Placement, Plant
 from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
+from ardee_datasets.camera import CameraKeys, Range
+from ardee_datasets.lens import Lens
 from ardee_datasets.plan import Scene, stream
-from ardee_datasets.recipe import CameraKeys, Range
 from ardee_datasets.rows import read_rows
 from ardee_models.lookup import search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.generate_field import make_configured
-from ardee_world.row_truth import Polyline, read_field
+from ardee_world.row_truth import Lane, Polyline, Pose, lane_of, read_field
+from ardee_world.trial import standing_m
 from ardee_world.writers.world import world_text
 
 _TERRAIN = "heightmap_ground"
@@ -28,10 +31,12 @@ _WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of 
 
 @dataclass(frozen=True)
 class CameraPose:
-    """Pose of a camera in the world, x ahead, y left, z up."""
+    """Pose of a camera in the world, x ahead, y left, z up, and its motion in the world's axes."""
 
     xyz_m: np.ndarray
     rotation: Rotation
+    v_m_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
+    w_rad_s: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def body_matrix(self) -> np.ndarray:
         """Returns the pose as a 4x4 matrix."""
@@ -55,6 +60,27 @@ class Item:
     label: int
     visuals: Dict[int, str]  # names of its parts, by their numbers in pictures
     foot_m: Optional[np.ndarray] = None  # of a plant, in the world
+    place: Dict[str, int] = field(
+        default_factory=dict
+    )  # of a plant: plot, row in it, place in the row
+
+
+def _between(rows: Tuple[np.ndarray, np.ndarray], share: float) -> Pose:
+    """Returns the middle between two rows at a share of the first one's length, with that one's direction."""
+    one, other = (Polyline(row) for row in rows)
+    at = one.at(share * one.length_m)
+    left_m = other.project(at.x_m, at.y_m).left_m  # of the place on one row, seen from the other
+    side = at.yaw_rad - math.pi / 2
+    x, y = at.x_m + left_m / 2 * math.cos(side), at.y_m + left_m / 2 * math.sin(side)
+    return Pose(x, y, at.yaw_rad)
+
+
+def _item(placement: Placement, plant: Optional[Plant]) -> Item:
+    name = placement.name.rpartition("::")[2]
+    if plant is None:
+        return Item(name, placement.label, placement.visuals)
+    place = {"plot": plant.plot, "row": plant.row, "place": plant.place}
+    return Item(name, placement.label, placement.visuals, plant.xyz_m, place)
 
 
 class Scenery:
@@ -76,15 +102,10 @@ class Scenery:
         self._ground = ground_model(terrain, search_path(shipped))
         text = world_text(terrain, "field")
         world = World.from_string(text, base_dir=folder, model_paths=[folder, *shipped])
-        feet_m = {plant.instance: plant.xyz_m for plant in world.plants()}
+        plants = {plant.instance: plant for plant in world.plants()}
         self.rows = read_rows(self.folder / "truth.json", self._ground)
-        self.items: Dict[int, Item] = {
-            placement.instance: Item(
-                placement.name.rpartition("::")[2],
-                placement.label,
-                placement.visuals,
-                feet_m.get(placement.instance),
-            )
+        self.items = {
+            placement.instance: _item(placement, plants.get(placement.instance))
             for placement in world.placements()
             if placement.label
         }
@@ -92,12 +113,13 @@ class Scenery:
         self.light = scene.light()
         if self.light:
             self.simulation.set_light(self.light)
+        self._seed = scene.seed
+        self._field = read_field(self.folder / "truth.json")
         self._lanes = self._find_lanes()
 
     def _find_lanes(self) -> List[Tuple[np.ndarray, np.ndarray]]:
         """Returns the pairs of neighbouring rows that run side by side, as polylines [n, 2]."""
-        rows = read_field(self.folder / "truth.json").rows
-        lanes = []
+        rows, lanes = self._field.rows, []
         for left, right in zip(rows, rows[1:]):
             a, b = Polyline(left), Polyline(right)
             middle = a.at(a.length_m / 2)
@@ -109,6 +131,24 @@ class Scenery:
             raise GeneratorError("found no two rows side by side, expected a lane for the camera")
         return lanes
 
+    def lens(self, name: str, keys: CameraKeys) -> Lens:
+        """Returns the lens of a camera, with the dust and drops that it has in this field."""
+        if not keys.lens:
+            return Lens()
+        assert keys.width_px and keys.height_px
+        rng = stream(self._seed, "lens", name)
+        return keys.lens.draw(rng, (keys.width_px, keys.height_px))
+
+    def draw_lane(self, rng: np.random.Generator) -> Lane:
+        """Returns a lane to be driven along, either way."""
+        middle = _between(self._lanes[rng.integers(len(self._lanes))], 0.5)
+        yaw_rad = middle.yaw_rad + (math.pi if rng.integers(2) else 0.0)
+        return lane_of(self._field, middle._replace(yaw_rad=yaw_rad))
+
+    def standing_m(self, pose: Pose) -> float:
+        """Returns the height of a robot's base_footprint at a place."""
+        return standing_m(self._ground, pose)
+
     def draw_pose(self, keys: CameraKeys, seed: int) -> CameraPose:
         """Returns a pose in a lane, looking along it either way."""
         rng = stream(seed, "pose")
@@ -116,17 +156,13 @@ class Scenery:
         def within(limits: Range) -> float:
             return float(rng.uniform(*limits))
 
-        one, other = (Polyline(row) for row in self._lanes[rng.integers(len(self._lanes))])
-        at = one.at(float(rng.uniform(0.0, one.length_m)))
-        left_m = other.project(
-            at.x_m, at.y_m
-        ).left_m  # of the place on one row, seen from the other
+        at = _between(self._lanes[rng.integers(len(self._lanes))], float(rng.uniform()))
         offset = within(keys.offset_m)
         yaw = at.yaw_rad + (math.pi if rng.integers(2) else 0.0)
-        side = at.yaw_rad - math.pi / 2
-        x = at.x_m + left_m / 2 * math.cos(side) - offset * math.sin(yaw)
-        y = at.y_m + left_m / 2 * math.sin(side) + offset * math.cos(yaw)
+        x = at.x_m - offset * math.sin(yaw)
+        y = at.y_m + offset * math.cos(yaw)
         z = float(self._ground.height_at(np.array([x]), np.array([y]))[0]) + within(keys.height_m)
         turn = math.degrees(yaw) + within(keys.yaw_deg)
         turned = Rotation.from_euler("ZY", (turn, within(keys.pitch_deg)), degrees=True)
-        return CameraPose(np.array([x, y, z]), turned)
+        v_m_s = within(keys.speed_m_s) * np.array([math.cos(yaw), math.sin(yaw), 0.0])
+        return CameraPose(np.array([x, y, z]), turned, v_m_s)

@@ -25,6 +25,13 @@ HALF_TRACK_M = 0.24  # the wheels stand within this of the robot's middle
 START_SD_M, START_SD_RAD = 0.03, 0.05
 
 
+def standing_m(ground: Ground, pose: Pose) -> float:
+    """Returns the height of base_footprint at a place: the highest wheel determines it."""
+    around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
+    x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
+    return float(np.max(ground.height_at(x, y))) + STAND_M
+
+
 @dataclass(frozen=True)
 class Trial:
     """One run of a scenario, ready to be driven."""
@@ -37,9 +44,7 @@ class Trial:
 
     def height_m(self, pose: Pose) -> float:
         """Returns the height of base_footprint at a place: the highest wheel determines it."""
-        around = np.array([-HALF_TRACK_M, 0.0, HALF_TRACK_M])
-        x, y = pose.x_m + around[:, None], pose.y_m + around[None, :]
-        return float(np.max(self.ground.height_at(x, y))) + STAND_M
+        return standing_m(self.ground, pose)
 
 
 def included_names(world: Path) -> List[str]:

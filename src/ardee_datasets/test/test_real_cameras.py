@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""Cameras as they are in the field: with dust on the lens, on a robot that drives."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+from small_sets import DRIVEN, MOVING, generated, samples
+
+from ardee_datasets.sample import LAYERS
+from ardee_world.row_truth import Pose, lane_of, read_field
+
+
+def test_dust_and_drops_change_the_picture_alone(tmp_path: Path) -> None:
+    """Labels, depth and annotations stay."""
+    once = MOVING.replace("frames: 4", "frames: 1")
+    dirty = once.replace("speed_m_s", "lens: {dust: [20, 30], drops: [2, 3]}, speed_m_s")
+    moving, other = generated(tmp_path / "clean", once), generated(tmp_path / "dirty", dirty)
+    for sample, same in zip(samples(other), samples(moving)):
+        assert len(sample.pop("lens")) >= 22 and same.pop("lens") == []
+        assert sample == same
+        for layer, ending in LAYERS.items():
+            one, two = (
+                made / sample["split"] / layer / f"{sample['id']}.{ending}"
+                for made in (other, moving)
+            )
+            assert (one.read_bytes() == two.read_bytes()) == (layer != "rgb")
+
+
+def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path) -> None:
+    """At a sixth, a half, five sixths of the lane, left of its middle, at its speed, with its camera's view."""
+    made = generated(tmp_path, DRIVEN % "camera_front_sensor")
+    found = samples(made)
+    assert len(found) == 3 and {sample["camera"] for sample in found} == {
+        "terra_camera_front_sensor"
+    }
+    field = read_field(made / "truth" / "corn_0000" / "truth.json")
+    for k, sample in enumerate(found):
+        X_WC, v_m_s = np.array(sample["X_WC"]), np.array(sample["motion"]["v_m_s"])
+        yaw = math.atan2(X_WC[1, 2], X_WC[0, 2])
+        lane = lane_of(field, Pose(*X_WC[:2, 3], yaw))
+        here = lane.deviation(Pose(*X_WC[:2, 3], yaw))
+        assert abs(here.lateral_m - 0.05) < 0.05 and abs(here.heading_rad) < 0.2
+        assert abs(np.hypot(*v_m_s[:2]) - 0.9) < 0.1
+        if k:
+            away = np.linalg.norm(X_WC[:2, 3] - np.array(found[k - 1]["X_WC"])[:2, 3])
+            assert abs(away - lane.centre.length_m / 3) < 0.1
