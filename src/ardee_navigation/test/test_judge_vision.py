@@ -54,8 +54,9 @@ def test_the_sheet_shows_true_rows_and_those_found() -> None:
     rows = FieldRows(np.zeros(240), np.full(240, 40.0))
     moved = FieldRows(np.full(240, 10.0), rows.period_px)
     grey = np.full((240, 320, 3), 90, np.uint8)
+    moved.offset_px[:100] -= 40.0  # the same rows, counted from another one
     found, marks = {"one": rows, "other": moved}, {"one": 1.0, "other": 0.0}
-    picture = sheet([Judged("a.jpg", grey, rows, found, marks)])[120, :640].astype(int)
+    picture = sheet([Judged("a.jpg", grey, rows, found, marks)])[100, :640].astype(int)
     is_red = (picture[:, 0] - picture[:, 1] > 50).reshape(2, 320)
     is_white = (picture.min(axis=1) > 200).reshape(2, 320)
     assert not is_white[0].any() and set(np.flatnonzero(is_white[1]) % 40) == {0}

@@ -54,7 +54,8 @@ def _draw(
     colour: Tuple[int, int, int],
 ) -> None:
     v = np.flatnonzero(np.isfinite(rows.period_px))
-    offset_px, period_px = rows.offset_px[v], rows.period_px[v]
+    period_px = rows.period_px[v]
+    offset_px = np.unwrap(rows.offset_px[v] / period_px, period=1.0) * period_px
     first, last = ((side * width_px / 2.0 - offset_px) / period_px for side in (-1, 1))
     for row in range(int(np.ceil(first.min())), int(np.floor(last.max())) + 1):
         u = width_px / 2.0 + offset_px + row * period_px
