@@ -150,8 +150,8 @@ def is_command(file: Path) -> bool:
 def commands() -> List[str]:
     """Commands of packages and of the workspace, as a person types them."""
     scripts = [file for file in sorted(ROOT.glob("src/*/scripts/*")) if is_command(file)]
-    ours = [file for file in scripts if not file.parents[1].is_symlink()]
-    found = [f"rosrun {file.parents[1].name} {file.name}" for file in ours]
+    ours = {f.name: f for f in reversed(scripts) if not f.parents[1].is_symlink()}  # once a name
+    found = [f"rosrun {f.parents[1].name} {f.name}" for f in sorted(ours.values())]
     found += [f"rosrun ardee_sim_cpp {name}" for name in CPP_COMMANDS]
     return found + [f"scripts/{f.name}" for f in sorted(ROOT.glob("scripts/*")) if is_command(f)]
 

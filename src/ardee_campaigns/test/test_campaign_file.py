@@ -8,7 +8,7 @@ from typing import Any, Dict
 import pytest
 import small_campaign
 
-from ardee_campaigns.campaign_file import ControllerKeys, read_campaign
+from ardee_campaigns.campaign_file import CampaignKeys, ControllerKeys, read_campaign
 from ardee_campaigns.controllers import source_digest
 from ardee_campaigns.plan import Planner, cells, seed_of
 from ardee_campaigns.program import files_of
@@ -60,12 +60,23 @@ def test_seeds_are_paired_and_runs_are_known_by_their_inputs(tmp_path: Path) -> 
         sown.job(sown.cells[0], 0, tmp_path).run_id
         != changed.job(changed.cells[0], 0, tmp_path).run_id
     )
-    assert seed_of(1, "a", 0) != seed_of(1, "b", 0) != seed_of(2, "b", 0)
+    one, other = CampaignKeys(seed=1), CampaignKeys(seed=2)
+    assert seed_of(one, "a", 0) != seed_of(one, "b", 0) != seed_of(other, "b", 0)
+
+
+def test_a_first_seed_is_that_of_field_and_noise(tmp_path: Path) -> None:
+    planner = Planner(read_campaign(small_campaign.write(tmp_path, first_seed=7)))
+    jobs = [planner.job(cell, number, tmp_path) for cell in planner.cells for number in range(2)]
+    assert [(job.seed, job.field_seed) for job in jobs] == [(7, 7), (8, 8)] * 2
 
 
 CONSTANT = "ardee_campaigns.examples.constant:make"
 REFUSED: Dict[str, Any] = {
     "an unknown key": ({"replicate": 3}, "unknown key 'replicate'"),
+    "a last seed that no field has": (
+        {"first_seed": 2**31 - 2, "replicates": 3},
+        "first_seed: found a last seed above 2147483647",
+    ),
     "no controllers": ({"controllers": {}}, "controllers: found none"),
     "an empty factor": ({"factors": {"speed_m_s": []}}, "speed_m_s|values: found []"),
     "a value twice": ({"factors": {"speed_m_s": [1, 1.0]}}, "values: found [1, 1.0]"),

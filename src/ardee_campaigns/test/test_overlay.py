@@ -13,13 +13,13 @@ from small_campaign import run, write
 
 from ardee_campaigns import tables
 from ardee_campaigns.__main__ import main
+from ardee_campaigns.lane.real_run import read_scans, write_scans
+from ardee_campaigns.lane.scans import Scans
 from ardee_campaigns.overlay import figures
 from ardee_campaigns.overlay.look import QUANTITIES, compare, distance, look
 from ardee_campaigns.overlay.sources import read_recorded
 from ardee_campaigns.replay import ScanLog
 from ardee_navigation.control import make
-from ardee_navigation.evaluation.real_run import read_scans, write_scans
-from ardee_navigation.evaluation.scan_run import Scans
 
 LEFT_M, RIGHT_M, COUNT, NEAR_BEAM = 0.40, 0.36, 30, 100
 FIRST_RAD, STEP_RAD = -np.radians(135.0), np.radians(0.25)

@@ -14,10 +14,9 @@ from small_campaign import run, write
 
 from ardee_campaigns import tables
 from ardee_campaigns.__main__ import main
-from ardee_campaigns.report import figures, statistics
+from ardee_campaigns.report import drives, figures, statistics
 from ardee_campaigns.report.runs import Runs, chosen, read
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation import figures as drives
 
 COUNT = 400
 

@@ -1,23 +1,35 @@
 # SPDX-License-Identifier: MIT
 """Tests when a person steps in and when a run is over, down a straight lane of 10 m."""
-from typing import Iterable, List, Tuple
+import math
+from types import SimpleNamespace
+from typing import Any, Iterable, List, Optional, Tuple
 
 import numpy as np
 import pytest
+from ardee_sim import LidarReading
 
 from ardee_campaigns.campaign_file import TaskKeys
+from ardee_campaigns.outline import Contacts, rectangle
+from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.task import END_OF_ROW, GIVEN_UP, OUT_OF_TIME, WENT_ON, Judge
-from ardee_world.row_truth import Lane, Polyline, Pose
+from ardee_world.row_truth import Lane, Polyline, Pose, Stalks
 
 LANE = Lane(*(Polyline(np.array([[0.0, y], [10.0, y]])) for y in (0.5, -0.5, 0.0)))
 
 
-def judged(xs: Iterable[float], *, finished_at_s: float = 1e9) -> Tuple[str, float, List[str]]:
-    """Returns end and its time of a robot on the centre line, at one x after the other, and why a person stepped in."""
-    judge, reasons = Judge(TaskKeys(most_interventions=3), LANE, limit_s=60.0), []
+def judged(
+    xs: Iterable[float], *, finished_at_s: Optional[float] = None, slowest_m_s: float = 0.0
+) -> Tuple[str, float, List[str]]:
+    """Returns end and its time of a robot on the centre line, at one x after the other, and why a person stepped in.
+
+    finished_at_s : when the controller says that it is finished; None if it never says so
+    """
+    keys = TaskKeys(most_interventions=3, slowest_m_s=slowest_m_s)
+    judge, reasons = Judge(keys, LANE, limit_s=60.0), []
     for number, x_m in enumerate(xs):
         pose, time_s = Pose(x_m, 0.0, 0.0), number * 0.1
-        why, _ = judge.look(time_s, pose, LANE.deviation(pose), time_s >= finished_at_s)
+        is_finished = None if finished_at_s is None else time_s >= finished_at_s
+        why, _ = judge.look(time_s, pose, LANE.deviation(pose), is_finished)
         reasons += [why] if why else []
         if judge.end:
             return judge.end, time_s, reasons
@@ -41,6 +53,21 @@ def test_a_robot_that_says_so_has_ended_at_once() -> None:
     assert judged(until_m(9.6), finished_at_s=10.6) == (END_OF_ROW, pytest.approx(10.6), [])
 
 
+def test_a_robot_that_would_say_so_but_stands_near_the_end_is_held_there() -> None:
+    assert judged(until_m(9.6), finished_at_s=1e9)[0] == OUT_OF_TIME
+
+
+def test_a_robot_that_is_off_the_lane_is_set_back_to_its_middle() -> None:
+    judge = Judge(TaskKeys(), LANE, limit_s=60.0)
+    for x_m, y_m, expected in ((4.0, 0.37, ""), (4.1, -0.39, "off the lane"), (9.6, 0.39, "")):
+        pose = Pose(x_m, y_m, 0.1)
+        why, back = judge.look(0.0, pose, LANE.deviation(pose), False)
+        assert why == expected and bool(back) == bool(expected)
+        assert not back or back == pytest.approx((4.1, 0.0, 0.0))
+    stopped = judge.look(0.1, Pose(5.0, 0.1, 0.0), LANE.deviation(Pose(5.0, 0.1, 0.0)), True)
+    assert stopped == ("stopped in the row", pytest.approx((5.5, 0.0, 0.0)))
+
+
 def test_a_robot_that_stands_before_the_end_is_stuck_until_it_is_given_up() -> None:
     end, time_s, reasons = judged(until_m(5.0))
     assert (end, reasons) == (GIVEN_UP, ["stuck"] * 3)
@@ -48,4 +75,24 @@ def test_a_robot_that_stands_before_the_end_is_stuck_until_it_is_given_up() -> N
 
 def test_a_robot_that_goes_on_is_stopped_behind_the_row_or_at_the_limit() -> None:
     assert judged(until_m(99.0))[0] == WENT_ON
-    assert judged(np.linspace(0.0, 9.0, 700))[0] == OUT_OF_TIME
+    slow = np.linspace(0.0, 9.0, 700)
+    assert judged(slow)[:2] == (OUT_OF_TIME, pytest.approx(60.1))
+    # 30 s, and 15 m at 1 m/s
+    assert judged(slow, slowest_m_s=1.0)[:2] == (OUT_OF_TIME, pytest.approx(45.1))
+
+
+def test_returns_are_kept_at_their_own_places() -> None:
+    heading, pose = 0.1, Pose(4.0, 0.05, 0.1)
+    robot: Any = SimpleNamespace(pace="scan", sensor_xyz_m=np.array([0.2, 0.0, 0.3]))
+    stalks = Stalks(np.zeros((0, 2)), np.zeros(0))
+    recorder = Recorder(LANE, robot, Contacts(rectangle(0.5, 0.4), stalks))
+    lidar = np.array([4.0 + 0.2 * math.cos(heading), 0.05 + 0.2 * math.sin(heading)])
+    x, y = (
+        np.array([4.18, 0.40]) - lidar
+    )  # a post nearly abeam of the lidar, unlike the second beam
+    bearing, distance = math.atan2(y, x) - heading, math.hypot(x, y)
+    ranges = np.array([distance, 0.4, math.inf], dtype=np.float32)
+    scan = LidarReading(0, "", bearing, 0.0, 0.5, 0.0, 0.0, 0.0, 30.0, ranges, ranges)
+    recorder.take(0, pose, LANE.deviation(pose), (0.5, 0.0), (0.4, 0.4), {"scan": scan})
+    assert recorder.last("raw_along_m") == pytest.approx([4.18])
+    assert recorder.last("raw_lateral_m") == pytest.approx([distance * math.sin(bearing)])

@@ -30,6 +30,10 @@ def test_a_program_drives_and_one_that_ends_fails_its_run(tmp_path: Path) -> Non
     run(file, "--output", tmp_path / "out")
     found = {row["controller"]: row for row in tables.read_runs(tmp_path / "out").to_pylist()}
     assert found["lasts"]["status"] == tables.OK
+    kept = tables.read_run(tmp_path / "out", found["lasts"]["run_id"])
+    assert set(kept.samples["left_seen_m"].to_pylist()) == {0.4}  # as the program prints
+    count = len(kept.about["latency_ms"]) + kept.about["unanswered"] + 1  # and the first scan
+    assert count == len(kept.samples) and min(kept.about["latency_ms"]) > 0.0
     assert found["lasts"]["distance_m"] == pytest.approx(found["same"]["distance_m"], abs=0.05)
     assert found["ends"]["status"] == tables.FAILED
     assert found["ends"]["error"].endswith("has ended with exit code 0")

@@ -14,7 +14,6 @@ import yaml
 
 from ardee_common.config import from_values
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation import run_experiment
 from ardee_navigation.evaluation.scenario_files import read_parameters, read_scenarios
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.nodes import hil_row_follower, row_follower_node
@@ -163,11 +162,10 @@ def test_a_file_of_parameters_leaves_the_others_as_the_scenario_has_them(tmp_pat
     path.write_text("kp: 30\n")
     wanted = dataclasses.replace(SCENARIOS["tobacco"].parameters, kp=30.0)
     assert wanted.lane_width_m == 1.0 and Parameters().lane_width_m == 0.762
-    words = ["--scenario", "tobacco", "--parameters", str(path)]
-    assert run_experiment._scenario(run_experiment._arguments(words)).parameters == wanted
     settings = Settings(scenario="tobacco", parameters=str(path))
     assert row_follower_node._parameters(settings) == wanted
     by_camera = row_follower_node._parameters(Settings(follower="vision", scenario="tobacco"))
     assert by_camera == VisionParameters(lane_width_m=1.0)
+    words = ["--scenario", "tobacco", "--parameters", str(path)]
     words += ["--scenarios", str(WORLD / "config" / "scenarios.yaml")]
     assert hil_row_follower._parameters(hil_row_follower._arguments(words)) == wanted

@@ -12,6 +12,9 @@ MODULES = {
     "report": "ardee_campaigns.report.command",
     "compare": "ardee_campaigns.report.compare",
     "overlay": "ardee_campaigns.overlay.command",
+    "run_experiment": "ardee_campaigns.experiment.run_experiment",
+    "compare_experiments": "ardee_campaigns.experiment.compare_experiments",
+    "judge_lane": "ardee_campaigns.lane.judge_lane",
 }
 
 

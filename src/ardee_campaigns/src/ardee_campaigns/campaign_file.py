@@ -11,6 +11,7 @@ from ardee_common.config import Mapping, build, build_group, read_yaml_lines
 from ardee_common.errors import GeneratorError
 from ardee_common.options import bounded, converted, option
 
+LARGEST_SEED = 2**31 - 1  # of a field
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 Value = Any  # of a factor: a number, a text or a truth value
 
@@ -99,6 +100,9 @@ class TaskKeys:
     set_ahead_m: float = bounded(0.0, 100.0, 0.5)  # where a robot that stood is set down again
     overrun_m: float = bounded(0.0, 1000.0, 5.0)  # behind the row's end: the run is over
     most_interventions: int = bounded(1, 100_000, 100)  # then the run is given up
+    slowest_m_s: float = bounded(
+        0.0, 100.0, 0.0
+    )  # mean speed down the lane; a slower run is over; 0: limit_sim_s alone
     damage_penalty_m: float = bounded(0.0, 1000.0, 1.0)  # a touched plant, in fre_score_m; assumed
 
 
@@ -198,6 +202,11 @@ class CampaignKeys:
         None, "name to a robot; a text is its model (default: tsv1: tsv1_default)"
     )
     seed: int = option(0, "root of all random numbers", (0, 2**63))
+    first_seed: Optional[int] = option(
+        None,
+        "seed of the first replicate, in place of one drawn from `seed`; each further replicate's is 1 more",
+        (0, LARGEST_SEED),
+    )
     replicates: int = option(1, "runs of each combination; each has a seed", (1, 1_000_000))
     workers: int = option(0, "processes; 0: one for each core", (0, 10_000))
     limit_sim_s: float = option(120.0, "simulated time after which a run ends", (0.01, 1e6))
@@ -284,6 +293,10 @@ def read_campaign(file: Path) -> Campaign:
         raise mapping.error("plan", f"plan: measure {keys.plan.measure!r}, expected one of {known}")
     if keys.plan.kind == "until" and keys.replicates < 2:
         raise mapping.error("replicates", "replicates: found 1, expected 2 or more for plan until")
+    most = keys.plan.most_replicates if keys.plan.kind == "until" else keys.replicates
+    if keys.first_seed is not None and keys.first_seed + most - 1 > LARGEST_SEED:
+        found = f"found a last seed above {LARGEST_SEED}, the largest"
+        raise mapping.error("first_seed", f"first_seed: {found}")
     worlds = _entries(WorldKeys, mapping, "worlds", _world_text)
     robots = _entries(RobotKeys, mapping, "robots", lambda value: "model")
     controllers = _entries(ControllerKeys, mapping, "controllers", lambda value: "factory")

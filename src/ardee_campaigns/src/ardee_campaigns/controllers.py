@@ -3,14 +3,15 @@
 
 A controller has `reset()` and `step(observation, time_s)`, which returns an ardee_sim.Twist, or speed [m/s] and turn
 rate [rad/s]. It may have `close()`, called at its run's end, `seen`, the distances (left_m, right_m) from its sensor to
-the rows that it perceives, and `is_finished`, whether it has come to its end.
+the rows that it perceives, `is_finished`, whether it has come to its end, and `about`, a mapping that is kept with the
+run.
 """
 import hashlib
 import importlib
 import importlib.util
 import math
 from pathlib import Path
-from typing import Any, Callable, Mapping, Tuple
+from typing import Any, Callable, Mapping, Optional, Tuple
 
 import ardee_sim
 
@@ -100,6 +101,7 @@ def seen(controller: Any) -> Tuple[float, float]:
     return float(left), float(right)
 
 
-def is_finished(controller: Any) -> bool:
-    """Returns whether a controller says that it has come to its end."""
-    return bool(getattr(controller, "is_finished", False))
+def is_finished(controller: Any) -> Optional[bool]:
+    """Returns whether a controller says that it has come to its end; None if it never says so."""
+    said = getattr(controller, "is_finished", None)
+    return None if said is None else bool(said)

@@ -12,7 +12,7 @@ import numpy as np
 from ardee_sim.packages import find_package
 
 from ardee_campaigns import controllers, measures, robot, worlds
-from ardee_campaigns.campaign_file import Campaign, FactorKeys, Value
+from ardee_campaigns.campaign_file import Campaign, CampaignKeys, FactorKeys, Value
 from ardee_common.config import Mapping as Placed
 from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError
@@ -42,10 +42,17 @@ class Job:
     files: worlds.WorldFiles
     urdf: Path
 
+    @property
+    def field_seed(self) -> int:
+        """Returns the seed of the field, of which the generator takes 31 bits."""
+        return self.seed if self.campaign.keys.first_seed is not None else self.seed >> 33
 
-def seed_of(root: int, world: str, replicate: int) -> int:
+
+def seed_of(keys: CampaignKeys, world: str, replicate: int) -> int:
     """Returns the seed of a run: the same for all robots, controllers and factors, so that runs can be paired."""
-    return int.from_bytes(_digest([root, world, replicate])[:8], "big")
+    if keys.first_seed is not None:
+        return keys.first_seed + replicate
+    return int.from_bytes(_digest([keys.seed, world, replicate])[:8], "big")
 
 
 def _digest(value: Any) -> bytes:
@@ -179,7 +186,7 @@ class Planner:
     def job(self, cell: Cell, replicate: int, folder: Path) -> Job:
         """Returns a run; its robot's description is to be written in `folder`."""
         campaign, keys = self.campaign, self.campaign.keys
-        seed = seed_of(keys.seed, cell.world, replicate)
+        seed = seed_of(keys, cell.world, replicate)
         urdf = self.urdf(cell)
         name = hashlib.sha256(urdf.encode()).hexdigest()[:_DIGITS]
         controller = campaign.controllers[cell.controller]

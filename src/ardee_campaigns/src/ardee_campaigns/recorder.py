@@ -63,6 +63,10 @@ class Recorder:
         """Notes why a person stepped in after the last sample."""
         self._columns["event"][-1] = why
 
+    def last(self, name: str) -> Any:
+        """Returns a column's value of the last sample."""
+        return self._columns[name][-1]
+
     def time_s(self) -> float:
         """Returns the simulated time from the first to the last sample, NaN before the first."""
         times = self._columns["time_ns"]

@@ -9,11 +9,11 @@ from ardee_sim import LidarReading
 
 from ardee_campaigns import tables
 from ardee_campaigns.campaign_file import read_campaign
+from ardee_campaigns.lane.scans import Scans, returns_m
 from ardee_campaigns.plan import Job, Planner
 from ardee_campaigns.robot import Observation
 from ardee_common.errors import GeneratorError
 from ardee_common.output import write_file
-from ardee_navigation.evaluation.scan_run import Scans, returns_m
 
 FILE = "campaign_file.txt"  # in a campaign's folder: where the campaign's file lies
 ROBOTS = "robots"  # folder of descriptions in a campaign's folder

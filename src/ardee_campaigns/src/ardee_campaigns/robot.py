@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional
+from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import ardee_sim
 import numpy as np
@@ -71,7 +71,7 @@ def height_m(keys: RobotKeys, pose: Pose, trial: Optional[Trial]) -> float:
     """Returns the height of the robot's origin where it is set down; without a trial the ground is at 0."""
     if trial is None:
         return keys.stand_m
-    return trial.height_m(pose) - RobotKeys().stand_m + keys.stand_m
+    return trial.height_m(pose) + (keys.stand_m - RobotKeys().stand_m)
 
 
 class Driven:
@@ -181,6 +181,12 @@ class Driven:
         """Returns the robot's true pose on the ground plan."""
         state = self.sim.state(NAME)
         return Pose(float(state.xyz_m[0]), float(state.xyz_m[1]), state.yaw_rad)
+
+    def tilt(self) -> Tuple[float, float]:
+        """Returns the robot's roll and pitch [rad], about the fixed axes turned by its yaw."""
+        x, y, z, w = (float(value) for value in self.sim.state(NAME).quat_xyzw)
+        roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+        return roll, math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
 
     def set_pose(self, pose: Pose, trial: Trial) -> None:
         """Sets the robot down at a pose, at rest."""

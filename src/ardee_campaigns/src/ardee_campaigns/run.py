@@ -46,17 +46,25 @@ def sow(job: Job, folder: Path) -> Trial:
     """Returns the world of a run, with its field sown in a folder of models."""
     factors = factors_of(job.campaign, job.cell, "field")
     keys = job.campaign.worlds[job.cell.world]
-    seed = job.seed >> 33  # the generator takes 31 bits
-    return worlds.sow(keys, job.files, factors, seed, folder)
+    return worlds.sow(keys, job.files, factors, job.field_seed, folder)
+
+
+def _seconds(time_ns: int) -> float:
+    """Returns a time [s] as a ROS node has it, so that it and a controller in Python give the same answers."""
+    seconds, rest_ns = divmod(time_ns, 10**9)
+    return seconds + rest_ns / 1e9
 
 
 class Run:
-    """A run while it goes, and what it left behind even if it failed."""
+    """A run while it goes, and what it left behind even if it failed.
+
+    driven, controller, judge, recorder : its parts, once it goes
+    """
 
     def __init__(self, job: Job, show: Optional[Show] = None) -> None:
         self._job, self._show = job, show
         self._keys = job.campaign.keys
-        self._recorder: Optional[Recorder] = None
+        self.recorder: Optional[Recorder] = None
         self.about: Dict[str, Any] = {}
         self.measured: Dict[str, float] = {}
         self.end = ""
@@ -68,18 +76,18 @@ class Run:
         lane = lane_of(trial.field, trial.start)
         middle = lane.deviation(lane.centre.at(lane.centre.length_m / 2))
         with contextlib.ExitStack() as ends:
-            driven = self._driven(trial, work, ends)
+            driven = self.driven = self._driven(trial, work, ends)
             robot = driven.spawn(trial.start, trial)
             contacts = Contacts(robot.outline_m, trial.field.stalks)
-            self._recorder = Recorder(lane, robot, contacts)
+            self.recorder = Recorder(lane, robot, contacts)
             self.about = {
                 "length_m": lane.centre.length_m,
                 "width_m": middle.left_m + middle.right_m,
                 "lidar_ahead_m": float(robot.sensor_xyz_m[0]),
                 "world_file": str(trial.world.name),
             }
-            judge = Judge(self._keys.task, lane, self._keys.limit_sim_s)
-            controller = controllers.make(
+            judge = self.judge = Judge(self._keys.task, lane, self._keys.limit_sim_s)
+            controller = self.controller = controllers.make(
                 campaign.controllers[cell.controller], params_of(campaign, cell), robot, job.seed
             )
             if is_ros(job):
@@ -90,9 +98,10 @@ class Run:
             self._loop(driven, controller, judge, lane, trial, watch)
             if is_ros(job):
                 controller.check_end()
+            self.about.update(getattr(controller, "about", {}))
         self.end = judge.end
         recorded = measures.Recorded(
-            self._recorder.columns(),
+            self.recorder.columns(),
             lane,
             self.about["width_m"],
             contacts,
@@ -122,12 +131,12 @@ class Run:
         trial: Any,
         watch: Watch,
     ) -> None:
-        recorder = self._recorder
+        recorder = self.recorder
         assert recorder is not None
         while not judge.end:
             time_ns = driven.advance()
             observation = driven.observation()
-            command = controllers.checked(controller.step(observation, time_ns * 1e-9))
+            command = controllers.checked(controller.step(observation, _seconds(time_ns)))
             driven.command(*command)
             pose = driven.pose()
             here = lane.deviation(pose)
@@ -157,10 +166,10 @@ class Run:
             status=tables.FAILED if error else tables.OK,
             error=error,
             end_reason="" if error else self.end,
-            sim_s=self._recorder.time_s() if self._recorder else math.nan,
+            sim_s=self.recorder.time_s() if self.recorder else math.nan,
             measures={} if error else self.measured,
         )
-        samples = self._recorder.table() if self._recorder else tables.RUN_FILE_SCHEMA.empty_table()
+        samples = self.recorder.table() if self.recorder else tables.RUN_FILE_SCHEMA.empty_table()
         timing = tables.Timing(job.run_id, wall_s, socket.gethostname())
         return tables.RunFile(row, timing, samples, self.about)
 

@@ -168,7 +168,7 @@ class Session:
 
 def half_width(values: Sequence[float]) -> float:
     """Returns half of the 95 % Student interval of the mean; infinite for less than two values."""
-    from ardee_navigation.evaluation.comparison import mean_interval
+    from ardee_campaigns.report.statistics import mean_interval
 
     if len(values) < 2:
         return math.inf
@@ -279,7 +279,7 @@ def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None
     """Writes the bag of a run: of the campaign's, which need not be `done` if it was in real time."""
     from ardee_campaigns.engine import EngineError
     from ardee_campaigns.ros.process import Lost, apart
-    from ardee_navigation.evaluation.simulation import SimulationError
+    from ardee_campaigns.ros.simulator import SimulationError
 
     if tables.run_path(folder, job.run_id).is_file():
         done = tables.read_run(folder, job.run_id)
@@ -295,8 +295,8 @@ def _replay(session: Session, args: argparse.Namespace) -> int:
     """Does one run again in this process."""
     import pyarrow.csv
 
+    from ardee_campaigns.lane.real_run import write_scans
     from ardee_campaigns.run import run_one
-    from ardee_navigation.evaluation.real_run import write_scans
 
     run_id = args.replay
     write_bag = _bag_writer() if args.bag else None

@@ -7,6 +7,7 @@ from typing import Deque, Optional, Tuple
 from ardee_campaigns.campaign_file import TaskKeys
 from ardee_world.row_truth import Deviation, Lane, Pose
 
+_SPARE_S = 30.0  # to come to the row
 GIVEN_UP, OUT_OF_TIME = "given up", "out of time"
 OFF_THE_LANE = "off the lane"
 END_OF_ROW, WENT_ON, FINISHED = "end of the row", "went on after the row", "controller finished"
@@ -23,20 +24,26 @@ class Judge:
 
     def __init__(self, keys: TaskKeys, lane: Lane, limit_s: float) -> None:
         self._keys, self._lane, self._limit_s = keys, lane, limit_s
+        if keys.slowest_m_s:
+            way_m = lane.centre.length_m + keys.overrun_m
+            self._limit_s = min(limit_s, _SPARE_S + way_m / keys.slowest_m_s)
         self._track: Deque[Tuple[float, Pose]] = deque()
         self._interventions = 0
         self.end = ""
 
     def look(
-        self, time_s: float, pose: Pose, here: Deviation, is_finished: bool
+        self, time_s: float, pose: Pose, here: Deviation, is_finished: Optional[bool]
     ) -> Tuple[str, Optional[Pose]]:
-        """Returns why a person steps in, or nothing, and where the robot is set down; time from the start [s]."""
+        """Returns why a person steps in, or nothing, and where the robot is set down; time from the start [s].
+
+        A controller that never says whether it is finished (None) is, where the robot stands near the row's end.
+        """
         if self._keys.kind == "free":
             self.end = FINISHED if is_finished else OUT_OF_TIME if time_s > self._limit_s else ""
             return "", None
         stands = self._stands(time_s, pose)
-        why = self._why_step_in(here, stands, is_finished)
-        self._note_end(time_s, here, stands or is_finished, why)
+        why = self._why_step_in(here, stands, bool(is_finished))
+        self._note_end(time_s, here, stands if is_finished is None else is_finished, why)
         if not why or self.end:
             return "", None
         self._interventions += 1

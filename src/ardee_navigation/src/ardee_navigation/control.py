@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The row follower as a controller of a campaign: ardee_navigation.control:make."""
-from typing import Any, Mapping, Tuple
+from typing import Any, Mapping, Optional, Tuple
 
 import numpy as np
 
 from ardee_common.config import from_values
-from ardee_navigation.lbirnt import Parameters, RowFollower, State
+from ardee_navigation.lbirnt import Output, Parameters, RowFollower, State
 
 
 class Controller:
@@ -13,6 +13,7 @@ class Controller:
 
     seen : distances (left_m, right_m) from the lidar to the rows in use
     points : numbers of returns to which the left and the right line were fitted
+    output : all of the last answer, None before the first
     is_finished : whether both rows have ended
     """
 
@@ -25,6 +26,7 @@ class Controller:
         self._follower.reset()
         self.seen: Tuple[float, float] = (np.nan, np.nan)
         self.points = (0, 0)
+        self.output: Optional[Output] = None
         self.is_finished = False
 
     def step(self, observation: Mapping[str, Any], time_s: float) -> Tuple[float, float]:
@@ -34,7 +36,7 @@ class Controller:
         angle_min, increment = (
             float(np.float32(value)) for value in (scan.angle_min_rad, scan.angle_increment_rad)
         )
-        output = self._follower.update(scan.ranges_m, angle_min, increment, time_s)
+        output = self.output = self._follower.update(scan.ranges_m, angle_min, increment, time_s)
         self.seen = (output.lane.left.distance_m, -output.lane.right.distance_m)
         self.points = (len(output.sides[0]), len(output.sides[1]))
         self.is_finished = output.state is State.FINISHED

@@ -203,9 +203,9 @@ def _overlay(args: argparse.Namespace) -> Path:
 def _write(
     folder: Path, args: argparse.Namespace, real: Any, runs: Sequence[Any], lines: Sequence[Any]
 ) -> Path:
+    from ardee_campaigns.lane import lane_picture
     from ardee_campaigns.overlay import figures
     from ardee_campaigns.report.page import Page
-    from ardee_navigation.evaluation import lane_picture
 
     figures.distances(folder / "distances.png", real, runs[0])
     figures.distributions(folder / "distributions.png", lines)

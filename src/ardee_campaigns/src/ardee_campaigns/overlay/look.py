@@ -8,8 +8,9 @@ from ardee_sim import LidarReading
 from scipy import stats
 
 from ardee_campaigns.controllers import seen
+from ardee_campaigns.lane.scans import Scans
+from ardee_campaigns.report.statistics import Quantity
 from ardee_campaigns.robot import Robot
-from ardee_navigation.evaluation.scan_run import Scans
 
 PAUSE_S = 0.5  # between two scans: the robot may have been carried, so the controller begins anew
 CONSECUTIVE_S = 0.1  # scans farther apart are not compared
@@ -77,15 +78,6 @@ def _reading(scans: Scans, time_s: float, ranges_m: np.ndarray, period_s: float)
     return LidarReading(
         round(time_s * 1e9), "lidar", *angles, *times, 0.0, farthest, ranges, nothing
     )
-
-
-class Quantity(NamedTuple):
-    """Something whose distribution is compared."""
-
-    name: str
-    text: str  # with the unit of what is shown
-    scale: float  # from SI
-    digits: int
 
 
 QUANTITIES = (

@@ -6,12 +6,12 @@ from typing import Any, List, Optional, Sequence, Tuple
 import numpy as np
 
 from ardee_campaigns import tables
+from ardee_campaigns.lane.real_run import LIDAR_LOG, read_scans
+from ardee_campaigns.lane.scans import Scans, returns_m
 from ardee_campaigns.replay import Replayer, ScanLog, in_lane
 from ardee_campaigns.run import run_one
 from ardee_common.cli import steps
 from ardee_common.errors import GeneratorError, known_names
-from ardee_navigation.evaluation.real_run import LIDAR_LOG, read_scans
-from ardee_navigation.evaluation.scan_run import Scans, returns_m
 
 Named = Tuple[str, Scans]
 

@@ -6,8 +6,8 @@ from typing import Any, List, Optional, Sequence
 from ardee_campaigns.report import figures, statistics
 from ardee_campaigns.report.page import Page
 from ardee_campaigns.report.runs import Runs, short, shown
+from ardee_campaigns.report.statistics import Interval
 from ardee_common.errors import GeneratorError, known_names
-from ardee_navigation.evaluation.comparison import Interval
 
 HEADS = ("measure", "pairs", "mean of the first", "of the other", "difference", "95 % interval", "")
 

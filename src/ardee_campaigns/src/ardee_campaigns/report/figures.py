@@ -31,8 +31,8 @@ class StepIn:
 class Drawn:
     """A run of a campaign as the figures of a drive want it."""
 
-    def __init__(self, run: tables.RunFile) -> None:
-        self._samples, self.title = run.samples, run.row.run_id
+    def __init__(self, run: tables.RunFile, title: str) -> None:
+        self._samples, self.title = run.samples, title
         self.length_m, self.lidar_ahead_m = run.about["length_m"], run.about["lidar_ahead_m"]
         events = self._samples["event"].to_pylist()
         along = self.column("along_m")

@@ -9,12 +9,11 @@ import pyarrow.parquet as pq
 
 from ardee_campaigns import tables
 from ardee_campaigns.replay import FILE, Replayer
-from ardee_campaigns.report import comparison, figures, statistics, strips
+from ardee_campaigns.report import comparison, drives, figures, statistics, strips
 from ardee_campaigns.report.comparison import three, with_interval
 from ardee_campaigns.report.page import Page
 from ardee_campaigns.report.runs import NAMES, Runs, short, shown
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation import figures as drives
 
 FIGURED = 6  # measures in the figure of effects
 _MOST_ROWS = 200  # of a table of combinations
@@ -193,7 +192,7 @@ class Report:
         run = tables.read_run(self._folder, run_id)
         if replayer:
             self._strip(run, replayer, name)
-        drawn = figures.Drawn(run)
+        drawn = figures.Drawn(run, run_id)
         for draw, what, words in (
             (drives.perceived_distances, "distances", "Raw lidar and perceived distances"),
             (drives.errors, "errors", "Offset and heading from the lane's centre line"),

@@ -11,18 +11,47 @@ import numpy as np
 from scipy import stats
 
 from ardee_campaigns.report.runs import Runs
-from ardee_navigation.evaluation.comparison import (
-    CONFIDENCE,
-    Interval,
-    mean_interval,
-    poisson_interval,
-)
 
+CONFIDENCE = 0.95
 DRAWS = 1000  # of a bootstrap
 MOST_LEVELS = 8  # a number with more different values is a scale, not a set of levels
 # Measures that count events
 COUNTS = ("interventions", "collisions", "plants_touched", "plants_knocked")
+
+
+class Interval(NamedTuple):
+    """An estimate and the interval that holds the true value with the stated confidence."""
+
+    estimate: float
+    low: float
+    high: float
+
+
+class Quantity(NamedTuple):
+    """Something that is measured, and how it is shown."""
+
+    name: str
+    text: str  # with the unit of what is shown
+    scale: float  # from SI
+    digits: int
+
+
 NONE = Interval(math.nan, math.nan, math.nan)
+
+
+def mean_interval(values: Sequence[float]) -> Interval:
+    """Returns the interval of the mean of two or more normal values (Student)."""
+    mid = float(np.mean(values))
+    error = float(np.std(values, ddof=1)) / math.sqrt(len(values))
+    reach = float(stats.t.ppf(0.5 + CONFIDENCE / 2.0, len(values) - 1)) * error
+    return Interval(mid, mid - reach, mid + reach)
+
+
+def poisson_interval(count: int) -> Interval:
+    """Returns the interval of the expectation of a Poisson count (Garwood 1936)."""
+    tail = (1.0 - CONFIDENCE) / 2.0
+    low = float(stats.chi2.ppf(tail, 2 * count)) / 2.0 if count else 0.0
+    return Interval(float(count), low, float(stats.chi2.ppf(1.0 - tail, 2 * count + 2)) / 2.0)
 
 
 def mean(values: np.ndarray) -> Interval:

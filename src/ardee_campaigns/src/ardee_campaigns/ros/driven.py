@@ -18,8 +18,8 @@ from sensor_msgs.msg import BatteryState, LaserScan
 
 from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import SETTLE_S, Observation, Robot, describe, height_m
+from ardee_campaigns.ros.simulator import RosSimulation
 from ardee_common.ros_graph import wait_until
-from ardee_navigation.evaluation.ros_simulation import RosSimulation
 from ardee_world.row_truth import Pose
 from ardee_world.trial import Trial
 

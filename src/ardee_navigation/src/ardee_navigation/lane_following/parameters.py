@@ -3,7 +3,7 @@
 
 [field] one published field deployment of LBIRNT on this robot: PID 25 / 0 / 5 on a turn command of 0 to 100 with 50 as
 straight ahead, about 0.5 m/s, lane 0.756 m. [robot] limits of the TerraSentia. [real run] what the figures of
-config/real_lane.yaml speak for (README). [own] chosen here.
+real_lane.yaml speak for (README). [own] chosen here.
 """
 import math
 from dataclasses import dataclass, fields

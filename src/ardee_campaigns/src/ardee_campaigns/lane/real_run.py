@@ -13,8 +13,8 @@ from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 
+from ardee_campaigns.lane.scans import Perceived, Scans
 from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation.scan_run import Perceived, Scans
 
 LIDAR_LOG, PERCEPTION_LOG = "lidar_log.csv", "perception_lidar_log.csv"
 BEAMS = (1080, 1081)  # the UST-10LX's 270 degrees, without and with the last beam

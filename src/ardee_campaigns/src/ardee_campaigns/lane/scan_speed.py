@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.spatial import cKDTree
 
-from ardee_navigation.evaluation.scan_run import Scans
+from ardee_campaigns.lane.scans import Scans
 
 LAG_S = 0.2  # between the two scans of a pair
 PAIRS = 8  # of a run, evenly spread

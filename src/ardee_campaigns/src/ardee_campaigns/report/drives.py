@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
-from ardee_navigation.evaluation.run_metrics import NEAR_M  # noqa: E402
+from ardee_campaigns.measures import NEAR_M  # noqa: E402
 
 RAW, SEEN, TRUE, STEP_IN = "#1f3b73", "#4fa3e0", "#d1495b", "#e09f3e"
 LARGEST_POINTS = 40_000
@@ -25,7 +25,7 @@ class Place(Protocol):
 
 
 class Drive(Protocol):
-    """A drive down a row: a Record, or a run of a campaign."""
+    """A drive down a row."""
 
     length_m: float  # of the row
     lidar_ahead_m: float  # of the robot's middle

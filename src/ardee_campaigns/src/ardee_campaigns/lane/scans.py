@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Scans of a lidar down a lane, and what a row follower perceived in them, of a real robot or of a simulated one."""
 import math
-from dataclasses import dataclass, field
-from typing import Callable, List, Tuple
+from dataclasses import dataclass
+from typing import List, Tuple
 
 import numpy as np
 
-from ardee_navigation.evaluation.scan import Scan
-from ardee_navigation.evaluation.trial import Judge
-from ardee_navigation.lbirnt import Output, Parameters, RowFollower, State
+from ardee_navigation.lbirnt import Output, Parameters, RowFollower
 
 
 @dataclass(frozen=True)
@@ -37,41 +35,6 @@ class Perceived:
     spread_m: np.ndarray  # (n, 2) SD of the left, the right points about their line; nan without one
 
 
-@dataclass
-class Recorder:
-    """Records scans while the lidar is in the lane, and the follower's answers to them; ends the run after enough."""
-
-    judge: Judge
-    wanted: int
-    from_m: float  # along the lane
-    tilt: Callable[[], Tuple[float, float]]  # of the robot now: roll, pitch [rad]
-    scans: List[Scan] = field(default_factory=list)
-    answers: List[Tuple[float, ...]] = field(default_factory=list)
-    ride: List[Tuple[float, float, float]] = field(default_factory=list)
-
-    def watch(self, scan: Scan, output: Output) -> None:
-        """Takes a scan and its answer; call it after the judge's look at them."""
-        record = self.judge.record
-        along_m = record.samples[-1].along_m + record.lidar_ahead_m
-        if output.state is not State.FOLLOWING or not self.from_m <= along_m <= record.length_m:
-            return
-        self.scans.append(scan)
-        self.answers.append((scan.time_s, *_answer(output)))
-        self.ride.append((*self.tilt(), record.samples[-1].heading_rad))
-        if len(self.scans) >= self.wanted:
-            record.end = record.end or "enough scans"
-
-    def result(self) -> Tuple[Scans, Perceived]:
-        """Returns what was recorded, at least one scan."""
-        first = self.scans[0]
-        ranges = returns_m(np.array([scan.ranges_m for scan in self.scans]))
-        perceived = _perceived(self.answers)
-        return (
-            Scans(perceived.time_s, ranges, first.angle_min_rad, first.increment_rad),
-            perceived,
-        )
-
-
 def returns_m(
     ranges_m: np.ndarray, range_min_m: float = 0.0, range_max_m: float = math.inf
 ) -> np.ndarray:
@@ -92,13 +55,15 @@ def _spread_m(points: np.ndarray) -> float:
     return float(np.std(points[:, 1] - slope * points[:, 0] - offset)) / math.hypot(1.0, slope)
 
 
-def _answer(output: Output) -> Tuple[float, ...]:
+def answer(output: Output) -> Tuple[float, ...]:
+    """Returns what the row follower perceived: a line of Perceived without its time."""
     lane = output.lane
     spreads = (_spread_m(side) for side in output.sides)
     return (lane.left.distance_m, -lane.right.distance_m, -lane.centre.angle_rad, *spreads)
 
 
-def _perceived(answers: List[Tuple[float, ...]]) -> Perceived:
+def perceived(answers: List[Tuple[float, ...]]) -> Perceived:
+    """Returns times and answers together."""
     columns = np.array(answers)
     return Perceived(*columns[:, :4].T, columns[:, 4:])
 
@@ -109,5 +74,5 @@ def follow(scans: Scans, parameters: Parameters) -> Perceived:
     answers = []
     for time_s, ranges in zip(scans.time_s, scans.ranges_m):
         output = follower.update(ranges, scans.angle_min_rad, scans.increment_rad, float(time_s))
-        answers.append((float(time_s), *_answer(output)))
-    return _perceived(answers)
+        answers.append((float(time_s), *answer(output)))
+    return perceived(answers)

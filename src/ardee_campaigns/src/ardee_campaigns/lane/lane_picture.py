@@ -10,8 +10,8 @@ matplotlib.use("Agg")
 import numpy as np  # noqa: E402
 from matplotlib import pyplot  # noqa: E402
 
-from ardee_navigation.evaluation.lane_figures import BEARING_DEG, RealLane, by_bearing  # noqa: E402
-from ardee_navigation.evaluation.scan_run import Scans  # noqa: E402
+from ardee_campaigns.lane.lane_figures import BEARING_DEG, RealLane, by_bearing  # noqa: E402
+from ardee_campaigns.lane.scans import Scans  # noqa: E402
 
 REAL, SIMULATED = "#d1495b", "#1f3b73"
 SHOWN_M = 2.5  # beside and before the lidar in the plan

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A private simulation over ROS: a master on a port that the kernel picks, the simulator as a node, one robot.
+"""The node `simulator` on a world with one robot, driven step by step.
 
-In lockstep nothing depends on the machine's speed: a command has reached the simulator before the next step is
+Nothing depends on the machine's speed: a command has reached the simulator before the next step is
 asked for. It is written to its socket in the calling thread (no queue), and the pose is asked for between command
 and step: when that answer is there, the simulator has read the command, for it reads everything that has arrived
 before it serves a later request.
@@ -12,20 +12,15 @@ import queue
 import time
 import warnings
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
-import numpy as np
-import rosgraph
-import rosmaster.master
 import rospy
 from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
 
+from ardee_campaigns.robot import NAME
 from ardee_common.process import start_child, stop_child
 from ardee_msgs.srv import Step
-from ardee_navigation.evaluation.scan import Scan
-from ardee_navigation.evaluation.simulation import ROBOT, SimulationError
 from ardee_world.row_truth import Pose
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
@@ -33,22 +28,8 @@ from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 _PATIENCE_S = 60.0  # wall time; a scenery of 200,000 plants loads in less
 
 
-class Master:
-    """A ROS master in this process, and this process as a node of it. Once in a process."""
-
-    def __init__(self, node: str) -> None:
-        for name in ("ROS_HOSTNAME", "ROS_NAMESPACE"):
-            os.environ.pop(name, None)
-        os.environ.setdefault("ROS_IP", "127.0.0.1")
-        self._master = rosmaster.master.Master(0)
-        self._master.start()
-        os.environ["ROS_MASTER_URI"] = self._master.uri
-        rospy.init_node(node, disable_signals=True)
-
-    def stop(self) -> None:
-        """Leaves the ROS graph and ends the master."""
-        rospy.signal_shutdown("done")
-        self._master.stop()
+class SimulationError(RuntimeError):
+    """Error of a simulator that did not do what was asked."""
 
 
 def to_ros(pose: Pose, z_m: float) -> RosPose:
@@ -83,19 +64,16 @@ class RosSimulation:
         seed: int,
         models: List[Path],
         log: Path,
-        realtime: bool = False,
         words: Sequence[str] = (),
     ) -> None:
         folders = [*map(str, models), os.environ.get("GAZEBO_MODEL_PATH", "")]
         environment = dict(os.environ, GAZEBO_MODEL_PATH=os.pathsep.join(folders))
-        factor = "1" if realtime else "0"
         command = ["rosrun", "ardee_sim_cpp", "simulator", str(world), "--paused"]
-        command += ["--seed", str(seed), f"_real_time_factor:={factor}", *words]
-        self._log, self.scans = log, queue.Queue()  # type: Path, queue.Queue
+        command += ["--seed", str(seed), "_real_time_factor:=0", *words]
+        self._log, self._messages = log, queue.Queue()  # type: Path, queue.Queue
         self._services = {}  # type: Dict[str, rospy.ServiceProxy]
         self._commands = None  # type: Optional[rospy.Publisher]
         self._subscriber = None  # type: Optional[rospy.Subscriber]
-        self.on_scan = None  # type: Optional[Callable[[], None]]
         self._process = start_child(command, environment, log)
 
     def __enter__(self) -> "RosSimulation":
@@ -147,21 +125,16 @@ class RosSimulation:
             raise SimulationError(f"{name}: {answer.status_message}")
         return answer
 
-    def spawn(self, urdf: str, pose: Pose, z_m: float) -> None:
-        """Spawns the robot, with its scan and command topics connected."""
-        self.place(urdf, pose, z_m)
-        self.connect(("/ardee/hokuyo", LaserScan), "/cmd_vel")
-
     def place(self, urdf: str, pose: Pose, z_m: float) -> None:
         """Spawns the robot."""
-        fields = (ROBOT, urdf, "/", to_ros(pose, z_m), "world")
+        fields = (NAME, urdf, "/", to_ros(pose, z_m), "world")
         self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
 
     def connect(self, readings: Optional[Tuple[str, type]], commands: str) -> None:
         """Connects a sensor's topic of a type, and the topic of commands."""
         if readings:
             self._subscriber = rospy.Subscriber(
-                *readings, self._on_scan, tcp_nodelay=True, buff_size=1 << 20
+                *readings, self._messages.put, tcp_nodelay=True, buff_size=1 << 20
             )
         with warnings.catch_warnings():
             warnings.simplefilter(
@@ -171,21 +144,6 @@ class RosSimulation:
         ports = [port for port in (self._subscriber, self._commands) if port]
         _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
 
-    def wait_for_commander(self) -> None:
-        """Waits until another node than this one can command the robot, which would else stand and seem stuck."""
-
-        def there() -> bool:
-            self._check_alive()
-            publishers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[0])
-            return bool(set(publishers.get("/cmd_vel", [])) - {rospy.get_name()})
-
-        _until(there, "a node that commands the robot")
-
-    def _on_scan(self, scan: LaserScan) -> None:
-        if self.on_scan:
-            self.on_scan()
-        self.scans.put(scan)
-
     def step(self, steps: int) -> float:
         """Takes this many physics steps; returns the simulated time [s] after them."""
         return self.call("/ardee/step", Step, steps).sim_time.to_sec()
@@ -193,16 +151,10 @@ class RosSimulation:
     def message(self, patience_s: float = 20.0) -> Any:
         """Returns the next message of the connected sensor."""
         try:
-            return self.scans.get(timeout=patience_s)
+            return self._messages.get(timeout=patience_s)
         except queue.Empty:
             self._check_alive()
-            raise SimulationError(f"no scan in {patience_s:.0f} s") from None
-
-    def scan(self) -> Scan:
-        """Returns the next scan."""
-        scan = self.message()
-        ranges_m = np.asarray(scan.ranges)
-        return Scan(scan.header.stamp.to_sec(), ranges_m, scan.angle_min, scan.angle_increment)
+            raise SimulationError(f"no reading in {patience_s:.0f} s") from None
 
     def command(self, speed_m_s: float, turn_rad_s: float) -> Pose:
         """Sends a command; when the pose is returned, the simulator has it."""
@@ -213,10 +165,10 @@ class RosSimulation:
 
     def pose(self) -> Pose:
         """Returns the pose of the robot in the world frame."""
-        answer = self.call("/gazebo/get_model_state", GetModelState, ROBOT, "world")
+        answer = self.call("/gazebo/get_model_state", GetModelState, NAME, "world")
         return from_ros(answer.pose)
 
     def set_pose(self, pose: Pose, z_m: float) -> None:
         """Sets the robot down at a pose, at rest."""
-        state = ModelState(model_name=ROBOT, pose=to_ros(pose, z_m), reference_frame="world")
+        state = ModelState(model_name=NAME, pose=to_ros(pose, z_m), reference_frame="world")
         self.call("/gazebo/set_model_state", SetModelState, state)

@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Tests the figures of a lane on a run whose figures follow from its geometry, and the reader of a real run's logs."""
 import math
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import List
 
 import numpy as np
 import pytest
-from scans import ANGLE_MIN_RAD, INCREMENT_RAD, scan_of
 
-from ardee_common.errors import GeneratorError
-from ardee_navigation.evaluation import judge_lane
-from ardee_navigation.evaluation.lane_figures import (
+from ardee_campaigns.experiment.scenarios import find_scenario
+from ardee_campaigns.lane import judge_lane
+from ardee_campaigns.lane.lane_figures import (
     MEASURES,
     LaneFigures,
     measure_follower,
@@ -22,12 +20,12 @@ from ardee_navigation.evaluation.lane_figures import (
     with_ride,
     write_real_lane,
 )
-from ardee_navigation.evaluation.real_run import LIDAR_LOG, PERCEPTION_LOG, read_real_run
-from ardee_navigation.evaluation.scan_run import Scans, returns_m
-from ardee_navigation.evaluation.scan_speed import scan_speed_m_s
-from ardee_navigation.evaluation.scenarios import find_scenario
+from ardee_campaigns.lane.real_run import LIDAR_LOG, PERCEPTION_LOG, read_real_run
+from ardee_campaigns.lane.scan_speed import scan_speed_m_s
+from ardee_campaigns.lane.scans import Scans, returns_m
+from ardee_common.errors import GeneratorError
 
-CONFIG = Path(__file__).resolve().parents[1] / "config"
+ANGLE_MIN_RAD, INCREMENT_RAD = -2.35619, 2 * 2.35619 / 1080  # of a UST-10LX
 SCANS, LEFT_M, RIGHT_M, JUMP_M, LEAF_M = 40, 0.40, 0.37, 0.15, 1.0
 DEGREES = -135.0 + 0.25 * np.arange(1080)
 
@@ -86,13 +84,19 @@ def test_figures_follow_from_the_geometry(folder: Path) -> None:
 @pytest.mark.parametrize("speed_m_s", [0.25, 0.5])
 def test_speed_is_found_in_scans_of_plants_that_pass_by(speed_m_s: float) -> None:
     rng, time_s = np.random.default_rng(1), 0.025 * np.arange(13)
+    angles = ANGLE_MIN_RAD + INCREMENT_RAD * np.arange(1081)
     starts_m = rng.uniform(-3.0, 3.0, 40)
     offsets_m = rng.choice([-0.38, 0.38], 40) + rng.normal(0.0, 0.03, 40)
 
     def scan(moved_m: float) -> np.ndarray:
-        from_m = starts_m - moved_m
-        plants = [(0.0, y, x, x + 0.06) for x, y in zip(from_m, offsets_m)]
-        return scan_of(*plants, noise=(rng, 0.01))
+        nearest = np.full(len(angles), np.inf)
+        for from_m, beside_m in zip(starts_m - moved_m, offsets_m):
+            with np.errstate(divide="ignore"):
+                ranges = beside_m / np.sin(angles)
+            ahead_m = ranges * np.cos(angles)
+            is_met = (ranges > 0.0) & (ahead_m >= from_m) & (ahead_m <= from_m + 0.06)
+            nearest = np.where(is_met & (ranges < nearest), ranges, nearest)
+        return nearest + 0.01 * rng.standard_normal(len(angles))
 
     ranges_m = np.array([scan(speed_m_s * t) for t in time_s])
     found = scan_speed_m_s(Scans(time_s, ranges_m, ANGLE_MIN_RAD, INCREMENT_RAD))
@@ -138,14 +142,14 @@ def test_real_lane_file_is_read_as_it_was_written(folder: Path, tmp_path: Path) 
     assert (again.source, again.scans) == ("test", SCANS)
     assert again.ranges_p50_m == pytest.approx(lane.ranges_p50_m, abs=6e-4)
     for one in MEASURES:
-        expected = getattr(lane.figures, one.column)
-        assert getattr(again.figures, one.column) == pytest.approx(
+        expected = getattr(lane.figures, one.name)
+        assert getattr(again.figures, one.name) == pytest.approx(
             expected, rel=1e-3, abs=1e-9, nan_ok=True
         )
 
 
 def test_shipped_real_lane() -> None:
-    lane = read_real_lane(CONFIG / "real_lane.yaml")
+    lane = read_real_lane(judge_lane.REAL_LANE)
     assert lane.scans == 479 and "d3d4e19" in lane.source
     assert len(lane.ranges_p10_m) == len(lane.ranges_p50_m) == len(lane.ranges_p90_m) == 54
     assert lane.figures.speed_m_s == pytest.approx(0.24, abs=0.01)
@@ -196,11 +200,10 @@ def test_a_missing_log_is_one_line(tmp_path: Path) -> None:
         read_real_run(tmp_path)
 
 
-def judge(monkeypatch: pytest.MonkeyPatch, *words: str) -> int:
+def judge(*words: str) -> int:
     """Runs the command in this process; returns its exit code."""
-    monkeypatch.setattr(sys, "argv", ["judge_lane", *words])
     try:
-        return judge_lane.main()
+        return judge_lane.main(words)
     except SystemExit as ended:
         return ended.code
 
@@ -209,8 +212,8 @@ def test_a_real_run_alone(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
     output = tmp_path / "report"
-    monkeypatch.setattr("ardee_navigation.evaluation.command.end_by_signals", lambda: None)
-    assert judge(monkeypatch, "--real-run", str(folder), "--output", str(output)) == 0
+    monkeypatch.setattr("ardee_campaigns.lane.judge_lane.end_by_signals", lambda: None)
+    assert judge("--real-run", str(folder), "--output", str(output)) == 0
     printed = capsys.readouterr().out
     assert "| perceived width [m] | 0.775 | " in printed
     assert printed.splitlines()[0] == "|  | real | real scans, this follower |"
@@ -236,8 +239,8 @@ def test_bad_arguments(
     capsys: pytest.CaptureFixture,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("ardee_navigation.evaluation.command.end_by_signals", lambda: None)
-    assert judge(monkeypatch, *words) == 2
+    monkeypatch.setattr("ardee_campaigns.lane.judge_lane.end_by_signals", lambda: None)
+    assert judge(*words) == 2
     assert message in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
 

@@ -8,11 +8,11 @@ from typing import Dict, List, Sequence, Tuple
 import numpy as np
 import yaml
 
+from ardee_campaigns.lane.real_run import RealRun
+from ardee_campaigns.lane.scan_speed import scan_speed_m_s
+from ardee_campaigns.lane.scans import Perceived, Scans, follow
+from ardee_campaigns.report.statistics import Quantity, mean_interval
 from ardee_common.config import build, read_yaml_lines
-from ardee_navigation.evaluation.comparison import Measure, mean_interval
-from ardee_navigation.evaluation.real_run import RealRun
-from ardee_navigation.evaluation.scan_run import Perceived, Scans, follow
-from ardee_navigation.evaluation.scan_speed import scan_speed_m_s
 from ardee_navigation.lbirnt import Parameters
 
 AHEAD_DEG, SIDE_DEG = 10.0, 30.0  # half widths of the sectors straight ahead and abeam
@@ -53,33 +53,33 @@ class LaneFigures:
 
 
 MEASURES = (
-    Measure("no_return_share", "beams without return [%]", 100.0, 1),
-    Measure("ahead_no_return_share", "straight ahead (± 10°): without return [%]", 100.0, 1),
-    Measure("ahead_median_m", "straight ahead: median [m]", 1.0, 2),
-    Measure("ahead_p10_m", "straight ahead: 10th percentile [m]", 1.0, 2),
-    Measure("axis_returns", "returns 0.3 to 2 m ahead, 0.25 m beside the axis, a scan", 1.0, 1),
-    Measure("range_median_m", "range: median [m]", 1.0, 2),
-    Measure("range_p90_m", "range: 90th percentile [m]", 1.0, 2),
-    Measure("side_median_m", "range at the sides (± 30°): median [m]", 1.0, 2),
-    Measure("flicker_median_m", "change of a side beam, scan to scan: median [mm]", 1e3, 0),
-    Measure("flicker_share", "changes of a side beam above 0.1 m [%]", 100.0, 1),
-    Measure("left_spread_m", "left points about their line: SD [cm]", 100.0, 1),
-    Measure("right_spread_m", "right points about their line: SD [cm]", 100.0, 1),
-    Measure("width_m", "perceived width [m]", 1.0, 3),
-    Measure("width_sd_m", "perceived width: SD [m]", 1.0, 3),
-    Measure("left_change_median_m", "change of the left distance: median [mm]", 1e3, 1),
-    Measure("left_change_p95_m", "change of the left distance: 95th percentile [mm]", 1e3, 1),
-    Measure("heading_sd_rad", "perceived heading: SD [deg]", 180.0 / np.pi, 1),
-    Measure("yaw_sd_rad", "true heading in the lane: SD [deg]", 180.0 / np.pi, 1),
-    Measure("roll_sd_rad", "roll: SD [deg]", 180.0 / np.pi, 2),
-    Measure("pitch_sd_rad", "pitch: SD [deg]", 180.0 / np.pi, 2),
-    Measure("speed_m_s", "speed, from scan to scan [m/s]", 1.0, 2),
+    Quantity("no_return_share", "beams without return [%]", 100.0, 1),
+    Quantity("ahead_no_return_share", "straight ahead (± 10°): without return [%]", 100.0, 1),
+    Quantity("ahead_median_m", "straight ahead: median [m]", 1.0, 2),
+    Quantity("ahead_p10_m", "straight ahead: 10th percentile [m]", 1.0, 2),
+    Quantity("axis_returns", "returns 0.3 to 2 m ahead, 0.25 m beside the axis, a scan", 1.0, 1),
+    Quantity("range_median_m", "range: median [m]", 1.0, 2),
+    Quantity("range_p90_m", "range: 90th percentile [m]", 1.0, 2),
+    Quantity("side_median_m", "range at the sides (± 30°): median [m]", 1.0, 2),
+    Quantity("flicker_median_m", "change of a side beam, scan to scan: median [mm]", 1e3, 0),
+    Quantity("flicker_share", "changes of a side beam above 0.1 m [%]", 100.0, 1),
+    Quantity("left_spread_m", "left points about their line: SD [cm]", 100.0, 1),
+    Quantity("right_spread_m", "right points about their line: SD [cm]", 100.0, 1),
+    Quantity("width_m", "perceived width [m]", 1.0, 3),
+    Quantity("width_sd_m", "perceived width: SD [m]", 1.0, 3),
+    Quantity("left_change_median_m", "change of the left distance: median [mm]", 1e3, 1),
+    Quantity("left_change_p95_m", "change of the left distance: 95th percentile [mm]", 1e3, 1),
+    Quantity("heading_sd_rad", "perceived heading: SD [deg]", 180.0 / np.pi, 1),
+    Quantity("yaw_sd_rad", "true heading in the lane: SD [deg]", 180.0 / np.pi, 1),
+    Quantity("roll_sd_rad", "roll: SD [deg]", 180.0 / np.pi, 2),
+    Quantity("pitch_sd_rad", "pitch: SD [deg]", 180.0 / np.pi, 2),
+    Quantity("speed_m_s", "speed, from scan to scan [m/s]", 1.0, 2),
 )
 
 
 @dataclass(frozen=True)
 class RealLane:
-    """Figures of a real run and its quantiles of range by bearing, as config/real_lane.yaml has them."""
+    """Figures of a real run and its quantiles of range by bearing, as real_lane.yaml has them."""
 
     source: str
     scans: int
@@ -215,9 +215,9 @@ def table(columns: Dict[str, LaneFigures], runs: Sequence[LaneFigures], name: st
     lines = [heads, ["---"] * len(heads)]
     for one in MEASURES:
         digits = one.digits
-        given = [one.scale * getattr(figures, one.column) for figures in columns.values()]
+        given = [one.scale * getattr(figures, one.name) for figures in columns.values()]
         cells = [f"{value:.{digits}f}" if np.isfinite(value) else "-" for value in given]
         if runs:
-            cells += _mean_cells([one.scale * getattr(run, one.column) for run in runs], digits)
-        lines.append([one.name, *cells])
+            cells += _mean_cells([one.scale * getattr(run, one.name) for run in runs], digits)
+        lines.append([one.text, *cells])
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)

@@ -2,16 +2,21 @@
 """Command `compare_experiments`: compares the runs of two experiments over the same seeds."""
 import argparse
 from pathlib import Path
+from typing import Optional, Sequence
 
 from ardee_common.cli import Parser, run
-from ardee_navigation.evaluation.comparison import compare, read_runs
 
 
 def _compare(args: argparse.Namespace) -> str:
-    return compare(read_runs(args.one), read_runs(args.other), (str(args.one), str(args.other)))
+    from ardee_campaigns.experiment.pairs import compare
+    from ardee_campaigns.experiment.report import CAMPAIGN
+    from ardee_campaigns.report.runs import read
+
+    runs = [read(folder / CAMPAIGN).ok() for folder in (args.one, args.other)]
+    return compare(*runs, (str(args.one), str(args.other)))
 
 
-def main() -> int:
+def main(argv: Optional[Sequence[str]] = None) -> int:
     """Runs the command; returns the exit code, 2 for bad input."""
     parser = Parser(
         prog="compare_experiments",
@@ -26,4 +31,4 @@ def main() -> int:
         metavar="OTHER",
         help="folder of the other report; differences are OTHER - ONE",
     )
-    return run(parser, _compare)
+    return run(parser, _compare, argv)
