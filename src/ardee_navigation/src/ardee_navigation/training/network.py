@@ -3,7 +3,7 @@
 import torch
 from torch import nn
 
-_CHANNELS = 16, 32, 64, 96
+_CHANNELS = 8, 16, 32, 64, 96
 
 
 def _block(before: int, after: int, stride: int) -> nn.Sequential:

@@ -6,16 +6,18 @@ Needs torch. The same data set, seed, epochs and versions on one thread give the
 import argparse
 import hashlib
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, Optional, Sequence
+from typing import Any, List, Optional, Sequence, Tuple
 
 import numpy as np
 
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
-from ardee_navigation.training.pictures import SIZE_PX, answer, read_split, varied
+from ardee_navigation.training.pictures import SIZE_PX, read_split, whole
+from ardee_navigation.training.variation import varied
 
-_BATCH, _RATE = 16, 2e-3
+_BATCH, _RATE = 8, 2e-3
 
 
 def _loss(logits: Any, heat: Any) -> Any:
@@ -25,22 +27,25 @@ def _loss(logits: Any, heat: Any) -> Any:
     return binary_cross_entropy_with_logits(logits[:, 0][known], heat[known])
 
 
-def _batch(pictures: Sequence[np.ndarray], heats: Sequence[np.ndarray]) -> Any:
+def _batch(seen: Sequence[Tuple[np.ndarray, np.ndarray]]) -> Any:
     import torch
 
-    x = np.stack(pictures).transpose(0, 3, 1, 2).astype(np.float32)
-    return torch.from_numpy(x), torch.from_numpy(np.stack([answer(heat) for heat in heats]))
+    x = np.stack([rgb for rgb, _ in seen]).transpose(0, 3, 1, 2).astype(np.float32)
+    return torch.from_numpy(x), torch.from_numpy(np.stack([heat for _, heat in seen]))
 
 
-def _validate(network: Any, pictures: np.ndarray, heats: np.ndarray) -> float:
+def _validate(network: Any, unseen: List[Tuple[np.ndarray, np.ndarray]]) -> float:
+    """Returns the mean loss in batches of pictures."""
     import torch
 
     network.eval()
+    losses = []
     with torch.no_grad():
-        x, heat = _batch(list(pictures), list(heats))
-        loss = float(_loss(network(x), heat))
+        for first in range(0, len(unseen), _BATCH):
+            x, heat = _batch(unseen[first : first + _BATCH])
+            losses.append(float(_loss(network(x), heat)))
     network.train()
-    return loss
+    return float(np.mean(losses))
 
 
 def train(args: argparse.Namespace) -> str:
@@ -54,26 +59,32 @@ def train(args: argparse.Namespace) -> str:
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
     rng = np.random.default_rng(args.seed)
-    pictures, heats = read_split(args.data, "train")
-    unseen = read_split(args.data, "val")
+    pictures = read_split(args.data, "train")
+    if len(pictures) < _BATCH:
+        found = f"found {len(pictures)} pictures of rows in train"
+        raise GeneratorError(f"{args.data}: {found}, expected at least {_BATCH}")
+    unseen = [whole(picture) for picture in read_split(args.data, "val")]
     manifest = args.data / "manifest.json"
     network = RowNetwork()
     steps = args.epochs * (len(pictures) // _BATCH)
     optimiser = torch.optim.AdamW(network.parameters(), lr=_RATE)
     rate = torch.optim.lr_scheduler.OneCycleLR(optimiser, _RATE, total_steps=steps)
+    ahead = ThreadPoolExecutor(1)  # one thread, so that random numbers are drawn in order
+
+    def drawn(some: np.ndarray) -> Any:
+        return _batch([varied(pictures[i], rng) for i in some])
+
     for epoch in range(1, args.epochs + 1):
         order, losses, start = rng.permutation(len(pictures)), [], time.process_time()
-        for first in range(0, len(order) - _BATCH + 1, _BATCH):
-            some = order[first : first + _BATCH]
-            seen = [varied(pictures[i], heats[i], rng) for i in some]
-            x, heat = _batch([one[0] for one in seen], [one[1] for one in seen])
+        batches = np.split(order[: len(order) // _BATCH * _BATCH], len(order) // _BATCH)
+        for x, heat in ahead.map(drawn, batches):
             loss = _loss(network(x), heat)
             optimiser.zero_grad()
             loss.backward()
             optimiser.step()
             rate.step()
             losses.append(float(loss))
-        words = f"loss {np.mean(losses):.4f}, unseen fields {_validate(network, *unseen):.4f}"
+        words = f"loss {np.mean(losses):.4f}, unseen fields {_validate(network, unseen):.4f}"
         say(
             "train_row_network",
             f"epoch {epoch} of {args.epochs}: {words}, {time.process_time() - start:.0f} s",

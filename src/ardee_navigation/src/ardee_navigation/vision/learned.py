@@ -11,7 +11,7 @@ from ardee_navigation.vision.lane_fit import LaneFitter
 
 NETWORK = Path(__file__).with_name("row_network.onnx")
 _WIDTH_PX = 160  # of the heat that rows are fitted to
-_INPUT_PX = 160, 112  # width, height of the network's picture
+_INPUT_PX = 320, 224  # width, height of the network's picture
 
 
 class RowHeat:
