@@ -91,7 +91,7 @@ def test_rviz_shows_scan_lines_and_path() -> None:
             "lateral_max_m: 0.3\n",
             r"p.yaml:1: lateral_min_m, lateral_max_m: found 0.15 and 0.3, expected half the lane_width_m",
         ),
-        ("lane_width_m: 1.4\n", r"p.yaml:1: beside_min_m, beside_max_m: .* between them, 0.7$"),
+        ("lane_width_m: 1.4\n", r"p.yaml:1: lateral_min_m, lateral_max_m: .* between them, 0.7$"),
         ("max_speed_m_s: 0.4\n", r"p.yaml:1: speed_m_s: found 0.5, expected at most .*, 0.4$"),
         ("min_points: 2.5\n", r"p.yaml:1: min_points: found 2.5, expected a whole number"),
         ("kp: .nan\n", r"p.yaml:1: kp: found nan"),

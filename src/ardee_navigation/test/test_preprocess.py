@@ -54,8 +54,8 @@ def test_fullest_bin_by_hand() -> None:
 def test_subset_is_the_fullest_bin_and_its_neighbours() -> None:
     y = np.array([0.12, 0.25, 0.35, 0.36, 0.37, 0.45, 0.55])
     points = np.column_stack((np.zeros(7), -y))
-    kept = choose_subset(points, Parameters(bin_m=0.1, keep_bins=1), 0.0)
+    kept = choose_subset(points, Parameters(bin_m=0.1, keep_beside_m=0.1), 0.0)
     assert (-kept[:, 1]).tolist() == [0.25, 0.35, 0.36, 0.37, 0.45]
-    alone = choose_subset(points, Parameters(bin_m=0.1, keep_bins=0), 0.0)
+    alone = choose_subset(points, Parameters(bin_m=0.1, keep_beside_m=0.0), 0.0)
     assert (-alone[:, 1]).tolist() == [0.35, 0.36, 0.37]
     assert len(choose_subset(np.empty((0, 2)), Parameters(), 0.0)) == 0

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Tests validity checks, line grade (equation 5.3) and update heuristics."""
 import dataclasses
+import math
 
 import pytest
 
@@ -8,7 +9,7 @@ from ardee_navigation.lane_following.line import Line, turned
 from ardee_navigation.lbirnt import Parameters
 from ardee_navigation.lbirnt.lane import Lane, straight_lane, update_lane
 from ardee_navigation.lbirnt.lines import Estimate
-from ardee_navigation.lbirnt.validity import is_acceptable, line_grade, valid_sides
+from ardee_navigation.lbirnt.validity import is_acceptable, leading_side, line_grade, valid_sides
 
 P = Parameters(lane_width_m=0.76, blend=0.5, lane_width_tolerance_m=0.15)
 LEFT = Estimate(Line(0.0, 0.38), 30, 2.0, 0.02, 0.0)
@@ -65,24 +66,37 @@ def test_of_two_lines_that_do_not_fit_the_better_graded_stays() -> None:
     assert valid_sides(None, None, BEFORE, P) == (False, False)
 
 
-def test_both_valid_blends_both() -> None:
-    lane = update_lane(Lane(*BEFORE), changed(LEFT, line=Line(0.1, 0.40)), RIGHT, P)
+def test_the_better_graded_leads_unless_the_other_led_by_less_than_the_bonus() -> None:
+    assert leading_side(LEFT, RIGHT, 1, P) == 0 and leading_side(RIGHT, LEFT, 0, P) == 1
+    grade = line_grade(LEFT, changed(LEFT, points=33))  # 0.5 - 30/63: 0.02 below the other's
+    assert 4.0 - 2.0 * grade < P.lead_bonus
+    for led in (0, 1):
+        assert leading_side(LEFT, changed(LEFT, points=33), led, P) == led
+
+
+def test_both_valid_keep_their_distances_and_take_the_direction_of_the_one_that_leads() -> None:
+    tilted = changed(LEFT, line=Line(0.1, 0.40))
+    lane = update_lane(Lane(*BEFORE), tilted, RIGHT, 0, P)  # half way to both lines of slope 0.1
     assert (lane.left.slope, lane.left.offset_m) == pytest.approx((0.05, 0.39))
-    assert lane.right == BEFORE[1]
+    assert lane.right.slope == pytest.approx(0.05)
+    assert lane.right.offset_m == pytest.approx((-0.38 - 0.38 * math.hypot(1.0, 0.1)) / 2)
+    whole = dataclasses.replace(P, blend=1.0)
+    lane = update_lane(Lane(*BEFORE), tilted, RIGHT, 1, whole)
+    assert lane.left == Line(0.0, tilted.line.distance_m) and lane.right == BEFORE[1]
 
 
 def test_one_valid_lays_the_other_a_lane_away() -> None:
     half = dataclasses.replace(P, blend=1.0)
-    lane = update_lane(Lane(*BEFORE), changed(LEFT, line=Line(0.0, 0.30)), None, half)
+    lane = update_lane(Lane(*BEFORE), changed(LEFT, line=Line(0.0, 0.30)), None, 0, half)
     assert lane.right.offset_m == pytest.approx(0.30 - 0.76)
-    lane = update_lane(Lane(*BEFORE), None, changed(RIGHT, line=Line(0.0, -0.30)), half)
+    lane = update_lane(Lane(*BEFORE), None, changed(RIGHT, line=Line(0.0, -0.30)), 1, half)
     assert lane.left.offset_m == pytest.approx(-0.30 + 0.76)
     assert lane.width_m == pytest.approx(0.76)
 
 
 def test_none_valid_keeps_the_lane() -> None:
     before = Lane(Line(0.1, 0.3), Line(0.1, -0.4))
-    assert update_lane(before, None, None, P) == before
+    assert update_lane(before, None, None, 0, P) == before
     assert straight_lane(P).centre == Line(0.0, 0.0)
 
 

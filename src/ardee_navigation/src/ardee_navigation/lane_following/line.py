@@ -30,6 +30,11 @@ class Line:
         return Line(self.slope, self.offset_m + distance_m * math.hypot(1.0, self.slope))
 
 
+def line_at(distance_m: float, slope: float) -> Line:
+    """Returns the line of this slope at an orthogonal distance from the sensor, positive to the left."""
+    return Line(slope, distance_m * math.hypot(1.0, slope))
+
+
 def blend(before: Line, found: Line, weight: float) -> Line:
     """Returns a line between the one before (weight 0) and the one found (weight 1)."""
     return Line(

@@ -13,7 +13,7 @@ from ardee_navigation.lbirnt import preprocess
 from ardee_navigation.lbirnt.lane import Lane, straight_lane, update_lane
 from ardee_navigation.lbirnt.lines import Estimate, estimate
 from ardee_navigation.lbirnt.parameters import Parameters
-from ardee_navigation.lbirnt.validity import valid_sides
+from ardee_navigation.lbirnt.validity import leading_side, valid_sides
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,7 @@ class RowFollower:
     def _forget(self) -> None:
         """Forgets the lane, as before the first scan."""
         self._lane = straight_lane(self._parameters)
+        self._lead = 0  # side whose line gave the lane its direction: 0 left, 1 right
         self._unseen_s = (
             math.inf,
             math.inf,
@@ -90,9 +91,12 @@ class RowFollower:
         valid = valid_sides(left, right, lines, self._parameters)
         seconds = (0.0 if good else old_s + dt_s for good, old_s in zip(valid, self._unseen_s))
         self._unseen_s = (next(seconds), next(seconds))
-        self._lane = update_lane(
-            before, _if(valid[0], left), _if(valid[1], right), self._parameters
-        )
+        if left and right and all(valid):
+            self._lead = leading_side(left, right, self._lead, self._parameters)
+        elif any(valid):
+            self._lead = int(valid[1])
+        found = (_if(valid[0], left), _if(valid[1], right))
+        self._lane = update_lane(before, *found, self._lead, self._parameters)
         return valid
 
     def _is_gone(self, sides: Tuple[np.ndarray, np.ndarray]) -> bool:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Optional
 
-from ardee_navigation.lane_following.line import Line, blend
+from ardee_navigation.lane_following.line import Line, blend, line_at
 from ardee_navigation.lbirnt.lines import Estimate
 from ardee_navigation.lbirnt.parameters import Parameters
 
@@ -37,18 +37,21 @@ def update_lane(
     before: Lane,
     left: Optional[Estimate],
     right: Optional[Estimate],
+    lead: int,
     parameters: Parameters,
 ) -> Lane:
     """The next lane; pass None for a line that is not valid.
 
-    Both valid: each is blended with its predecessor. One valid: it is, and the other is laid parallel at the lane's
-    width. None: the lane before is kept.
+    Both valid: each at its own distance, both with the slope of the one that leads (0 left, 1 right). One valid: the
+    other is laid parallel at the lane's width. None: the lane before is kept. New lines are blended with those before.
     """
     weight = parameters.blend
     if left is None and right is None:
         return before
     if left is not None and right is not None:
-        return Lane(blend(before.left, left.line, weight), blend(before.right, right.line, weight))
+        slope = (left, right)[lead].line.slope
+        lines = [line_at(one.line.distance_m, slope) for one in (left, right)]
+        return Lane(blend(before.left, lines[0], weight), blend(before.right, lines[1], weight))
     if left is not None:
         line = left.line
         other = line.shifted(-parameters.lane_width_m)

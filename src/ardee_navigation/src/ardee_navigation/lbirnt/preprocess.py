@@ -48,11 +48,11 @@ def fullest_bin(distances_m: np.ndarray, bin_m: float) -> int:
 
 
 def choose_subset(points: np.ndarray, parameters: Parameters, slope: float) -> np.ndarray:
-    """Points whose distance across the rows lies in the fullest bin of their histogram or beside it."""
+    """Points whose distance across the rows lies in the fullest bin of their histogram or just beside it."""
     if len(points) == 0:
         return points
     across = np.abs(rotate(points, slope)[1])
     fullest = fullest_bin(across, parameters.bin_m)
-    low = (fullest - parameters.keep_bins) * parameters.bin_m
-    high = (fullest + 1 + parameters.keep_bins) * parameters.bin_m
+    low = fullest * parameters.bin_m - parameters.keep_beside_m
+    high = (fullest + 1) * parameters.bin_m + parameters.keep_beside_m
     return points[(across >= low) & (across < high)]

@@ -64,3 +64,10 @@ def valid_sides(
         left_good = line_grade(left, right) >= line_grade(right, left)
         right_good = not left_good
     return left_good, right_good
+
+
+def leading_side(left: Estimate, right: Estimate, led: int, parameters: Parameters) -> int:
+    """Returns the better graded of two valid lines: 0 left, 1 right; `led` is the side that led before."""
+    grades = [line_grade(left, right), line_grade(right, left)]
+    grades[led] += parameters.lead_bonus
+    return int(grades[1] > grades[0])
