@@ -16,7 +16,7 @@ _LEAST_EXPOSURE, _MOST_EXPOSURE = 1e-6, 1e6
 Camera = Tuple[np.ndarray, np.ndarray, int, int, float, float, np.ndarray, np.ndarray, float, float]
 
 
-def _words(values: Union[str, float, Sequence[float]]) -> str:
+def _words(values: Any) -> str:
     if isinstance(values, str):
         return checks.text(values, "white_balance")
     if isinstance(values, numbers.Real):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
-import yaml
+import yaml  # type: ignore[import]
 from ardee_sim import _core, checks, packages
 from ardee_sim.errors import ArdeeError
 
