@@ -276,6 +276,8 @@ def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Pope
 
 def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, made: Path) -> None:
     folder = recipe.parent / "killed"
+    folder.mkdir()
+    (folder / "dataset.yaml").write_text("of a recipe that was refused")
     interrupted = ended(recipe, folder, signal.SIGINT, ".sown")  # while its workers start
     assert interrupted.returncode == 130
     warning, last = interrupted.stderr.read().splitlines()
@@ -308,6 +310,7 @@ def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, m
             "robots: {r: {robot: tsv9}}\nlidars:",
             "15: robot: found no robot 'tsv9'.*tsv3",
         ),
+        ("_variant_7", "_varient_7", "recipe.yaml:12: models: model 'corn_varient_7': not found"),
         ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
         ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
     ],

@@ -116,15 +116,12 @@ def _check_same(folder: Path, recipe_file: Path) -> None:
     """Refuses a folder that holds another data set, or something else."""
     kept = folder / "dataset.yaml"
     text = recipe_file.read_bytes()
-    if kept.is_file():
-        if kept.read_bytes() != text:
-            raise GeneratorError(
-                f"--output: found {folder} of another recipe, expected {recipe_file}"
-            )
-    elif any(folder.iterdir()):
+    if not [each for each in folder.iterdir() if each.name not in (kept.name, _SOWN)]:
+        write_file(kept, text)  # new, or of a recipe that was refused
+    elif not kept.is_file():
         raise GeneratorError(f"--output: found files in {folder}, expected an empty folder")
-    else:
-        write_file(kept, text)
+    elif kept.read_bytes() != text:
+        raise GeneratorError(f"--output: found {folder} of another recipe, expected {recipe_file}")
 
 
 def plan_text(recipe: Recipe) -> str:

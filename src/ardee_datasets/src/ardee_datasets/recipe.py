@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import yaml
+from ardee_sim import packages
 from ardee_sim.packages import find_package
 
 from ardee_common.config import Mapping, build, read_yaml_lines, unknown_key, value_of
@@ -15,6 +16,7 @@ from ardee_common.options import kind_of, option
 from ardee_datasets.camera import CameraKeys
 from ardee_datasets.light import LightKeys
 from ardee_datasets.robots import Robot, RobotKeys, read_robot
+from ardee_models.lookup import find_model, search_path
 from ardee_world.request import all_fields
 
 SPLITS = ("train", "val", "test")
@@ -101,6 +103,12 @@ def _check_options(keys: FieldKeys) -> FieldKeys:
             raise keys.ranges.error(key, f"{key}: found {limits!r}, expected [least, most]")
     if not options.get("models"):
         raise GeneratorError("options: found no models, expected names of crop models")
+    folders = search_path([Path(folder) for folder in packages.model_folders()])
+    for name in options["models"]:
+        try:
+            find_model(name, folders)
+        except GeneratorError as error:
+            raise keys.options.error("models", f"models: {error}") from None
     return dataclasses.replace(keys, options=options, ranges=ranges)
 
 

@@ -2,6 +2,7 @@
 """A Gymnasium environment: a robot in a field, and a task."""
 
 import math
+from numbers import Real
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 import gymnasium
@@ -61,7 +62,7 @@ class FieldEnv(gymnasium.Env):
             control_period_s=control_period_s, v_max_m_s=v_max_m_s, w_max_rad_s=w_max_rad_s
         )
         for name, value in given.items():
-            if not 0 < value < math.inf:
+            if not (isinstance(value, Real) and 0 < value < math.inf):
                 raise ArdeeError(f"{name}: found {value}, expected a positive number")
         self.render_mode = render_mode
         self.metadata = {**self.metadata, "render_fps": round(1 / control_period_s)}
