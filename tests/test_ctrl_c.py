@@ -40,7 +40,7 @@ CASES = [
     Case("rosrun ardee_sensors sensor_report --output report", r"sensor_report: \d+ of \d+"),
     Case("scripts/camera_figure --output cameras.png", r"camera_figure: \d+ of \d+"),
     Case(
-        "rosrun ardee_navigation run_experiment --scenario sorghum --runs 2 --output report",
+        "rosrun ardee_navigation run_experiment --scenario energy_farm --runs 2 --output report",
         r"run_experiment: \d+ s",
         "run_experiment: no run had ended, none is reported",
     ),

@@ -89,8 +89,8 @@ def test_ctrl_c_ends_an_experiment_and_leaves_nothing(
 ) -> None:
     work = tmp_path / "work"
     work.mkdir()
-    words = ("--scenario", "corn", "--runs", "50", "--output", str(tmp_path / "report"), *how)
-    command = ("rosrun", "ardee_navigation", "run_experiment", *words)
+    words = ("--scenario", "energy_farm", "--runs", "50", "--output", str(tmp_path / "report"))
+    command = ("rosrun", "ardee_navigation", "run_experiment", *words, *how)
     process = graph.spawn(*command, TMPDIR=str(work))
     wait_until(lambda: list(work.glob("*/ardee_run_*")), "the first run", 60.0)
     wait_until(lambda: any(last_started in line for line in at_work(work)), last_started, 60.0)

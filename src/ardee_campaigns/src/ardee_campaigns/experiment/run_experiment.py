@@ -92,7 +92,7 @@ def _drive(session: Session, jobs: List[Job], report: Report) -> None:
         if run_id not in numbers or row.status == tables.FAILED:
             tables.run_path(folder, run_id).unlink()
     left = session.open(jobs)
-    done = numbers.keys() - {job.run_id for job in left}
+    done = set(numbers) - {job.run_id for job in left}
     report.begin([numbers[run_id] for run_id in done])
     if done:
         say(PROG, f"{len(done)} of {len(jobs)} runs are done already")
@@ -102,12 +102,17 @@ def _drive(session: Session, jobs: List[Job], report: Report) -> None:
     def told(job: Job, _error: str) -> None:
         run = tables.read_run(folder, job.run_id)
         report.add(job.replicate, run)
+        done.add(job.run_id)
         say(PROG, f"{len(report)} of {len(jobs)}: {in_short(run)}")
 
     session.write_robots(left)
     try:
         with engine.Engine(folder, None, session.campaign.keys.workers) as workers:
             workers.work_off(left, told)
+    except Ended:  # workers finish their runs, so some may have ended since
+        for run_id in set(tables.finished(folder)) & set(numbers) - done:
+            report.add(numbers[run_id], tables.read_run(folder, run_id))
+        raise
     finally:
         engine.collect(folder, jobs, session.schema())
 
