@@ -11,7 +11,7 @@ GREY = np.full((60, 80, 3), 100, dtype=np.uint8)
 
 
 def test_dust_takes_light_and_scatters_some() -> None:
-    """Of 100, opacity 0.5 leaves 50 in the middle and adds 0.5 x 0.3 of the mean; a spot fades towards its edge."""
+    """A spot of opacity 0.5 leaves 50 of 100 in its middle, adds 0.5 x 0.3 of the mean, and fades towards its edge."""
     made = Lens((Spot("dust", 40.0, 30.0, 20.0, 0.5),)).applied(GREY)
     assert (made[28:32, 38:42] == 65).all()
     column = made[30, 40:52, 0].astype(int)

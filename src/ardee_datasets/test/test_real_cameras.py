@@ -5,8 +5,11 @@ import math
 from pathlib import Path
 
 import numpy as np
+import pytest
 from small_sets import DRIVEN, MOVING, generated, samples
 
+from ardee_common.errors import GeneratorError
+from ardee_datasets.robots import RobotKeys, read_robot
 from ardee_datasets.sample import LAYERS
 from ardee_world.row_truth import Pose, lane_of, read_field
 
@@ -45,3 +48,12 @@ def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path) -> None
         if k:
             away = np.linalg.norm(X_WC[:2, 3] - np.array(found[k - 1]["X_WC"])[:2, 3])
             assert abs(away - lane.centre.length_m / 3) < 0.1
+
+
+@pytest.mark.parametrize("key", ["<exposure>dark</exposure>", "<whiteBalance>dark</whiteBalance>"])
+def test_a_camera_that_cannot_be_read_is_refused(tmp_path: Path, key: str) -> None:
+    sensor = f'<sensor name="eye" type="camera"><camera/><plugin>{key}</plugin></sensor>'
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(f'<robot name="r"><gazebo reference="l">{sensor}</gazebo></robot>')
+    with pytest.raises(GeneratorError, match="robot: found .*robot.urdf: .*'dark', expected"):
+        read_robot(RobotKeys(robot=str(robot)), tmp_path)

@@ -6,7 +6,7 @@ import math
 import os
 import sys
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence
 
 import numpy as np
 
@@ -335,20 +335,26 @@ def _command(args: argparse.Namespace) -> int:
     return _replay(session, args) if args.replay else _work(session, args)
 
 
-def main(argv: Optional[Sequence[str]] = None) -> int:
-    """Runs the command; returns the exit code: 0 all runs are done, 1 it could not go on, 2 bad input, 130 Ctrl-C."""
-    args = _arguments(argv)
+def exit_code(prog: str, work: Callable[[], int], interrupted: str = "") -> int:
+    """Returns what `work` does, 1 it could not go on, 2 bad input, 130 Ctrl-C, after which it says `interrupted`."""
     end_by_signals()
     try:
-        return _command(args)
+        return work()
     except Ended as ended:
-        say(PROG, "interrupted; the same command goes on")
+        if interrupted:
+            say(prog, interrupted)
         return int(ended.code or 1)
     except (GeneratorError, OSError) as error:
-        print(f"{PROG}: {error}", file=sys.stderr)
+        print(f"{prog}: {error}", file=sys.stderr)
         return 2
     except Exception as error:
         if type(error).__name__ != "EngineError":
             raise
-        print(f"{PROG}: {error}", file=sys.stderr)
+        print(f"{prog}: {error}", file=sys.stderr)
         return 1
+
+
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """Runs the command; returns the exit code: 0 all runs are done, else as exit_code()."""
+    args = _arguments(argv)
+    return exit_code(PROG, lambda: _command(args), "interrupted; the same command goes on")

@@ -67,7 +67,12 @@ def read_robot(keys: RobotKeys, folder: Path) -> Robot:
         urdf = ardee_sim.robot(file if file.is_file() else keys.robot)
     except ardee_sim.ArdeeError as error:
         raise GeneratorError(f"robot: {' '.join(str(error).split())}") from None
-    found = cameras_of(urdf)
+    try:
+        found = cameras_of(urdf)
+    except (ElementTree.ParseError, ValueError) as error:
+        raise GeneratorError(
+            f"robot: found {keys.robot}: {error}, expected a readable one"
+        ) from None
     if not found:
         raise GeneratorError(f"robot: found no camera on {keys.robot}, expected some")
     for name in keys.cameras or ():
@@ -132,7 +137,7 @@ def _mounted(
 def _development(sensor: ElementTree.Element) -> Dict[str, Any]:
     """Returns what the plugin's keys say of exposure, shutter and white balance."""
     exposure = (sensor.findtext("plugin/exposure") or "auto").strip()
-    words = (sensor.findtext("plugin/whiteBalance") or "off").split()
+    words = (sensor.findtext("plugin/whiteBalance") or "").split() or ["off"]
     numbers = words if words[0] in ("off", "auto") else [float(word) for word in words]
     return {
         "exposure": None if exposure == "auto" else float(exposure),

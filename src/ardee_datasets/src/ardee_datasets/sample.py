@@ -76,12 +76,13 @@ def annotation(mask: np.ndarray, item: Item, lone_px: int) -> Dict[str, Any]:
     rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
     x, y = int(columns[0]), int(rows[0])
     area = int(mask.sum())
+    whole = max(lone_px, area)  # floats may decide on a pixel of the edge in another way
     return {
         "category_id": item.label,
         "segmentation": {"size": list(mask.shape), "counts": rle.encode(mask)},
         "area": area,
         "visible_px": area,
-        "occluded": round(1.0 - area / lone_px, 4),
+        "occluded": round(1.0 - area / whole, 4),
         "bbox": [x, y, int(columns[-1]) + 1 - x, int(rows[-1]) + 1 - y],
         "iscrowd": 0,
         "truth_id": item.truth_id,

@@ -67,7 +67,7 @@ row lines. The real-time factor counts the sowing of the field in.
 """
 
 
-class Ended(NamedTuple):
+class EndedRun(NamedTuple):
     """A run that has ended; a summary without any measure if it failed."""
 
     seed: int
@@ -78,7 +78,7 @@ class Ended(NamedTuple):
     unanswered: int  # scans to which no command came
 
 
-def _ended(run: tables.RunFile) -> Ended:
+def _ended(run: tables.RunFile) -> EndedRun:
     row, about = run.row, run.about
     places = zip(run.samples["along_m"].to_pylist(), run.samples["event"].to_pylist())
     summary = dict(row.measures)
@@ -87,7 +87,7 @@ def _ended(run: tables.RunFile) -> Ended:
     end = f"failed: {row.error}" if row.status == tables.FAILED else row.end_reason
     step_ins = [(along_m, why) for along_m, why in places if why]
     latency_ms, unanswered = about.get("latency_ms", []), about.get("unanswered", 0)
-    return Ended(row.seed, end, summary, step_ins, latency_ms, unanswered)
+    return EndedRun(row.seed, end, summary, step_ins, latency_ms, unanswered)
 
 
 def pooled(runs: Sequence[Summary]) -> Summary:
@@ -141,7 +141,7 @@ class Report:
 
     def __init__(self, folder: Path, title: str, command: str) -> None:
         self._folder, self._title, self._command = folder, title, command
-        self._runs: Dict[int, Ended] = {}
+        self._runs: Dict[int, EndedRun] = {}
         self.path = folder / "report.md"
 
     def __len__(self) -> int:

@@ -15,11 +15,11 @@ from ardee_campaigns.experiment import scenarios
 from ardee_campaigns.experiment.report import CAMPAIGN, MEASURES, Report, in_short
 from ardee_campaigns.plan import Job
 from ardee_campaigns.replay import note_file
-from ardee_campaigns.run_campaign import Session
+from ardee_campaigns.run_campaign import Session, exit_code
 from ardee_common.cli import Parser, say, seconds_shown
 from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
-from ardee_common.process import Ended, end_by_signals
+from ardee_common.process import Ended
 from ardee_navigation.evaluation.scenario_files import Scenario
 from ardee_navigation.evaluation.scenarios import known_scenarios
 
@@ -147,19 +147,8 @@ def _experiment(args: argparse.Namespace, command: str) -> int:
 
 
 def main(argv: Optional[Sequence[str]] = None) -> int:
-    """Runs the command; returns the exit code: 0 all runs were driven, 1 one failed, 2 bad input, 130 Ctrl-C."""
+    """Runs the command; returns the exit code: 0 all runs were driven, 1 one failed, else as exit_code()."""
     words = sys.argv[1:] if argv is None else argv
     args = scenarios.parse(_parser(), words)
-    end_by_signals()
-    try:
-        return _experiment(args, " ".join(["rosrun ardee_navigation run_experiment", *words]))
-    except Ended as ended:
-        return int(ended.code or 1)
-    except (GeneratorError, OSError) as error:
-        print(f"{PROG}: {error}", file=sys.stderr)
-        return 2
-    except Exception as error:
-        if type(error).__name__ != "EngineError":
-            raise
-        print(f"{PROG}: {error}", file=sys.stderr)
-        return 1
+    command = " ".join(["rosrun ardee_navigation run_experiment", *words])
+    return exit_code(PROG, lambda: _experiment(args, command))

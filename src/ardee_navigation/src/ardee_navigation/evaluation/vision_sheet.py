@@ -16,7 +16,7 @@ _ACROSS = 3  # pictures, each with a tile for each way
 
 @dataclass(frozen=True)
 class Judged:
-    """What was found in a picture uint8[h, w, 3], by way, and how good that is."""
+    """A picture uint8[h, w, 3] with its true rows, and by way those found in it and their mark."""
 
     name: str
     rgb: np.ndarray
