@@ -214,8 +214,9 @@ def overlay_and_way() -> Tuple[Tuple[str, int, int], Tuple[float, float]]:
     return (picture.encoding, picture.width, picture.height), model_position("TerraSentia_0")
 
 
-def test_launch_file_drives_a_row_by_camera(graph: RosGraph) -> None:
-    arguments = ("scenario:=early_corn", "follower:=vision", "rviz:=false", "rtf:=2")
+@pytest.mark.parametrize("scenario", ["early_corn", "low_sun", "overcast"])
+def test_launch_file_drives_a_row_by_camera(graph: RosGraph, scenario: str) -> None:
+    arguments = (f"scenario:={scenario}", "follower:=vision", "rviz:=false", "rtf:=2")
     launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
     form, (_, y) = graph.call(overlay_and_way)
     assert form == ("rgb8", 640, 480) and abs(y) < 0.1
