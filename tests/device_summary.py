@@ -8,6 +8,7 @@ import rospy
 from probes import _start, _type
 
 from ardee_common.ros_graph import wait_until
+from ardee_common.ros_node import is_connected
 
 DEPTH_TYPES = {"32FC1": (np.float32, 1.0), "16UC1": (np.uint16, 1e-3)}
 FIELD_TYPES = {2: "u1", 4: "<u2", 6: "<u4", 7: "<f4", 8: "<f8"}  # sensor_msgs/PointField
@@ -112,9 +113,7 @@ def step_and_collect(topics: Dict[str, str], steps: int, timeout_s: float = 60.0
         )
         for topic, kind in topics.items()
     ]
-    wait_until(
-        lambda: all(s.get_num_connections() for s in subscribers), f"publishers of {list(topics)}"
-    )
+    wait_until(lambda: all(map(is_connected, subscribers)), f"publishers of {list(topics)}")
     rospy.wait_for_service("/ardee/step", timeout_s)
     answer = rospy.ServiceProxy("/ardee/step", _type("ardee_msgs/Step"))(steps=steps)
     assert answer.success, answer.status_message

@@ -174,12 +174,13 @@ def step_and_hear() -> Any:
     from sensor_msgs.msg import JointState
 
     from ardee_common.ros_graph import wait_until
+    from ardee_common.ros_node import is_connected
     from ardee_msgs.srv import Step
 
     rospy.init_node("listener", anonymous=True, disable_signals=True)
     heard = []  # type: List[Any]
     subscriber = rospy.Subscriber("/joint_states", JointState, heard.append)
-    wait_until(subscriber.get_num_connections, "a publisher of /joint_states")
+    wait_until(lambda: is_connected(subscriber), "a publisher of /joint_states")
     rospy.ServiceProxy("/ardee/step", Step)(steps=100)
     wait_until(lambda: heard, "joint states")
     return heard[0]

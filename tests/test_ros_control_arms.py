@@ -160,13 +160,14 @@ def next_message(topic: str, kind: str) -> Any:
     import roslib.message
     import rospy
 
+    from ardee_common.ros_node import is_connected
     from ardee_msgs.srv import Step
 
     rospy.init_node("listener", anonymous=True, disable_signals=True)
     heard = []  # type: List[Any]
     message = roslib.message.get_message_class(kind)
     subscriber = rospy.Subscriber(topic, message, heard.append)
-    wait_until(subscriber.get_num_connections, f"a publisher of {topic}")
+    wait_until(lambda: is_connected(subscriber), f"a publisher of {topic}")
     rospy.ServiceProxy("/ardee/step", Step)(steps=50)
     wait_until(lambda: heard, "a message")
     return heard[-1]

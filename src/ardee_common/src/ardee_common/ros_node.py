@@ -45,6 +45,11 @@ def read_parameters(cls: type, package: str = "", file_name: str = "") -> Any:
     return from_values(cls, given)
 
 
+def is_connected(subscriber: rospy.Subscriber) -> bool:
+    """Has a publisher accepted this subscriber? rospy also counts connections that are still being made."""
+    return any(connection.remote_endpoint[0] for connection in subscriber.impl.connections)
+
+
 def watch_master() -> None:
     """Goes on while the ROS master is away, for topics need none; ends the node once another one is there instead.
 

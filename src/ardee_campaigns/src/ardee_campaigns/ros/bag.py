@@ -19,6 +19,7 @@ from ardee_campaigns.run import sow
 from ardee_campaigns.task import set_down
 from ardee_common.errors import GeneratorError
 from ardee_common.ros_graph import wait_until
+from ardee_common.ros_node import is_connected
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
@@ -41,7 +42,7 @@ class Recorder:
         self._subscribers = [self._subscriber(_CLOCK, kinds)]
         wait_until(lambda: self._now, f"a message of {_CLOCK}")
         self._subscribers += [self._subscriber(topic, kinds) for topic in set(kinds) - {_CLOCK}]
-        wait_until(lambda: all(one.get_num_connections() for one in self._subscribers), "topics")
+        wait_until(lambda: all(map(is_connected, self._subscribers)), "topics")
 
     def _subscriber(self, topic: str, kinds: Mapping[str, str]) -> rospy.Subscriber:
         kind = get_message_class(kinds[topic])

@@ -20,6 +20,7 @@ from geometry_msgs.msg import Twist
 
 from ardee_campaigns.robot import NAME
 from ardee_common.process import start_child, stop_child
+from ardee_common.ros_node import is_connected
 from ardee_msgs.srv import Step
 from ardee_world.row_truth import Pose
 from gazebo_msgs.msg import ModelState
@@ -141,8 +142,9 @@ class RosSimulation:
                 "ignore"
             )  # it recommends a queue, whose thread would race the step
             self._commands = rospy.Publisher(commands, Twist, queue_size=None)
-        ports = [port for port in (self._subscriber, self._commands) if port]
-        _until(lambda: all(port.get_num_connections() for port in ports), "the robot's topics")
+        _until(self._commands.get_num_connections, "the robot's topic of commands")
+        if self._subscriber:
+            _until(lambda: is_connected(self._subscriber), "the robot's readings")
 
     def step(self, steps: int) -> float:
         """Takes this many physics steps; returns the simulated time [s] after them."""
