@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A run in a page of the browser while it goes."""
+"""A run in a page of the browser while it is done again."""
 import sys
 from typing import Any
 
 import ardee_sim
 
-from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import NAME
 from ardee_common.errors import GeneratorError
 
@@ -13,13 +12,7 @@ from ardee_common.errors import GeneratorError
 class Page:
     """Shows a run: paused at its start, then in real time, and paused at its end. For `with`."""
 
-    def __init__(self, port: int, job: Job) -> None:
-        kind = job.campaign.controllers[job.cell.controller].kind
-        if kind != "python":  # its time is real, or its simulation in another process
-            found = f"controller {job.cell.controller} of kind {kind}"
-            raise GeneratorError(
-                f"--view: found {found}, expected one of kind python; --bag takes any"
-            )
+    def __init__(self, port: int) -> None:
         try:
             from ardee_sim.view import Viewer
         except ImportError as error:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Does a run of a campaign's folder again, by its id: the same run, for it follows from its inputs."""
+"""Finds the inputs of a run of a campaign's folder by its id; keeps the scans of one that is done again."""
 import dataclasses
 from pathlib import Path
 from typing import List, Optional

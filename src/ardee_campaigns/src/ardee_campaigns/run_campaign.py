@@ -58,8 +58,8 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--replay",
         metavar="RUN_ID",
-        help="do this run again by itself; write its samples as RUN_ID.csv, and a lidar's scans in the lane as"
-        " RUN_ID_scans.csv, which overlay reads; print where",
+        help="do this run again by itself, that of a program or a ROS node by its recorded commands; write its samples"
+        " as RUN_ID.csv, and a lidar's scans in the lane as RUN_ID_scans.csv, which overlay reads; print where",
     )
     parser.add_argument(
         "--bag",
@@ -276,13 +276,10 @@ def _bag_writer() -> Any:
 
 
 def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None:
-    """Writes the bag of a run: of the campaign's, which need not be `done` if it was in real time."""
     from ardee_campaigns.engine import EngineError
     from ardee_campaigns.ros.process import Lost, apart
     from ardee_campaigns.ros.simulator import SimulationError
 
-    if tables.run_path(folder, job.run_id).is_file():
-        done = tables.read_run(folder, job.run_id)
     path = folder / f"{job.run_id}.bag"
     try:
         apart(write, job, done, path)
@@ -292,11 +289,11 @@ def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None
 
 
 def _replay(session: Session, args: argparse.Namespace) -> int:
-    """Does one run again in this process."""
+    """Does one run again."""
     import pyarrow.csv
 
     from ardee_campaigns.lane.real_run import write_scans
-    from ardee_campaigns.run import run_one
+    from ardee_campaigns.rerun import do_again
 
     run_id = args.replay
     write_bag = _bag_writer() if args.bag else None
@@ -310,8 +307,8 @@ def _replay(session: Session, args: argparse.Namespace) -> int:
     session.write_robots([job])
     log = ScanLog()
     with contextlib.ExitStack() as ends:
-        page = None if args.view is None else ends.enter_context(Page(args.view, job))
-        done = run_one(job, log.watch, page)
+        page = None if args.view is None else ends.enter_context(Page(args.view))
+        done = do_again(job, session.folder, log.watch, page)
     samples = done.samples.select([name for name, _ in tables.SAMPLE_FIELDS])
     path = session.folder / f"{run_id}.csv"
     pyarrow.csv.write_csv(samples, path)

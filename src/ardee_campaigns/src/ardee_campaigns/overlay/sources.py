@@ -9,7 +9,7 @@ from ardee_campaigns import tables
 from ardee_campaigns.lane.real_run import LIDAR_LOG, read_scans
 from ardee_campaigns.lane.scans import Scans, returns_m
 from ardee_campaigns.replay import Replayer, ScanLog, in_lane
-from ardee_campaigns.run import run_one
+from ardee_campaigns.rerun import do_again
 from ardee_common.cli import steps
 from ardee_common.errors import GeneratorError, known_names
 
@@ -72,7 +72,7 @@ def rerun(folder: Path, run_ids: Sequence[str], file: Optional[Path], prog: str)
     replayer, found = Replayer(folder, file), []
     for run_id in steps(prog, run_ids):
         log = ScanLog()
-        done = run_one(replayer.job(run_id), log.watch)
+        done = do_again(replayer.job(run_id), folder, log.watch)
         if done.row.status != tables.OK:
             raise GeneratorError(f"run {run_id}: {done.row.error}")
         scans = in_lane(log.scans(), done)

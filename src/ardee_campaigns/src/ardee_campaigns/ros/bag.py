@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
 """Drives a recorded run again in the node `simulator`, by its commands, and writes what that publishes to a rosbag."""
-import math
 import tempfile
 import threading
 import time
@@ -14,17 +13,14 @@ from roslib.message import get_message_class
 
 from ardee_campaigns import tables
 from ardee_campaigns.plan import Job
+from ardee_campaigns.rerun import follow
 from ardee_campaigns.ros.driven import RosDriven
 from ardee_campaigns.run import sow
-from ardee_campaigns.task import set_down
 from ardee_common.errors import GeneratorError
 from ardee_common.ros_graph import wait_until
 from ardee_common.ros_node import is_connected
-from ardee_world.row_truth import lane_of
-from ardee_world.trial import Trial
 
 _LARGE = ("sensor_msgs/CompressedImage", "sensor_msgs/Image", "sensor_msgs/PointCloud2")
-_APART_M = 1e-3  # of two runs that are not the same
 _LAST_S = 1.0  # for the last messages to arrive
 _CLOCK = "/clock"
 
@@ -78,7 +74,8 @@ def write_bag(job: Job, run: tables.RunFile, path: Path) -> None:
                 driven.spawn(trial.start, trial)
                 recorder = Recorder(part, _topics(driven.topics))
                 try:
-                    _drive(job, run.samples, driven, trial)
+                    for _ in follow(job, run.samples, driven, trial):
+                        pass
                     time.sleep(_LAST_S)
                 finally:
                     recorder.close()
@@ -102,19 +99,3 @@ def _topics(wanted: Mapping[str, str]) -> Dict[str, str]:
         for topic, kind in master.getTopicTypes()
         if topic in published and (kind not in _LARGE or topic in wanted.values())
     }
-
-
-def _drive(job: Job, samples: Any, driven: RosDriven, trial: Trial) -> None:
-    lane, keys = lane_of(trial.field, trial.start), job.campaign.keys.task
-    for row in samples.to_pylist():
-        while driven.advance() < row["time_ns"]:
-            pass  # a node in real time started meanwhile
-        driven.command(row["command_speed_m_s"], row["command_turn_rad_s"])
-        pose = driven.pose()
-        apart_m = math.hypot(pose.x_m - row["x_m"], pose.y_m - row["y_m"])
-        if apart_m > _APART_M:
-            found = f"{apart_m:.3g} m from its place at {row['time_ns'] * 1e-9:.3f} s"
-            raise GeneratorError(f"run {job.run_id}: found the robot {found}: its inputs differ")
-        if row["event"]:
-            driven.set_pose(set_down(keys, lane, row["event"], row["along_m"]), trial)
-            driven.settle()
