@@ -145,6 +145,20 @@ def test_ctrl_c_while_workers_start_ends_in_a_line(
     assert not list(scratch.iterdir())
 
 
+def test_ctrl_c_during_the_imports_ends_in_a_line(tmp_path: Path) -> None:
+    (tmp_path / "pyarrow.py").write_text(
+        "import time; print('importing', flush=True); time.sleep(60)"
+    )
+    env = small_campaign.environment()
+    env["PYTHONPATH"] = f"{tmp_path}:{env['PYTHONPATH']}"
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(small_campaign.command("small", "--list"), env=env, **pipes) as child:
+        assert child.stdout.readline() == "importing\n"
+        child.send_signal(signal.SIGINT)
+        assert child.communicate(timeout=30)[1] == "run_campaign: interrupted\n"
+    assert child.returncode == 130
+
+
 def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
 ) -> None:

@@ -5,6 +5,7 @@ import sys
 from typing import List, Optional
 
 from ardee_common.errors import known_names
+from ardee_common.process import end_in_a_line
 
 # Command to the module whose main(arguments) runs it and returns the exit code
 MODULES = {
@@ -23,6 +24,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     words = sys.argv[1:] if arguments is None else arguments
     known = list(MODULES)
     if words and words[0] in MODULES:
+        end_in_a_line(words[0])
         return importlib.import_module(MODULES[words[0]]).main(words[1:])
     if words and words[0] in ("-h", "--help"):
         print(f"usage: python3 -m ardee_campaigns COMMAND ...\n\ncommands: {', '.join(known)}")

@@ -39,6 +39,16 @@ def end_by_signals() -> None:
             signal.signal(number, end)
 
 
+def end_in_a_line(prog: str) -> None:
+    """Makes Ctrl-C end the program at once, in a line and with code 130: for its imports, before end_by_signals()."""
+
+    def end(number: int, _frame: Any) -> NoReturn:
+        os.write(2, f"{prog}: interrupted\n".encode())
+        os._exit(128 + number)
+
+    signal.signal(signal.SIGINT, end)
+
+
 def end_if_told() -> None:
     """Raises Ended again if a signal has raised it and it was lost: in a fork, or in a library's bare `except`."""
     if _told:

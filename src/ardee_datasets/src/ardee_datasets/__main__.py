@@ -6,6 +6,7 @@ import sys
 
 from ardee_common.cli import Parser
 from ardee_common.errors import known_names
+from ardee_common.process import end_in_a_line
 
 # Command to the module whose main(arguments) runs it and returns the exit code
 MODULES = {name: f"ardee_datasets.{name}" for name in ("generate_dataset", "show_dataset")}
@@ -20,6 +21,7 @@ def main() -> int:
     name = parser.parse_args(sys.argv[1:2]).command
     if name not in MODULES:
         parser.error(f"unknown command {name!r}, {known_names(name, MODULES)}")
+    end_in_a_line(name)
     return importlib.import_module(MODULES[name]).main(sys.argv[2:])
 
 
