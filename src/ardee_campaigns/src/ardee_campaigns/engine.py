@@ -41,6 +41,10 @@ def _client(address: Optional[str], workers: int) -> Iterator[Client]:
         "distributed.scheduler.work-stealing": True,
         "distributed.worker.memory.terminate": False,  # a run's own limit is in work()
         "distributed.admin.tick.limit": "1h",
+        # Callbacks for dask's dashboard, 10 to 100 times a second in each process, interrupt the runs.
+        "distributed.admin.tick.interval": "1s",
+        "distributed.admin.system-monitor.interval": "10s",
+        "distributed.worker.profile.enabled": False,
         "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
     }
     with dask.config.set(settings), contextlib.ExitStack() as stack:

@@ -2,6 +2,7 @@
 """Options of a generator: dataclass fields that know limits, unit and meaning, for commands and YAML alike."""
 
 import dataclasses
+import functools
 import math
 import re
 import sys
@@ -76,10 +77,15 @@ def spoken(name: str) -> str:
 
 def kind_of(cls: type, field: dataclasses.Field) -> Any:
     """Type of a field; Optional[X] is X."""
-    kind = typing.get_type_hints(cls)[field.name]
+    kind = _hints(cls)[field.name]
     if typing.get_origin(kind) is typing.Union:
         kind = next(k for k in typing.get_args(kind) if k is not _NONE)
     return kind
+
+
+@functools.lru_cache(maxsize=None)
+def _hints(cls: type) -> Dict[str, Any]:
+    return typing.get_type_hints(cls)
 
 
 def range_text(limits: Tuple[float, float], unit: str) -> str:

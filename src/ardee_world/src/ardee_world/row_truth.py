@@ -88,8 +88,11 @@ class Polyline:
     def __init__(self, points_m: np.ndarray) -> None:
         points_m = distinct(points_m)
         self.points_m = points_m
-        self._step = np.diff(points_m, axis=0)
-        self._length_m = np.hypot(*self._step.T)
+        step = np.diff(points_m, axis=0)
+        self._length_m = np.hypot(*step.T)
+        self._unit = step / self._length_m[:, None]
+        self._low_m, self._high_m = np.zeros(len(step)), self._length_m.copy()
+        self._low_m[:1], self._high_m[-1:] = -np.inf, np.inf
         self._arc_m = _arc_m(points_m)
 
     @property
@@ -100,11 +103,8 @@ class Polyline:
     def project(self, x_m: float, y_m: float) -> Projection:
         """Returns the projection onto the nearest point."""
         offset = np.array([x_m, y_m]) - self.points_m[:-1]
-        unit = self._step / self._length_m[:, None]
-        along = (offset * unit).sum(axis=1)
-        low, high = np.zeros(len(along)), self._length_m.copy()
-        low[0], high[-1] = -np.inf, np.inf
-        on = np.clip(along, low, high)
+        unit = self._unit
+        on = np.minimum(np.maximum((offset * unit).sum(axis=1), self._low_m), self._high_m)
         away = offset - on[:, None] * unit
         i = int(np.argmin((away * away).sum(axis=1)))
         left = unit[i, 0] * offset[i, 1] - unit[i, 1] * offset[i, 0]
@@ -116,8 +116,8 @@ class Polyline:
 
     def at(self, along_m: float) -> Pose:
         """Returns the point and the direction at a distance along the line."""
-        i = int(np.clip(np.searchsorted(self._arc_m, along_m) - 1, 0, len(self._step) - 1))
-        unit = self._step[i] / self._length_m[i]
+        i = int(np.clip(np.searchsorted(self._arc_m, along_m) - 1, 0, len(self._unit) - 1))
+        unit = self._unit[i]
         x, y = self.points_m[i] + (along_m - self._arc_m[i]) * unit
         return Pose(float(x), float(y), math.atan2(unit[1], unit[0]))
 
