@@ -292,3 +292,11 @@ def test_a_run_is_replayed_by_its_id(tmp_path: Path) -> None:
     lines = (output / f"{run_id}.csv").read_text().splitlines()[1:]
     assert [float(line.split(",")[1]) for line in lines] == x_m
     assert "known: " in run(file, "--output", output, "--replay", "x", code=2).stderr
+
+
+def test_a_replay_shows_where_a_controller_raised(tmp_path: Path) -> None:
+    raises = {"factory": "misbehaving:make", "params": {"how": "raises"}}
+    file = write(tmp_path, replicates=1, controllers={"raises": raises})
+    run_id = run(file, "--list").stdout.splitlines()[1].split(",")[0]
+    said = run(file, "--output", tmp_path, "--replay", run_id).stderr
+    assert "misbehaving.py" in said and "run_campaign: failed, KeyError" in said

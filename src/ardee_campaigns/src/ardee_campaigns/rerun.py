@@ -10,7 +10,7 @@ import ardee_sim
 from ardee_campaigns import tables
 from ardee_campaigns.plan import Job
 from ardee_campaigns.robot import Driven
-from ardee_campaigns.run import Show, Watch, run_one, sow
+from ardee_campaigns.run import Show, Watch, run_here, run_one, sow
 from ardee_campaigns.task import set_down
 from ardee_common.errors import GeneratorError
 from ardee_world.row_truth import lane_of
@@ -43,11 +43,11 @@ def follow(job: Job, samples: Any, driven: Any, trial: Trial) -> Iterator[bool]:
 def do_again(job: Job, folder: Path, watch: Watch, show: Optional[Show] = None) -> tables.RunFile:
     """Returns a run of a campaign's folder, done again; `watch` sees each observation, `show` the simulation.
 
-    A controller in Python drives anew. A program or ROS node, whose time may be real, is not started: the robot gets
-    the commands of the run's record. Only for a run without record it drives first.
+    A controller in Python drives anew, and an error's traceback is printed. A program or ROS node, whose time may be
+    real, is not started: the robot gets the commands of the run's record. Only for a run without one it drives first.
     """
     if job.campaign.controllers[job.cell.controller].kind == "python":
-        return run_one(job, watch, show)
+        return run_here(job, watch, show, is_traced=True)
     is_there = tables.run_path(folder, job.run_id).is_file()
     run = tables.read_run(folder, job.run_id) if is_there else run_one(job)
     if len(run.samples):

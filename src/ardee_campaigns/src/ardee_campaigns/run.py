@@ -10,6 +10,7 @@ import resource
 import socket
 import tempfile
 import time
+import traceback
 from pathlib import Path
 from typing import Any, Callable, Dict, Optional
 
@@ -22,6 +23,7 @@ from ardee_campaigns.plan import Job, factors_of, params_of
 from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.robot import Driven, Observation
 from ardee_campaigns.task import Judge
+from ardee_common.errors import GeneratorError
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
@@ -179,22 +181,23 @@ def is_ros(job: Job) -> bool:
     return job.campaign.controllers[job.cell.controller].kind == "ros"
 
 
-def run_one(job: Job, watch: Optional[Watch] = None, show: Optional[Show] = None) -> tables.RunFile:
-    """Returns what a run leaves behind. A failure of its world, robot, controller or measures is a failed row.
-
-    `show` sees the simulation, which one whose controller is a ROS node has not in this process.
-    """
+def run_one(job: Job) -> tables.RunFile:
+    """Returns what a run leaves behind. A failure of its world, robot, controller or measures is a failed row."""
     if is_ros(job):
         from ardee_campaigns.ros.process import run_apart
 
-        return run_apart(job, watch)
-    return run_here(job, watch, show)
+        return run_apart(job)
+    return run_here(job)
 
 
 def run_here(
-    job: Job, watch: Optional[Watch] = None, show: Optional[Show] = None
+    job: Job,
+    watch: Optional[Watch] = None,
+    show: Optional[Show] = None,
+    *,
+    is_traced: bool = False,
 ) -> tables.RunFile:
-    """Returns the same of a run in this process."""
+    """Returns the same of a run in this process. `is_traced` prints an error's traceback."""
     began, run, error = time.monotonic(), Run(job, show), ""
     try:
         with tempfile.TemporaryDirectory(prefix="ardee_run_") as work:
@@ -203,6 +206,8 @@ def run_here(
         if getattr(raised, "errno", None) in FULL:
             raise FullDisk(f"{tempfile.gettempdir()}: {os.strerror(raised.errno)}") from None
         error = _first_line(raised)
+        if is_traced and not isinstance(raised, GeneratorError):
+            traceback.print_exc()
     return run.file(error, time.monotonic() - began)
 
 

@@ -8,47 +8,43 @@ import sys
 import tempfile
 from functools import partial
 from pathlib import Path
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Tuple
 
 from ardee_campaigns import tables
 from ardee_campaigns.plan import Job
 from ardee_campaigns.program import end_with_parent
-from ardee_campaigns.run import Watch, failed, run_here
+from ardee_campaigns.run import failed, run_here
 from ardee_common.process import end_by_signals, ignore_end_signals, start_child, stop_child
 from ardee_common.ros_graph import RosGraph
 
-_SEEN, _DONE, _RAISED = "seen", "done", "raised"
+_DONE, _RAISED = "done", "raised"
 
 
 class Lost(Exception):
     """Error of a process that ended without a result."""
 
 
-def run_apart(job: Job, watch: Optional[Watch]) -> tables.RunFile:
+def run_apart(job: Job) -> tables.RunFile:
     """Returns what a run leaves behind."""
     try:
-        return apart(run_here, job, watch=watch)
+        return apart(run_here, job)
     except Lost as error:
         return failed(job, str(error))
 
 
-def apart(function: Callable[..., Any], *arguments: Any, watch: Optional[Watch] = None) -> Any:
+def apart(function: Callable[..., Any], *arguments: Any) -> Any:
     """Returns the function's result, or raises its error. The process ends its nodes itself if this one is lost."""
     pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     end = partial(end_with_parent, signal.SIGTERM)
     child = start_child([sys.executable, "-m", __name__], preexec_fn=end, **pipes)
     try:
         with child.stdin as asked, child.stdout as told:
-            pickle.dump((function, arguments, watch is not None), asked)
+            pickle.dump((function, arguments), asked)
             asked.flush()
-            while True:
-                what, value = pickle.load(told)  # cut short if it is killed while it writes
-                if what == _SEEN and watch is not None:
-                    watch(value)
-                elif what == _DONE:
-                    return value
-                elif what == _RAISED:
-                    raise value
+            what, value = pickle.load(told)  # cut short if it is killed while it writes
+            if what == _RAISED:
+                raise value
+            return value
     except (EOFError, BrokenPipeError, pickle.UnpicklingError):
         raise Lost(f"its process ended with exit code {child.wait()}") from None
     finally:
@@ -74,20 +70,15 @@ def _call(folder: Path, function: Callable[..., Any], *arguments: Any) -> Tuple[
 
 
 def main() -> None:
-    """Reads a function and its arguments, writes observations if they are wanted, and at last the result."""
+    """Reads a function and its arguments, writes the result."""
     told = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # of what a library prints
     end_by_signals()
-    function, arguments, is_watched = pickle.load(sys.stdin.buffer)
-
-    def tell(what: str, value: Any) -> None:
-        pickle.dump((what, value), told)
-        told.flush()
-
-    watch = (partial(tell, _SEEN),) if is_watched else ()
+    function, arguments = pickle.load(sys.stdin.buffer)
     with tempfile.TemporaryDirectory(prefix="ardee_ros_") as folder:
-        done = _call(Path(folder), function, *arguments, *watch)
-    tell(*done)
+        done = _call(Path(folder), function, *arguments)
+    with told:
+        pickle.dump(done, told)
 
 
 if __name__ == "__main__":
