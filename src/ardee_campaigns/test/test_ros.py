@@ -74,6 +74,34 @@ def test_a_run_is_replayed_to_a_bag(tmp_path: Path) -> None:
     assert [turn for turn in turns if turn] == samples["command_turn_rad_s"].to_pylist()
 
 
+def test_a_robot_of_ros_control_drives_with_and_without_ros(tmp_path: Path) -> None:
+    """A replay to a bag is refused if the node's robot is not where the run's was."""
+    robots = small_campaign.HERE.parents[2] / "tests" / "robots_with_ros_control"
+    jackal = {
+        "model": str(robots / "jackal.urdf.xacro"),
+        "parameters": str(robots / "jackal.yaml"),
+        "controllers": ["jackal_joint_publisher", "jackal_velocity_controller"],
+        "topics": {"command": "jackal_velocity_controller/cmd_vel"},
+        "period_s": 0.1,
+        "stand_m": 0.07,
+    }
+    controllers = {"straight": small_campaign.CAMPAIGN["controllers"]["straight"]}
+    file = write(tmp_path, controllers=controllers, replicates=1, robots={"jackal": jackal})
+    output = tmp_path / "out"
+    run(file, "--output", output)
+    (row,) = tables.read_runs(output).to_pylist()
+    assert row["status"] == tables.OK, row["error"]
+    assert row["distance_m"] > 0.5
+    run(file, "--output", output, "--replay", row["run_id"], "--bag")
+    with rosbag.Bag(str(output / f"{row['run_id']}.bag")) as bag:
+        found = bag.get_type_and_topic_info().topics
+    assert {"/joint_states", "/jackal_velocity_controller/odom"} <= set(found)
+    jackal["controllers"] = ["jackal_velocity"]
+    bad = write(tmp_path, controllers=controllers, replicates=1, robots={"jackal": jackal})
+    said = run(bad, "--output", tmp_path / "bad", code=2).stderr
+    assert "robot jackal: controllers: " in said and "jackal_velocity" in said
+
+
 def processes_of(mark: str) -> List[str]:
     """Returns the commands of all processes with a variable in their environment."""
     found = []

@@ -39,6 +39,19 @@ py::tuple made(const Inbox::Item& item) {
   return py::make_tuple(reading_class(item->index()), reading_fields(item));
 }
 
+/// Calls act(ports) for the ports of each device, and of each controller that it has loaded.
+template <typename Act>
+void visit_ports(const Entity& entity, Act act) {
+  for (const auto& device : entity.devices) {
+    act(device->ports());
+    auto* control = dynamic_cast<control::RosControl*>(device.get());
+    if (control == nullptr) continue;
+    for (const control::ControllerState& each : control->manager().list()) {
+      act(control->manager().find(each.name)->ports());
+    }
+  }
+}
+
 }  // namespace
 
 BoundSimulation::BoundSimulation(std::shared_ptr<LoadedWorld> world, std::uint64_t seed,
@@ -48,6 +61,9 @@ BoundSimulation::BoundSimulation(std::shared_ptr<LoadedWorld> world, std::uint64
   options.seed = seed;
   options.rays.threads = ray_threads;
   options.locator = world_->locator();
+  options.parameter = [this](const std::string& name) {
+    return parameters_.at(whole(name).substr(1));
+  };
   simulation_ = std::make_unique<Simulation>(world_->world(), options,
                                              [this](LogLevel level, const std::string& text) {
                                                log_.push_back({level, text});
@@ -88,10 +104,9 @@ void BoundSimulation::spawn(const Spawn& wanted) {
   request.label = wanted.label;
   for (const auto& device : use->spawn(request).devices) {
     if (dynamic_cast<const control::RosControl*>(device.get()) == nullptr) continue;
-    log_.push_back({LogLevel::kWarning, "model '" + wanted.name + "': found the plugin '" +
-                                            device->name() +
-                                            "' of ros_control, whose controllers ROS alone "
-                                            "loads: nothing moves its joints here"});
+    log_.push_back({LogLevel::kInfo, "model '" + wanted.name +
+                                         "': its controllers of ros_control are started by "
+                                         "start_controllers()"});
   }
   spawned_[wanted.name] = wanted.model;
   apply_demands();
@@ -156,8 +171,8 @@ template <typename Kind, typename Act>
 std::vector<std::string> BoundSimulation::for_each(const Simulation& simulation, Act act) const {
   std::vector<std::string> names;
   for (const auto& entity : simulation.entities()) {
-    for (const auto& device : entity->devices) {
-      for (Kind& port : device->ports().template all<Kind>()) {
+    visit_ports(*entity, [&](devices::Ports& ports) {
+      for (Kind& port : ports.all<Kind>()) {
         if constexpr (std::is_same_v<Kind, Service>) {
           names.push_back(port.name);
         } else {
@@ -165,7 +180,7 @@ std::vector<std::string> BoundSimulation::for_each(const Simulation& simulation,
         }
         act(port);
       }
-    }
+    });
   }
   return names;
 }
@@ -308,10 +323,10 @@ py::list BoundSimulation::entities() {
     py::list joints, links, topics;
     for (const Joint& joint : model.joints) joints.append(joint.name);
     for (const Link& link : model.links) links.append(link.name);
-    for (const auto& device : entity->devices) {
-      for (Output& output : device->ports().all<Output>()) topics.append(output.topic);
-      for (Input& input : device->ports().all<Input>()) topics.append(input.topic);
-    }
+    visit_ports(*entity, [&topics](devices::Ports& ports) {
+      for (Output& output : ports.all<Output>()) topics.append(output.topic);
+      for (Input& input : ports.all<Input>()) topics.append(input.topic);
+    });
     found.append(py::make_tuple(entity->name(), py::tuple(joints), py::tuple(links),
                                 py::tuple(topics), entity->is_static()));
   }

@@ -76,6 +76,15 @@ class BoundSimulation {
   void command(const std::string& topic, const py::object& value);
   py::object call(const std::string& service, const py::args& arguments);
 
+  /// Merges parameters into those there are, by the names that they have on ROS's parameter server.
+  void set_parameters(const py::dict& parameters);
+  /// Loads the controllers that are not loaded, and starts all; or throws Error and changes
+  /// nothing.
+  void start_controllers(const std::string& model, const std::vector<std::string>& names);
+  void stop_controllers(const std::string& model, const std::vector<std::string>& names);
+  /// Returns the states of a model's loaded controllers, by name: initialized, running or stopped.
+  py::dict controllers(const std::string& model);
+
   void demand(const std::string& topic, std::size_t keep);
   void undemand(const std::string& topic);
   bool demands(const std::string& topic);
@@ -121,6 +130,7 @@ class BoundSimulation {
   std::shared_ptr<LoadedWorld> world_;
   std::uint64_t seed_;
   std::vector<LogLine> log_;
+  Setting parameters_{"", Setting::Map()};  // as on ROS's parameter server
   std::optional<std::string> fault_;
   Inbox inbox_;
   std::map<std::string, std::shared_ptr<const LoadedModel>> spawned_;  // by name

@@ -8,10 +8,6 @@ import numpy as np
 import pytest
 from ardee_sim import ArdeeError, World
 
-CONTROLLED = """<robot name="arm"><link name="base"><inertial><mass value="1"/>
-<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
-<gazebo><plugin name="control" filename="libgazebo_ros_control.so"/></gazebo></robot>"""
-
 
 def test_bad_calls_say_what_was_expected(sim: ardee_sim.Simulation, terrasentia: str) -> None:
     calls: List[Tuple[Type[Exception], str, Callable[[], object]]] = [
@@ -74,6 +70,7 @@ def test_no_argument_whatsoever_breaks_a_simulation(
         "command": ("cmd_vel", [0.0] * 6),
         "call": ("ardee/imu/custom/set_rate_bias", 0, np.float64(0), np.float32(0)),
         "scenery": (0, 0.0, np.float32(1)),
+        "set_parameters": ({"gains": {"p": np.float64(1)}},),
     }
     wrong = [None, "", "\ud800", b"x", 1.5, np.nan, 2**70, -1, object(), np.array(2.0), [vector]]
     for name, arguments in good.items():
@@ -157,12 +154,6 @@ def test_a_bad_start_pose_is_refused(tmp_path: pathlib.Path, text: str, expected
     world.with_suffix(".start.yaml").write_text(text)
     with pytest.raises(ArdeeError, match=expected):
         World.from_file(world).start
-
-
-def test_a_robot_of_ros_control_is_warned_about(sim: ardee_sim.Simulation) -> None:
-    sim.log()
-    sim.spawn("arm", CONTROLLED, xyz_m=(0, 5, 1))
-    assert [line.level for line in sim.log() if "ROS alone" in line.text] == ["warning"]
 
 
 def test_a_closed_simulation_says_so(sim: ardee_sim.Simulation) -> None:

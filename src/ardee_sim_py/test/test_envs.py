@@ -309,7 +309,7 @@ def test_a_specification_survives_pickling() -> None:
 
 def test_bad_arguments_are_refused_with_what_was_expected(make: Make) -> None:
     for arguments, message in [
-        (dict(scenario="rice"), "scenario: found 'rice', nearest of 11: .*corn"),
+        (dict(scenario="rice"), "scenario: found 'rice', nearest of 16: .*corn"),
         (dict(robot="tsv9"), "found no robot 'tsv9'"),
         (dict(control_period_s=0.012), "expected a whole number of steps of 0.005 s"),
         (dict(randomise={"emergence": (0, 1)}), "a field that is not sown anew"),

@@ -69,6 +69,12 @@ class RobotKeys:
         "use to topic; `command` gets the commands, `battery` its state of charge, each other one is a key of the"
         " controller's observation (default: command: cmd_vel, scan: ardee/hokuyo, battery: ardee/battery_state)",
     )
+    parameters: Optional[dict] = option(
+        None, "of its ros_control controllers, and joints' gains; a text is a `.yaml` file of them"
+    )
+    controllers: Tuple[str, ...] = option(
+        (), "of ros_control, started in this order; they have topics"
+    )
     pace: str = option("scan", "use whose readings the controller answers, one step each")
     period_s: Optional[float] = option(
         None, "control period instead of the pace of a sensor", (1e-4, 10.0)
@@ -298,6 +304,7 @@ def read_campaign(file: Path) -> Campaign:
         found = f"found a last seed above {LARGEST_SEED}, the largest"
         raise mapping.error("first_seed", f"first_seed: {found}")
     worlds = _entries(WorldKeys, mapping, "worlds", _world_text)
+    _read_parameters(mapping["robots"] or {}, file.parent)
     robots = _entries(RobotKeys, mapping, "robots", lambda value: "model")
     controllers = _entries(ControllerKeys, mapping, "controllers", lambda value: "factory")
     for name, world in worlds.items():
@@ -307,6 +314,13 @@ def read_campaign(file: Path) -> Campaign:
                 found = f"{name}: params: found controller {controller!r}"
                 raise mapping["worlds"].error(name, f"{found}, expected one of {known}")
     return Campaign(file.resolve(), keys, worlds, robots, controllers, factors)
+
+
+def _read_parameters(robots: Mapping, folder: Path) -> None:
+    """Puts the content of a file of parameters in the place of its name: runs are those of that content."""
+    for robot in robots.values():
+        if isinstance(robot, dict) and isinstance(robot.get("parameters"), str):
+            robot["parameters"] = read_yaml_lines(folder / Path(robot["parameters"]).expanduser())
 
 
 def _factors(mapping: Mapping) -> Dict[str, FactorKeys]:

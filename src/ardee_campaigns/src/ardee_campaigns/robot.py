@@ -86,7 +86,9 @@ class Driven:
     def spawn(self, pose: Pose, trial: Optional[Trial]) -> Robot:
         """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
         place = (pose.x_m, pose.y_m, height_m(self._keys, pose, trial))
+        self.sim.set_parameters(self._keys.parameters or {})
         self.sim.spawn(NAME, self._urdf, xyz_m=place, rpy_rad=(0.0, 0.0, pose.yaw_rad))
+        self._start_controllers()
         self._check_topics()
         for use, topic in self._topics.items():
             if use != "command":
@@ -99,6 +101,14 @@ class Driven:
             self._name, dict(self._topics), self._keys.pace, period_s, outline, sensor
         )
         return self.robot
+
+    def _start_controllers(self) -> None:
+        if not self._keys.controllers:
+            return
+        try:
+            self.sim.start_controllers(NAME, *self._keys.controllers)
+        except ardee_sim.ArdeeError as error:
+            raise GeneratorError(f"robot {self._name}: controllers: {error}") from None
 
     def _check_topics(self) -> None:
         known = {name.lstrip("/"): info for name, info in self.sim.topics().items()}

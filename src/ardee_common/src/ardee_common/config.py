@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import Any, Dict, Iterable, List, Union
 
-import yaml
+import yaml  # type: ignore[import]
 
 from ardee_common.errors import GeneratorError, known_names, not_yaml
 from ardee_common.options import kind_of, problem

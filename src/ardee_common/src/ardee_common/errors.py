@@ -37,5 +37,5 @@ def not_yaml(path: Path, error: Exception) -> GeneratorError:
     text = getattr(error, "problem", None) or str(error)
     start = getattr(error, "context_mark", None)
     if start:
-        text += f" {error.context} from line {start.line + 1}"
+        text += f" {getattr(error, 'context', '')} from line {start.line + 1}"
     return GeneratorError(f"{where}: not valid YAML: {' '.join(text.split())}")

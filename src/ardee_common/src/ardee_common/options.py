@@ -95,7 +95,9 @@ def range_text(limits: Tuple[float, float], unit: str) -> str:
     return f"{text} {unit}".strip()
 
 
-def _number_problem(value: Any, kind: type, limits: Optional[Tuple], unit: str) -> Optional[str]:
+def _number_problem(
+    value: Any, kind: type, limits: Optional[Tuple[float, float]], unit: str
+) -> Optional[str]:
     expected = "a whole number" if kind is int else "a finite number"
     if limits:
         expected = ("a whole number, " if kind is int else "") + range_text(limits, unit)

@@ -12,6 +12,7 @@ from ardee_sim import _core, checks
 from ardee_sim.checks import Vector
 from ardee_sim.daylight import Daylight
 from ardee_sim.errors import ArdeeError
+from ardee_sim.parameters import Parameters, below
 from ardee_sim.pictures import camera_of, take_picture
 from ardee_sim.readings import make_reading
 from ardee_sim.state import Contact, Entity, LogLine, Snapshot, State, TopicInfo, Twist
@@ -120,6 +121,26 @@ class Simulation:
     def remove(self, name: str) -> None:
         """Takes a model out of the world."""
         self._core.remove(checks.text(name, "name"))
+
+    def set_parameters(self, parameters: Parameters, *, namespace: str = "") -> None:
+        """Sets parameters, or those of a YAML file, as `rosparam load` does; joints' gains are read by spawn()."""
+        self._core.set_parameters(below(namespace, parameters))
+
+    def start_controllers(self, model: str, *names: str) -> None:
+        """Loads and starts a model's ros_control controllers, which then have topics, as controller_spawner does."""
+        self._core.start_controllers(
+            checks.text(model, "model"), [checks.text(name, "name") for name in names]
+        )
+
+    def stop_controllers(self, model: str, *names: str) -> None:
+        """Stops controllers; they stay loaded."""
+        self._core.stop_controllers(
+            checks.text(model, "model"), [checks.text(name, "name") for name in names]
+        )
+
+    def controllers(self, model: str) -> Dict[str, str]:
+        """Returns the states of a model's loaded controllers: initialized, running or stopped."""
+        return self._core.controllers(checks.text(model, "model"))
 
     def step(self, n: int = 1) -> None:
         """Advances the world by n steps of step_ns; other threads of Python run meanwhile, and Ctrl-C ends it.

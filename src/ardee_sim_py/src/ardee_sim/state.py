@@ -40,7 +40,7 @@ class TopicInfo:
     rate_hz : readings per simulated second, of all the topic's devices; None: no readings, or not periodic (a trigger)
     frame_id : of all readings; empty if they have none or several
 
-    A robot's ros_control controllers have none: ROS alone loads them, with its parameters.
+    Those of a robot's ros_control controllers are there once these are started.
     """
 
     kind: str

@@ -11,6 +11,7 @@ from typing import Any, Optional
 
 import numpy as np
 import roslib.message
+import rosparam
 import rospy
 import rostopic
 from ardee_sim import BatteryStateReading, LidarReading
@@ -94,7 +95,9 @@ class RosDriven:
 
     def spawn(self, pose: Pose, trial: Trial) -> Robot:
         """Puts the robot down at a pose, lets it come to rest; returns what a controller is told."""
+        rosparam.upload_params("/", self._keys.parameters or {})
         self._simulator.place(self._urdf, pose, height_m(self._keys, pose, trial))
+        self._simulator.start_controllers(self._keys.controllers)
         pace = None
         if self.pace:
             kind = rostopic.get_topic_type(self.pace)[0]

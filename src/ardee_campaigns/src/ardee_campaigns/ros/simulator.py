@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import rospy
+import rosservice
 from geometry_msgs.msg import Pose as RosPose
 from geometry_msgs.msg import Twist
 
@@ -23,6 +24,7 @@ from ardee_common.process import start_child, stop_child
 from ardee_common.ros_node import is_connected
 from ardee_msgs.srv import Step
 from ardee_world.row_truth import Pose
+from controller_manager_msgs.srv import LoadController, SwitchController, SwitchControllerRequest
 from gazebo_msgs.msg import ModelState
 from gazebo_msgs.srv import GetModelState, SetModelState, SpawnModel
 
@@ -130,6 +132,20 @@ class RosSimulation:
         """Spawns the robot."""
         fields = (NAME, urdf, "/", to_ros(pose, z_m), "world")
         self.call("/gazebo/spawn_urdf_model", SpawnModel, *fields)
+
+    def start_controllers(self, names: Sequence[str]) -> None:
+        """Loads and starts controllers of ros_control."""
+        if not names:
+            return
+        ending = "/controller_manager/load_controller"
+        (load,) = (name for name in rosservice.get_service_list() if name.endswith(ending))
+        switch = load.replace("load_controller", "switch_controller")
+        requests: List[Tuple[str, type, Any]] = [(load, LoadController, (name,)) for name in names]
+        strict = SwitchControllerRequest.STRICT
+        requests.append((switch, SwitchController, (names, [], strict, False, 0.0)))
+        for service, kind, fields in requests:
+            if not self.call(service, kind, *fields).ok:
+                raise SimulationError(f"{service}: refused {fields[0]}")
 
     def connect(self, readings: Optional[Tuple[str, type]], commands: str) -> None:
         """Connects a sensor's topic of a type, and the topic of commands."""
