@@ -9,7 +9,15 @@ import pytest
 from ardee_models.plant.curve import Curve
 from ardee_models.plant.cylinder import fit_cylinder, fit_stalk_among_leaves
 from ardee_models.plant.lathe import Lathe, lathe_mesh
-from ardee_models.plant.leaf import Blade, blade_mesh, midrib, profile_area, width_profile
+from ardee_models.plant.leaf import (
+    WHOLE,
+    Blade,
+    Shred,
+    blade_mesh,
+    midrib,
+    profile_area,
+    width_profile,
+)
 from ardee_models.plant.leaf_sizes import full_sizes, length_to_width, relative_leaf_area
 from ardee_models.plant.mesh import tube
 from ardee_models.plant.plan import grow
@@ -140,6 +148,91 @@ def test_dead_leaves_of_late_corn_hang_down_and_lie_on_the_ground():
             assert 0.0 <= points[-1, 2] < low
             steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
             assert steps.sum() == pytest.approx(blade.length_m, rel=0.01)
+
+
+def _torn(*edges, apart_from=0.5, ends_at=1.0, up_rad=0.0) -> tuple:
+    return tuple(
+        Shred(low, high, apart_from, ends_at, 0.0, 0.0 if low <= 0.0 <= high else up_rad)
+        for low, high in zip(edges, edges[1:])
+    )
+
+
+def test_tears_alone_leave_the_blade_where_it_is():
+    whole = blade_mesh(_blade(twist_rad=0.4, curvature_rad=1.0), _flat(), 10, 3)
+    torn = blade_mesh(
+        _blade(twist_rad=0.4, curvature_rad=1.0, shreds=_torn(-1.0, -0.3, 0.6, 1.0)), _flat(), 10, 3
+    )
+    assert torn.area_m2() == pytest.approx(whole.area_m2(), rel=2e-3)
+    assert len(torn.triangles) == 2 * 10 * 4
+    for corner in whole.vertices:
+        assert np.linalg.norm(torn.vertices - corner, axis=1).min() < 1e-12
+
+
+def test_a_shred_stands_off_beyond_its_tear_only_and_keeps_its_length():
+    shreds = _torn(-1.0, -0.5, 1.0, apart_from=0.5, up_rad=np.radians(30.0))
+    whole, mesh = blade_mesh(_blade(), _flat(), 10, 3), blade_mesh(
+        _blade(shreds=shreds), _flat(), 10, 3
+    )
+    height = mesh.vertices[:, 2] - 1.0
+    outer = np.arange(len(height)) < 2 * 11  # the first shred
+    assert np.all(height[~outer] == 0.0)
+    beyond = np.maximum(np.repeat(np.unique(np.round(whole.vertices[:, 0], 12)), 2) - 0.4, 0.0)
+    np.testing.assert_allclose(height[outer], np.sin(np.radians(30.0)) * beyond, atol=1e-12)
+    behind = mesh.vertices[outer, 0] - 0.4
+    np.testing.assert_allclose(
+        behind[beyond > 0.0], np.cos(np.radians(30.0)) * beyond[beyond > 0.0], atol=1e-12
+    )
+
+
+@pytest.mark.parametrize("species, stage", [("corn", "R5"), ("sorghum", "7")])
+def test_no_shred_is_longer_than_its_blade(species, stage):
+    params = load_params(species, stage)
+    for seed in range(40):
+        plan = grow(params, np.random.default_rng(seed))
+        for blade in (b for shoot in (plan.main, *plan.tillers) for b in shoot.blades):
+            mesh = blade_mesh(blade, params.architecture.leaves, 12, 3)
+            away = np.linalg.norm(mesh.vertices - blade.origin, axis=1)
+            assert away.max() < 1.02 * blade.length_m + blade.width_m
+
+
+def test_a_broken_tip_is_gone():
+    mesh = blade_mesh(_blade(shreds=_torn(-1.0, 1.0, ends_at=0.7)), _flat(), 10, 3)
+    assert mesh.vertices[:, 0].max() == pytest.approx(0.7 * 0.8)
+
+
+@pytest.mark.parametrize("species, stage", [("corn", "R5"), ("sorghum", "7")])
+def test_old_and_dead_blades_are_torn_as_often_as_the_species_file_says(species, stage):
+    params = load_params(species, stage)
+    wear, dead, green = params.architecture.wear, [], []
+    for seed in range(60):
+        for blade in grow(params, np.random.default_rng(seed)).main.blades:
+            tears = len(blade.shreds) - 1
+            assert [s.low for s in blade.shreds[1:]] == [s.high for s in blade.shreds[:-1]]
+            assert (blade.shreds[0].low, blade.shreds[-1].high) == (-1.0, 1.0)
+            if blade.dryness > 0.98:
+                dead.append(tears)
+            elif blade.dryness < 0.02:
+                green.append(tears)
+    most = np.minimum(np.random.default_rng(1).poisson(wear.tears_dead, 100_000), 3)
+    assert np.mean(dead) == pytest.approx(most.mean(), abs=5.0 * most.std() / len(dead) ** 0.5)
+    assert 0.0 < np.mean(green) < wear.tears_green
+
+
+def test_leaves_of_tobacco_do_not_tear():
+    blades = grow(load_params("tobacco", "ripening"), np.random.default_rng(3)).main.blades
+    assert all(blade.shreds == WHOLE for blade in blades)
+
+
+def test_the_lower_leaves_of_tobacco_bend_down_and_the_upper_ones_do_not():
+    params = load_params("tobacco", "flower")
+    ends = []
+    for seed in range(20):
+        blades = grow(params, np.random.default_rng(seed)).main.blades
+        for blade in (blades[2], blades[-3]):
+            _, tangents = midrib(blade, params.architecture.leaves.curvature_power, 20)
+            ends.append(np.degrees(np.arccos(tangents[-1, 2])))
+    low, high = np.mean(ends[::2]), np.mean(ends[1::2])
+    assert low > 150.0 and high < 110.0
 
 
 def test_a_half_turn_of_twist_puts_the_tip_upside_down():

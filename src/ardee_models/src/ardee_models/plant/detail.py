@@ -18,6 +18,7 @@ class Detail:
     minor_every: int
     segments_min: int
     segments_max: int
+    torn: bool
 
 
 FULL = Detail(
@@ -31,6 +32,7 @@ FULL = Detail(
     minor_every=1,
     segments_min=6,
     segments_max=22,
+    torn=True,
 )
 LOD1 = Detail(  # level for hundreds of plants, seen from some metres
     suffix="_lod1",
@@ -43,5 +45,6 @@ LOD1 = Detail(  # level for hundreds of plants, seen from some metres
     minor_every=8,
     segments_min=2,
     segments_max=4,
+    torn=False,
 )
 LEVELS = (FULL, LOD1)

@@ -2,10 +2,11 @@
 """A leaf blade: curved midrib, width profile, fold along the midrib, wavy edges."""
 
 from dataclasses import dataclass
+from typing import Tuple
 
 import numpy as np
 
-from ardee_models.plant.mesh import sheet, unit
+from ardee_models.plant.mesh import join, sheet, unit
 from ardee_models.plant.plant import Mesh
 from ardee_models.plant.species import Leaves
 
@@ -15,6 +16,24 @@ _KINK_LENGTH = 0.02  # part of the blade over which a buckled midrib bends (esti
 MOST_DOWNWARD = np.radians(172.0)  # a tip hangs, it does not point back to the stalk
 _COLLAR_LENGTH = 0.08  # part of the blade in which the fold at the collar opens
 _STRIP_MARGIN = 0.04  # part of a texture strip's width that stays free at each side
+
+
+@dataclass(frozen=True)
+class Shred:
+    """The part of a blade between two tears, at offsets -1..1 across it: apart from `apart_from` of the length on.
+
+    From there it stands off from the blade by two angles; at `ends_at` its tip has broken off.
+    """
+
+    low: float
+    high: float
+    apart_from: float
+    ends_at: float
+    side_rad: float
+    up_rad: float
+
+
+WHOLE = (Shred(-1.0, 1.0, 0.0, 1.0, 0.0, 0.0),)
 
 
 @dataclass(frozen=True)
@@ -37,6 +56,7 @@ class Blade:
     dryness: float
     strip: int
     strips: int
+    shreds: Tuple[Shred, ...] = WHOLE
 
 
 def width_profile(s: np.ndarray, klig: float, s_wmax: float, tip_power: float) -> np.ndarray:
@@ -106,10 +126,11 @@ def _cross_section(blade: Blade, shape: Leaves, s: np.ndarray, offsets: np.ndarr
     return np.sign(offsets)[None, :] * across * np.cos(slope), across * np.sin(slope) + wave
 
 
-def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
-    """Mesh of `columns` of vertices (odd: one is the midrib; 2: edges only); normals point to the upper side."""
-    s = np.linspace(0.0, 1.0, segments + 1)
-    centre, tangent = midrib(blade, shape.curvature_power, segments)
+def _shred_mesh(
+    blade: Blade, shape: Leaves, shred: Shred, s: np.ndarray, offsets: np.ndarray
+) -> Mesh:
+    """Mesh of one shred; normals point to the upper side."""
+    centre, tangent = midrib(blade, shape.curvature_power, len(s) - 1)
     azimuth = blade.azimuth_rad + blade.azimuth_drift_rad * s
     flat_side = np.stack((np.sin(azimuth), -np.cos(azimuth), np.zeros_like(s)), -1)
     flat_up = unit(np.cross(flat_side, tangent))
@@ -117,10 +138,14 @@ def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh
     side = np.cos(roll) * flat_side + np.sin(roll) * flat_up
     up = np.cos(roll) * flat_up - np.sin(roll) * flat_side
     half = _half_widths(blade, shape, s)[:, None]
-    offsets = np.linspace(-1.0, 1.0, columns)
     sideways, lift = _cross_section(blade, shape, s, offsets)
-    if columns == 2:  # no midrib to fold along: the flat blade keeps its area
+    # no midrib to fold along: the flat blade keeps its area
+    if len(offsets) == 2 and offsets[0] < 0.0 < offsets[1]:
         sideways, lift = np.broadcast_to(offsets, sideways.shape), np.zeros_like(lift)
+    apart = blade.length_m * np.maximum(s - shred.apart_from, 0.0)[:, None]
+    direction = unit(np.array([np.tan(shred.side_rad), np.tan(shred.up_rad), 1.0]))
+    turned = np.stack((side, up, tangent), -1) @ direction - tangent
+    centre[1:] += np.cumsum(np.diff(apart, axis=0) * (turned[1:] + turned[:-1]) / 2, axis=0)
     points = (
         centre[:, None, :]
         + (half * sideways)[..., None] * side[:, None, :]
@@ -130,4 +155,17 @@ def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh
     low = (blade.strip + _STRIP_MARGIN) / blade.strips
     high = (blade.strip + 1.0 - _STRIP_MARGIN) / blade.strips
     u, v = np.broadcast_arrays((low + (high - low) * (offsets + 1.0) / 2.0)[None, :], s[:, None])
-    return sheet(points, np.stack((u, v), axis=-1))
+    rows = max(int(round(shred.ends_at * (len(s) - 1))), 1) + 1
+    return sheet(points[:rows], np.stack((u, v), axis=-1)[:rows])
+
+
+def blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
+    """Mesh of `columns` of vertices (odd: one is the midrib; 2: edges only), and of two more at each tear."""
+    s = np.linspace(0.0, 1.0, segments + 1)
+    offsets = np.linspace(-1.0, 1.0, columns)
+    meshes = []
+    for shred in blade.shreds:
+        inside = offsets[(offsets > shred.low) & (offsets < shred.high)]
+        across = np.concatenate(([shred.low], inside, [shred.high]))
+        meshes.append(_shred_mesh(blade, shape, shred, s, across))
+    return join(meshes)

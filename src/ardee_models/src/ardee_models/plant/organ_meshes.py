@@ -8,7 +8,7 @@ import numpy as np
 
 from ardee_models.plant.detail import Detail
 from ardee_models.plant.lathe import Lathe, lathe_mesh
-from ardee_models.plant.leaf import Blade, blade_mesh
+from ardee_models.plant.leaf import WHOLE, Blade, blade_mesh
 from ardee_models.plant.mesh import join
 from ardee_models.plant.plan import Plan
 from ardee_models.plant.plant import Mesh, Organ, Plant
@@ -16,6 +16,7 @@ from ardee_models.plant.species import CropParams, Leaves
 from ardee_models.plant.stalk import stalk_mesh
 
 _LEAF_GROUPS = (("LeavesBase", "leavesb"), ("LeavesMid", "leavesm"), ("LeavesTop", "leavest"))
+_FEWEST_TORN = 3  # segments of a torn blade
 _FEWEST_ABREAST = ((5, 16), (3, 4))  # columns of a blade, and segments it must then still get
 
 
@@ -42,15 +43,25 @@ def _grid(triangles: int, detail: Detail) -> Tuple[int, int]:
     return 2, int(np.clip(triangles // 2, detail.segments_min, detail.segments_max))
 
 
+def _blade_mesh(blade: Blade, shape: Leaves, segments: int, columns: int) -> Mesh:
+    """Mesh of a blade; a torn one has shorter columns, so that it takes no more triangles than a whole one."""
+    tears = len(blade.shreds) - 1
+    if tears:
+        segments = max(segments * (columns - 1) // (columns - 1 + tears), _FEWEST_TORN)
+    return blade_mesh(blade, shape, segments, columns)
+
+
 def _leaf_organs(
     blades: Tuple[Blade, ...], shape: Leaves, triangles: int, detail: Detail
 ) -> List[Organ]:
     """Blades in three groups from the ground up, as the material may differ with height."""
     columns, segments = _grid(triangles // len(blades), detail)
     order = np.argsort([blade.origin[2] for blade in blades], kind="stable")
+    if not detail.torn:
+        blades = tuple(replace(blade, shreds=WHOLE) for blade in blades)
     organs = []
     for (name, visual), group in zip(_LEAF_GROUPS, np.array_split(order, 3)):
-        meshes = [blade_mesh(blades[i], shape, segments, columns) for i in group]
+        meshes = [_blade_mesh(blades[i], shape, segments, columns) for i in group]
         if meshes:
             organs.append(Organ(name, visual, "leaves", join(meshes)))
     return organs

@@ -73,6 +73,17 @@ class BraceRoots:
 
 
 @dataclass(frozen=True)
+class Wear:
+    """Damage by wind and age to leaves with parallel veins."""
+
+    tears_green: float = bounded(0, 3)
+    tears_dead: float = bounded(0, 3)
+    tear_length: float = bounded(0, 0.5)
+    stand_off_sd_deg: float = bounded(0, 40)
+    lost_tip: float = bounded(0, 0.5)
+
+
+@dataclass(frozen=True)
 class Colours:
     """Mean colours, RGB 0..255."""
 

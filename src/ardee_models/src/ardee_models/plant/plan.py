@@ -11,6 +11,7 @@ from ardee_models.plant.curve import Curve
 from ardee_models.plant.lathe import Lathe
 from ardee_models.plant.shoot import Shoot, ShootSize, grow_shoot, main_size
 from ardee_models.plant.species import Architecture, CropParams
+from ardee_models.plant.wear import worn
 
 _HEAD_FROM = 0.1  # an inflorescence less grown than this is hidden in the whorl
 
@@ -98,4 +99,6 @@ def grow(params: CropParams, rng: np.random.Generator) -> Plan:
     main = grow_shoot(shape, size, _main_curve(shape, size.height_m, rng), rng)
     tillers = _tillers(params, size, rng)
     bodies = _bodies(params, main, tillers, rng)
-    return Plan(main, tuple(shoot for shoot, _ in tillers), bodies)
+    # wear comes last, so that it changes nothing else of a plant
+    main, *others = (worn(s, shape, rng) for s in (main, *(shoot for shoot, _ in tillers)))
+    return Plan(main, tuple(others), bodies)

@@ -90,16 +90,17 @@ def _posture(shape: Architecture, size: ShootSize, i: int, dry: float) -> tuple:
         insertion = lowest + (young.insertion_deg - lowest) * part
         return (
             insertion,
-            leaves.curvature_deg * young.curvature_factor * (1.0 - 0.6 * part),
+            leaves.curvature_top_deg * young.curvature_factor * (1.0 - 0.6 * part),
             young.fold_extra_deg,
         )
     if i < size.lost:
-        return leaves.hanging_deg, leaves.curvature_deg, 32.0 * dry
+        return leaves.hanging_deg, leaves.curvature_deg, leaves.dry_fold_deg * dry
     age = i / max(size.number - 1, 1)
     insertion = leaves.insertion_angle_deg + age * (
         leaves.insertion_angle_top_deg - leaves.insertion_angle_deg
     )
-    return insertion + leaves.dry_droop_deg * dry, leaves.curvature_deg, 32.0 * dry
+    curvature = leaves.curvature_deg + age * (leaves.curvature_top_deg - leaves.curvature_deg)
+    return insertion + leaves.dry_droop_deg * dry, curvature, leaves.dry_fold_deg * dry
 
 
 def _blade(

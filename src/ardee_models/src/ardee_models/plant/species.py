@@ -17,6 +17,7 @@ from ardee_models.plant.organ_params import (
     Panicle,
     Tassel,
     Tillers,
+    Wear,
 )
 from ardee_models.plant.stages import Stage, resolve_stage
 
@@ -61,6 +62,7 @@ class Leaves:
     insertion_angle_top_deg: float = bounded(0, 90)
     insertion_sd_deg: float = bounded(0, 30)
     curvature_deg: float = bounded(0, 180)
+    curvature_top_deg: float = bounded(0, 180)
     curvature_sd_deg: float = bounded(0, 60)
     curvature_power: float = bounded(0.5, 5)
     azimuth_drift_sd_deg: float = bounded(0, 60)
@@ -71,6 +73,7 @@ class Leaves:
     wave_amplitude: float = bounded(0, 1)
     wave_count: float = bounded(0, 20)
     dry_droop_deg: float = bounded(0, 120)
+    dry_fold_deg: float = bounded(0, 85)
     azimuth_sd_deg: float = bounded(0, 90)
     buckle_probability: float = bounded(0, 1)
     buckle_deg: float = bounded(0, 120)
@@ -103,6 +106,7 @@ class Architecture:
     flowers: Optional[Flowers] = None
     tillers: Optional[Tillers] = None
     brace_roots: Optional[BraceRoots] = None
+    wear: Optional[Wear] = None
 
 
 @dataclass(frozen=True)
