@@ -119,6 +119,26 @@ def test_weeds_are_poisson_and_even(pool):
     assert some[0] <= items.model.sum() <= some[1]
 
 
+@pytest.mark.parametrize("direction_deg", [-90.0, 30.0])
+def test_an_edges_weeds_stand_beside_the_outer_rows(pool, direction_deg):
+    clutter = Clutter(edge_weed_density_per_m2=20.0, clutter_margin_m=2.0, weed_models=("a",))
+    shape = RowShape(row_direction_deg=direction_deg)
+    layout = _field(pool, clutter=clutter, shape=shape, clutter_pools=WEEDS)
+    forwards = layout.planned.along[0]
+    axes = np.stack((forwards, [-forwards[1], forwards[0]]), axis=1)
+    rows, weeds = layout.planned.centres_m @ axes, layout.clutter[0][0].xy_m @ axes
+    low, high = rows.min(axis=0), rows.max(axis=0)
+    count = stats.poisson.ppf([RISK / 2, 1 - RISK / 2], 20.0 * 4.0 * (high - low)[0])
+    assert count[0] <= len(weeds) <= count[1]
+    share = (weeds[:, 0] - low[0]) / (high - low)[0]
+    right, left = low[1] - weeds[:, 1], weeds[:, 1] - high[1]
+    beyond = np.maximum(right, left) / 2.0
+    for values in (share, beyond):
+        assert stats.kstest(values, "uniform").pvalue > RISK
+    some = _bound(len(weeds), 0.5)
+    assert some[0] <= np.sum(left > 0.0) <= some[1]
+
+
 def test_an_image_says_where_weeds_grow(pool, tmp_path):
     pixels = np.zeros((4, 8), np.uint8)
     pixels[0, 7], pixels[3, 0] = 255, 51  # top right, bottom left
@@ -145,6 +165,7 @@ CHANGES = {
     "gaps": {"stand": Stand(gaps=10)},
     "doubles": {"stand": Stand(doubles=0.2)},
     "weeds": {"clutter": Clutter(weed_density_per_m2=1.0, weed_models=("a",))},
+    "edge": {"clutter": Clutter(edge_weed_density_per_m2=1.0, weed_models=("a",))},
     "emergence": {"emergence_min": 0.5, "emergence_max": 0.6},
     "sizes": {"stand": Stand(size_cv=0.1, late_emergence=0.1)},
     "heights": {"stalk_height_min_m": 0.5, "stalk_height_max_m": 0.7},
@@ -172,6 +193,7 @@ def test_a_changed_argument_changes_only_what_it_names(pool, name):
         "sizes": {"heights"},
         "noise": {"positions"},
         "weeds": set(),
+        "edge": set(),
     }
     assert changed == expected.get(name, {"numbers"})
 

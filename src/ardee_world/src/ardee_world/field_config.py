@@ -130,6 +130,9 @@ class Clutter:
         ("weed_rosette", "weed_broadleaf", "weed_grass"), "pool of weed models"
     )
     weed_image: Optional[str] = option(None, "grey image over the field's bounds: density of weeds")
+    edge_weed_density_per_m2: float = option(
+        0.0, "density of further weeds in the margin beside the outer rows", (0.0, 10_000.0)
+    )
     stone_density_per_m2: float = option(0.0, "density of stones", (0.0, 10_000.0))
     stone_models: Tuple[str, ...] = option(
         ("stone_round", "stone_flat", "stone_sharp"), "pool of stone models"

@@ -10,7 +10,7 @@ from ardee_common.errors import GeneratorError
 from ardee_models.lookup import CropModel
 from ardee_models.terrain.height_map import Ground
 from ardee_world import variation
-from ardee_world.clutter import KINDS, Items, bounds_of, draw_items
+from ardee_world.clutter import KINDS, Items, draw_items
 from ardee_world.curves import left_of
 from ardee_world.field_config import FAR_M, FieldConfig
 from ardee_world.plots import Plan, plan_centres
@@ -120,8 +120,7 @@ def _join(draws: Tuple[_Draw, ...], name: str) -> np.ndarray:
 def _draw_clutter(
     config: FieldConfig, pools: Pools, plan: Plan, streams: Streams, terrain: Optional[Ground]
 ) -> tuple:
-    bounds = bounds_of(plan.centres_m, config.clutter.clutter_margin_m)
-    drawn = [draw_items(k, config.clutter, pools.get(k, ()), bounds, streams) for k in KINDS]
+    drawn = [draw_items(k, config.clutter, pools.get(k, ()), plan, streams) for k in KINDS]
     return tuple((i, ground_heights(i.xy_m, config, terrain)) for i in drawn if i is not None)
 
 

@@ -13,7 +13,7 @@ from ardee_common.options import kind_of, plain_name, scalar_fields, unit_of
 from ardee_models.lookup import crop_model, default_output, search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.centres import listed_centres, read_centres
-from ardee_world.clutter import KINDS
+from ardee_world.clutter import KINDS, has_items
 from ardee_world.field_config import FieldConfig
 from ardee_world.field_layout import generate
 from ardee_world.plots import Plan
@@ -179,7 +179,7 @@ def make_configured(values: Values, *, has_map: bool = True) -> Path:
     pools = {
         kind: tuple(crop_model(n, folders) for n in getattr(config.clutter, f"{kind}_models"))
         for kind in KINDS
-        if getattr(config.clutter, f"{kind}_density_per_m2") > 0.0
+        if has_items(kind, config.clutter)
     }
     terrain = ground_model(sources.terrain, folders) if sources.terrain else None
     layout = generate(config, pool, sources.seed, terrain, _plan(sources), pools)

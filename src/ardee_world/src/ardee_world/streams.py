@@ -27,6 +27,7 @@ _NUMBERS = {
     "litter": (20,),
     "size": (21,),
     "double_size": (22,),
+    "edge_weed": (23,),
 }
 
 
