@@ -46,7 +46,8 @@ def end_in_a_line(prog: str) -> None:
         os.write(2, f"{prog}: interrupted\n".encode())
         os._exit(128 + number)
 
-    signal.signal(signal.SIGINT, end)
+    if signal.getsignal(signal.SIGINT) != signal.SIG_IGN:
+        signal.signal(signal.SIGINT, end)
 
 
 def end_if_told() -> None:
