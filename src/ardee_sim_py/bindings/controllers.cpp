@@ -8,7 +8,10 @@
 namespace ardee::python {
 namespace {
 
-Setting to_setting(const std::string& path, const py::handle& value) {
+constexpr int kMostLevels = 20;  // as in a YAML file; a group that holds itself has no end
+
+Setting to_setting(const std::string& path, const py::handle& value, int level = 0) {
+  if (level > kMostLevels) throw Error("found more than 20 levels of parameters, expected fewer");
   if (py::isinstance<py::bool_>(value)) return {path, value.cast<bool>()};
   if (py::isinstance<py::float_>(value)) return {path, value.cast<double>()};
   if (py::isinstance<py::str>(value)) return {path, value.cast<std::string>()};
@@ -24,7 +27,7 @@ Setting to_setting(const std::string& path, const py::handle& value) {
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     Setting::List list;
     for (const py::handle& item : value) {
-      list.push_back(to_setting(path + "[" + std::to_string(list.size()) + "]", item));
+      list.push_back(to_setting(path + "[" + std::to_string(list.size()) + "]", item, level + 1));
     }
     return {path, list};
   }
@@ -35,7 +38,7 @@ Setting to_setting(const std::string& path, const py::handle& value) {
       if (name.find('/') != std::string::npos) {
         throw Error(path + ": found the name '" + name + "', expected a group in place of a slash");
       }
-      map.emplace(name, to_setting(path + "/" + name, item));
+      map.emplace(name, to_setting(path + "/" + name, item, level + 1));
     }
     return {path, map};
   }

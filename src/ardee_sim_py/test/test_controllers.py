@@ -2,7 +2,7 @@
 """Robots whose wheels are moved by controllers of ros_control, as labs publish them."""
 import math
 import pathlib
-from typing import Callable, Iterator, List, Tuple, Type
+from typing import Callable, Dict, Iterator, List, Tuple, Type
 
 import ardee_sim
 import pytest
@@ -76,7 +76,7 @@ def test_controllers_are_part_of_a_snapshot(sim: ardee_sim.Simulation) -> None:
         ) == first
 
 
-def test_gains_and_names_below_a_namespace(sim: ardee_sim.Simulation) -> None:
+def test_parameters_are_merged_below_a_namespace(sim: ardee_sim.Simulation) -> None:
     sim.set_parameters(
         {JOINTS: {"type": "joint_state_controller/JointStateController"}}, namespace="a/b"
     )
@@ -93,6 +93,8 @@ def test_what_cannot_be_started_is_refused_and_changes_nothing(
     sim: ardee_sim.Simulation, tmp_path: pathlib.Path
 ) -> None:
     (tmp_path / "bad.yaml").write_text("a: 1\na: 2\n")
+    endless: Dict[str, object] = {}
+    endless["a"] = [endless]
     calls: List[Tuple[Type[Exception], str, Callable[[], object]]] = [
         (
             ArdeeError,
@@ -116,6 +118,7 @@ def test_what_cannot_be_started_is_refused_and_changes_nothing(
             "/a/b: found None, expected a number",
             lambda: sim.set_parameters({"a": {"b": None}}),
         ),
+        (ArdeeError, "more than 20 levels", lambda: sim.set_parameters(endless)),
         (ArdeeError, "32 bits", lambda: sim.set_parameters({"a": 2**31})),
         (TypeError, "parameters: found 1", lambda: sim.set_parameters(1)),  # type: ignore[arg-type]
         (TypeError, "name: found 1", lambda: sim.start_controllers("jackal", 1)),  # type: ignore[arg-type]
