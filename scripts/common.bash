@@ -54,6 +54,14 @@ source_underlay() {
   fi
 }
 
+# Have the compiler's cache, where there is one, serve each build of this tree and of its copies in other folders.
+use_ccache() {
+  command -v ccache >/dev/null || return 0
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_ABSSTDERR=1
+  export CCACHE_SLOPPINESS=pch_defines,time_macros # what it needs to know of precompiled headers
+}
+
 # This workspace as built.
 source_workspace() {
   [[ -f $root/devel/setup.bash ]] || die "not built yet: run scripts/build"

@@ -21,7 +21,6 @@ constexpr const char* kUsage =
     "Lidar scans of 1081 beams to 10 m at 0.25 m above ground, and images of 320 x 240 rays, in "
     "fields\n"
     "of 8 plants a square metre; one thread. Default: 200 2000 20000 200000 plants.\n";
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kRange_m = 10.0f;
 constexpr double kEyeHeight_m = 0.25;
 constexpr double kRow_m = 0.76;
@@ -39,7 +38,7 @@ struct Options {
 raycast::RayPattern lidar_pattern() {
   raycast::RayPattern pattern;
   for (int k = 0; k < 1081; ++k) {
-    const double angle = (-135.0 + 0.25 * k) * kPi / 180.0;
+    const double angle = (-135.0 + 0.25 * k) * M_PI / 180.0;
     pattern.directions_S.emplace_back(static_cast<float>(std::cos(angle)),
                                       static_cast<float>(std::sin(angle)), 0.0f);
   }

@@ -9,7 +9,6 @@
 namespace ardee::bench {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRowSpacing_m = 0.76;
 constexpr double kPlantsPerSquareMetre = 8.0;
 constexpr int kVariants = 4;
@@ -39,7 +38,7 @@ void add_stalk(SubMesh& mesh) {
   for (int row = 0; row <= kStalkSegments; ++row) {
     const double share = static_cast<double>(row) / kStalkSegments;
     for (int side = 0; side <= kStalkSides; ++side) {
-      const double angle = 2.0 * kPi * (side % kStalkSides) / kStalkSides;
+      const double angle = 2.0 * M_PI * (side % kStalkSides) / kStalkSides;
       const double radius = 0.012 * (1.0 - 0.6 * share);
       vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), kHeight_m * share);
     }
@@ -53,7 +52,7 @@ void add_leaf(SubMesh& mesh, double base_m, double azimuth, double length_m, dou
   std::vector<Eigen::Vector3d> vertices;
   for (int k = 0; k <= kLeafSegments; ++k) {
     const double s = static_cast<double>(k) / kLeafSegments;
-    const double width = 0.045 * std::sin(kPi * std::min(1.0, 0.15 + 0.85 * s)) + 0.001;
+    const double width = 0.045 * std::sin(M_PI * std::min(1.0, 0.15 + 0.85 * s)) + 0.001;
     const Eigen::Vector2d middle = out * (0.85 * length_m * s);
     const double height = base_m + length_m * (lift * s - 1.1 * s * s);
     for (int side = -1; side <= 1; ++side) {
@@ -72,7 +71,7 @@ std::shared_ptr<const Model> make_plant(std::uint64_t seed) {
   mesh.name = "plant";
   add_stalk(mesh);
   for (int leaf = 0; leaf < kLeaves; ++leaf) {
-    const double azimuth = kPi * leaf + 0.5 * rng.normal();
+    const double azimuth = M_PI * leaf + 0.5 * rng.normal();
     add_leaf(mesh, 0.12 + 0.13 * leaf, azimuth, 0.55 + 0.25 * rng.uniform(),
              0.8 + 0.4 * rng.uniform());
   }
@@ -120,7 +119,7 @@ std::vector<Placement> make_field(std::size_t count) {
     Placement placement;
     placement.model = models[variant];
     placement.X_WM = Pose::from_xyz_rpy({x + 0.02 * rng.normal(), y + 0.02 * rng.normal(), 0.0},
-                                        {0, 0, 2.0 * kPi * rng.uniform()});
+                                        {0, 0, 2.0 * M_PI * rng.uniform()});
     placement.scale = 0.9 + 0.2 * rng.uniform();
     placement.label = 1;
     placements.push_back(std::move(placement));

@@ -4,12 +4,13 @@
 #include <filesystem>
 
 #include "test/temp_folder.h"
+#include "test/test_data.h"
 
 namespace ardee::fuzz {
 namespace {
 
 std::optional<std::string> find_package(const std::string& package) {
-  if (package == "test_data") return ARDEE_TEST_DATA;
+  if (package == "test_data") return test_data();
   const std::string folder = ARDEE_PACKAGES "/" + package;
   if (std::filesystem::is_regular_file(folder + "/package.xml")) return folder;
   return std::nullopt;
@@ -23,9 +24,9 @@ Log quiet_log() {
 
 Loader make_loader() {
   ResourceLocator locator;
-  locator.add_model_path(ARDEE_TEST_DATA);
+  locator.add_model_path(test_data());
   locator.add_model_path(ARDEE_PACKAGES "/ardee_models/models");
-  locator.add_resource_path(ARDEE_TEST_DATA);
+  locator.add_resource_path(test_data());
   locator.set_package_finder(find_package);
   return Loader(std::move(locator), quiet_log());
 }

@@ -24,6 +24,7 @@ from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.robot import Driven, Observation
 from ardee_campaigns.task import Judge
 from ardee_common.errors import GeneratorError
+from ardee_common.process import end_if_told
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
@@ -136,6 +137,7 @@ class Run:
         recorder = self.recorder
         assert recorder is not None
         while not judge.end:
+            end_if_told()
             time_ns = driven.advance()
             observation = driven.observation()
             command = controllers.checked(controller.step(observation, _seconds(time_ns)))

@@ -26,12 +26,6 @@ double read_wheel_base(const ControllerContext& context) {
                   given);
 }
 
-double read_radius(const ControllerContext& context) {
-  const Setting given = context.settings.at("wheel_radius");
-  if (given) return positive(context.settings.number("wheel_radius"), given);
-  return wheel_radius(context.model, rear_wheel(context.settings), WheelShape::kCylinder, given);
-}
-
 }  // namespace
 
 std::unique_ptr<Controller> AckermannSteeringController::make(const ControllerContext& context) {
@@ -45,7 +39,8 @@ AckermannSteeringController::AckermannSteeringController(const ControllerContext
       front_steer_(claim(context, front_steer(context.settings), JointInterface::kPosition,
                          context.settings.at(kFrontSteer))),
       open_loop_(context.settings.boolean("open_loop", false)),
-      radius_m_(read_radius(context)),
+      radius_m_(wheel_radius(context.settings, context.model, rear_wheel(context.settings),
+                            WheelShape::kCylinder)),
       odometry_base_m_(read_wheel_base(context) *
                        read_multiplier(context.settings, "wheel_separation_h_multiplier")),
       odometry_radius_m_(radius_m_ * read_multiplier(context.settings, "wheel_radius_multiplier")),

@@ -20,13 +20,6 @@ double read_separation(const ControllerContext& context) {
   return positive((left - origin("right_wheel")).norm(), given);
 }
 
-double read_radius(const ControllerContext& context) {
-  const Setting given = context.settings.at("wheel_radius");
-  if (given) return positive(context.settings.number("wheel_radius"), given);
-  return wheel_radius(context.model, joint_names(context.settings, "left_wheel").front(),
-                      WheelShape::kCylinderOrSphere, given);
-}
-
 }  // namespace
 
 std::unique_ptr<Controller> DiffDriveController::make(const ControllerContext& context) {
@@ -40,7 +33,9 @@ DiffDriveController::DiffDriveController(const ControllerContext& context)
       open_loop_(context.settings.boolean("open_loop", false)),
       separation_multiplier_(read_multiplier(context.settings, "wheel_separation_multiplier")),
       separation_m_(read_separation(context)),
-      radius_m_(read_radius(context)),
+      radius_m_(wheel_radius(context.settings, context.model,
+                             joint_names(context.settings, "left_wheel").front(),
+                             WheelShape::kCylinderOrSphere)),
       linear_(context.settings, "linear/x"),
       angular_(context.settings, "angular/z") {
   if (left_.wheels.size() != right_.wheels.size()) {

@@ -27,9 +27,7 @@ FourWheelGeometry read_geometry(const ControllerContext& context) {
   geometry.track_m = size("track", [&](const Setting& source) {
     return distance(context, front[0], front[1], source);
   });
-  geometry.radius_m = size("wheel_radius", [&](const Setting& source) {
-    return wheel_radius(context.model, front[0], WheelShape::kCylinder, source);
-  });
+  geometry.radius_m = wheel_radius(settings, context.model, front[0], WheelShape::kCylinder);
   geometry.wheel_base_m = size("wheel_base", [&](const Setting& source) {
     return distance(context, front[0], joint_names(settings, "rear_wheel")[0], source);
   });

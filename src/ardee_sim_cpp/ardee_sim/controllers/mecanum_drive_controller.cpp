@@ -23,13 +23,6 @@ double read_separation(const ControllerContext& context, const std::string& key,
   return positive(std::abs(apart[axis]), given);
 }
 
-double read_radius(const ControllerContext& context) {
-  const Setting given = context.settings.at("wheel_radius");
-  if (given) return positive(context.settings.number("wheel_radius"), given);
-  return wheel_radius(context.model, context.settings.text(kWheelKeys[0]),
-                      WheelShape::kCylinderOrSphere, given);
-}
-
 }  // namespace
 
 std::unique_ptr<Controller> MecanumDriveController::make(const ControllerContext& context) {
@@ -38,7 +31,8 @@ std::unique_ptr<Controller> MecanumDriveController::make(const ControllerContext
 
 MecanumDriveController::MecanumDriveController(const ControllerContext& context)
     : DriveController(context, context.settings.text("odom_frame_id", "odom")),
-      radius_m_(read_radius(context)),
+      radius_m_(wheel_radius(context.settings, context.model, context.settings.text(kWheelKeys[0]),
+                             WheelShape::kCylinderOrSphere)),
       lever_m_((read_separation(context, "wheel_separation_x", kWheelKeys[kBackLeft], 0) +
                 read_separation(context, "wheel_separation_y", kWheelKeys[kFrontRight], 1)) /
                2.0),

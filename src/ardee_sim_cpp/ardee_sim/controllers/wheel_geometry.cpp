@@ -31,8 +31,18 @@ Eigen::Vector3d joint_origin(const Model& model, const std::string& joint, const
   return model.find_link(found.child)->X_ML * found.X_CJ.p;
 }
 
-double wheel_radius(const Model& model, const std::string& joint, WheelShape shape,
-                    const Setting& source) {
+double positive(double number, const Setting& source) {
+  if (!(number > 0.0)) {
+    throw Error(source.path() + ": found " + std::to_string(number) +
+                ", expected a number above 0");
+  }
+  return number;
+}
+
+double wheel_radius(const Setting& settings, const Model& model, const std::string& joint,
+                    WheelShape shape) {
+  const Setting source = settings.at("wheel_radius");
+  if (source) return positive(settings.number("wheel_radius"), source);
   const Link& link = *model.find_link(find_joint(model, joint, source).child);
   if (!link.collisions.empty()) {
     const Geometry& geometry = link.collisions.front().geometry;
@@ -43,14 +53,6 @@ double wheel_radius(const Model& model, const std::string& joint, WheelShape sha
   throw Error(source.path() + ": found nothing, and link '" + link.name + "' has no collision of " +
               (shape == WheelShape::kCylinder ? "a cylinder" : "a cylinder or a sphere") +
               " to take it from");
-}
-
-double positive(double number, const Setting& source) {
-  if (!(number > 0.0)) {
-    throw Error(source.path() + ": found " + std::to_string(number) +
-                ", expected a number above 0");
-  }
-  return number;
 }
 
 double read_multiplier(const Setting& settings, const std::string& key) {

@@ -18,10 +18,10 @@ Eigen::Vector3d joint_origin(const Model& model, const std::string& joint, const
 
 enum class WheelShape { kCylinder, kCylinderOrSphere };
 
-/// The radius of the first collision of the link that a joint turns. Throws Error as joint_origin()
-/// does if the collision has another shape.
-double wheel_radius(const Model& model, const std::string& joint, WheelShape shape,
-                    const Setting& source);
+/// The parameter wheel_radius, or else the radius of the first collision of the link that a joint
+/// turns. Throws Error as joint_origin() does if the collision has another shape.
+double wheel_radius(const Setting& settings, const Model& model, const std::string& joint,
+                    WheelShape shape);
 
 /// Reads a number above 0. Throws Error otherwise.
 double positive(double number, const Setting& source);

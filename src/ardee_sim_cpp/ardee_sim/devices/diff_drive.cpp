@@ -41,7 +41,7 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-DiffDrive::Params read(Parameters& parameters, DeviceContext& context) {
+DiffDrive::Params diff_drive_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   DiffDrive::Params params;
   params.joints = {plugin_turning_joint(parameters, context, "leftJoint", "left_joint"),
@@ -67,7 +67,7 @@ DiffDrive::Params read(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, Parameters& parameters,
                                         DeviceContext& context) {
-  return std::make_unique<DiffDrive>(plugin.name, read(parameters, context), context.robot);
+  return std::make_unique<DiffDrive>(plugin.name, diff_drive_params(parameters, context), context.robot);
 }
 
 DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot)

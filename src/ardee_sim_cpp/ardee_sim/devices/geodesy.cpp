@@ -12,7 +12,6 @@ using Eigen::Vector3d;
 constexpr double kEquator_m = 6378137.0;
 constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
-constexpr double kDegree = M_PI / 180.0;
 
 /// Radius of curvature across the meridian.
 double prime_vertical_m(double latitude_rad) {

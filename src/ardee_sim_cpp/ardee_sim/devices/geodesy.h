@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "ardee_sim/core/state_archive.h"
 
 namespace ardee::devices {
+
+constexpr double kDegree = M_PI / 180.0;  // rad
 
 /// WGS-84: degrees, and metres above the ellipsoid.
 struct GeoPoint {

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kNoFix = -1;  // sensor_msgs/NavSatStatus
+constexpr int kStatusNoFix = -1;  // sensor_msgs/NavSatStatus
 
 }  // namespace
 
@@ -78,7 +78,7 @@ FixReading Gps::fix(TimeNs now_ns, const Vector3d& measured_W, const Sky& sky,
                     const Vector3d& variance_m2) const {
   FixReading reading;
   reading.header = {now_ns, frame_};
-  reading.status = sky.has_fix ? status_ : kNoFix;
+  reading.status = sky.has_fix ? status_ : kStatusNoFix;
   reading.service = static_cast<std::uint16_t>(service_);
   // East and north are a mixture of x and y.
   const double sine = std::sin(frame_on_earth_.heading_rad());

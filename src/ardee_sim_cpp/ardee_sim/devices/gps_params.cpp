@@ -8,7 +8,6 @@
 namespace ardee::devices {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kMostLatitude_deg = 89.9;  // at a pole there is no east
 
 // sensor_msgs/NavSatStatus

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-HectorImu::Params read(Parameters& parameters, DeviceContext& context) {
+HectorImu::Params hector_imu_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   HectorImu::Params params{
       {context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
@@ -51,7 +51,7 @@ std::array<double, 3> diagonal(const Vector3d& variances) {
 
 std::unique_ptr<Device> HectorImu::make(const PluginDescription& plugin, Parameters& parameters,
                                         DeviceContext& context) {
-  return std::make_unique<HectorImu>(plugin.name, read(parameters, context),
+  return std::make_unique<HectorImu>(plugin.name, hector_imu_params(parameters, context),
                                      context.world_info.gravity_m_per_s2);
 }
 

@@ -16,7 +16,7 @@ constexpr double kStiffness_hz = 20.0;
 constexpr double kSmallest = 1e-6;
 constexpr double kLargest = 1e6;
 
-JointPosition::Params read(Parameters& parameters, DeviceContext& context) {
+JointPosition::Params joint_position_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   const std::string name = parameters.required_text("joint");
   const Source& source = parameters.block("joint")->source;
@@ -46,7 +46,7 @@ JointPosition::Params read(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<JointPosition>(plugin.name, read(parameters, context), context.robot);
+  return std::make_unique<JointPosition>(plugin.name, joint_position_params(parameters, context), context.robot);
 }
 
 JointPosition::JointPosition(const std::string& name, const Params& params, Robot& robot)

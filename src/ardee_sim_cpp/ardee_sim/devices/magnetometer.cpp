@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "ardee_sim/devices/geodesy.h"
 #include "ardee_sim/devices/names.h"
 
 namespace ardee::devices {
@@ -18,7 +19,6 @@ Vector3d Magnetometer::field_in_world(double magnitude, double heading_rad, doub
 
 std::unique_ptr<Device> Magnetometer::make(const PluginDescription& plugin, Parameters& parameters,
                                            DeviceContext& context) {
-  constexpr double kDegree = M_PI / 180.0;
   const std::string space = plugin_namespace(parameters, context);
   Params params{{context.robot, plugin_link(parameters, context), {}, 0.0, context.seed}};
   read_update_times(parameters, 0.0, params.mount);

@@ -8,7 +8,7 @@
 namespace ardee::devices {
 namespace {
 
-Coupling read(Parameters& parameters, DeviceContext& context) {
+Coupling mimic_coupling(Parameters& parameters, DeviceContext& context) {
   plugin_namespace(parameters, context);
   const auto joint = [&](const char* key) {
     const std::string name = parameters.required_text(key);
@@ -38,7 +38,7 @@ Coupling read(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, Parameters& parameters,
                                          DeviceContext& context) {
-  return std::make_unique<MimicJoint>(plugin.name, read(parameters, context), context.robot);
+  return std::make_unique<MimicJoint>(plugin.name, mimic_coupling(parameters, context), context.robot);
 }
 
 MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)

@@ -13,7 +13,7 @@ constexpr double kFastest = 1e3;  // m/s, rad/s: bound of a command
 
 double bounded(double speed) { return std::clamp(speed, -kFastest, kFastest); }
 
-PlanarMove::Params read(Parameters& parameters, DeviceContext& context) {
+PlanarMove::Params planar_move_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   PlanarMove::Params params;
   // In the stock plugin a negative number means "never".
@@ -32,7 +32,7 @@ PlanarMove::Params read(Parameters& parameters, DeviceContext& context) {
 std::unique_ptr<Device> PlanarMove::make(const PluginDescription& plugin, Parameters& parameters,
                                          DeviceContext& context) {
   context.robot.dynamics();  // a static model cannot move
-  return std::make_unique<PlanarMove>(plugin.name, read(parameters, context), context.robot);
+  return std::make_unique<PlanarMove>(plugin.name, planar_move_params(parameters, context), context.robot);
 }
 
 PlanarMove::PlanarMove(const std::string& name, const Params& params, Robot& robot)

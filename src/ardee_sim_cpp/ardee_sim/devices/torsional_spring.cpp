@@ -11,7 +11,7 @@
 namespace ardee::devices {
 namespace {
 
-TorsionalSpring::Params read(Parameters& parameters, DeviceContext& context) {
+TorsionalSpring::Params torsional_spring_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   TorsionalSpring::Params params;
   params.joint = parameters.required_text("joint_handle");
@@ -37,7 +37,7 @@ TorsionalSpring::Params read(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> TorsionalSpring::make(const PluginDescription& plugin,
                                               Parameters& parameters, DeviceContext& context) {
-  const Params params = read(parameters, context);
+  const Params params = torsional_spring_params(parameters, context);
   const std::size_t joint = context.joint_index(params.joint, plugin.element.source);
   if (!has_one_axis(context.robot.model().joints[joint].type)) {
     throw Error(plugin.element.source,

@@ -30,7 +30,7 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-TricycleDrive::Params read(Parameters& parameters, DeviceContext& context) {
+TricycleDrive::Params tricycle_drive_params(Parameters& parameters, DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   TricycleDrive::Params params;
   params.joints = {
@@ -62,7 +62,7 @@ TricycleDrive::Params read(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> TricycleDrive::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<TricycleDrive>(plugin.name, read(parameters, context), context.robot);
+  return std::make_unique<TricycleDrive>(plugin.name, tricycle_drive_params(parameters, context), context.robot);
 }
 
 TricycleDrive::TricycleDrive(const std::string& name, const Params& params, Robot& robot)

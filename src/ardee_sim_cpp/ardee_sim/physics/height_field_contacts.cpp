@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSamePoint = 1e-6;    // m: nearer contacts are merged
-constexpr double kRidgeHeight = 1e-4;  // m: least rise of the ground that touches between the rims
+constexpr double kRimRidge = 1e-4;  // m: least rise of the ground that touches between the rims
 constexpr double kPastEnd = 1e-9;      // share of an edge: rounding at its ends
 constexpr double kOnEnd =
     0.7;  // |cos| of a cylinder's axis to the vertical, above which it stands on end
@@ -235,7 +235,7 @@ void collide_cylinder(const HeightField& field, const Pose& X_FC, const Cylinder
   }
   const auto ends = static_cast<double>(contacts.size());
   for (const GroundContact& contact : middle.contacts) add_contact(contact, contacts);
-  const bool is_ridge = middle.deepest_m > 0.5 * (left.deepest_m + right.deepest_m) + kRidgeHeight;
+  const bool is_ridge = middle.deepest_m > 0.5 * (left.deepest_m + right.deepest_m) + kRimRidge;
   if (is_ridge || ends == 0.0) return;
   for (GroundContact& contact : contacts) {
     contact.share = ends / static_cast<double>(contacts.size());

@@ -8,8 +8,6 @@
 namespace ardee::raycast {
 namespace {
 
-/// Float arithmetic within a block errs by a few parts in 2^24 of its size.
-constexpr double kBlockSlack = 2e-6;
 /// Reach of a finished query.
 constexpr double kNothingMatters = -1.0;
 

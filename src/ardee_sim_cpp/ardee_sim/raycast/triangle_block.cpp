@@ -9,9 +9,6 @@
 namespace ardee::raycast {
 namespace {
 
-/// Float arithmetic within a block errs by a few parts in 2^24 of its size.
-constexpr float kBlockSlack = 2e-6f;
-
 /// Möller and Trumbore (1997) for all lanes, with slack at each comparison. A block is loaded more
 /// often than it is hit, so values that follow from its edges are computed, not stored.
 __attribute__((always_inline)) inline std::uint32_t mark(const TriangleBlock& block,
@@ -78,7 +75,7 @@ std::uint32_t cull_conservatively(const TriangleBlock& block, const BlockPlace& 
   const float t_left = ray.t_high - t_near;
   local.t_low = t_near < t_radius ? -t_near : -t_radius;
   local.t_high = t_left < t_radius ? t_left : t_radius;
-  local.slack_m = slack_m / place.scale + kBlockSlack * block.radius;
+  local.slack_m = slack_m / place.scale + static_cast<float>(kBlockSlack) * block.radius;
   return mark(block, local);
 }
 

@@ -9,6 +9,8 @@
 namespace ardee::raycast {
 
 constexpr int kBlockLanes = 16;
+/// Float arithmetic within a block errs by a few parts in 2^24 of its size.
+constexpr double kBlockSlack = 2e-6;
 
 /// Sixteen neighbouring triangles side by side, for one pass of vector instructions. Coordinates
 /// are floats relative to the block's centre: they only choose candidates, which are decided in

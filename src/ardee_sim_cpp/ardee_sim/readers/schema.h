@@ -19,6 +19,14 @@ enum class Treatment {
   kElsewhere  // left to another parser (a plugin's)
 };
 
+/// Their short names, for tables.
+namespace treatments {
+inline constexpr Treatment acts = Treatment::kActs;
+inline constexpr Treatment settled = Treatment::kSettled;
+inline constexpr Treatment no_effect = Treatment::kNoEffect;
+inline constexpr Treatment elsewhere = Treatment::kElsewhere;
+}  // namespace treatments
+
 /// One line of a table of elements.
 struct SchemaRow {
   const char* place;  // the parent; "joint/physics" if its name alone is ambiguous

@@ -5,10 +5,7 @@
 namespace ardee {
 namespace {
 
-constexpr Treatment acts = Treatment::kActs;
-constexpr Treatment settled = Treatment::kSettled;
-constexpr Treatment no_effect = Treatment::kNoEffect;
-constexpr Treatment elsewhere = Treatment::kElsewhere;
+using namespace treatments;
 
 constexpr char kFrames[] = "frames are known in worlds and models alone";
 constexpr char kOneEngine[] = "ode is the one engine";

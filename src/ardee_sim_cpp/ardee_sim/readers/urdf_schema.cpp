@@ -5,10 +5,7 @@
 namespace ardee {
 namespace {
 
-constexpr Treatment acts = Treatment::kActs;
-constexpr Treatment settled = Treatment::kSettled;
-constexpr Treatment no_effect = Treatment::kNoEffect;
-constexpr Treatment elsewhere = Treatment::kElsewhere;
+using namespace treatments;
 
 const std::vector<SchemaRow>& urdf_rows() {
   static const std::vector<SchemaRow> rows{

@@ -33,7 +33,7 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   return numbers;
 }
 
-std::string bounds(double low, double high) {
+std::string expected_range(double low, double high) {
   std::ostringstream what;
   what << "expected a number in [" << low << ", " << high << "]";
   return what.str();
@@ -127,7 +127,7 @@ double Node::to_number(double low, double high) const {
     throw error("found " + in_quotes(all) + ", expected a finite number");
   }
   if (*value < low || *value > high)
-    throw error("found " + in_quotes(all) + ", " + bounds(low, high));
+    throw error("found " + in_quotes(all) + ", " + expected_range(low, high));
   return *value;
 }
 
@@ -157,7 +157,7 @@ std::vector<double> Node::to_numbers(std::size_t least, std::size_t most, const 
   for (const double value : *numbers) {
     if (!std::isfinite(value)) throw error("found " + in_quotes(all) + ", expected " + what);
     if (std::abs(value) > limits::kAbsurd) {
-      throw error("found " + in_quotes(all) + ", " + bounds(-limits::kAbsurd, limits::kAbsurd));
+      throw error("found " + in_quotes(all) + ", " + expected_range(-limits::kAbsurd, limits::kAbsurd));
     }
   }
   return *numbers;

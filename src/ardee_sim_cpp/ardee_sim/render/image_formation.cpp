@@ -21,8 +21,8 @@ const Eigen::Vector3f kLuma(0.299f, 0.587f, 0.114f);  // ITU-R BT.601
 
 // Constants of automatic exposure are nominal, chosen by eye on fields.
 constexpr float kMiddleGrey = 0.32f;
-constexpr float kLeastGain = 0.5f;
-constexpr float kMostGain = 2.5f;
+constexpr float kLeastExposure = 0.5f;
+constexpr float kMostExposure = 2.5f;
 constexpr int kEvery = 4;  // distance of metered pixels, both ways
 
 constexpr std::size_t kPiece = 64;  // pixels of a row that are processed together; an even number
@@ -183,7 +183,7 @@ float automatic_exposure(const Frame& frame) {
   if (brightness.empty()) return 1.0f;
   const auto middle = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() / 2);
   std::nth_element(brightness.begin(), middle, brightness.end());
-  return std::clamp(kMiddleGrey / std::max(*middle, 1e-3f), kLeastGain, kMostGain);
+  return std::clamp(kMiddleGrey / std::max(*middle, 1e-3f), kLeastExposure, kMostExposure);
 }
 
 std::vector<std::uint8_t> form_image(const Frame& frame, const ImageFormation& how,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../temp_folder.h"
+#include "../test_data.h"
 #include "ardee_sim/readers/loader.h"
 
 namespace ardee {
@@ -21,7 +22,7 @@ class ReadersTest : public ::testing::Test {
       : loader_(make_locator(), make_log(), bad_parts) {}
 
   static std::string data(const std::string& name) {
-    return std::string(ARDEE_TEST_DATA "/") + name;
+    return ardee::test_data(name);
   }
 
   std::shared_ptr<const Model> model(const std::string& body, const std::string& version = "1.5") {

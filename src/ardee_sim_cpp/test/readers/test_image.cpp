@@ -11,7 +11,7 @@
 namespace ardee {
 namespace {
 
-std::string picture(const std::string& name) { return ARDEE_TEST_DATA "/images/" + name; }
+std::string picture(const std::string& name) { return test_data("images/" + name); }
 
 // The pictures are 4 x 3 pixels; index = column + 4 * row. Grey of 8 bits is 20 * index, of 16 bits
 // 5000 * index.

@@ -24,7 +24,7 @@ struct Reading {
 };
 
 MeshFile read(const std::string& name) {
-  const Reading reading(std::string(ARDEE_TEST_DATA "/meshes/") + name);
+  const Reading reading(test_data(std::string("meshes/") + name));
   EXPECT_EQ(reading.said, "");
   return reading.file;
 }
@@ -387,7 +387,7 @@ TEST(MeshPolygons, AFaceOfTwoCornersIsALine) {
 }
 
 TEST(MeshReader, CutsOffWhatFollowsTheTrianglesOfABinaryStl) {
-  const std::string path = ARDEE_TEST_DATA "/meshes/cube.stl";
+  const std::string path = test_data("meshes/cube.stl");
   const std::string cube = read_text_file(path, Source{}, 10000);
   const TempFolder folder;
   const Reading reading(folder.write("long.stl", cube + "tail"));

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "../readers/specification.h"
+#include "../test_data.h"
 #include "cameras.h"
 #include "effects.h"
 #include "reading_bytes.h"
@@ -107,7 +108,7 @@ TEST(Effects, EachNumberOfTheSpecificationThatActsIsTested) {
   std::set<std::string> tested;
   for (const Effect& effect : effects()) tested.insert(effect.element);
   for (const auto& [element, file, test] : kTestedElsewhere) {
-    std::ifstream source(std::string(ARDEE_TEST_DATA) + "/../" + file);
+    std::ifstream source(test_data("../") + file);
     std::ostringstream text;
     text << source.rdbuf();
     EXPECT_NE(text.str().find(test), std::string::npos) << file << " has no test " << test;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows for the elements of SDF that act and hold numbers or switches.
+#include "../test_data.h"
 #include "effects.h"
 
 namespace ardee {
@@ -195,7 +196,7 @@ void add_models(std::vector<Effect>& rows) {
 }
 
 void add_shapes(std::vector<Effect>& rows) {
-  const std::string data = std::string("<uri>file://") + ARDEE_TEST_DATA;
+  const std::string data = "<uri>file://" + test_data();
   const std::string cube = data + "/meshes/cube.obj</uri>";
   const std::string parts =
       data + "/meshes/parts_z_up.dae</uri><submesh><name>Leaf</name>{}</submesh>";

@@ -4,6 +4,7 @@
 // and without FMA instructions; the hashes are those of one with them.
 #include <gtest/gtest.h>
 
+#include "../test_data.h"
 #include "all_devices.h"
 #include "ardee_sim/core/rng.h"
 #include "fixture.h"
@@ -66,7 +67,7 @@ TEST(Golden, RaySensors) { EXPECT_EQ(drive_with(ray_devices()), 0xe2b2b754fa1e7e
 TEST(Golden, Cameras) { EXPECT_EQ(drive_with(camera_devices()), 0xbcaba0c59f7b864bu); }
 
 TEST(Golden, AHeapThatFallsOnHeights) {
-  const std::string heights = std::string("<heightmap><uri>file://") + ARDEE_TEST_DATA +
+  const std::string heights = "<heightmap><uri>file://" + test_data() +
                               "/images/grey8.png</uri><size>8 8 0.5</size></heightmap>";
   std::string models =
       "<model name='ground'><static>true</static><link name='link'><collision "

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "../temp_folder.h"
+#include "../test_data.h"
 #include "gps_rig.h"
 
 namespace ardee {
@@ -120,7 +121,7 @@ TEST(GpsFiles, a_field_that_comes_later_and_is_wrong_leaves_the_regions_as_they_
 }
 
 TEST(GpsFiles, shipped_geofence_has_the_measured_error_under_tall_corn) {
-  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + std::string(ARDEE_TEST_DATA) +
+  const std::string keys = plot("1", 0.0, 2.2) + "<geofenceFile>" + test_data() +
                            "/../../../ardee_geofence/default_gps_behavior.geofence</geofenceFile>";
   EXPECT_NEAR(stand(keys, at(0), 1).back().position_std_m, 1.37, 1e-9);
 }

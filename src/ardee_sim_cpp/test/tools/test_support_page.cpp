@@ -8,12 +8,14 @@
 #include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
 
+#include "../test_data.h"
+
 namespace ardee {
 using namespace devices;
 namespace {
 
 TEST(SupportPage, IsWhatTheCodeSays) {
-  std::ifstream file(ARDEE_TEST_DATA "/../../../../docs/support.md");
+  std::ifstream file(test_data("../../../../docs/support.md"));
   std::ostringstream kept;
   kept << file.rdbuf();
   EXPECT_EQ(kept.str(), support_page())
