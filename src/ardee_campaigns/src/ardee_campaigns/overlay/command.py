@@ -16,26 +16,7 @@ PROG = "overlay"
 FOLLOWER = "ardee_navigation.control:make"
 
 
-def _parser() -> Parser:
-    parser = Parser(
-        prog=PROG,
-        description="Show the scans of a real run and of simulated ones to a controller that only looks; write a page"
-        " of raw and perceived distances and of distributions, real beside simulated, and how far they are apart.",
-    )
-    parser.add_argument(
-        "simulated",
-        type=Path,
-        metavar="OUTPUT",
-        help="a campaign's folder, some of whose runs are done again; or a recorded run, as --real",
-    )
-    parser.add_argument(
-        "--real",
-        type=Path,
-        required=True,
-        metavar="RUN",
-        help="rosbag, CSV file as lidar_log.csv, or folder of one: a scan a line, the time [ms], then ranges [mm]",
-    )
-    parser.add_argument("--topic", default="/scan", help="of the scans in a rosbag")
+def _runs_arguments(parser: Parser) -> None:
     parser.add_argument(
         "--runs",
         type=whole_in(1, 1000),
@@ -56,6 +37,29 @@ def _parser() -> Parser:
         metavar="NAME=VALUE",
         help="only runs of this world, robot, controller or factor; may be given again",
     )
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        prog=PROG,
+        description="Show the scans of a real run and of simulated ones to a controller that only looks; write a page"
+        " of raw and perceived distances and of distributions, real beside simulated, and how far they are apart.",
+    )
+    parser.add_argument(
+        "simulated",
+        type=Path,
+        metavar="OUTPUT",
+        help="a campaign's folder, some of whose runs are done again; or a recorded run, as --real",
+    )
+    parser.add_argument(
+        "--real",
+        type=Path,
+        required=True,
+        metavar="RUN",
+        help="rosbag, CSV file as lidar_log.csv, or folder of one: a scan a line, the time [ms], then ranges [mm]",
+    )
+    parser.add_argument("--topic", default="/scan", help="of the scans in a rosbag")
+    _runs_arguments(parser)
     parser.add_argument(
         "--factory", default=FOLLOWER, metavar="MODULE:FUNCTION", help="makes the controller"
     )

@@ -61,20 +61,12 @@ def _source_arguments(parser: argparse.ArgumentParser) -> None:
         )
 
 
-def make_parser() -> argparse.ArgumentParser:
-    """Makes the parser of the command's arguments."""
-    usual, felt = TerrainParams(), Surface()
-    parser = Parser(
-        prog="generate_terrain",
-        description="Write a field terrain as a Gazebo model directory. Rows run along x.",
-    )
-    _source_arguments(parser)
-    shape = parser.add_argument_group("size")
+def _size_arguments(shape: Any) -> None:
     shape.add_argument(
         "--size-m",
         type=float,
         metavar="M",
-        help=f"side of the square [m] (default {usual.size_m:g})",
+        help=f"side of the square [m] (default {TerrainParams().size_m:g})",
     )
     shape.add_argument(
         "--samples",
@@ -107,7 +99,9 @@ def make_parser() -> argparse.ArgumentParser:
         default="auto",
         help=f"axis of the mesh that points up (default auto: {UP_RULE})",
     )
-    surface = parser.add_argument_group("surface")
+
+
+def _surface_arguments(surface: Any) -> None:
     for flag, name, text in (
         ("--mu", "mu", "friction coefficient"),
         (
@@ -118,8 +112,19 @@ def make_parser() -> argparse.ArgumentParser:
         ("--kp", "kp", "stiffness of ground contacts [N/m]"),
         ("--kd", "kd", "damping of ground contacts [N s/m]"),
     ):
-        value = "" if name == "mu2" else f" (default {getattr(felt, name):g})"
+        value = "" if name == "mu2" else f" (default {getattr(Surface(), name):g})"
         surface.add_argument(flag, dest=name, type=float, metavar="X", help=text + value)
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Makes the parser of the command's arguments."""
+    parser = Parser(
+        prog="generate_terrain",
+        description="Write a field terrain as a Gazebo model directory. Rows run along x.",
+    )
+    _source_arguments(parser)
+    _size_arguments(parser.add_argument_group("size"))
+    _surface_arguments(parser.add_argument_group("surface"))
     add_seed(parser).default = None  # to know whether it was given
     parser.add_argument(
         "--image-name", default="terrain", help="stem of the written image's file name"
