@@ -13,7 +13,8 @@ import gymnasium
 import numpy as np
 
 AHEAD = np.array([0.6, 0.0], dtype=np.float32)
-CREEP = np.array([0.05, 0.0], dtype=np.float32)  # no episode ends: all environments wait for one that resets
+# No episode ends with it: all environments wait for one that resets.
+CREEP = np.array([0.05, 0.0], dtype=np.float32)
 SPEED_M_S = 0.5
 SCANS = "ardee/hokuyo"
 SCAN_S = 0.025  # the lidar's period; simulation_bench commands after every other

@@ -20,7 +20,9 @@ def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
     for folder in ("compat", "devel", "build_core/ardee_sim_cpp", "src/one/test", "src/two/test"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "devel/setup.bash").touch()
-    (tmp_path / "build_core/ardee_sim_cpp/CTestTestfile.cmake").write_text('add_test(any "/bin/true")\n')
+    (tmp_path / "build_core/ardee_sim_cpp/CTestTestfile.cmake").write_text(
+        'add_test(any "/bin/true")\n'
+    )
     (tmp_path / "src/one/test/test_one.py").write_text("def test_left():\n    pass\n")
     (tmp_path / "src/two/test/test_two.py").write_text("def test_right():\n    assert False\n")
     return tmp_path

@@ -40,7 +40,7 @@ AckermannSteeringController::AckermannSteeringController(const ControllerContext
                          context.settings.at(kFrontSteer))),
       open_loop_(context.settings.boolean("open_loop", false)),
       radius_m_(wheel_radius(context.settings, context.model, rear_wheel(context.settings),
-                            WheelShape::kCylinder)),
+                             WheelShape::kCylinder)),
       odometry_base_m_(read_wheel_base(context) *
                        read_multiplier(context.settings, "wheel_separation_h_multiplier")),
       odometry_radius_m_(radius_m_ * read_multiplier(context.settings, "wheel_radius_multiplier")),

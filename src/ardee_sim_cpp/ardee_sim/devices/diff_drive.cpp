@@ -67,7 +67,8 @@ DiffDrive::Params diff_drive_params(Parameters& parameters, DeviceContext& conte
 
 std::unique_ptr<Device> DiffDrive::make(const PluginDescription& plugin, Parameters& parameters,
                                         DeviceContext& context) {
-  return std::make_unique<DiffDrive>(plugin.name, diff_drive_params(parameters, context), context.robot);
+  return std::make_unique<DiffDrive>(plugin.name, diff_drive_params(parameters, context),
+                                     context.robot);
 }
 
 DiffDrive::DiffDrive(const std::string& name, const Params& params, Robot& robot)

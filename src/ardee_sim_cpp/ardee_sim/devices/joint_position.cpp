@@ -46,7 +46,8 @@ JointPosition::Params joint_position_params(Parameters& parameters, DeviceContex
 
 std::unique_ptr<Device> JointPosition::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<JointPosition>(plugin.name, joint_position_params(parameters, context), context.robot);
+  return std::make_unique<JointPosition>(plugin.name, joint_position_params(parameters, context),
+                                         context.robot);
 }
 
 JointPosition::JointPosition(const std::string& name, const Params& params, Robot& robot)

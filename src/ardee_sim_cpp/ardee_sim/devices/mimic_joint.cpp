@@ -38,7 +38,8 @@ Coupling mimic_coupling(Parameters& parameters, DeviceContext& context) {
 
 std::unique_ptr<Device> MimicJoint::make(const PluginDescription& plugin, Parameters& parameters,
                                          DeviceContext& context) {
-  return std::make_unique<MimicJoint>(plugin.name, mimic_coupling(parameters, context), context.robot);
+  return std::make_unique<MimicJoint>(plugin.name, mimic_coupling(parameters, context),
+                                      context.robot);
 }
 
 MimicJoint::MimicJoint(const std::string& name, const Coupling& coupling, Robot& robot)

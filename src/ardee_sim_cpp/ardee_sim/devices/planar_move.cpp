@@ -32,7 +32,8 @@ PlanarMove::Params planar_move_params(Parameters& parameters, DeviceContext& con
 std::unique_ptr<Device> PlanarMove::make(const PluginDescription& plugin, Parameters& parameters,
                                          DeviceContext& context) {
   context.robot.dynamics();  // a static model cannot move
-  return std::make_unique<PlanarMove>(plugin.name, planar_move_params(parameters, context), context.robot);
+  return std::make_unique<PlanarMove>(plugin.name, planar_move_params(parameters, context),
+                                      context.robot);
 }
 
 PlanarMove::PlanarMove(const std::string& name, const Params& params, Robot& robot)

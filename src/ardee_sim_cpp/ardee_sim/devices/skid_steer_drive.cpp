@@ -72,7 +72,8 @@ OdometryPublisher::Params read_odometry(Parameters& parameters, const std::strin
   return params;
 }
 
-SkidSteerDrive::Params skid_steer_drive_params(Parameters& parameters, bool with_encoders, DeviceContext& context) {
+SkidSteerDrive::Params skid_steer_drive_params(Parameters& parameters, bool with_encoders,
+                                               DeviceContext& context) {
   const std::string space = plugin_namespace(parameters, context);
   SkidSteerDrive::Params params;
   params.joints = read_joints(parameters, context);
@@ -93,15 +94,15 @@ SkidSteerDrive::Params skid_steer_drive_params(Parameters& parameters, bool with
 
 std::unique_ptr<Device> SkidSteerDrive::make(const PluginDescription& plugin,
                                              Parameters& parameters, DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, skid_steer_drive_params(parameters, false, context),
-                                          context.robot);
+  return std::make_unique<SkidSteerDrive>(
+      plugin.name, skid_steer_drive_params(parameters, false, context), context.robot);
 }
 
 std::unique_ptr<Device> SkidSteerDrive::make_with_encoders(const PluginDescription& plugin,
                                                            Parameters& parameters,
                                                            DeviceContext& context) {
-  return std::make_unique<SkidSteerDrive>(plugin.name, skid_steer_drive_params(parameters, true, context),
-                                          context.robot);
+  return std::make_unique<SkidSteerDrive>(
+      plugin.name, skid_steer_drive_params(parameters, true, context), context.robot);
 }
 
 SkidSteerDrive::SkidSteerDrive(const std::string& name, const Params& params, Robot& robot)

@@ -62,7 +62,8 @@ TricycleDrive::Params tricycle_drive_params(Parameters& parameters, DeviceContex
 
 std::unique_ptr<Device> TricycleDrive::make(const PluginDescription& plugin, Parameters& parameters,
                                             DeviceContext& context) {
-  return std::make_unique<TricycleDrive>(plugin.name, tricycle_drive_params(parameters, context), context.robot);
+  return std::make_unique<TricycleDrive>(plugin.name, tricycle_drive_params(parameters, context),
+                                         context.robot);
 }
 
 TricycleDrive::TricycleDrive(const std::string& name, const Params& params, Robot& robot)

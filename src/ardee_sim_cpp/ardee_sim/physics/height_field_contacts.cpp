@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSamePoint = 1e-6;    // m: nearer contacts are merged
-constexpr double kRimRidge = 1e-4;  // m: least rise of the ground that touches between the rims
-constexpr double kPastEnd = 1e-9;      // share of an edge: rounding at its ends
+constexpr double kSamePoint = 1e-6;  // m: nearer contacts are merged
+constexpr double kRimRidge = 1e-4;   // m: least rise of the ground that touches between the rims
+constexpr double kPastEnd = 1e-9;    // share of an edge: rounding at its ends
 constexpr double kOnEnd =
     0.7;  // |cos| of a cylinder's axis to the vertical, above which it stands on end
 constexpr int kRimPoints = 8;

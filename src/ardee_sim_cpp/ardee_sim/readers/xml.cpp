@@ -157,7 +157,8 @@ std::vector<double> Node::to_numbers(std::size_t least, std::size_t most, const 
   for (const double value : *numbers) {
     if (!std::isfinite(value)) throw error("found " + in_quotes(all) + ", expected " + what);
     if (std::abs(value) > limits::kAbsurd) {
-      throw error("found " + in_quotes(all) + ", " + expected_range(-limits::kAbsurd, limits::kAbsurd));
+      throw error("found " + in_quotes(all) + ", " +
+                  expected_range(-limits::kAbsurd, limits::kAbsurd));
     }
   }
   return *numbers;

@@ -4,11 +4,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "../test_data.h"
 #include "ardee_sim/simulation/plugins.h"
 #include "ardee_sim/tools/made_plugin.h"
 #include "ardee_sim/tools/support_markdown.h"
-
-#include "../test_data.h"
 
 namespace ardee {
 using namespace devices;
