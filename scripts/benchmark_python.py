@@ -13,7 +13,7 @@ import gymnasium
 import numpy as np
 
 AHEAD = np.array([0.6, 0.0], dtype=np.float32)
-# No episode ends with it: all environments wait for one that resets.
+# So slow that no episode ends: when one resets, all environments wait.
 CREEP = np.array([0.05, 0.0], dtype=np.float32)
 SPEED_M_S = 0.5
 SCANS = "ardee/hokuyo"

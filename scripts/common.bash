@@ -9,6 +9,8 @@ export PATH="/usr/bin:$PATH"
 # The machine's own name need not resolve, as in a container.
 export ROS_IP="${ROS_IP:-127.0.0.1}"
 unset ROS_HOSTNAME
+# roslaunch's `import distutils` then loads Python's own instead of all of setuptools: half a second less at each start.
+export SETUPTOOLS_USE_DISTUTILS="${SETUPTOOLS_USE_DISTUTILS:-stdlib}"
 
 # Leave out what the calling shell has sourced of another checkout or of an install space: its stand-ins are no packages
 # of the system, and it is not to lie below this workspace. Other workspaces of the user's and /opt/ros stay.
@@ -58,7 +60,7 @@ source_underlay() {
 use_ccache() {
   command -v ccache >/dev/null || return 0
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_ABSSTDERR=1
+  export CCACHE_BASEDIR=$root CCACHE_ABSSTDERR=1   # paths in messages stay absolute, those of __FILE__ do not
   export CCACHE_SLOPPINESS=pch_defines,time_macros # what it needs to know of precompiled headers
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Controllers that no campaign may stumble over."""
+import contextlib
 import math
 import os
 import signal
@@ -41,6 +42,11 @@ class Misbehaving:
         held = []
         while True:
             held.append(bytearray(50 << 20))
+
+    def loses_ctrl_c(self) -> Tuple[float, float]:
+        with contextlib.suppress(BaseException):
+            signal.raise_signal(signal.SIGINT)
+        return 0.5, 0.0
 
     def dies(self) -> Tuple[float, float]:
         os.kill(os.getpid(), signal.SIGKILL)

@@ -300,3 +300,10 @@ def test_a_replay_shows_where_a_controller_raised(tmp_path: Path) -> None:
     run_id = run(file, "--list").stdout.splitlines()[1].split(",")[0]
     said = run(file, "--output", tmp_path, "--replay", run_id).stderr
     assert "misbehaving.py" in said and "run_campaign: failed, KeyError" in said
+
+
+def test_a_replay_heeds_a_ctrl_c_that_its_controller_has_lost(tmp_path: Path) -> None:
+    loses = {"factory": "misbehaving:make", "params": {"how": "loses_ctrl_c"}}
+    file = write(tmp_path, replicates=1, controllers={"loses": loses})
+    run_id = run(file, "--list").stdout.splitlines()[1].split(",")[0]
+    assert "interrupted" in run(file, "--output", tmp_path, "--replay", run_id, code=130).stderr

@@ -3,5 +3,3 @@
 if ! python3 -c 'import rospkg, catkin_pkg' >/dev/null 2>&1 && /usr/bin/python3 -c 'import rospkg' >/dev/null 2>&1; then
   export PATH="/usr/bin:$PATH"
 fi
-# `import distutils`, as in roslaunch, loads Python's own instead of all of setuptools: half a second less at each start.
-export SETUPTOOLS_USE_DISTUTILS="${SETUPTOOLS_USE_DISTUTILS:-stdlib}"

@@ -45,9 +45,9 @@ bool fits_cells(const Eigen::AlignedBox3f& box) { return count_cells(box) <= kMa
 
 /// The box in floats, never smaller.
 Eigen::AlignedBox3f round_outwards(const Eigen::AlignedBox3d& box) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -kInfinity); };
-  const auto up = [](double x) { return std::nextafter(static_cast<float>(x), kInfinity); };
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  const auto down = [](double x) { return std::nextafter(static_cast<float>(x), -kFar); };
+  const auto up = [](double x) { return std::nextafter(static_cast<float>(x), kFar); };
   return {box.min().unaryExpr(down).cast<float>(), box.max().unaryExpr(up).cast<float>()};
 }
 

@@ -11,7 +11,7 @@ namespace ardee {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMaxDepth = 12;
+constexpr int kMaxFolders = 12;
 
 /// The name in a package.xml; that of its folder if the file is broken, as in rospack.
 std::string package_name(const tinyxml2::XMLElement* root, const std::string& folder) {
@@ -71,7 +71,7 @@ void PackageIndex::walk(const std::string& folder, int depth) {
     add_exports(root, folder, "gazebo_media_path", exported_media_paths_);
     return;
   }
-  if (depth >= kMaxDepth || fs::exists(fs::path(folder) / "CATKIN_IGNORE", error)) return;
+  if (depth >= kMaxFolders || fs::exists(fs::path(folder) / "CATKIN_IGNORE", error)) return;
   std::vector<std::string> below;
   for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
        !error && it != end; it.increment(error)) {

@@ -58,7 +58,7 @@ void read_limit(const Node& node, const std::string& type, Joint& joint, Log& lo
   joint.axis.upper = upper;
 }
 
-Eigen::Vector3d read_axis(const Node& joint) {
+Eigen::Vector3d axis_vector(const Node& joint) {
   const auto node = joint.child("axis");
   if (!node) return Eigen::Vector3d::UnitX();
   const Eigen::Vector3d axis = node->attribute_vector3("xyz", Eigen::Vector3d::UnitX());
@@ -111,7 +111,7 @@ UrdfJoint read_urdf_joint(const Node& node, Log& log) {
     log.warn(node.source(), "planar joints are not supported, the child moves freely");
   }
   if (made.joint.type == JointType::kFixed) return made;
-  made.joint.axis.axis = read_axis(node);
+  made.joint.axis.axis = axis_vector(node);
   read_limit(node, type_name, made.joint, log);
   read_dynamics(node, made.joint.axis);
   made.joint.safety = read_safety(node, log);

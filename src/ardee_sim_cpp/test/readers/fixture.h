@@ -21,7 +21,7 @@ class ReadersTest : public ::testing::Test {
   explicit ReadersTest(BadParts bad_parts = BadParts::kRefuse)
       : loader_(make_locator(), make_log(), bad_parts) {}
 
-  static std::string data(const std::string& name) { return ardee::test_data(name); }
+  static std::string data(const std::string& name) { return test_data(name); }
 
   std::shared_ptr<const Model> model(const std::string& body, const std::string& version = "1.5") {
     return loader_.load_model_text(

@@ -24,7 +24,7 @@ struct Reading {
 };
 
 MeshFile read(const std::string& name) {
-  const Reading reading(test_data(std::string("meshes/") + name));
+  const Reading reading(test_data("meshes/" + name));
   EXPECT_EQ(reading.said, "");
   return reading.file;
 }
