@@ -208,7 +208,7 @@ def _wall_s(session: Session, jobs: Sequence[Job]) -> Any:
 
 
 def _work(session: Session, args: argparse.Namespace) -> int:
-    from ardee_campaigns import engine
+    from ardee_campaigns.workers import Workers, collect
 
     keys, folder = session.campaign.keys, session.folder
     jobs = session.jobs(keys.replicates)
@@ -223,10 +223,10 @@ def _work(session: Session, args: argparse.Namespace) -> int:
         if args.retry_failed:
             _forget_failed(session, jobs)
         try:
-            with engine.Engine(folder, args.scheduler, keys.workers) as workers:
+            with Workers(folder, args.scheduler, keys.workers) as workers:
                 _rounds(session, workers, jobs)
         finally:
-            rows = engine.collect(folder, session.all_jobs(), session.schema())
+            rows = collect(folder, session.all_jobs(), session.schema())
             if args.csv:
                 _write_csv(folder)
     failed = sum(row.status == tables.FAILED for row in rows)
@@ -276,7 +276,7 @@ def _bag_writer() -> Any:
 
 
 def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None:
-    from ardee_campaigns.engine import EngineError
+    from ardee_campaigns.workers import WorkersError
     from ardee_campaigns.ros.process import Lost, apart
     from ardee_campaigns.ros.simulator import SimulationError
 
@@ -284,7 +284,7 @@ def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None
     try:
         apart(write, job, done, path)
     except (Lost, SimulationError) as error:
-        raise EngineError(f"--bag: {' '.join(str(error).split())}") from None
+        raise WorkersError(f"--bag: {' '.join(str(error).split())}") from None
     print(path)
 
 
@@ -345,7 +345,7 @@ def exit_code(prog: str, work: Callable[[], int], interrupted: str = "") -> int:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
     except Exception as error:
-        if type(error).__name__ != "EngineError":
+        if type(error).__name__ != "WorkersError":
             raise
         print(f"{prog}: {error}", file=sys.stderr)
         return 1

@@ -84,7 +84,7 @@ def _write_campaign(folder: Path, args: argparse.Namespace, scenario: Scenario) 
 
 def _drive(session: Session, jobs: List[Job], report: Report) -> None:
     """Does the runs that are not done yet, and those that failed; the report has each one that has ended."""
-    from ardee_campaigns import engine
+    from ardee_campaigns.workers import Workers, collect
 
     folder, numbers = session.folder, {job.run_id: job.replicate for job in jobs}
     for run_id in tables.finished(folder):
@@ -107,14 +107,14 @@ def _drive(session: Session, jobs: List[Job], report: Report) -> None:
 
     session.write_robots(left)
     try:
-        with engine.Engine(folder, None, session.campaign.keys.workers) as workers:
+        with Workers(folder, None, session.campaign.keys.workers) as workers:
             workers.work_off(left, told)
     except Ended:  # workers finish their runs, so some may have ended since
         for run_id in set(tables.finished(folder)) & set(numbers) - done:
             report.add(numbers[run_id], tables.read_run(folder, run_id))
         raise
     finally:
-        engine.collect(folder, jobs, session.schema())
+        collect(folder, jobs, session.schema())
 
 
 def _experiment(args: argparse.Namespace, command: str) -> int:

@@ -25,11 +25,11 @@ _PATIENCE_S = 30.0  # for a scheduler and its first worker
 Told = Callable[[Job, str], None]
 
 
-class EngineError(Exception):
+class WorkersError(Exception):
     """Error of the cluster or the disk: the campaign cannot go on, what is finished stays."""
 
 
-_LOST = EngineError("the scheduler was lost; start again to go on")
+_LOST = WorkersError("the scheduler was lost; start again to go on")
 
 
 @contextlib.contextmanager
@@ -85,7 +85,7 @@ def _check_workers(client: Client, address: Optional[str]) -> None:
     try:
         client.wait_for_workers(1, timeout=_PATIENCE_S)
     except TimeoutError:
-        raise EngineError(f"{address}: waited {_PATIENCE_S:.0f} s for a worker") from None
+        raise WorkersError(f"{address}: waited {_PATIENCE_S:.0f} s for a worker") from None
     for name, info in client.scheduler_info()["workers"].items():
         if info["nthreads"] != 1:
             raise GeneratorError(
@@ -94,7 +94,7 @@ def _check_workers(client: Client, address: Optional[str]) -> None:
             )
 
 
-class Engine:
+class Workers:
     """Workers for the jobs of a campaign, as a context manager; each job's file is in the folder when it is done."""
 
     def __init__(self, folder: Path, address: Optional[str], workers: int) -> None:
@@ -103,7 +103,7 @@ class Engine:
         self._stack = contextlib.ExitStack()
         self._opened: Optional[Client] = None
 
-    def __enter__(self) -> "Engine":
+    def __enter__(self) -> "Workers":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -116,7 +116,7 @@ class Engine:
         return self._opened
 
     def work_off(self, jobs: Sequence[Job], told: Told) -> None:
-        """Does the jobs, in any order; `told` gets each one and its error. Raises EngineError if it cannot go on."""
+        """Does the jobs, in any order; `told` gets each one and its error. Raises WorkersError if it cannot go on."""
         if not jobs:
             return
         try:
@@ -156,7 +156,7 @@ class Engine:
             return self._give_up(job, lost[-1]) if len(lost) >= _MOST_LOSSES else None
         if isinstance(error, FullDisk):
             raise _full(error)
-        raise EngineError(f"run {job.run_id}: {type(error).__name__}: {error}")
+        raise WorkersError(f"run {job.run_id}: {type(error).__name__}: {error}")
 
     def _give_up(self, job: Job, how: str) -> str:
         attempts = Attempts(self._folder, job.run_id)
@@ -181,5 +181,5 @@ def collect(folder: Path, jobs: Sequence[Job], schema: Any) -> List[tables.RunRo
     return [head.row for head in heads]
 
 
-def _full(text: object) -> EngineError:
-    return EngineError(f"{text}; free some and start again to go on")
+def _full(text: object) -> WorkersError:
+    return WorkersError(f"{text}; free some and start again to go on")
