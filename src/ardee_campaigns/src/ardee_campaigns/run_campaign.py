@@ -276,9 +276,9 @@ def _bag_writer() -> Any:
 
 
 def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None:
-    from ardee_campaigns.workers import WorkersError
     from ardee_campaigns.ros.process import Lost, apart
     from ardee_campaigns.ros.simulator import SimulationError
+    from ardee_campaigns.workers import WorkersError
 
     path = folder / f"{job.run_id}.bag"
     try:
