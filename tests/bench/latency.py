@@ -22,7 +22,7 @@ from ardee_bridge.nodes.settings import KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Message
 from ardee_bridge.wire.udp import BUFFER_BYTES, MAX_DATAGRAM, open_socket
-from ardee_common.process import RosMaster, start_child
+from ardee_common.process import RosMaster, end_put_off, start_child
 
 START_LIMIT_S = 30.0
 # Time for the last messages to arrive.
@@ -122,7 +122,8 @@ def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tup
     context = get_context("spawn")
     ours, theirs = context.Pipe()
     process = context.Process(target=_enter, args=(env, body, theirs, args), daemon=True)
-    process.start()
+    with end_put_off():  # Ctrl-C would show as a traceback of the imports
+        process.start()
     theirs.close()
     return process, ours
 
@@ -130,6 +131,7 @@ def in_process(env: Dict[str, str], body: Callable[..., Any], *args: Any) -> Tup
 def _enter(env: Dict[str, str], body: Callable[..., Any], pipe: Any, args: Tuple[Any, ...]) -> None:
     os.environ.update(env)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
     try:
         body(pipe, *args)
     except EOFError:
