@@ -13,6 +13,8 @@ from ardee_datasets.robots import RobotKeys, read_robot
 from ardee_datasets.sample import LAYERS
 from ardee_world.row_truth import Pose, lane_of, read_field
 
+ROBOTS = Path(__file__).resolve().parents[3] / "tests" / "robots_with_ros_control"
+
 
 def test_dust_and_drops_change_the_picture_alone(tmp_path: Path) -> None:
     """Labels, depth and annotations stay."""
@@ -30,9 +32,27 @@ def test_dust_and_drops_change_the_picture_alone(tmp_path: Path) -> None:
             assert (one.read_bytes() == two.read_bytes()) == (layer != "rgb")
 
 
-def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path) -> None:
+JACKAL = f"""robot: jackal.urdf.xacro, command: jackal_velocity_controller/cmd_vel,
+    parameters: {ROBOTS}/jackal.yaml, controllers: [jackal_velocity_controller]"""
+
+
+def write_jackal(folder: Path) -> None:
+    """Writes a robot whose wheels are moved by ros_control, with a camera."""
+    sensor = '<sensor name="camera_front_sensor" type="camera"><pose>0.2 0 0.2 0 0 0</pose><camera/></sensor>'
+    (folder / "jackal.urdf.xacro").write_text(
+        f"""<robot name="with_camera" xmlns:xacro="http://www.ros.org/wiki/xacro">
+          <xacro:include filename="{ROBOTS}/jackal.urdf.xacro"/>
+          <gazebo reference="base_link">{sensor}</gazebo>
+        </robot>"""
+    )
+
+
+@pytest.mark.parametrize("robot", ["robot: tsv3_default", JACKAL])
+def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path, robot: str) -> None:
     """At a sixth, a half, five sixths of the lane, left of its middle, at its speed, with its camera's view."""
-    made = generated(tmp_path, DRIVEN % "camera_front_sensor")
+    write_jackal(tmp_path)
+    recipe = (DRIVEN % "camera_front_sensor").replace("robot: tsv3_default", robot)
+    made = generated(tmp_path, recipe)
     found = samples(made)
     assert len(found) == 3 and {sample["camera"] for sample in found} == {
         "terra_camera_front_sensor"

@@ -143,9 +143,12 @@ def test_a_world_that_cannot_be_read_is_refused(tmp_path: pathlib.Path) -> None:
 @pytest.mark.parametrize(
     "text, expected",
     [
-        ("{x_m: .nan, y_m: 0, z_m: 0, yaw_rad: 0}", "found nan, 0.0, 0.0, 0.0"),
-        ("{x_m: 0, y_m: 0, z_m: 0, yaw_rad: 0, yaw_deg: 90}", "found yaw_deg"),
-        ("[1, 2]", "expected x_m, y_m, z_m, yaw_rad"),
+        ("{x_m: .nan, y_m: 0, z_m: 0, yaw_rad: 0}", "w.start.yaml:1: x_m: found nan"),
+        (
+            "{x_m: 0, y_m: 0, z_m: 0, yaw_rad: 0, yaw_deg: 90}",
+            "w.start.yaml:1: unknown key 'yaw_deg'",
+        ),
+        ("[1, 2]", "w.start.yaml: found list, expected a mapping"),
     ],
 )
 def test_a_bad_start_pose_is_refused(tmp_path: pathlib.Path, text: str, expected: str) -> None:

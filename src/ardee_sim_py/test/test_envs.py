@@ -4,7 +4,7 @@ import concurrent.futures
 import json
 import pickle
 import warnings
-from typing import Any, Callable, Dict, Iterator, List
+from typing import Any, Callable, Dict, List
 
 import ardee_sim.envs
 import gymnasium
@@ -19,23 +19,6 @@ IDS = ("RowFollow", "RowFollowCamera", "HeadlandTurn", "GoTo")
 AHEAD = np.array([0.6, 0.0], dtype=np.float32)
 STEPS = 300
 Make = Callable[..., FieldEnv]
-
-
-@pytest.fixture
-def make() -> Iterator[Make]:
-    """Yields a function that makes an environment without wrappers; a small picture, a kept field."""
-    made: List[FieldEnv] = []
-
-    def one(name: str = "RowFollow", **arguments: Any) -> FieldEnv:
-        if "Camera" in name:
-            arguments = {"width_px": 32, "height_px": 24, **arguments}
-        env = gymnasium.make(f"ardee/{name}-v0", **{"seed_field": False, **arguments})
-        made.append(env.unwrapped)
-        return env.unwrapped
-
-    yield one
-    for env in made:
-        env.close()
 
 
 def rollout(env: gymnasium.Env, seed: int, steps: int = 40) -> bytes:
@@ -225,16 +208,26 @@ def test_a_headland_turn_ends_in_the_next_lane(make: Make, seed: int) -> None:
     assert observation["odom"][1] * 5 == pytest.approx(lane_m * side, abs=0.3)
 
 
-def test_the_goal_is_where_fix_and_imu_say(make: Make) -> None:
-    env = make("GoTo")
-    observation, _ = env.reset(seed=1)
+def seen_goal(env: FieldEnv, observation: np.ndarray) -> np.ndarray:
+    """Returns where the goal is by an observation and the robot's true pose [m]."""
     ahead, left = 20 * observation[:2]
     begin = env.pose()
     c, s = np.cos(begin.yaw_rad), np.sin(begin.yaw_rad)
-    x_m, y_m = begin.x_m + c * ahead - s * left, begin.y_m + s * ahead + c * left
+    return np.array([begin.x_m + c * ahead - s * left, begin.y_m + s * ahead + c * left])
+
+
+def test_the_goal_is_where_fix_and_imu_say(make: Make) -> None:
+    env = make("GoTo")
+    observation, _ = env.reset(seed=1)
+    x_m, y_m = seen_goal(env, observation)
     # The lane lies on y = 0, towards -x; the receiver's error may lead past the goal.
-    assert abs(y_m) < 1.0 and 1.5 < ahead < 6.5
+    assert abs(y_m) < 1.0 and 1.5 < 20 * observation[0] < 6.5
     assert drive_to(env, x_m - 1.5, 0.0) == "arrived"
+
+
+def test_a_first_fix_that_counts_as_exact_shows_the_true_goal(make: Make) -> None:
+    env = make("GoTo", error_topic=None)
+    assert abs(seen_goal(env, env.reset(seed=1)[0])[1]) < 0.05
 
 
 def test_pictures_are_of_their_kind(make: Make) -> None:

@@ -156,6 +156,8 @@ def test_bad_options_are_refused(yard: ardee_sim.Simulation) -> None:
     [
         (["lost.world"], "lost.world"),
         (["corn.world", "--robot", "lost"], "found no robot 'lost', expected a file or one of: "),
+        (["empty.world", "--parameters", "lost.yaml"], "lost.yaml"),
+        (["empty.world", "--controllers", "base"], "without a controller manager"),
     ],
 )
 def test_the_command_refuses_bad_input_in_one_line(words: List[str], expected: str) -> None:

@@ -32,7 +32,10 @@ class Drive:
         x = begin.x_m + self._offset_m * math.cos(side)
         y = begin.y_m + self._offset_m * math.sin(side)
         z = scenery.standing_m(begin._replace(x_m=x, y_m=y))
+        self._sim.set_parameters(robot.parameters)
         self._sim.spawn(name, robot.urdf, xyz_m=(x, y, z), rpy_rad=(0.0, 0.0, begin.yaw_rad))
+        if robot.keys.controllers:
+            self._sim.start_controllers(name, *robot.keys.controllers)
         self._command(0.0, 0.0)
         self._sim.step(round(_SETTLE_S * 1e9 / self._sim.step_ns))
 

@@ -12,6 +12,7 @@ import ardee_sim
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option
 from ardee_datasets.camera import CameraKeys, Range, white_balance
@@ -33,6 +34,10 @@ class RobotKeys:
     speed_m_s: Range = option((0.4, 0.4), "along the lane", (0.05, 5.0))
     offset_m: Range = option((0.0, 0.0), "to the left of the lane's middle", (-1.0, 1.0))
     command: str = option("cmd_vel", "topic of its drive, a geometry_msgs/Twist")
+    parameters: Optional[str] = option(
+        None, "`.yaml` file of its ros_control controllers, and joints' gains"
+    )
+    controllers: Tuple[str, ...] = option((), "of ros_control, started in this order")
 
     def __post_init__(self) -> None:
         for key in ("speed_m_s", "offset_m"):
@@ -53,10 +58,14 @@ class MountedCamera:
 
 @dataclass(frozen=True)
 class Robot:
-    """A robot of a recipe with its description and the cameras that take pictures, by name."""
+    """A robot of a recipe with its description and the cameras that take pictures, by name.
+
+    parameters : of its ros_control controllers
+    """
 
     keys: RobotKeys
     urdf: str
+    parameters: Dict[str, Any]
     cameras: Dict[str, MountedCamera]
 
 
@@ -79,7 +88,10 @@ def read_robot(keys: RobotKeys, folder: Path) -> Robot:
         if name not in found:
             raise GeneratorError(f"cameras: found {name!r}, {known_names(name, found)}")
     wanted = keys.cameras or tuple(sorted(found))
-    return Robot(keys, urdf, {name: found[name] for name in wanted})
+    parameters = {}
+    if keys.parameters is not None:
+        parameters = read_yaml_lines(folder / Path(keys.parameters).expanduser())
+    return Robot(keys, urdf, parameters, {name: found[name] for name in wanted})
 
 
 def cameras_of(urdf: str) -> Dict[str, MountedCamera]:

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any, Dict, List, Optional, Sequence, Tuple, TypedDict, Union
 
 import numpy as np
-import yaml  # type: ignore[import]
 from ardee_sim import _core, checks, packages
 from ardee_sim.errors import ArdeeError
+
+from ardee_common.errors import GeneratorError
 
 PathLike = Union[str, "os.PathLike[str]"]
 _MOST_MODELS = 16  # that stay loaded
@@ -152,22 +153,16 @@ class World:
     def start(self) -> StartPose:
         """Pose at which a robot starts, as Simulation.spawn() takes it; from NAME.start.yaml beside the world.
 
-        Raises ArdeeError if the world has no such file.
+        That of a world without such a file is the launch files' own: in the origin, at yaw -3.14.
+        Raises ArdeeError if the file is not one of x_m, y_m, z_m, yaw_rad.
         """
-        file = Path(self.path).with_suffix(".start.yaml")
-        if not file.is_file():
-            raise ArdeeError(f"{file}: found no file, expected a start pose of the world")
+        from ardee_world.start import read_start  # half a second, for those alone who ask
+
         try:
-            given = yaml.safe_load(file.read_text())
-            x, y, z, yaw = (float(given.pop(key)) for key in ("x_m", "y_m", "z_m", "yaw_rad"))
-        except (yaml.YAMLError, AttributeError, KeyError, TypeError, ValueError) as error:
-            raise ArdeeError(f"{file}: {error}, expected x_m, y_m, z_m, yaw_rad") from None
-        if given or not np.isfinite([x, y, z, yaw]).all():
-            found = ", ".join(map(str, given)) or f"{x}, {y}, {z}, {yaw}"
-            raise ArdeeError(
-                f"{file}: found {found}, expected x_m, y_m, z_m, yaw_rad alone, finite"
-            )
-        return {"xyz_m": (x, y, z), "rpy_rad": (0.0, 0.0, yaw)}
+            start = read_start(Path(self.path).with_suffix(".start.yaml"))
+        except GeneratorError as error:
+            raise ArdeeError(str(error)) from None
+        return {"xyz_m": (start.x_m, start.y_m, start.z_m), "rpy_rad": (0.0, 0.0, start.yaw_rad)}
 
     def placements(self) -> List[Placement]:
         """Returns all static models, in the order of their instance numbers."""

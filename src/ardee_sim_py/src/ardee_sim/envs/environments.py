@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The registered environments."""
 
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 from ardee_sim.envs.field_env import FieldEnv
 from ardee_sim.envs.go_to import GoToTask
@@ -154,6 +154,7 @@ class HeadlandTurnEnv(FieldEnv):
 
     Arguments
     ---------
+    scan_topic, odometry_topic : of the robot's lidar and wheel odometry
     scenario="corn", and all others of FieldEnv
 
     Version History
@@ -161,8 +162,14 @@ class HeadlandTurnEnv(FieldEnv):
     v0 : first version
     """
 
-    def __init__(self, **arguments: Any) -> None:
-        super().__init__(HeadlandTurnTask(), **_in_corn(arguments))
+    def __init__(
+        self,
+        *,
+        scan_topic: str = "ardee/hokuyo",
+        odometry_topic: str = "odom",
+        **arguments: Any,
+    ) -> None:
+        super().__init__(HeadlandTurnTask(scan_topic, odometry_topic), **_in_corn(arguments))
 
 
 class GoToEnv(FieldEnv):
@@ -200,6 +207,8 @@ class GoToEnv(FieldEnv):
 
     Arguments
     ---------
+    fix_topic, imu_topic : of the robot's receiver and IMU
+    error_topic : of the receiver's true error, by which the first fix is corrected; None: that fix counts as exact
     scenario="corn", and all others of FieldEnv
 
     Version History
@@ -207,8 +216,15 @@ class GoToEnv(FieldEnv):
     v0 : first version
     """
 
-    def __init__(self, **arguments: Any) -> None:
-        super().__init__(GoToTask(), **_in_corn(arguments))
+    def __init__(
+        self,
+        *,
+        fix_topic: str = "ardee/gps",
+        error_topic: Optional[str] = "ardee/gps/data",
+        imu_topic: str = "ardee/imu/custom",
+        **arguments: Any,
+    ) -> None:
+        super().__init__(GoToTask(fix_topic, error_topic, imu_topic), **_in_corn(arguments))
 
 
 def _in_corn(arguments: Dict[str, Any]) -> Dict[str, Any]:

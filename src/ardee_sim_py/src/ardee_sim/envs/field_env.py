@@ -3,25 +3,24 @@
 
 import math
 from numbers import Real
-from typing import Any, Dict, List, Mapping, Optional, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import gymnasium
 import numpy as np
+from ardee_sim.envs.driven import ROBOT, DrivenRobot
 from ardee_sim.envs.fields import FieldSource, SownField
-from ardee_sim.envs.randomise import STAGE, Ranges, check_ranges, with_noise
+from ardee_sim.envs.randomise import STAGE, Ranges, check_ranges
 from ardee_sim.envs.task import Scene, Task
 from ardee_sim.errors import ArdeeError
-from ardee_sim.robots import robot as robot_text
+from ardee_sim.parameters import Parameters
 from ardee_sim.simulation import Simulation
-from ardee_sim.state import Twist
 from ardee_sim.world import PathLike, World
 from gymnasium import spaces
 
 from ardee_world.row_truth import Field, Pose
+from ardee_world.start import STAND_M
 
 SETTLE_S = 0.5  # in which a robot comes to rest on its springs
-COMMANDS = "cmd_vel"
-ROBOT = "robot"
 Episode = Dict[str, Any]
 
 
@@ -31,6 +30,10 @@ class FieldEnv(gymnasium.Env):
     task : of ardee_sim.envs, or one of yours
     scenario, world : name of a scenario, or path of a world instead
     robot : name of a shipped robot, or a file, as ardee_sim.robot() takes it
+    xacro : values of the arguments of the robot's xacro file
+    parameters, controllers : of ros_control, as Simulation.set_parameters() and start_controllers() take them
+    command_topic : that obeys a Twist
+    stand_m : height of the robot's origin above the ground below its wheels
     control_period_s : a whole number of the world's steps
     seed_field : sow a new field at each reset; else the field of `field_seed` stays
     randomise : ranges of numbers of a scene (ardee_sim.envs.randomise.SCENE) and, with seed_field, of a field's plan
@@ -48,6 +51,11 @@ class FieldEnv(gymnasium.Env):
         scenario: Optional[str] = None,
         world: Optional[PathLike] = None,
         robot: PathLike = "tsv1_default",
+        xacro: Optional[Mapping[str, Any]] = None,
+        parameters: Optional[Parameters] = None,
+        controllers: Sequence[str] = (),
+        command_topic: str = "cmd_vel",
+        stand_m: float = STAND_M,
         control_period_s: float = 0.1,
         seed_field: bool = True,
         field_seed: int = 1,
@@ -78,8 +86,14 @@ class FieldEnv(gymnasium.Env):
         try:
             check_ranges(self._ranges, self._sows)
             self._source.check_stages(self._ranges.get(STAGE, ()))
-            self._robot = self._source.folder / "robot.urdf"
-            self._robot_text = robot_text(robot)
+            self._robot = DrivenRobot(
+                robot,
+                xacro=xacro,
+                parameters=parameters,
+                controllers=controllers,
+                command_topic=command_topic,
+                stand_m=stand_m,
+            )
             self._probe(field_seed)
         except BaseException:
             self.close()
@@ -116,8 +130,8 @@ class FieldEnv(gymnasium.Env):
         self._sown: SownField = self._source.load(seed, numbers)
         self._plants = frozenset(plant.name for plant in self._sown.world.plants())
         self._sim = Simulation(self._sown.world)
-        self._robot.write_text(with_noise(self._robot_text, numbers.get("noise_scale", 1.0)))
-        self._sim.spawn(ROBOT, self._robot)
+        file = self._source.folder / "robot.urdf"
+        self._robot.spawn(self._sim, file, numbers.get("noise_scale", 1.0))
         self._first = self._sim.snapshot()
         self._present = seed, dict(numbers)
 
@@ -126,7 +140,7 @@ class FieldEnv(gymnasium.Env):
         sim = self.simulation
         sim.restore(self._first)
         half = pose.yaw_rad / 2
-        xyz_m = (pose.x_m, pose.y_m, self._sown.trial.height_m(pose))
+        xyz_m = (pose.x_m, pose.y_m, self._sown.trial.height_m(pose) + self._robot.rise_m)
         sim.set_state(ROBOT, xyz_m=xyz_m, quat_xyzw=(0.0, 0.0, math.sin(half), math.cos(half)))
         sim.set_noise_seed(noise_seed)
         return Scene(sim, ROBOT, self._sown, self._plants)
@@ -185,7 +199,7 @@ class FieldEnv(gymnasium.Env):
         rng = np.random.default_rng(np.random.SeedSequence(episode["start_seed"]))
         scene = self._place(self._task.start(self._sown, rng), episode["noise_seed"])
         self._scene = scene
-        scene.sim.command(COMMANDS, Twist())
+        self._robot.command(scene.sim)
         settle = max(math.ceil(SETTLE_S / self._period_s) * self._steps, self._window)
         self._step_and_measure(scene, settle)
         scene.sim.touched()  # what it touched as it settled is not the driver's
@@ -210,7 +224,7 @@ class FieldEnv(gymnasium.Env):
         if wanted.shape != (2,) or not np.isfinite(wanted).all():
             raise ArdeeError(f"action: found {action!r}, expected 2 finite numbers")
         v_m_s, w_rad_s = np.clip(wanted, -1.0, 1.0) * self._limits
-        scene.sim.command(COMMANDS, Twist(linear_x_m_s=v_m_s, angular_z_rad_s=w_rad_s))
+        self._robot.command(scene.sim, v_m_s, w_rad_s)
         self._step_and_measure(scene, self._steps)
         terms = self._task.reward(scene)
         reason, terms["end"] = self._task.end(scene)

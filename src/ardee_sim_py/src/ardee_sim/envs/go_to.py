@@ -2,7 +2,7 @@
 """Task: go to a place under the canopy by satellite position and IMU."""
 
 import math
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Optional, Tuple
 
 import numpy as np
 from ardee_sim.envs.fields import SownField
@@ -13,7 +13,6 @@ from gymnasium import spaces
 from ardee_common.geodesy import to_metres
 from ardee_world.row_truth import Pose, lane_of
 
-FIX, ERROR, IMU = "ardee/gps", "ardee/gps/data", "ardee/imu/custom"
 BEFORE_M = 0.5  # of the lane's first stalks: where the robot starts
 START_SD = (0.03, 0.05)  # m aside, rad turned, as in RowFollow
 WITHIN_M = 0.3  # of the goal: it is reached
@@ -24,7 +23,14 @@ REACH_M = 20.0  # offsets are cut off here
 class GoToTask:
     """Goes to a place of the lane before which the robot starts."""
 
-    topics = (FIX, ERROR, IMU)
+    def __init__(
+        self,
+        fix_topic: str = "ardee/gps",
+        error_topic: Optional[str] = "ardee/gps/data",
+        imu_topic: str = "ardee/imu/custom",
+    ) -> None:
+        self._fix, self._error, self._imu = fix_topic, error_topic, imu_topic
+        self.topics = tuple(topic for topic in (fix_topic, error_topic, imu_topic) if topic)
 
     def start(self, sown: SownField, rng: np.random.Generator) -> Pose:
         """Returns a pose before the world's start lane; chooses the goal, in its middle."""
@@ -35,9 +41,11 @@ class GoToTask:
 
     def begin(self, scene: Scene) -> None:
         """Remembers the first fix and where it places the robot."""
-        fix, error = scene.reading(FIX), scene.reading(ERROR)
+        fix = scene.reading(self._fix)
         self._origin_deg = fix.latitude_deg, fix.longitude_deg
-        self._origin_m = scene.state().xyz_m[:2] + error.error_m[:2]
+        self._origin_m = scene.state().xyz_m[:2]
+        if self._error:
+            self._origin_m = self._origin_m + scene.reading(self._error).error_m[:2]
         self._left_m = self._limit_m = self._distance_m(scene)
         self._limit_m += LOST_M
 
@@ -51,7 +59,7 @@ class GoToTask:
 
     def observe(self, scene: Scene) -> Any:
         """Returns the goal ahead and to the left / REACH_M, by fix and IMU, and the IMU's part."""
-        fix, imu = scene.reading(FIX), as_array(scene.reading(IMU))
+        fix, imu = scene.reading(self._fix), as_array(scene.reading(self._imu))
         here = self._origin_m + to_metres(fix.latitude_deg, fix.longitude_deg, self._origin_deg)
         dx, dy = self._goal.x_m - here[0], self._goal.y_m - here[1]
         s, c = imu[:2]

@@ -15,7 +15,6 @@ from gymnasium import spaces
 from ardee_common.errors import GeneratorError
 from ardee_world.row_truth import Lane, Pose, lane_of
 
-SCAN, ODOMETRY = "ardee/hokuyo", "odom"
 BEFORE_END_M = 0.3  # of the lane: where the robot starts
 INSIDE_M = 0.5  # of the next lane: where it has to come
 START_SD = (0.03, 0.05)  # m aside, rad turned, as in RowFollow
@@ -26,7 +25,8 @@ REACH_M = 5.0  # odometry is cut off here
 class HeadlandTurnTask:
     """Leaves a lane and enters its left or right neighbour."""
 
-    topics = (SCAN, ODOMETRY)
+    def __init__(self, scan_topic: str = "ardee/hokuyo", odometry_topic: str = "odom") -> None:
+        self._scan, self._odometry = self.topics = scan_topic, odometry_topic
 
     def start(self, sown: SownField, rng: np.random.Generator) -> Pose:
         """Returns a pose before the end of the world's start lane; chooses the side to turn to."""
@@ -45,7 +45,7 @@ class HeadlandTurnTask:
 
     def begin(self, scene: Scene) -> None:
         """Remembers where the turn begins."""
-        self._first = _plan(scene.reading(ODOMETRY))
+        self._first = _plan(scene.reading(self._odometry))
         self._left_m = self._distance_m(scene)
 
     def _distance_m(self, scene: Scene) -> float:
@@ -55,7 +55,7 @@ class HeadlandTurnTask:
     def space(self, scene: Scene) -> spaces.Space:
         """Returns the space of scan, odometry and side."""
         made: Dict[str, spaces.Space] = {
-            "hokuyo": space_of(as_array(scene.reading(SCAN))),
+            "hokuyo": space_of(as_array(scene.reading(self._scan))),
             "odom": spaces.Box(-1.0, 1.0, (4,), np.float32),
             "side": spaces.Box(-1.0, 1.0, (1,), np.float32),
         }
@@ -63,12 +63,12 @@ class HeadlandTurnTask:
 
     def observe(self, scene: Scene) -> Any:
         """Returns scan, way since the start by wheel odometry, and side."""
-        here, first = _plan(scene.reading(ODOMETRY)), self._first
+        here, first = _plan(scene.reading(self._odometry)), self._first
         dx, dy, turn = here.x_m - first.x_m, here.y_m - first.y_m, here.yaw_rad - first.yaw_rad
         c, s = math.cos(first.yaw_rad), math.sin(first.yaw_rad)
         way = np.clip(np.array([c * dx + s * dy, c * dy - s * dx]) / REACH_M, -1.0, 1.0)
         return {
-            "hokuyo": as_array(scene.reading(SCAN)),
+            "hokuyo": as_array(scene.reading(self._scan)),
             "odom": np.array([*way, math.sin(turn), math.cos(turn)], dtype=np.float32),
             "side": np.array([self._side], dtype=np.float32),
         }

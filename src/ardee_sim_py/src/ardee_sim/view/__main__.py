@@ -22,6 +22,14 @@ def main() -> None:
         default="tsv1_default",
         help="name of a shipped robot such as tsv1_default, or a file",
     )
+    parser.add_argument(
+        "--parameters",
+        metavar="FILE",
+        help=".yaml file of the robot's ros_control controllers, and joints' gains",
+    )
+    parser.add_argument(
+        "--controllers", nargs="+", default=[], metavar="NAME", help="of ros_control, started"
+    )
     parser.add_argument("--seed", type=int, default=0, help="of all noise, default 0")
     parser.add_argument(
         "--host",
@@ -63,7 +71,11 @@ def _drive(given: argparse.Namespace, page: Dict[str, Any]) -> None:
 
     world = ardee_sim.World.from_file(given.world)
     with ardee_sim.Simulation(world, seed=given.seed) as sim:
+        if given.parameters is not None:
+            sim.set_parameters(given.parameters)
         sim.spawn("robot", ardee_sim.robot(given.robot), **world.start)
+        if given.controllers:
+            sim.start_controllers("robot", *given.controllers)
         with Viewer(sim, robot="robot", **page) as viewer:
             print(f"{viewer.url} (Ctrl-C ends it)", flush=True)
             viewer.run()
