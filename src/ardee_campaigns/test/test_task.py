@@ -53,8 +53,9 @@ def test_a_robot_that_says_so_has_ended_at_once() -> None:
     assert judged(until_m(9.6), finished_at_s=10.6) == (END_OF_ROW, pytest.approx(10.6), [])
 
 
-def test_a_robot_that_would_say_so_but_stands_near_the_end_is_held_there() -> None:
-    assert judged(until_m(9.6), finished_at_s=1e9)[0] == OUT_OF_TIME
+def test_a_robot_that_would_say_so_but_stands_near_the_end_has_ended() -> None:
+    """As one that a person set down where it finds no row any more."""
+    assert judged(until_m(9.6), finished_at_s=1e9) == (END_OF_ROW, pytest.approx(12.6), [])
 
 
 def test_a_robot_that_is_off_the_lane_is_set_back_to_its_middle() -> None:

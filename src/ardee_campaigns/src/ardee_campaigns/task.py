@@ -36,14 +36,14 @@ class Judge:
     ) -> Tuple[str, Optional[Pose]]:
         """Returns why a person steps in, or nothing, and where the robot is set down; time from the start [s].
 
-        A controller that never says whether it is finished (None) is, where the robot stands near the row's end.
+        Near the row's end a robot that stands has ended, whether or not its controller says so.
         """
         if self._keys.kind == "free":
             self.end = FINISHED if is_finished else OUT_OF_TIME if time_s > self._limit_s else ""
             return "", None
         stands = self._stands(time_s, pose)
         why = self._why_step_in(here, stands, bool(is_finished))
-        self._note_end(time_s, here, stands if is_finished is None else is_finished, why)
+        self._note_end(time_s, here, stands or bool(is_finished), why)
         if not why or self.end:
             return "", None
         self._interventions += 1

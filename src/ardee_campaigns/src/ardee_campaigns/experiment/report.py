@@ -59,7 +59,7 @@ _TABLE: Tuple[Tuple[str, Callable[[Summary], str]], ...] = (
 _NOTES = """Lateral and heading errors are those of the robot's middle from the middle between the two ideal row
 lines of the field's truth file, weighted by the way, between the rows' first and last places. A person steps in
 when the robot is more than 0.38 m off that line, has not moved for 2 s, or stops in the row; not in the row's last
-0.5 m, where the follower may end. It is then set down in the middle of the lane and goes on. Plants are rigid
+0.5 m, where one that stands has ended. It is then set down in the middle of the lane and goes on. Plants are rigid
 scenery to the simulator: they do not fall, and it reports no contacts. Collisions are counted by geometry: times
 that a stalk comes within 1 cm of the robot's outline; a plant counts as knocked when its stalk is more than 2 cm
 inside it. Perceived distances are those to the lines in use; leaves before the stalks make them short of the ideal
