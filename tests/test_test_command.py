@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests the counts of scripts/test, in a checkout of two packages with a test each and one C++ test."""
+"""Tests the counts of scripts/test --unit, in a checkout of two packages, one with a slow test, and one C++ test."""
 import pathlib
 import shutil
 import subprocess
@@ -24,7 +24,10 @@ def checkout(tmp_path: pathlib.Path) -> pathlib.Path:
         'add_test(any "/bin/true")\n'
     )
     (tmp_path / "src/one/test/test_one.py").write_text("def test_left():\n    pass\n")
-    (tmp_path / "src/two/test/test_two.py").write_text("def test_right():\n    assert False\n")
+    slow = "import pytest\n@pytest.mark.slow\ndef test_slow():\n    assert False\n"
+    (tmp_path / "src/two/test/test_two.py").write_text(
+        f"{slow}def test_right():\n    assert False\n"
+    )
     return tmp_path
 
 

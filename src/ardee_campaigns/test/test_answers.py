@@ -92,6 +92,7 @@ def test_a_process_that_is_killed_while_it_writes_is_lost(monkeypatch: pytest.Mo
         process.apart(print, "x" * 100)
 
 
+@pytest.mark.slow
 def test_a_bag_that_cannot_be_written_is_told_in_a_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:

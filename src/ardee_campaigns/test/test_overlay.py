@@ -212,6 +212,7 @@ def overlays(campaign: Path) -> Dict[str, Path]:
     return {world: campaign / world for world in ids}
 
 
+@pytest.mark.slow
 def test_a_simulated_run_is_like_itself_and_unlike_another_field(overlays: Dict[str, Path]) -> None:
     near, far = (apart(overlays[world] / "overlay.csv") for world in ("near", "far"))
     assert set(near) == {one.name for one in QUANTITIES}

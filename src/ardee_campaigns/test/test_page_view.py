@@ -34,6 +34,7 @@ def words(tmp_path: Path) -> List[str]:
     return replay(tmp_path, limit_sim_s=2)
 
 
+@pytest.mark.slow
 def test_a_replay_is_shown_paused_at_its_ends_and_is_the_same(
     words: List[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:
@@ -93,6 +94,7 @@ def shown(monkeypatch: pytest.MonkeyPatch) -> List[Tuple[int, float, float]]:
     return places
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["udp", "ros"])
 def test_a_run_in_real_time_is_shown_as_it_was_recorded(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, shown: List[Any]

@@ -35,6 +35,7 @@ def runs(folder: Path) -> Runs:
     return read(folder).ok()
 
 
+@pytest.mark.slow
 def test_a_paired_difference_is_found_to_its_size(runs: Runs) -> None:
     found = {one.measure: one for one in statistics.differences(runs, "controller", "one")}
     lateral = found["lateral_rms_m"]
@@ -143,6 +144,7 @@ def test_the_markdown_has_the_same_tables_and_pictures_beside_it(folder: Path) -
     assert re.search(r"\| lateral_rms_m \| \d+ \| 0.0395 \| 0.0595 \| \+0.02 \|", text)
 
 
+@pytest.mark.slow
 @NEEDS
 def test_a_browser_shows_the_report(folder: Path) -> None:
     seen = look_at(folder / "report.html")
@@ -152,6 +154,7 @@ def test_a_browser_shows_the_report(folder: Path) -> None:
     assert seen.has("#1c2733") > 1000  # text
 
 
+@pytest.mark.slow
 def test_the_same_tables_give_the_same_page(folder: Path, tmp_path: Path) -> None:
     page = (folder / "report.html").read_bytes()
     assert main(["report", str(folder), "--output", str(tmp_path)]) == 0
@@ -196,6 +199,7 @@ def test_a_campaign_of_failures_alone_is_reported(tmp_path: Path) -> None:
     assert "2 runs, 2 of them failed" in (tmp_path / "report.md").read_text()
 
 
+@pytest.mark.slow
 def test_a_run_campaign_is_reported_with_pictures(tmp_path: Path) -> None:
     file = write(tmp_path, replicates=1)
     run(file, "--output", tmp_path / "out")

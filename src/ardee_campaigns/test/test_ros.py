@@ -26,6 +26,7 @@ def controller(*words: str, **keys: Any) -> dict:
     return {"kind": "ros", "command": [*PROGRAM, *words], **keys}
 
 
+@pytest.mark.slow
 def test_nodes_drive_as_the_same_controllers_without_ros(tmp_path: Path) -> None:
     controllers = {
         "node": {"kind": "ros", "command": ["rosrun", "ardee_navigation", "row_follower"]},
@@ -54,6 +55,7 @@ def test_nodes_drive_as_the_same_controllers_without_ros(tmp_path: Path) -> None
     assert found["realtime"]["distance_m"] == pytest.approx(straight_m, abs=0.1)
 
 
+@pytest.mark.slow
 def test_a_run_is_replayed_to_a_bag(tmp_path: Path) -> None:
     controllers = {"turning": small_campaign.CAMPAIGN["controllers"]["turning"]}
     task = {"stuck_within_m": 9.0, "stuck_after_s": 1.0}  # a person steps in once
@@ -74,6 +76,7 @@ def test_a_run_is_replayed_to_a_bag(tmp_path: Path) -> None:
     assert [turn for turn in turns if turn] == samples["command_turn_rad_s"].to_pylist()
 
 
+@pytest.mark.slow
 def test_a_robot_of_ros_control_drives_with_and_without_ros(tmp_path: Path) -> None:
     """A replay to a bag is refused if the node's robot is not where the run's was."""
     robots = small_campaign.HERE.parents[2] / "tests" / "robots_with_ros_control"
@@ -114,6 +117,7 @@ def processes_of(mark: str) -> List[str]:
     return found
 
 
+@pytest.mark.slow
 def test_a_campaign_that_is_ended_leaves_no_process_behind(tmp_path: Path) -> None:
     file = write(tmp_path, controllers={"a": controller("0.5", "100000", realtime=True)})
     mark = f"CAMPAIGN_OF={tmp_path}"
@@ -148,6 +152,7 @@ def test_a_node_that_cannot_be_meant_is_refused(tmp_path: Path, keys: dict, said
     assert said in str(caught.value) and str(caught.value).startswith(f"{file}:")
 
 
+@pytest.mark.slow
 def test_a_node_needs_readings_or_a_command_in_the_end(tmp_path: Path) -> None:
     robots = {"a": {"model": "tsv1_default", "period_s": 0.05, "topics": {"command": "cmd_vel"}}}
     file = write(tmp_path, controllers={"a": controller("1", "1")}, robots=robots)

@@ -29,6 +29,7 @@ def rows(output: Path) -> List[dict]:
     return tables.read_runs(output).to_pylist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [2, 4])
 def test_any_number_of_workers_gives_the_same_bytes(
     tmp_path: Path, workers: int, reference: bytes
@@ -98,6 +99,7 @@ def worker_of(output: Path) -> int:
     return int((output / "attempts" / begun(output)[0]).read_text().split()[1])
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_its_run_a_retry_and_a_line(
     tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
 ) -> None:
@@ -112,6 +114,7 @@ def test_a_killed_worker_costs_its_run_a_retry_and_a_line(
     assert [timing["lost"] for timing in timings if timing["lost"]] == ["its worker ended"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
 def test_a_campaign_that_was_ended_goes_on(
     tmp_path: Path,
@@ -159,6 +162,7 @@ def test_ctrl_c_during_the_imports_ends_in_a_line(tmp_path: Path) -> None:
     assert child.returncode == 130
 
 
+@pytest.mark.slow
 def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     tmp_path: Path, reference: bytes, start: Callable[..., subprocess.Popen]
 ) -> None:
@@ -193,6 +197,7 @@ def test_a_lost_scheduler_ends_the_campaign_which_goes_on_with_another(
     assert kept.items() <= finished(output).items()
 
 
+@pytest.mark.slow
 def test_controllers_that_misbehave_fail_their_runs_and_the_rest_goes_on(tmp_path: Path) -> None:
     ways = ("raises", "returns_nan", "returns_none", "eats_memory", "hangs", "dies", "dies_once")
     controllers: dict = {
@@ -222,6 +227,7 @@ def test_controllers_that_misbehave_fail_their_runs_and_the_rest_goes_on(tmp_pat
     assert timings[found["hangs"]["run_id"]]["attempts"] == 3
 
 
+@pytest.mark.slow
 def test_a_world_or_measure_that_fails_is_a_failed_row(tmp_path: Path) -> None:
     world = '<sdf version="1.6"><world name="w"><include>'
     (tmp_path / "bad.world").write_text(f"{world}<uri>model://no</uri></include></world></sdf>")
@@ -245,6 +251,7 @@ def test_two_campaigns_do_not_share_a_folder(tmp_path: Path) -> None:
     assert not finished(output)
 
 
+@pytest.mark.slow
 def test_a_full_disk_ends_the_campaign_in_one_line(tmp_path: Path) -> None:
     file, output = write(tmp_path), tmp_path / "out"
     output.mkdir()
@@ -270,6 +277,7 @@ def test_the_plan_is_listed_and_nothing_run(tmp_path: Path) -> None:
     assert not (tmp_path / "o").exists()
 
 
+@pytest.mark.slow
 def test_replicates_are_added_until_the_interval_is_narrow(tmp_path: Path) -> None:
     plan = {"kind": "until", "measure": "lateral_rms_m", "half_width": 1e-12, "most_replicates": 3}
     controllers = {"straight": small_campaign.CAMPAIGN["controllers"]["straight"]}
@@ -282,6 +290,7 @@ def test_replicates_are_added_until_the_interval_is_narrow(tmp_path: Path) -> No
     assert sorted(row["replicate"] for row in rows(tmp_path / "out")) == [0, 1]
 
 
+@pytest.mark.slow
 def test_a_run_is_replayed_by_its_id(tmp_path: Path) -> None:
     file, output = write(tmp_path, replicates=1), tmp_path / "out"
     run(file, "--output", output)
@@ -294,6 +303,7 @@ def test_a_run_is_replayed_by_its_id(tmp_path: Path) -> None:
     assert "known: " in run(file, "--output", output, "--replay", "x", code=2).stderr
 
 
+@pytest.mark.slow
 def test_a_replay_shows_where_a_controller_raised(tmp_path: Path) -> None:
     raises = {"factory": "misbehaving:make", "params": {"how": "raises"}}
     file = write(tmp_path, replicates=1, controllers={"raises": raises})
@@ -302,6 +312,7 @@ def test_a_replay_shows_where_a_controller_raised(tmp_path: Path) -> None:
     assert "misbehaving.py" in said and "run_campaign: failed, KeyError" in said
 
 
+@pytest.mark.slow
 def test_a_replay_heeds_a_ctrl_c_that_its_controller_has_lost(tmp_path: Path) -> None:
     loses = {"factory": "misbehaving:make", "params": {"how": "loses_ctrl_c"}}
     file = write(tmp_path, replicates=1, controllers={"loses": loses})

@@ -20,6 +20,7 @@ def controller(*words: str, **params: Any) -> dict:
     return {"kind": "udp", "command": [*PROGRAM, *words], "params": params}
 
 
+@pytest.mark.slow
 def test_a_program_drives_and_one_that_ends_fails_its_run(tmp_path: Path) -> None:
     controllers = {
         "lasts": controller("{speed_m_s}", "1000", speed_m_s=0.5),

@@ -274,6 +274,7 @@ def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Pope
     return first
 
 
+@pytest.mark.slow
 def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, made: Path) -> None:
     folder = recipe.parent / "killed"
     folder.mkdir()
@@ -351,6 +352,7 @@ def test_the_encoding_of_a_known_mask() -> None:
     assert rle.encode(np.array([[0, 1], [1, 0], [1, 0]])) == "132"
 
 
+@pytest.mark.slow
 def test_the_example_makes_twenty_samples(tmp_path: Path) -> None:
     recipe = Path(__file__).parents[1] / "src" / "ardee_datasets" / "examples" / "small.yaml"
     assert main([str(recipe), "--output", str(tmp_path / "set"), "--workers", "1"]) == 0

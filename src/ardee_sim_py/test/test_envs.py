@@ -41,6 +41,7 @@ def bytes_of(observation: Any) -> bytes:
     return observation.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", IDS)
 def test_gymnasium_finds_nothing_to_complain_about(name: str, make: Make) -> None:
     with warnings.catch_warnings():
@@ -262,6 +263,7 @@ def long_rollout(env: FieldEnv) -> bytes:
     return b"".join(said)
 
 
+@pytest.mark.slow
 def test_workers_change_no_byte(make: Make) -> None:
     def run(num_envs: int) -> List[bytes]:
         """Returns what each environment said."""
@@ -281,6 +283,7 @@ def test_workers_change_no_byte(make: Make) -> None:
     assert len(set(four)) == 4
 
 
+@pytest.mark.slow
 def test_threads_and_a_restored_beginning_change_no_byte(make: Make) -> None:
     envs = [make(), make()]
     with concurrent.futures.ThreadPoolExecutor() as pool:
@@ -288,6 +291,7 @@ def test_threads_and_a_restored_beginning_change_no_byte(make: Make) -> None:
     assert one == other == long_rollout(envs[0])  # a reset restores a snapshot
 
 
+@pytest.mark.slow
 def test_a_reward_can_be_learnt_from(make: Make) -> None:
     env = gymnasium.wrappers.TimeLimit(make(control_period_s=0.2), 60)
     curve = learn_to_follow.learn(env)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 
+@pytest.mark.slow
 def test_every_topic_of_the_robot_gives_its_class_at_its_rate_in_its_frame(
     sim: ardee_sim.Simulation,
 ) -> None:

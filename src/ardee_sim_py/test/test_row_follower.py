@@ -93,6 +93,7 @@ def test_who_stands_gets_nowhere_and_time_runs_out() -> None:
     )
 
 
+@pytest.mark.slow
 def test_the_shipped_follower_reaches_the_end_of_corn_it_has_not_seen(tmp_path: Path) -> None:
     follower = Follower.load(row_follower.SHIPPED)
     assert row_follower.SHIPPED.stat().st_size < 200_000

@@ -71,6 +71,7 @@ def test_a_ball_falls_as_galilei_says_and_tells_whom_it_touches() -> None:
         assert abs(contact.force_n[2]) == pytest.approx(9.8, rel=0.01)
 
 
+@pytest.mark.slow
 def test_readings_are_read_only_and_outlive_the_simulation(
     corn: ardee_sim.World, terrasentia: str
 ) -> None:
@@ -91,6 +92,7 @@ def test_readings_are_read_only_and_outlive_the_simulation(
             array[0] = 0
 
 
+@pytest.mark.slow
 def test_what_nobody_demands_is_not_measured(sim: ardee_sim.Simulation) -> None:
     begin = time.process_time()
     sim.step(200)

@@ -5,6 +5,8 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 # pybind11 gives its classes a metaclass, and those that Python cannot make an __init__ that raises.
 CLASSES = ("Description", "Model", "Simulation", "World")
 ALLOWED = (*CLASSES, *(f"{name}.__init__" for name in CLASSES if name != "Simulation"))
@@ -15,6 +17,7 @@ CONFIG = PACKAGES.parent / "pyproject.toml"  # missing types of libraries are no
 SOURCES = os.pathsep.join(str(PACKAGES / name / "src") for name in ("ardee_sim_py", "ardee_common"))
 
 
+@pytest.mark.slow
 def test_the_stubs_agree_with_the_extension(tmp_path: pathlib.Path) -> None:
     allowed = tmp_path / "allowed"
     allowed.write_text("".join(f"ardee_sim._core.{name}\n" for name in ALLOWED))

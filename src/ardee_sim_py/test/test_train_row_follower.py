@@ -128,6 +128,7 @@ def script(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
     del sys.modules[SCRIPT]
 
 
+@pytest.mark.slow
 def test_a_training_keeps_its_policy_goes_on_and_draws_its_drives(
     script: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:

@@ -48,6 +48,7 @@ def number(page: browser_page.Page, pattern: str) -> float:
     return float(found[1]) if found else 0.0
 
 
+@pytest.mark.slow
 @browser_page.NEEDS
 def test_the_page_shows_the_robot_and_keys_drive_it(
     yard: ardee_sim.Simulation, tmp_path: pathlib.Path
@@ -87,6 +88,7 @@ def test_the_page_shows_the_robot_and_keys_drive_it(
     assert yard.state("robot").xyz_m[0] > 0.1
 
 
+@pytest.mark.slow
 def test_readings_are_the_same_bytes_with_a_viewer(corn: ardee_sim.World, terrasentia: str) -> None:
     topics = (
         "ardee/hokuyo",

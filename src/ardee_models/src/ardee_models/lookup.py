@@ -13,7 +13,7 @@ from PIL import Image
 
 from ardee_common import data
 from ardee_common.errors import GeneratorError, known_names
-from ardee_models.plant.crop_files import METRICS_FILE
+from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_models.terrain.height_map import Terrain
 
 DEFAULT_OUTPUT = "the first of GAZEBO_MODEL_PATH that can be written and that no build made, else ~/.gazebo/models"

@@ -11,7 +11,7 @@ import numpy as np
 
 from ardee_common.output import model_directory
 from ardee_models.metadata import model_config
-from ardee_models.plant.crop_files import METRICS_FILE
+from ardee_models.plant.plant_metrics import METRICS_FILE
 from ardee_world import clutter_shapes
 
 # Class ids in segmentation, after those of crops
