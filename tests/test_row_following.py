@@ -216,7 +216,7 @@ def overlay_and_way() -> Tuple[Tuple[str, int, int], Tuple[float, float]]:
 
 @pytest.mark.parametrize("scenario", ["early_corn", "low_sun", "overcast"])
 def test_launch_file_drives_a_row_by_camera(graph: RosGraph, scenario: str) -> None:
-    arguments = (f"scenario:={scenario}", "follower:=vision", "rviz:=false", "rtf:=2")
+    arguments = (f"scenario:={scenario}", "follower:=vision", "rviz:=false")
     launched = graph.launch("ardee_navigation", "row_following.launch", *arguments)
     form, (_, y) = graph.call(overlay_and_way)
     assert form == ("rgb8", 640, 480) and abs(y) < 0.1

@@ -25,7 +25,7 @@ runs = (tables.read_run(folder, run_id) for run_id in tables.finished(folder))
 run = next(
     run
     for run in runs
-    if (run.row.world, run.row.controller, run.row.replicate) == ("gaps", "vision", 0)
+    if (run.row.world, run.row.controller, run.row.replicate) == ("gaps", "classical", 0)
 )
 path = run.samples.to_pydict()
 end = path["event"].index("off the lane")

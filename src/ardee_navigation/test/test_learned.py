@@ -30,9 +30,9 @@ def test_a_simulated_lane_is_found() -> None:
     assert sight.confidence > VisionParameters().min_confidence
 
 
-def test_the_parameter_chooses_and_bare_ground_shows_no_lane() -> None:
+def test_bare_ground_shows_no_lane() -> None:
     soil = np.full((240, 320, 3), (110, 80, 60), np.uint8)
-    follower = VisionFollower(VisionParameters(estimator="learned"))
+    follower = VisionFollower()
     output = follower.update(soil, 0.0)
     assert not output.is_valid
     with pytest.raises(ValueError, match="estimator: found 'magic', expected classical or learned"):

@@ -16,7 +16,7 @@ from ardee_navigation.vision.overlay import CENTRE, VALID, drawn
 from ardee_navigation.vision.rows import RowModel
 from ardee_navigation.vision.vegetation import excess_green
 
-P = VisionParameters()
+P = VisionParameters(estimator="classical")
 CAMERA = camera_of(320, 240, P)
 CLASSICAL = Classical(CAMERA, P.lane_width_m)
 DT_S = 0.05

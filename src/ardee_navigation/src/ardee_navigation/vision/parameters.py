@@ -13,7 +13,7 @@ from ardee_navigation.lane_following.parameters import LaneParameters
 class VisionParameters(LaneParameters):
     """Numbers of the camera, and of the checks of what it sees, beside those of any lane. Frame: the camera's."""
 
-    estimator: str = option("classical", choices=("classical", "learned"))  # [own]
+    estimator: str = option("learned", choices=("classical", "learned"))  # [own]
     camera_ahead_m: float = bounded(-2.0, 2.0, 0.23)  # before the turning centre [robot]
     camera_height_m: float = bounded(0.02, 5.0, 0.235)  # above the ground [robot]
     camera_pitch_deg: float = bounded(-60.0, 60.0, 0.0)  # below the horizon [robot]
