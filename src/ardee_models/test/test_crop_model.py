@@ -46,6 +46,7 @@ def test_there_are_the_thesis_models():
     assert VARIANTS == names
 
 
+@pytest.mark.slow
 def test_every_species_has_early_mid_and_late_season(share):
     seasons = {}
     for name in VARIANTS:

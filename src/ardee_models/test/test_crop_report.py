@@ -27,6 +27,7 @@ def test_every_metric_lies_in_the_literatures_range_for_its_stage(share, name):
     assert all(sources[check.source] for check in checks)
 
 
+@pytest.mark.slow
 def test_report_of_all_models(share, tmp_path, capsys):
     code = crop_report.main(
         ["--model-path", str(share / "models"), "--output", str(tmp_path / "r")]
