@@ -73,3 +73,13 @@ def endless(run: Any, truth: Any) -> float:
 def samples(run: Any, truth: Any) -> float:
     """A measure: the number of samples."""
     return len(run["time_ns"])
+
+
+def distance_m(run: Any, truth: Any) -> float:
+    """Measures what a shipped one of the same name does."""
+    return 0.0
+
+
+def seed(run: Any, truth: Any) -> float:
+    """Measures something that has the name of another column."""
+    return 0.0

@@ -2,6 +2,7 @@
 """Tests the campaign's file, the plan that it gives, and what is refused before the first run."""
 import itertools
 import math
+from datetime import date
 from pathlib import Path
 from typing import Any, Dict
 
@@ -71,6 +72,7 @@ def test_a_first_seed_is_that_of_field_and_noise(tmp_path: Path) -> None:
 
 
 CONSTANT = "ardee_campaigns.examples.constant:make"
+UNTIL = {"kind": "until", "measure": "distance_m", "half_width": 1.0}
 REFUSED: Dict[str, Any] = {
     "an unknown key": ({"replicate": 3}, "unknown key 'replicate'"),
     "a last seed that no field has": (
@@ -116,6 +118,44 @@ REFUSED: Dict[str, Any] = {
     ),
     "an unknown robot": ({"robots": {"a": "tsv9"}}, "found no robot 'tsv9'"),
     "a plan without measure": ({"plan": {"kind": "until"}}, "expected measure and half_width"),
+    "a column for two measures": (
+        {"measures": ["distance_m", "misbehaving:distance_m"]},
+        "measures: found 'misbehaving:distance_m', whose column distance_m is there already",
+    ),
+    "a column that is no measure's": ({"measures": ["misbehaving:seed"]}, "whose column seed is"),
+    "an option's text for a number": (
+        {"worlds": {"a": {"field": "tiny.yaml", "options": {"row_length_m": "abc"}}}},
+        "row_length_m: found 'abc', expected 0 to",
+    ),
+    "a factor beyond its option's limits": (
+        {"factors": {"row_length_m": {"of": "field", "values": [1.0, -2.0]}}},
+        "row_length_m: found -2.0, expected",
+    ),
+    "fractions of a row": (
+        {
+            "factors": {"rows_per_plot": {"of": "field", "low": 2, "high": 5}},
+            "plan": {"kind": "latin_hypercube", "points": 3},
+        },
+        "expected a whole number",
+    ),
+    "an option of each run": (
+        {"factors": {"seed": {"of": "field", "values": [1, 2]}}},
+        "found 'seed', which each run has of its own",
+    ),
+    "a world that is nothing": ({"worlds": {"a": None}}, "a: found None, expected a mapping"),
+    "parameters that are a number": (
+        {"worlds": {"a": {"field": "tiny.yaml", "params": {"straight": 3}}}},
+        "params: straight: found 3, expected a mapping",
+    ),
+    "a date": (
+        {"controllers": {"mine": {"factory": CONSTANT, "params": {"x": date(2020, 1, 1)}}}},
+        "found 2020-01-01 (date), expected numbers",
+    ),
+    "more replicates than at most": (
+        {"plan": {**UNTIL, "most_replicates": 3}, "replicates": 4},
+        "replicates: found 4, more than most_replicates 3",
+    ),
+    "a name that leaves the folder": ({"name": "../evil"}, "name: found '../evil'"),
     "a name with a blank": ({"controllers": {"a b": CONSTANT}}, "found the name 'a b'"),
 }
 
@@ -137,7 +177,23 @@ def test_the_half_width_of_an_interval_is_students() -> None:
     assert half_width([1.0]) == math.inf
 
 
-def test_a_controller_is_known_by_all_files_of_its_package_or_folder(
+def test_a_run_is_known_by_its_measures_and_its_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.syspath_prepend(tmp_path)
+    worlds = {"a": {"world": "w.world", "field": "tiny.yaml"}}
+    file = small_campaign.write(tmp_path, worlds=worlds, measures=["mine_of_test:one"])
+    (tmp_path / "w.world").write_text("<sdf version='1.6'><world name='w'/></sdf>")
+    made = []
+    for start, measure in (("x_m: 0", "1"), ("x_m: 1", "1"), ("x_m: 1", "2")):
+        (tmp_path / "w.start.yaml").write_text(start)
+        (tmp_path / "mine_of_test.py").write_text(f"def one(run, truth): return {measure}")
+        planner = Planner(read_campaign(file))
+        made.append(planner.job(planner.cells[0], 0, tmp_path).run_id)
+    assert len(set(made)) == 3
+
+
+def test_a_controller_is_known_by_all_files_of_its_package_and_those_it_imports(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     package, other = tmp_path / "the_package", tmp_path / "other"
@@ -153,6 +209,7 @@ def test_a_controller_is_known_by_all_files_of_its_package_or_folder(
     for changed in (None, *files):
         if changed:
             changed.write_text(f"import helper\n{changed.read_text()}\nx = 1")
+        (tmp_path / "unrelated.py").write_text(f"x = '{changed}'")
         keys = [ControllerKeys(factory=f"{name}:make") for name in ("lone", "the_package.main")]
         keys.append(ControllerKeys(kind="udp", command=("python3", str(files[0]))))
         found.append([source_digest(one) for one in keys])

@@ -165,6 +165,11 @@ def test_a_bag_is_read(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
         (["/nowhere.csv"], "cannot be read"),
         ([__file__], "expected a time and 1080 or 1081 ranges"),
         ([__file__, "--param", "x"], "--param: found 'x', expected NAME=VALUE"),
+        (["/dev/null"], "found 0 lines of data, expected 2 or more"),
+        (
+            [__file__, "--runs", "2"],
+            "--runs: found it with /nowhere, which is no campaign's folder",
+        ),
         ([__file__, "--factory", "nobody:make"], "--factory: found 'nobody:make'"),
     ],
 )

@@ -74,6 +74,27 @@ def test_shares_of_variance_and_slopes() -> None:
     assert statistics.share_of_variance(runs, "controller", "y") < 0.05
 
 
+def test_points_of_a_latin_hypercube_are_a_scale_however_few() -> None:
+    x = np.repeat(np.arange(6) / 7.0, 4)
+    columns = {
+        "run_id": np.arange(24).astype(str),
+        "controller": np.array(["a", "b"] * 12, dtype=object),
+        "factor_x": x,
+        "factor_w": np.repeat(np.array([3.0, 1.0, 2.0, 6.0, 5.0, 4.0]), 4),
+        "replicate": np.tile([0, 0, 1, 1], 6),
+        "seed": np.tile([7, 7, 8, 8], 6),
+        "y": 2.0 * x + 0.01 * np.random.default_rng(0).normal(size=24),
+    }
+    runs = Runs("", columns, ["controller", "factor_x", "factor_w"], ["y"])
+    assert statistics.is_scale(runs, "factor_x") and not statistics.is_scale(runs, "controller")
+    slope = statistics.slope(runs, "factor_x", "y")
+    assert slope.low < 2.0 < slope.high and slope.high - slope.low < 0.1
+    crossed = Runs(
+        "", {**columns, "factor_w": 0.0 * x}, ["controller", "factor_x", "factor_w"], ["y"]
+    )
+    assert not statistics.is_scale(crossed, "factor_x")
+
+
 def test_an_interquartile_mean_leaves_out_the_ends() -> None:
     values = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 1000.0])
     found = statistics.iqm(values, ["w"] * 8)

@@ -14,6 +14,7 @@ import small_campaign
 from small_campaign import run, write
 
 from ardee_campaigns import tables
+from ardee_campaigns.replay import note_file
 from ardee_common.output import locked
 
 
@@ -243,6 +244,15 @@ def test_a_world_or_measure_that_fails_is_a_failed_row(tmp_path: Path) -> None:
 
 
 def test_two_campaigns_do_not_share_a_folder(tmp_path: Path) -> None:
+    output = tmp_path / "out"
+    note_file(output, tmp_path / "other.yaml")
+    (output / "runs").mkdir()
+    (output / "runs" / "0123456789abcdef.parquet").touch()
+    done = run(write(tmp_path), "--output", output, code=2)
+    assert f"found the runs of {tmp_path}/other.yaml in {output}, expected" in done.stderr
+
+
+def test_two_campaigns_do_not_work_in_a_folder_at_a_time(tmp_path: Path) -> None:
     output = tmp_path / "out"
     output.mkdir()
     with locked(output):

@@ -238,11 +238,24 @@ class Campaign:
     factors: Dict[str, FactorKeys]
 
 
+class _NotPlain(GeneratorError):
+    """A value that no file of results could hold."""
+
+
 def plain(value: Any) -> Any:
-    """Returns the value of a file without the places of its mappings."""
+    """Returns the value of a file without the places of its mappings. Raises _NotPlain for one that JSON has not."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
-    return [plain(item) for item in value] if isinstance(value, list) else value
+    if isinstance(value, list):
+        return [plain(item) for item in value]
+    if (
+        value is None
+        or isinstance(value, (str, int, float, tuple))
+        or dataclasses.is_dataclass(value)
+    ):
+        return value
+    expected = "numbers, texts, truth values, and lists and mappings of them"
+    raise _NotPlain(f"found {value} ({type(value).__name__}), expected {expected}")
 
 
 def _world_text(text: str) -> str:
@@ -260,12 +273,19 @@ def _entries(cls: type, mapping: Mapping, key: str, short: Any) -> Dict[str, Any
         if not _NAME.fullmatch(name):
             expected = "letters, digits and _, the first a letter"
             raise named.error(name, f"{key}: found the name {name!r}, expected {expected}")
+        kind, called = (list, "list") if key == "factors" else (str, "text")
+        if not isinstance(value, (dict, kind)):
+            found = f"{key}: {name}: found {value!r}"
+            raise named.error(name, f"{found}, expected a mapping or a {called}")
         if not isinstance(value, dict):
             long = Mapping(named.place, named.line[name])
             long[short(value)] = value
             long.line[short(value)] = named.line[name]
             named[name] = long
-        made[name] = _without_places(build_group(cls, named, name))
+        try:
+            made[name] = _without_places(build_group(cls, named, name))
+        except _NotPlain as error:
+            raise named.error(name, f"{key}: {name}: {error}") from None
     return made
 
 
@@ -281,6 +301,8 @@ def read_campaign(file: Path) -> Campaign:
     for needed in ("name", "worlds", "controllers"):
         if not getattr(keys, needed):
             raise mapping.error(needed, f"{needed}: found none, expected some")
+    if Path(keys.name).name != keys.name:
+        raise mapping.error("name", f"name: found {keys.name!r}, expected the name of a folder")
     if not keys.measures:
         raise mapping.error("measures", "measures: found none, expected at least one")
     if "robots" not in mapping:
@@ -299,6 +321,9 @@ def read_campaign(file: Path) -> Campaign:
         raise mapping.error("plan", f"plan: measure {keys.plan.measure!r}, expected one of {known}")
     if keys.plan.kind == "until" and keys.replicates < 2:
         raise mapping.error("replicates", "replicates: found 1, expected 2 or more for plan until")
+    if keys.plan.kind == "until" and keys.replicates > keys.plan.most_replicates:
+        found = f"found {keys.replicates}, more than most_replicates"
+        raise mapping.error("replicates", f"replicates: {found} {keys.plan.most_replicates}")
     most = keys.plan.most_replicates if keys.plan.kind == "until" else keys.replicates
     if keys.first_seed is not None and keys.first_seed + most - 1 > LARGEST_SEED:
         found = f"found a last seed above {LARGEST_SEED}, the largest"
@@ -308,7 +333,10 @@ def read_campaign(file: Path) -> Campaign:
     robots = _entries(RobotKeys, mapping, "robots", lambda value: "model")
     controllers = _entries(ControllerKeys, mapping, "controllers", lambda value: "factory")
     for name, world in worlds.items():
-        for controller in world.params or {}:
+        for controller, params in (world.params or {}).items():
+            if not isinstance(params, dict):
+                found = f"{name}: params: {controller}: found {params!r}"
+                raise mapping["worlds"].error(name, f"{found}, expected a mapping of parameters")
             if controller not in controllers:
                 known = ", ".join(controllers)
                 found = f"{name}: params: found controller {controller!r}"

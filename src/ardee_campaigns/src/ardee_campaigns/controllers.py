@@ -11,7 +11,7 @@ import importlib
 import importlib.util
 import math
 from pathlib import Path
-from typing import Any, Callable, Mapping, Optional, Tuple
+from typing import Any, Callable, Iterable, Mapping, Optional, Tuple
 
 import ardee_sim
 
@@ -44,20 +44,25 @@ def source_digest(keys: ControllerKeys) -> str:
 
     It is that of the names and contents of the files that python_files or, of kind ros and udp, files_of returns.
     """
-    if keys.command:
-        files = files_of(keys.command)
-    else:
-        name = keys.factory
-        spec = importlib.util.find_spec(name.partition(":")[0]) if name else None
-        if spec is None or not spec.origin or not Path(spec.origin).is_file():
-            return ""
-        files = python_files(Path(spec.origin))
+    return _digest(files_of(keys.command)) if keys.command else function_digest(keys.factory)
+
+
+def function_digest(name: str) -> str:
+    """Returns a hash of the source of a module:function."""
+    spec = importlib.util.find_spec(name.partition(":")[0])
+    if spec is None or not spec.origin or not Path(spec.origin).is_file():
+        return ""
+    return _digest(python_files(Path(spec.origin)))
+
+
+def _digest(files: Iterable[Path]) -> str:
     texts = [f"{file.name}\0".encode() + file.read_bytes() for file in files]
     return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def make(keys: ControllerKeys, params: Mapping[str, Any], robot: Robot, seed: int) -> Any:
-    """Returns the controller."""
+    """Returns the controller, which gets 32 bits of the seed: many generators of random numbers take no more."""
+    seed &= 0xFFFFFFFF
     if keys.kind == "udp":
         return UdpController(keys.command, params, robot)
     if keys.kind == "ros":

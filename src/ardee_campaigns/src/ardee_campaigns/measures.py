@@ -6,10 +6,11 @@ the ardee_world.trial.Trial of the run. Errors on the way are weighted by the wa
 """
 import math
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Mapping
+from typing import Any, Callable, Dict, Mapping, Sequence
 
 import numpy as np
 
+from ardee_campaigns import tables
 from ardee_campaigns.campaign_file import TaskKeys
 from ardee_campaigns.controllers import load_function
 from ardee_campaigns.outline import Contacts
@@ -215,6 +216,17 @@ MEASURES: Dict[str, Any] = {
 }
 
 
+def check(names: Sequence[str], factors: Sequence[str]) -> None:
+    """Raises GeneratorError unless all measures are there, each with a column of its own."""
+    taken = {*tables.RUN_COLUMNS, *(f"factor_{name}" for name in factors)}
+    for name in names:
+        find(name)
+        if column(name) in taken:
+            found = f"measures: found {name!r}, whose column {column(name)} is there already"
+            raise GeneratorError(f"{found}, expected another name")
+        taken.add(column(name))
+
+
 def find(name: str) -> Callable[[Recorded, Trial], Any]:
     """Returns a measure by its name or as module:function."""
     if ":" in name:
@@ -222,6 +234,16 @@ def find(name: str) -> Callable[[Recorded, Trial], Any]:
     if name not in MEASURES:
         raise GeneratorError(f"measures: found {name!r}, {known_names(name, MEASURES)}")
     return MEASURES[name][0]
+
+
+def measured(name: str, run: Recorded, truth: Trial) -> float:
+    """Returns what a measure says of a run. Raises GeneratorError if that is no number."""
+    value = find(name)(run, truth)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        found = f"found {type(value).__name__}"
+        raise GeneratorError(f"measure {name}: {found}, expected a number") from None
 
 
 def column(name: str) -> str:

@@ -5,7 +5,7 @@ import itertools
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Mapping, Tuple
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -116,14 +116,15 @@ class Planner:
         self._urdfs: Dict[str, str] = {}
         self._versions = engine_version()
         folder = campaign.file.parent
-        for name in campaign.keys.measures:
-            with self._at(self._placed, "measures"):
-                measures.find(name)
+        try:
+            measures.check(campaign.keys.measures, list(campaign.factors))
+        except GeneratorError as error:
+            raise self._placed.error("measures", str(error)) from None
         for name, keys in campaign.worlds.items():
             with self._at(self._placed["worlds"], name):
                 self._files[name] = worlds.find_files(keys, folder)
-                probe = self._probe("world", name)
-                worlds.check_options(keys, self._files[name], factors_of(campaign, probe, "field"))
+                for factors in self._field_factors(name):
+                    worlds.check_options(keys, self._files[name], factors)
         self._contents = {
             name: hashlib.sha256(files.content()).hexdigest() for name, files in self._files.items()
         }
@@ -131,6 +132,18 @@ class Planner:
         self._sources = {
             name: controllers.source_digest(keys) for name, keys in campaign.controllers.items()
         }
+        self._own_measures = {
+            name: controllers.function_digest(name)
+            for name in campaign.keys.measures
+            if ":" in name
+        }
+
+    def _field_factors(self, world: str) -> Iterable[Dict[str, Value]]:
+        """Returns the different values of the factors of a world's field."""
+        made = (
+            factors_of(self.campaign, cell, "field") for cell in self.cells if cell.world == world
+        )
+        return {json.dumps(factors): factors for factors in made}.values()
 
     def _probe(self, kind: str, name: str) -> Cell:
         return next(cell for cell in self.cells if getattr(cell, kind) == name)
@@ -199,7 +212,7 @@ class Planner:
             "params": params_of(campaign, cell),
             "names": [cell.world, cell.robot, cell.controller, cell.factors],
             "seed": [seed, replicate],
-            "task": [vars(keys.task), keys.limit_sim_s, keys.measures],
+            "task": [vars(keys.task), keys.limit_sim_s, keys.measures, self._own_measures],
             "engine": self._versions,
         }
         run_id = _digest(inputs).hex()[:_DIGITS]

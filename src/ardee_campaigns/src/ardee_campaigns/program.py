@@ -78,14 +78,14 @@ def _loaded_by(file: Path) -> List[Path]:
 
 
 def python_files(file: Path) -> List[Path]:
-    """Returns the Python files of a file's package, or those of its folder and of packages there that it imports."""
+    """Returns the Python files of a file's package, or itself and what it imports from its folder."""
     folder = file.parent
     if not (folder / "__init__.py").is_file():
         finder = ModuleFinder([str(folder)])  # which reads files and runs none
         with contextlib.suppress(SyntaxError, ValueError):  # of a file that Python cannot read
             finder.run_script(str(file))
         imported = [Path(each.__file__) for each in finder.modules.values() if each.__file__]
-        return _shown(folder, [*folder.glob("*.py"), *imported])
+        return _shown(folder, [file, *imported])
     while (folder.parent / "__init__.py").is_file():
         folder = folder.parent
     return _shown(folder, folder.glob("**/*.py"))

@@ -24,15 +24,26 @@ def note_file(folder: Path, file: Path) -> None:
     write_file(folder / FILE, f"{file}\n".encode())
 
 
+def noted_file(folder: Path) -> Optional[Path]:
+    """Returns the campaign's file that was noted in a campaign's folder; None without a note."""
+    note = folder / FILE
+    return Path(note.read_text().strip()) if note.is_file() else None
+
+
 class Replayer:
     """Runs of a campaign's folder. `file` is the campaign's file, if it has been moved since."""
 
     def __init__(self, folder: Path, file: Optional[Path] = None) -> None:
         self._folder = folder.resolve()
-        note = folder / FILE
-        if file is None and not note.is_file():
-            raise GeneratorError(f"{note}: found no such file, expected the path of the campaign's")
-        self.file = file or Path(note.read_text().strip())
+        found = file or noted_file(folder)
+        if found is None:
+            raise GeneratorError(
+                f"{folder / FILE}: found no such file, expected the path of the campaign's"
+            )
+        if not found.is_file():
+            moved = "expected --campaign FILE if it was moved"
+            raise GeneratorError(f"{found}: found no such file, {moved}")
+        self.file = found
         self._planner = Planner(read_campaign(self.file))
 
     def job(self, run_id: str) -> Job:

@@ -112,7 +112,7 @@ class Run:
             self.end,
         )
         for name in self._keys.measures:
-            self.measured[measures.column(name)] = float(measures.find(name)(recorded, trial))
+            self.measured[measures.column(name)] = measures.measured(name, recorded, trial)
 
     def _driven(self, trial: Trial, work: Path, ends: contextlib.ExitStack) -> Any:
         """Returns the robot, in a simulation that ends with `ends`."""

@@ -14,7 +14,7 @@ from ardee_campaigns import measures, tables
 from ardee_campaigns.campaign_file import Campaign, read_campaign
 from ardee_campaigns.page_view import Page
 from ardee_campaigns.plan import Cell, Job, Planner, about
-from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file
+from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file, noted_file
 from ardee_common.cli import Parser, say, whole_in
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.output import locked
@@ -42,7 +42,7 @@ def _arguments(argv: Optional[Sequence[str]]) -> argparse.Namespace:
     parser.add_argument(
         "--list",
         action="store_true",
-        help="print the plan and how long it takes at most; run nothing",
+        help="print the plan and how long it may take; run nothing",
     )
     parser.add_argument(
         "--scheduler",
@@ -87,6 +87,14 @@ def _shipped() -> Dict[str, Path]:
     """Returns the campaigns that ship, by name."""
     files = (Path(__file__).resolve().parent / "examples").glob("*.yaml")
     return {file.stem: file for file in sorted(files)}
+
+
+def _found(file: Path) -> Path:
+    """Returns the file of a campaign, or the shipped one of that name."""
+    shipped = _shipped()
+    if str(file) in shipped or file.is_file():
+        return shipped.get(str(file), file)
+    raise GeneratorError(f"{file}: found no such file, and {known_names(file.stem, shipped)}")
 
 
 class Progress:
@@ -198,13 +206,15 @@ def _header(session: Session) -> str:
 
 
 def _wall_s(session: Session, jobs: Sequence[Job]) -> Any:
-    """Returns the time that a run takes: of those that are done, or at most."""
+    """Returns the time that a run takes: of those that are done, or a guess."""
     there = set(tables.finished(session.folder))
     done = [job.run_id for job in jobs if job.run_id in there]
     if done:
         walls = [tables.read_run_head(session.folder, run_id).timing.wall_s for run_id in done]
         return float(np.nanmean(walls)), "as long a run as those that are done"
-    return session.campaign.keys.limit_sim_s / _PACE, f"at most, at {_PACE:g} x real time"
+    limit_s = session.campaign.keys.limit_sim_s
+    guess = f"if each lasts {limit_s:g} s at {_PACE:g} x real time; with cameras many times as long"
+    return limit_s / _PACE, guess
 
 
 def _work(session: Session, args: argparse.Namespace) -> int:
@@ -219,6 +229,7 @@ def _work(session: Session, args: argparse.Namespace) -> int:
             f"--output: found {str(folder)!r}, expected a folder to write in: {error.strerror}"
         ) from None
     with locked(folder):
+        _check_folder(session, jobs)
         note_file(folder, session.campaign.file)
         if args.retry_failed:
             _forget_failed(session, jobs)
@@ -250,8 +261,17 @@ def _rounds(session: Session, workers: Any, jobs: List[Job]) -> None:
             jobs += session.jobs(min(more, keys.plan.most_replicates), [cell])
 
 
+def _check_folder(session: Session, jobs: Sequence[Job]) -> None:
+    """Raises GeneratorError if the folder holds runs of another campaign's file alone."""
+    there, file = set(tables.finished(session.folder)), noted_file(session.folder)
+    if there and file and file != session.campaign.file and not there & {j.run_id for j in jobs}:
+        found = f"--output: found the runs of {file} in {session.folder}"
+        raise GeneratorError(f"{found}, expected another folder")
+
+
 def _forget_failed(session: Session, jobs: Sequence[Job]) -> None:
-    for run_id in tables.finished(session.folder):
+    there = set(tables.finished(session.folder))
+    for run_id in there & {job.run_id for job in jobs}:
         head = tables.read_run_head(session.folder, run_id)
         if head.row.status == tables.FAILED:
             tables.run_path(session.folder, run_id).unlink()
@@ -323,7 +343,7 @@ def _replay(session: Session, args: argparse.Namespace) -> int:
 
 
 def _command(args: argparse.Namespace) -> int:
-    campaign = read_campaign(_shipped().get(str(args.file), args.file))
+    campaign = read_campaign(_found(args.file))
     folder = (args.output or Path("campaign_output") / campaign.keys.name).resolve()
     session = Session(campaign, folder)
     if args.list:

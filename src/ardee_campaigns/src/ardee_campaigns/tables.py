@@ -120,6 +120,11 @@ class RunFile:
     about: Mapping[str, Any]  # length_m and width_m of the lane, lidar_ahead_m, limits, versions
 
 
+RUN_COLUMNS = tuple(
+    name for name, _ in (*_REQUIRED, *_OUTCOME)
+)  # before those of factors and measures
+
+
 def runs_schema(
     factors: Mapping[str, pa.DataType], measures: Sequence[str], about: Mapping[str, str]
 ) -> pa.Schema:

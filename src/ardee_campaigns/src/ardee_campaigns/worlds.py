@@ -14,9 +14,10 @@ from ardee_common.errors import GeneratorError, known_names
 from ardee_world import trial
 from ardee_world.field_config import FieldConfig
 from ardee_world.generate_field import make_configured
-from ardee_world.request import all_fields, yaml_values
+from ardee_world.request import all_fields, checked_values, configure, yaml_values
 from ardee_world.trial import Trial
 
+_OF_A_RUN = ("name", "output", "seed")  # options of a recipe that each run has of its own
 _STEP_S = 0.005
 _USUAL_STEP_S = 0.001  # of a world that gives none
 _WORLD = """<?xml version="1.0"?>
@@ -48,8 +49,10 @@ class WorldFiles:
     plan: Optional[Path]
 
     def content(self) -> bytes:
-        """Returns the bytes of the files."""
-        return b"\0".join(file.read_bytes() for file in (self.world, self.plan) if file)
+        """Returns the bytes of the files, and of the world's start pose."""
+        start = self.world.with_suffix(".start.yaml") if self.world else None
+        files = (self.world, start if start and start.is_file() else None, self.plan)
+        return b"\0".join(file.read_bytes() for file in files if file)
 
     def step_s(self) -> float:
         """Returns the time of a physics step."""
@@ -82,13 +85,15 @@ def find_files(keys: WorldKeys, folder: Path) -> WorldFiles:
 
 def check_options(keys: WorldKeys, files: WorldFiles, factors: Mapping[str, Any]) -> None:
     """Raises GeneratorError for an option that no recipe has, or one that the recipe refuses."""
-    known = sorted(all_fields())
+    known = sorted(set(all_fields()) - set(_OF_A_RUN))
     options = {**(keys.options or {}), **factors}
     for name in options:
+        if name in _OF_A_RUN:
+            raise GeneratorError(f"options: found {name!r}, which each run has of its own")
         if name not in known:
             raise GeneratorError(f"options: found {name!r}, {known_names(name, known)}")
     if files.plan:
-        yaml_values(files.plan)
+        configure({**yaml_values(files.plan), **checked_values(options), "name": files.plan.stem})
     elif options:
         found = f"options: found {', '.join(options)}"
         raise GeneratorError(f"{found} for a world without field recipe, expected a recipe")

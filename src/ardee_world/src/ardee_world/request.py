@@ -92,6 +92,13 @@ def yaml_values(path: Path) -> Values:
     return values
 
 
+def checked_values(options: Values) -> Values:
+    """Returns options that stand in no file, each checked as one of a YAML file."""
+    known, mapping = all_fields(), Mapping("")
+    mapping.update(options)
+    return {key: _from_yaml(known, mapping, key) for key in mapping}
+
+
 def _from_yaml(known: dict, mapping: Mapping, key: str) -> Any:
     cls, field = known[key]
     if kind_of(cls, field) is Any:

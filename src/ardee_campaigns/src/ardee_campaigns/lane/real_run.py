@@ -94,9 +94,8 @@ def read_scans(path: Path) -> Scans:
             known = str(len(rows[0]) - 1) if rows else f"a time and {BEAMS[0]} or {BEAMS[1]} ranges"
             raise GeneratorError(f"{path}:{number}: found {len(line) - 1} ranges, expected {known}")
         rows.append([_number(cell, f"{path}:{number}") for cell in line])
-    values = np.array(rows).reshape(len(rows), -1)
-    time_s = _check_times(values[:, 0] if rows else np.empty(0), path, first_line)
-    ranges_mm = values[:, 1:]
+    time_s = _check_times(np.array([row[0] for row in rows]), path, first_line)
+    ranges_mm = np.array(rows)[:, 1:]
     seen = (ranges_mm > 0.0) & (ranges_mm < most_mm)
     near = has_head & (ranges_mm < 0.0)
     return Scans(time_s, np.where(near, 0.0, np.where(seen, ranges_mm / 1e3, np.inf)), *angles)

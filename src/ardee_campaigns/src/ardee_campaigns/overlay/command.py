@@ -20,8 +20,7 @@ def _runs_arguments(parser: Parser) -> None:
     parser.add_argument(
         "--runs",
         type=whole_in(1, 1000),
-        default=3,
-        help="of the campaign, the first ones that did not fail",
+        help="of the campaign, the first ones that did not fail (default: 3)",
     )
     parser.add_argument(
         "--run",
@@ -112,7 +111,7 @@ def _run_ids(args: argparse.Namespace) -> List[str]:
             raise GeneratorError(f"--run: found {run_id!r}, expected a run that did not fail")
     if not there:
         raise GeneratorError(f"{args.simulated}: found no run that did not fail, expected one")
-    return args.run or there[: args.runs]
+    return args.run or there[: args.runs or 3]
 
 
 def _table(lines: Sequence[Any]) -> List[List[str]]:
@@ -184,12 +183,19 @@ def _csv(lines: Sequence[Any], names: Sequence[str]) -> bytes:
 
 
 def _overlay(args: argparse.Namespace) -> Path:
+    import numpy as np
+
     from ardee_campaigns.controllers import load_function
     from ardee_campaigns.overlay import look, sources
 
     make, params = load_function(args.factory, "--factory"), _params(args.param)
-    real_scans = sources.read_recorded(args.real, args.topic)
     is_campaign = sources.is_campaign(args.simulated)
+    for name in () if is_campaign else ("runs", "run", "where", "campaign"):
+        if getattr(args, name):
+            raise GeneratorError(
+                f"--{name}: found it with {args.simulated}, which is no campaign's folder"
+            )
+    real_scans = sources.read_recorded(args.real, args.topic)
     if is_campaign:
         scans = sources.rerun(args.simulated, _run_ids(args), args.campaign, PROG)
     else:
@@ -198,6 +204,8 @@ def _overlay(args: argparse.Namespace) -> Path:
     for name, one in steps(PROG, [(f"real: {args.real.name}", real_scans), *scans]):
         looked.append(look.look(name, one, make, params, args.lidar_ahead_m))
     real, *runs = looked
+    if not any(np.isfinite(one.left_m).any() for one in looked):
+        say(PROG, f"{args.factory} says of no scan how far the rows are: it has no `seen`")
     lines = look.compare(real, runs)
     usual = args.simulated / PROG if is_campaign else Path("overlay_output")
     with output_folder(args.output or usual) as folder:

@@ -40,7 +40,7 @@ def base_level(runs: Runs, factor: str, text: Optional[str]) -> Any:
 
 def compare(page: Page, runs: Runs, factor: str, base: Any, picture: Path) -> None:
     """Adds the comparison of a factor's levels: differences from the base level, or slopes along a scale."""
-    if statistics.is_scale(runs.levels(factor)):
+    if statistics.is_scale(runs, factor):
         rows = []
         for measure in runs.measures:
             found = statistics.slope(runs, factor, measure)
@@ -83,7 +83,7 @@ def rates(page: Page, runs: Runs, factor: str) -> None:
     if not counted or "way_m" not in runs.measures:
         return
     rows = []
-    for level in runs.levels(factor) if not statistics.is_scale(runs.levels(factor)) else []:
+    for level in runs.levels(factor) if not statistics.is_scale(runs, factor) else []:
         part = runs.where(runs[factor] == level)
         for name in counted:
             count, way_m, rate = statistics.rate_per_100_m(part, name)

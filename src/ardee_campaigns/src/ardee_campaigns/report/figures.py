@@ -113,7 +113,7 @@ def effects(path: Path, runs: Runs, factors: Sequence[str], measures: Sequence[s
 
 def _effect(axes: pyplot.Axes, runs: Runs, factor: str, measure: str) -> None:
     levels = runs.levels(factor)
-    if statistics.is_scale(levels):
+    if statistics.is_scale(runs, factor):
         axes.plot(runs[factor].astype(float), runs[measure], ".", color=COLORS[5], markersize=3.0)
         finite = np.isfinite(runs[measure])
         x, y = runs[factor][finite].astype(float), runs[measure][finite]

@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow.parquet as pq
 
 from ardee_campaigns import tables
-from ardee_campaigns.replay import FILE, Replayer
+from ardee_campaigns.replay import Replayer, noted_file
 from ardee_campaigns.report import comparison, drives, figures, statistics, strips
 from ardee_campaigns.report.comparison import three, with_interval
 from ardee_campaigns.report.page import Page
@@ -29,7 +29,7 @@ class Report:
         self.page, self._folder, self._pictures = page, folder, pictures
         self.all_runs, self.runs = all_runs, all_runs.ok()
         varied = self.runs.varied()
-        levelled = [name for name in varied if not statistics.is_scale(self.runs.levels(name))]
+        levelled = [name for name in varied if not statistics.is_scale(self.runs, name)]
         self.by = next((n for n in ("controller", *levelled) if n in levelled), "controller")
 
     def overview(self) -> None:
@@ -63,7 +63,7 @@ class Report:
         self.page.heading("Means")
         self.page.text("Mean of the runs, and its 95 % interval (Student); SI units.")
         names = [name for name in (*NAMES, *self.runs.varied()) if name in self.runs.varied()]
-        names = [n for n in dict.fromkeys(names) if not statistics.is_scale(self.runs.levels(n))]
+        names = [n for n in dict.fromkeys(names) if not statistics.is_scale(self.runs, n)]
         names = names or [self.by]
         keys = list(zip(*(self.runs[name].tolist() for name in names)))
         groups: Dict[Any, List[int]] = {}
@@ -211,7 +211,6 @@ class Report:
         self.page.picture(path, "; ".join(moment.text for moment in chosen))
 
     def _command(self, run_id: str) -> str:
-        note = self._folder / FILE
-        file = note.read_text().strip() if note.is_file() else "CAMPAIGN.yaml"
-        words = ["rosrun", "ardee_campaigns", "run_campaign", file]
+        file = str(noted_file(self._folder) or "CAMPAIGN.yaml")
+        words = ["python3", "-m", "ardee_campaigns", "run_campaign", file]
         return shlex.join([*words, "--output", str(self._folder.resolve()), "--replay", run_id])

@@ -88,9 +88,15 @@ def rate_per_100_m(runs: Runs, measure: str) -> Tuple[int, float, Interval]:
     return count, way_m, Interval(*(100.0 * value / way_m for value in poisson_interval(count)))
 
 
-def is_scale(levels: Sequence[Any]) -> bool:
-    """Returns whether the values of a factor are a scale of numbers, along which a line is fitted."""
-    return len(levels) > MOST_LEVELS and all(isinstance(level, float) for level in levels)
+def is_scale(runs: Runs, factor: str) -> bool:
+    """Returns whether the values of a factor are a scale of numbers, along which a line is fitted.
+
+    They are if they are many, or if no two runs that are alike in all else have different ones: in a Latin hypercube.
+    """
+    levels = runs.levels(factor)
+    if len(levels) < 3 or not all(isinstance(level, float) for level in levels):
+        return False
+    return len(levels) > MOST_LEVELS or len(set(_all_else(runs, factor))) == len(runs)
 
 
 def share_of_variance(runs: Runs, factor: str, measure: str) -> float:
@@ -100,7 +106,7 @@ def share_of_variance(runs: Runs, factor: str, measure: str) -> float:
     total = float(((values - values.mean()) ** 2).sum()) if len(values) > 2 else 0.0
     if total <= 0.0:
         return math.nan
-    if is_scale(runs.levels(factor)):
+    if is_scale(runs, factor):
         return float(np.corrcoef(levels.astype(float), values)[0, 1] ** 2)
     parts = (values[levels == level] for level in set(levels.tolist()))
     between = sum(len(part) * (part.mean() - values.mean()) ** 2 for part in parts)
@@ -151,10 +157,15 @@ def differences(runs: Runs, factor: str, base: Any) -> List[Difference]:
     return made
 
 
+def _all_else(runs: Runs, factor: str) -> List[Tuple[Any, ...]]:
+    """Returns what each run is but for a factor; runs that are alike in it can be paired."""
+    others = [name for name in runs.factors if name != factor]
+    return list(zip(*(runs[name].tolist() for name in (*others, "replicate", "seed"))))
+
+
 def _pairs(runs: Runs, factor: str, base: Any, level: Any) -> np.ndarray:
     """Returns indices (n, 2) of runs of both levels that are alike in all else."""
-    others = [name for name in runs.factors if name != factor]
-    keys = list(zip(*(runs[name].tolist() for name in (*others, "replicate", "seed"))))
+    keys = _all_else(runs, factor)
     levels = runs[factor].tolist()
     partner: Dict[Any, int] = {k: i for i, k in enumerate(keys) if levels[i] == base}
     found = [
