@@ -21,7 +21,6 @@ from ardee_datasets import rle, show_dataset
 from ardee_datasets.assemble import assemble, data_card
 from ardee_datasets.generate_dataset import main
 from ardee_datasets.light import LightKeys
-from ardee_datasets.plan import scenes, shots
 from ardee_datasets.recipe import read_recipe
 from ardee_datasets.rows import project
 from ardee_datasets.sample import LAYERS
@@ -289,49 +288,6 @@ def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, m
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
     assert not (folder / ".sown").exists()
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
-
-
-@pytest.mark.parametrize(
-    "old, new, message",
-    [
-        ("frames: 2", "framse: 2", "recipe.yaml:6: unknown key 'framse'.*frames"),
-        ("row_length_m: 3.0,", "row_lenght_m: 3.0,", "recipe.yaml:7: unknown key.*row_length_m"),
-        ("[0.7, 0.8]", "[0.8, 0.7]", "recipe.yaml:8: row_spacing_m: found.*least, most"),
-        ("height_px: 72, ", "", "recipe.yaml:14: found neither sensor nor height_px"),
-        ("width_px: 96", "sensor: reelsense_d435", "recipe.yaml:14: sensor: .*realsense_d435"),
-        ("sensor: vlp16", "sensor: imu", "recipe.yaml:16: sensor: found 'imu'.*vlp16"),
-        (
-            "width_px: 96",
-            "white_balance: 3000, width_px: 96",
-            "14: white_balance: found 3000, expected off",
-        ),
-        ("width_px: 96", "lens: {dust: [2, 1]}, width_px: 96", "14: dust: found.*least, most"),
-        (
-            "lidars:",
-            "robots: {r: {robot: tsv9}}\nlidars:",
-            "15: robot: found no robot 'tsv9'.*tsv3",
-        ),
-        ("_variant_7", "_varient_7", "recipe.yaml:12: models: model 'corn_varient_7': not found"),
-        ("split: test", "split: tst", "split: found 'tst', expected one of train, val, test"),
-        ("frames: 1", "cameras: [frnt]", "recipe.yaml:11: cameras: found 'frnt', known: front"),
-    ],
-)
-def test_a_bad_recipe_is_refused(tmp_path: Path, old: str, new: str, message: str) -> None:
-    path = tmp_path / "recipe.yaml"
-    path.write_text(RECIPE.replace(old, new, 1))
-    with pytest.raises(Exception, match=message):
-        read_recipe(path)
-
-
-def test_a_field_is_seen_by_its_own_cameras(tmp_path: Path) -> None:
-    path = tmp_path / "recipe.yaml"
-    two = RECIPE.replace(
-        "lidars:", "  down: {width_px: 8, height_px: 8, horizontal_fov_deg: 60}\nlidars:"
-    )
-    path.write_text(two.replace("frames: 1", "frames: 1\n    cameras: [down]"))
-    recipe = read_recipe(path)
-    seen = {scene.name: [shot.camera for shot in shots(recipe, scene)] for scene in scenes(recipe)}
-    assert seen["late_0000"] == ["down"] and seen["corn_0001"] == 2 * ["down"] + 2 * ["front"]
 
 
 def test_pycocotools_reads_the_masks(made: Path) -> None:

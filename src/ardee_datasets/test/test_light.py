@@ -12,6 +12,7 @@ from ardee_datasets.plan import scenes
 from ardee_datasets.recipe import read_recipe
 
 DAY = ("2026-06-21T00:00-05:00", "2026-06-22T00:00-05:00")
+NIGHT = ("2026-06-21T00:00-05:00", "2026-06-21T03:00-05:00")
 URBANA_DEG = (40.06, -88.20)
 
 
@@ -41,6 +42,7 @@ def test_moments_are_those_of_the_day() -> None:
         (dict(times=DAY), "found one of place_deg and times"),
         (dict(place_deg=URBANA_DEG, times=("2026-06-21", DAY[1])), "times: found '2026-06-21'"),
         (dict(place_deg=URBANA_DEG, times=DAY[::-1]), r"expected \[first, last\]"),
+        (dict(place_deg=URBANA_DEG, times=NIGHT), "times: found night alone at .*40.06, -88.2"),
     ],
 )
 def test_wrong_keys_are_refused(keys: dict, said: str) -> None:
@@ -48,20 +50,41 @@ def test_wrong_keys_are_refused(keys: dict, said: str) -> None:
         LightKeys(**keys)
 
 
-def test_a_night_is_refused() -> None:
-    keys = LightKeys(
-        place_deg=URBANA_DEG, times=("2026-06-21T00:00-05:00", "2026-06-21T03:00-05:00")
-    )
-    with pytest.raises(GeneratorError, match="found night alone"):
-        keys.draw(np.random.default_rng(1))
+def test_a_little_day_is_always_found() -> None:
+    """The night of three days ends with the first minutes after a sunrise at 5:24."""
+    times = ("2026-06-21T00:00-05:00", "2026-06-21T05:26-05:00")
+    keys = LightKeys(place_deg=URBANA_DEG, times=times)
+    for seed in range(3):
+        assert 0.0 <= keys.draw(np.random.default_rng(seed)).elevation_deg < 1.0
+
+
+RECIPE = (
+    "fields: {corn: {fields: 3, options: {models: [corn_variant_1]}}}\n"
+    "cameras: {front: {width_px: 64, height_px: 48, horizontal_fov_deg: 70}}\n"
+)
+
+
+@pytest.mark.parametrize(
+    "light, said",
+    [
+        ("elevation_deg: 30", r"elevation_deg: found 30, expected \[least, most\]"),
+        ("times: [2026-06-21T08:00:00-05:00, 2026-06-22]", "times: found 2026-06-21T08.*in quotes"),
+        ("times: noon", "times: found 'noon', expected first and last moment, in quotes"),
+        (f"elevation_deg: [1, 2], times: {list(DAY)}", "elevation_deg: found it with times"),
+        (f"place_deg: {list(URBANA_DEG)}, times: {list(NIGHT)}", "times: found night alone"),
+    ],
+)
+def test_a_wrong_light_of_a_recipe_is_refused(
+    tmp_path: pathlib.Path, light: str, said: str
+) -> None:
+    file = tmp_path / "recipe.yaml"
+    file.write_text(f"{RECIPE}light: {{{light}}}\n")
+    with pytest.raises(GeneratorError, match=f"recipe.yaml:3: {said}"):
+        read_recipe(file)
 
 
 def test_each_field_of_a_recipe_has_its_light(tmp_path: pathlib.Path) -> None:
-    text = (
-        "fields: {corn: {fields: 3, options: {models: [corn_variant_1]}}}\n"
-        "cameras: {front: {width_px: 64, height_px: 48, horizontal_fov_deg: 70}}\n"
-    )
-    file = tmp_path / "recipe.yaml"
+    text, file = RECIPE, tmp_path / "recipe.yaml"
     file.write_text(text)
     assert [scene.light() for scene in scenes(read_recipe(file))] == [None] * 3
     file.write_text(text + "light: {cloud: [0, 1]}\n")

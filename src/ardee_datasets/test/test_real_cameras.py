@@ -49,7 +49,7 @@ def write_jackal(folder: Path) -> None:
 
 @pytest.mark.parametrize("robot", ["robot: tsv3_default", JACKAL])
 def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path, robot: str) -> None:
-    """At a sixth, a half, five sixths of the lane, left of its middle, at its speed, with its camera's view."""
+    """At a sixth, a half, five sixths of the lane, left of its middle, at its speed and time."""
     write_jackal(tmp_path)
     recipe = (DRIVEN % "camera_front_sensor").replace("robot: tsv3_default", robot)
     made = generated(tmp_path, recipe)
@@ -68,6 +68,8 @@ def test_a_robot_takes_pictures_at_places_along_its_lane(tmp_path: Path, robot: 
         if k:
             away = np.linalg.norm(X_WC[:2, 3] - np.array(found[k - 1]["X_WC"])[:2, 3])
             assert abs(away - lane.centre.length_m / 3) < 0.1
+            passed_s = (sample["stamp_ns"] - found[k - 1]["stamp_ns"]) * 1e-9
+            assert passed_s == pytest.approx(away / 0.9, rel=0.1)
 
 
 @pytest.mark.parametrize("key", ["<exposure>dark</exposure>", "<whiteBalance>dark</whiteBalance>"])

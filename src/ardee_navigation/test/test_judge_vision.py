@@ -76,9 +76,28 @@ def test_a_bad_folder_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture)
     assert (
         judge_vision.main([str(tmp_path), "--output", str(tmp_path / "a.jpg" / "sheet.png")]) == 2
     )
-    (tmp_path / "a.crp").write_text("1 2 3\n")
-    assert judge_vision.main([str(tmp_path)]) == 2
-    empty, nowhere, wrong = capsys.readouterr().err.splitlines()
+    empty, nowhere = capsys.readouterr().err.splitlines()
     assert "found no NAME.jpg with NAME.crp" in empty
     assert "a.jpg" in nowhere
-    assert "a.crp: found 1 x 3 numbers, expected an offset and a positive period" in wrong
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    "rows, said",
+    [
+        ("1 20\n1 2 3\n", "a.crp:2: found '1 2 3', expected an offset and a period of at least 1"),
+        ("inf 20\n", "a.crp:1: found 'inf 20', expected"),
+        ("\nnan nan\n", "a.crp:2: found 'nan nan', expected"),
+        ("0 0.001\n", "a.crp:1: found '0 0.001', expected"),
+        ("", "a.crp: found 0 lines, expected 1 to 240, each with an offset and a period"),
+        ("1000 3000\n", "a.crp: found no crop row in the picture, expected at least one"),
+    ],
+)
+def test_bad_rows_are_one_line(
+    rows: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    write(tmp_path, "a", rows_of(0.0, 0.0, 0.0))
+    (tmp_path / "a.crp").write_text(rows)
+    assert judge_vision.main([str(tmp_path)]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"judge_vision: {tmp_path}/{said}")

@@ -39,6 +39,10 @@ def test_bare_ground_shows_no_lane() -> None:
         VisionParameters(estimator="magic")
 
 
+def test_the_network_stays_small_enough_to_be_committed() -> None:
+    assert NETWORK.stat().st_size <= 2_000_000
+
+
 @pytest.mark.parametrize("name", ["none.onnx", "cut.onnx"])
 def test_a_bad_network_is_one_line(name: str, tmp_path: Path) -> None:
     (tmp_path / "cut.onnx").write_bytes(NETWORK.read_bytes()[:50_000])

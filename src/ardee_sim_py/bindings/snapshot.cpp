@@ -9,7 +9,7 @@
 namespace ardee::python {
 namespace {
 
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 void serialize(StateArchive& archive, PhysicsParams& p) {
   archive(p.step_s, p.real_time_update_rate_hz, p.gravity_m_per_s2, p.solver, p.iterations, p.sor,
@@ -75,7 +75,8 @@ void BoundSimulation::serialize(StateArchive& archive, SimulationState& state) {
         "with seed " +
         std::to_string(seed_));
   }
-  archive(state.now_ns, state.step_count, state.next_entity, state.dynamics, state.commands);
+  archive(state.now_ns, state.step_count, state.next_entity, state.dynamics, state.commands,
+          state.picture_places);
   python::serialize(archive, state.physics);
   archive.size_of(state.lights);
   for (Light& light : state.lights) python::serialize(archive, light);

@@ -59,6 +59,17 @@ def test_a_seed_repeats_all_bytes_in_any_instance_and_after_any_episode(
     assert rollout(other, 3) == first == rollout(one, 3)
 
 
+def test_an_environment_repeats_all_pictures(make: Make) -> None:
+    env = make("RowFollowCamera", scenario="weeds")  # 14 m long, more than one scene of pictures
+    straight = np.array([1.0, 0.0], dtype=np.float32)
+
+    def pictures() -> List[bytes]:
+        first = env.reset(seed=1)[0]
+        return [each.tobytes() for each in (first, *(env.step(straight)[0] for _ in range(60)))]
+
+    assert pictures() == pictures()
+
+
 @pytest.mark.parametrize("name", ["RowFollow", "GoTo"])
 def test_a_touch_between_two_observations_counts(name: str, make: Make) -> None:
     env = make(name)
@@ -325,7 +336,7 @@ def test_bad_arguments_are_refused_with_what_was_expected(make: Make) -> None:
         (dict(v_max_m_s=0.0), "v_max_m_s: found 0.0, expected a positive"),
         (dict(render_mode="human"), "render_mode"),
         (dict(topics=("ardee/gps",)), "found a FixReading, expected scan, image or IMU"),
-        (dict(world="/nowhere.world"), "/nowhere.world: no such world"),
+        (dict(world="/nowhere.world"), "found no file /nowhere.world, expected a world file"),
     ]:
         with pytest.raises(ValueError, match=message):
             ardee_sim.envs.RowFollowEnv(**{"seed_field": False, **arguments})

@@ -52,6 +52,13 @@ def test_a_camera_in_motion_sees_edges_lean_and_blur() -> None:
     assert np.array_equal(still, sim.render((0, 0, 0), exposure=1.0, **LENS))
 
 
+def test_a_model_that_moves_has_its_label() -> None:
+    sim = Simulation(World.from_string(EMPTY))
+    for name, y_m, label in (("ball", 0.5, 500), ("other", -0.5, 0)):
+        sim.spawn(name, box("0.5 0.5 0.5"), xyz_m=(2, y_m, 0), label=label)
+    assert np.unique(sim.label_image((0, 0, 0), **LENS)).tolist() == [0, 500]
+
+
 def test_white_balance_is_a_gain() -> None:
     sim, eye = simulation(WALL), {"xyz_m": (0, 0, 0), "exposure": 1.0, **LENS}
     assert sim.render(**eye)[100, 10].tolist() == [102, 102, 102]

@@ -146,6 +146,25 @@ def test_a_reset_repeats_all_bytes(sim: ardee_sim.Simulation) -> None:
     assert drive(sim, 300) == first
 
 
+def test_pictures_are_the_same_bytes_after_a_restore_and_a_reset(corn: ardee_sim.World) -> None:
+    def pictures(sim: ardee_sim.Simulation, *places: float) -> List[bytes]:
+        lens = {"quat_xyzw": (0, 0, 1, 0), "width_px": 160, "height_px": 120}
+        return [sim.render((x_m, 0.0, 0.5), **lens).tobytes() for x_m in places]
+
+    with ardee_sim.Simulation(corn) as sim, ardee_sim.Simulation(corn) as other:
+        begin = sim.snapshot()
+        first = pictures(sim, 0.0, -2.0, -5.0)
+        middle = sim.snapshot()
+        second = pictures(sim, -5.0, -3.0)
+        sim.restore(begin)
+        assert pictures(sim, 0.0, -2.0, -5.0) == first
+        sim.reset()
+        assert pictures(sim, 0.0, -2.0, -5.0) == first
+        for again in (sim, other):
+            again.restore(middle)
+            assert pictures(again, -5.0, -3.0) == second
+
+
 def test_a_noise_seed_changes_the_noise_alone_and_is_part_of_a_snapshot(
     sim: ardee_sim.Simulation,
 ) -> None:

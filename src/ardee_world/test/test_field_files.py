@@ -117,6 +117,7 @@ def test_a_plan_of_the_users_own(generate_field, tmp_path):
     assert positions == [(1.0, 2.0), (3.0, 4.0)]
 
 
+@pytest.mark.slow
 def test_many_plants(generate_field, tmp_path):
     shape = ("--plots-x", "10", "--plots-y", "5", "--stalks-per-row", "1000")
     place = ("--format", "sdf", "--output", tmp_path)

@@ -2,15 +2,16 @@
 """Keys of a recipe's cameras."""
 
 from dataclasses import dataclass
-from typing import Any, Optional, Tuple
+from typing import Any, Optional
 
 from ardee_common.errors import GeneratorError
 from ardee_common.options import converted, option
 from ardee_datasets.lens import LensKeys
+from ardee_datasets.ranges import Range
 
 _HEIGHT_M = (0.05, 20.0)
 _TEMPERATURE_K, _GAIN = (4000.0, 25000.0), (0.01, 100.0)  # of Simulation.render()
-Range = Tuple[float, float]
+_EXPOSURE = (1e-3, 1e3)  # of Simulation.render()
 
 
 def white_balance(given: Any) -> Any:
@@ -27,6 +28,16 @@ def white_balance(given: Any) -> Any:
     if given is numbers and len(numbers) != 3:
         raise ValueError(given)
     return given
+
+
+def exposure(given: Any) -> Optional[float]:
+    """Returns what Simulation.render() takes as exposure."""
+    if given is None or given == "auto":
+        return None
+    is_number = isinstance(given, (int, float)) and not isinstance(given, bool)
+    if not is_number or not _EXPOSURE[0] <= given <= _EXPOSURE[1]:
+        raise ValueError(given)
+    return float(given)
 
 
 @dataclass(frozen=True)
@@ -51,8 +62,8 @@ class CameraKeys:
     readout_time_s: float = option(
         0.0, "from the first row to the last: rolling shutter", (0.0, 1.0)
     )
-    exposure: Optional[float] = option(
-        None, "factor on the light; none: each picture has its own", (1e-3, 1e3)
+    exposure: Optional[float] = converted(  # factor on the light; auto: each picture has its own
+        exposure, "auto or a number, 0.001 to 1000", None
     )
     white_balance: Any = converted(  # gains of red, green and blue; those of a daylight; grey world
         white_balance, "off, auto, 4000 to 25000 [K] or three gains of 0.01 to 100", "off"

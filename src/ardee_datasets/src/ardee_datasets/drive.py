@@ -8,9 +8,9 @@ from ardee_sim import Twist
 from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
-from ardee_datasets.plan import stream
 from ardee_datasets.robots import MountedCamera, Robot
 from ardee_datasets.scenery import CameraPose, Scenery
+from ardee_datasets.seeds import stream
 
 _SETTLE_S = 1.0  # in which a robot comes to rest on its springs
 _PERIOD_S = 0.05  # of control

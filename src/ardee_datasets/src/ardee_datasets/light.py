@@ -2,16 +2,30 @@
 """Light of sun and sky over the fields of a data set."""
 
 from dataclasses import dataclass
-from datetime import datetime
-from typing import Optional, Tuple
+from datetime import date, datetime
+from typing import Any, Iterable, Optional, Tuple
 
 import numpy as np
 from ardee_sim import ArdeeError, Daylight
 
 from ardee_common.errors import GeneratorError
-from ardee_common.options import option
+from ardee_common.options import converted, option
 
 _TRIES = 1000  # to find a moment of the day between two times
+_EVENLY = np.linspace(0.0, 1.0, _TRIES)  # shares of the time between them
+_MOMENT = "'2026-06-01T08:00-05:00'"
+
+
+def _texts(given: Any) -> Optional[Tuple[str, str]]:
+    if given is None:
+        return None
+    for value in given if isinstance(given, list) else ():
+        if isinstance(value, date):  # so YAML reads a moment, or a date
+            found = f"found {value.isoformat()} without quotes"
+            raise GeneratorError(f"{found}, expected it in quotes, such as {_MOMENT}")
+    if not isinstance(given, list) or [type(value) for value in given] != [str, str]:
+        raise ValueError(given)
+    return given[0], given[1]
 
 
 @dataclass(frozen=True)
@@ -37,8 +51,8 @@ class LightKeys:
     place_deg: Optional[Tuple[float, float]] = option(
         None, "latitude, -90 to 90, and longitude, north and east", (-180.0, 180.0)
     )
-    times: Optional[Tuple[str, str]] = option(
-        None, "first and last moment, such as '2026-06-01T08:00-05:00'"
+    times: Optional[Tuple[str, str]] = converted(  # between which the moment is drawn
+        _texts, f"first and last moment, in quotes, such as {_MOMENT}", None
     )
 
     def __post_init__(self) -> None:
@@ -55,6 +69,7 @@ class LightKeys:
             first, last = self._moments()
             if not first <= last:
                 raise GeneratorError(f"times: found {list(self.times)}, expected [first, last]")
+            self._daylight(_EVENLY)
 
     def _moments(self) -> Tuple[datetime, datetime]:
         assert self.times
@@ -66,13 +81,26 @@ class LightKeys:
                 moment = datetime.min
             if moment.tzinfo is None:
                 raise GeneratorError(
-                    f"times: found {text!r}, expected date, time and zone such as '2026-06-01T08:00-05:00'"
+                    f"times: found {text!r}, expected date, time and zone such as {_MOMENT}"
                 )
             moments.append(moment)
         return moments[0], moments[1]
 
+    def _daylight(self, shares: Iterable[float], **air: float) -> Daylight:
+        """Returns the light at the first share of the time between the moments that is of the day, not of the night."""
+        assert self.place_deg
+        first, last = self._moments()
+        for share in shares:
+            try:
+                return Daylight.at(*self.place_deg, first + share * (last - first), **air)
+            except ArdeeError:  # at night
+                continue
+        raise GeneratorError(
+            f"times: found night alone at {list(self.place_deg)}, expected some day"
+        )
+
     def draw(self, rng: np.random.Generator) -> Daylight:
-        """Returns the light of a field. Raises GeneratorError if it is always night between the times."""
+        """Returns the light of a field."""
         air = {
             "turbidity": float(rng.uniform(*self.turbidity)),
             "cloud": float(rng.uniform(*self.cloud)),
@@ -83,12 +111,4 @@ class LightKeys:
                 float(rng.uniform(*self.elevation_deg)),
                 **air,
             )
-        first, last = self._moments()
-        for share in rng.uniform(size=_TRIES):
-            try:
-                return Daylight.at(*self.place_deg, first + share * (last - first), **air)
-            except ArdeeError:  # at night
-                continue
-        raise GeneratorError(
-            f"times: found night alone at {list(self.place_deg)}, expected some day"
-        )
+        return self._daylight((*rng.uniform(size=_TRIES), *_EVENLY), **air)

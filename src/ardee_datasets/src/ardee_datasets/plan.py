@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""The plan of a data set: its scenes with their seeds, and the random streams of each."""
+"""The plan of a data set: its scenes with their seeds, and the pictures of each."""
 
-import hashlib
 from dataclasses import dataclass
 from typing import Any, Dict, Iterator, List, Optional
 
-import numpy as np
 from ardee_sim import Daylight
 
+from ardee_datasets.field_options import drawn_options
 from ardee_datasets.light import LightKeys
 from ardee_datasets.recipe import FieldKeys, Recipe
+from ardee_datasets.seeds import child_seed, field_seed, scene_name, stream
 
 
 @dataclass(frozen=True)
@@ -27,14 +27,7 @@ class Scene:
 
     def options(self) -> Dict[str, Any]:
         """Returns the options of its field: the fixed ones, and those drawn from ranges."""
-        made = dict(self.keys.options or {})
-        for key, (low, high) in sorted((self.keys.ranges or {}).items()):
-            rng = stream(self.seed, key)
-            if isinstance(low, int) and isinstance(high, int):
-                made[key] = int(rng.integers(low, high + 1))
-            else:
-                made[key] = round(float(rng.uniform(low, high)), 6)
-        return made
+        return drawn_options(self.keys.options or {}, self.keys.ranges or {}, self.seed)
 
 
 @dataclass(frozen=True)
@@ -48,24 +41,13 @@ class Shot:
     place: int = 0  # of the robot's places along its lane
 
 
-def child_seed(seed: int, *names: object) -> int:
-    """Returns the seed of a named stream below another seed."""
-    text = "/".join(map(str, (seed, *names)))
-    return int.from_bytes(hashlib.sha256(text.encode()).digest()[:4], "little")
-
-
-def stream(seed: int, *names: object) -> np.random.Generator:
-    """Returns the random stream of this name."""
-    return np.random.default_rng(child_seed(seed, *names))
-
-
 def scenes(recipe: Recipe) -> List[Scene]:
     """Returns all scenes, in the order of their names."""
     made = []
     for name, keys in sorted(recipe.fields.items()):
         for number in range(keys.fields):
-            scene = f"{name}_{number:04d}"
-            seed = child_seed(recipe.seed, "field", scene)
+            scene = scene_name(name, number)
+            seed = field_seed(recipe.seed, scene)
             made.append(Scene(scene, keys, seed, recipe.light))
     return made
 

@@ -7,20 +7,19 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Optional, Tuple
 
 import yaml
-from ardee_sim import packages
 from ardee_sim.packages import find_package
 
-from ardee_common.config import Mapping, build, read_yaml_lines, unknown_key, value_of
+from ardee_common.config import Mapping, build, read_yaml_lines
 from ardee_common.errors import GeneratorError, known_names
-from ardee_common.options import kind_of, option
+from ardee_common.options import option
 from ardee_datasets.camera import CameraKeys
+from ardee_datasets.field_options import FIELD, check_field, checked_options, drawn_options
 from ardee_datasets.light import LightKeys
-from ardee_datasets.robots import Robot, RobotKeys, read_robot
-from ardee_models.lookup import find_model, search_path
-from ardee_world.request import all_fields
+from ardee_datasets.ranges import check_ranges
+from ardee_datasets.robots import Robot, RobotKeys, check_cameras, read_robot
+from ardee_datasets.seeds import field_seed, scene_name
 
 SPLITS = ("train", "val", "test")
-_SOURCE_KEYS = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
 _COUNT = (1, 100_000)
 
 
@@ -69,54 +68,27 @@ def _named(cls: type, given: Mapping, what: str) -> Dict[str, Any]:
             raise given.error(name, f"{what} {name!r}: expected letters, digits and '_'")
         if not isinstance(keys, Mapping):
             raise given.error(name, f"{name}: found {keys!r}, expected a mapping of keys to values")
+        check_ranges(cls, keys)
         made[name] = build(cls, keys)
     if not made:
         raise given.error("", f"{what}: found none, expected some")
     return made
 
 
-def _option(given: Mapping, key: str) -> dataclasses.Field:
-    known = {name: pair for name, pair in all_fields().items() if name not in _SOURCE_KEYS}
-    if key not in known:
-        raise unknown_key(given, key, sorted(known))
-    return known[key]
-
-
-def _check_options(keys: FieldKeys) -> FieldKeys:
-    """Returns the keys with plain values; each option is checked as generate_field checks it."""
-    options, ranges = {}, {}
-    for key in keys.options or ():
-        cls, field = _option(keys.options, key)
-        options[key] = value_of(cls, field, keys.options, key)
-    for key, limits in (keys.ranges or {}).items():
-        cls, field = _option(keys.ranges, key)
-        if kind_of(cls, field) not in (int, float):
-            raise keys.ranges.error(
-                key, f"{key}: found a range, expected an option that is a number"
-            )
-        if key in options:
-            raise keys.ranges.error(key, f"{key}: found it in options too, expected it once")
-        if not isinstance(limits, list) or len(limits) != 2:
-            raise keys.ranges.error(key, f"{key}: found {limits!r}, expected [least, most]")
-        ranges[key] = tuple(_checked(keys.ranges, key, value) for value in limits)
-        if ranges[key][0] > ranges[key][1]:
-            raise keys.ranges.error(key, f"{key}: found {limits!r}, expected [least, most]")
-    if not options.get("models"):
-        raise GeneratorError("options: found no models, expected names of crop models")
-    folders = search_path([Path(folder) for folder in packages.model_folders()])
-    for name in options["models"]:
+def _fields(recipe: Recipe, path: Path) -> Dict[str, FieldKeys]:
+    fields = {}
+    for name, keys in _named(FieldKeys, recipe.fields, "fields").items():
         try:
-            find_model(name, folders)
+            options, ranges = checked_options(keys.options, keys.ranges)
+            for number in range(keys.fields if ranges else 1):
+                seed = field_seed(recipe.seed, scene_name(name, number))
+                check_field(drawn_options(options, ranges, seed))
         except GeneratorError as error:
-            raise keys.options.error("models", f"models: {error}") from None
-    return dataclasses.replace(keys, options=options, ranges=ranges)
-
-
-def _checked(given: Mapping, key: str, value: Any) -> Any:
-    one = Mapping(given.place)
-    one.line[key] = given.line[key]
-    one[key] = value
-    return value_of(*_option(given, key), one, key)
+            at = recipe.fields.error(name, "")
+            text = str(error)
+            raise error if text.startswith(str(path)) else GeneratorError(f"{at}{name}: {text}")
+        fields[name] = dataclasses.replace(keys, options=options, ranges=ranges)
+    return fields
 
 
 def _sensor(name: str, given: Mapping, is_fit: Callable[[dict], bool]) -> dict:
@@ -166,34 +138,52 @@ def _robots(recipe: Recipe, folder: Path) -> Dict[str, Robot]:
     return robots
 
 
+def _lidars(recipe: Recipe) -> Dict[str, LidarKeys]:
+    lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
+    for name, keys in lidars.items():
+        assert recipe.lidars
+        _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
+    return lidars
+
+
+def _light(given: Mapping) -> LightKeys:
+    check_ranges(LightKeys, given)
+    for key in ("elevation_deg", "azimuth_deg"):
+        if key in given and "times" in given:
+            found = f"{key}: found it with times, which tell where the sun stands"
+            raise given.error(key, f"{found}; expected one of them")
+    return build(LightKeys, given)
+
+
+def _check_names(recipe: Recipe) -> None:
+    """Raises GeneratorError for a name of two things, which samples or the simulation would mix up."""
+    for key, others in (
+        ("robots", {"the field": (FIELD,), "a camera": recipe.cameras, "a lidar": recipe.lidars}),
+        ("lidars", {"the field": (FIELD,)}),
+    ):
+        given = getattr(recipe, key) or {}
+        for other, names in others.items():
+            for name in sorted(set(given) & set(names or ())):
+                found = f"{key}: found {name!r}, the name of {other} too"
+                raise given.error(name, f"{found}; expected another")
+
+
 def read_recipe(path: Path) -> Recipe:
     """Reads and checks a recipe. Raises GeneratorError with file and line."""
     given = read_yaml_lines(path)
     recipe = build(Recipe, given)
-    fields = {}
-    for name, keys in _named(FieldKeys, recipe.fields, "fields").items():
-        try:
-            fields[name] = _check_options(keys)
-        except GeneratorError as error:
-            at = recipe.fields.error(name, "")
-            text = str(error)
-            raise error if text.startswith(str(path)) else GeneratorError(f"{at}{name}: {text}")
+    _check_names(recipe)
+    fields = _fields(recipe, path)
     cameras, robots = _cameras(recipe), _robots(recipe, path.parent)
     if not cameras and not robots:
         raise given.error("", "found neither cameras nor robots, expected some")
-    for name in sorted(set(cameras) & set(robots)):
-        raise recipe.robots.error(
-            name, f"robots: found {name!r}, expected another name than a camera's"
-        )
     for name, keys in fields.items():
-        for camera in keys.cameras:
-            if camera not in cameras and camera not in robots:
-                known = known_names(camera, (*cameras, *robots))
-                raise recipe.fields[name].error("cameras", f"cameras: found {camera!r}, {known}")
-    lidars = _named(LidarKeys, recipe.lidars, "lidars") if recipe.lidars else {}
-    for name, keys in lidars.items():
-        _sensor(keys.sensor, recipe.lidars[name], lambda read: read.get("kind") == "lidar_3d")
-    light = build(LightKeys, recipe.light) if recipe.light is not None else None
+        try:
+            check_cameras(keys.cameras, (*cameras, *robots))
+        except GeneratorError as error:
+            raise recipe.fields[name].error("cameras", str(error)) from None
+    lidars = _lidars(recipe)
+    light = _light(recipe.light) if recipe.light is not None else None
     return dataclasses.replace(
         recipe, fields=fields, cameras=cameras, robots=robots, lidars=lidars, light=light
     )

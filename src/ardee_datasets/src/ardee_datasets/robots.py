@@ -5,7 +5,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Dict, Iterator, List, Optional, Tuple
+from typing import Any, Collection, Dict, Iterator, List, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
 import ardee_sim
@@ -15,7 +15,8 @@ from scipy.spatial.transform import Rotation
 from ardee_common.config import read_yaml_lines
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option
-from ardee_datasets.camera import CameraKeys, Range, white_balance
+from ardee_datasets.camera import CameraKeys, white_balance
+from ardee_datasets.ranges import Range
 
 _FOV_RAD, _NEAR_M = 1.047, 0.1  # SDF's defaults
 _SIZE_PX = (320, 240)
@@ -69,6 +70,15 @@ class Robot:
     cameras: Dict[str, MountedCamera]
 
 
+def check_cameras(names: Sequence[str], known: Collection[str]) -> None:
+    """Raises GeneratorError for a camera's name that is not known, or given twice."""
+    for number, name in enumerate(names):
+        if name not in known:
+            raise GeneratorError(f"cameras: found {name!r}, {known_names(name, known)}")
+        if name in names[:number]:
+            raise GeneratorError(f"cameras: found {name!r} twice, expected it once")
+
+
 def read_robot(keys: RobotKeys, folder: Path) -> Robot:
     """Returns the robot of a recipe in `folder`. Raises GeneratorError."""
     file = folder / Path(keys.robot).expanduser()
@@ -84,9 +94,7 @@ def read_robot(keys: RobotKeys, folder: Path) -> Robot:
         ) from None
     if not found:
         raise GeneratorError(f"robot: found no camera on {keys.robot}, expected some")
-    for name in keys.cameras or ():
-        if name not in found:
-            raise GeneratorError(f"cameras: found {name!r}, {known_names(name, found)}")
+    check_cameras(keys.cameras or (), found)
     wanted = keys.cameras or tuple(sorted(found))
     parameters = {}
     if keys.parameters is not None:

@@ -131,7 +131,8 @@ def keypoints(mask: np.ndarray, item: Item, depth_m: np.ndarray, view: View) -> 
 def _picture_bytes(array: np.ndarray, ending: str) -> bytes:
     stream = io.BytesIO()
     if ending == "tiff":
-        Image.fromarray(array).save(stream, "TIFF", compression="tiff_lzw")
+        # LZW would pad its last byte with what happens to lie in memory.
+        Image.fromarray(array).save(stream, "TIFF", compression="tiff_adobe_deflate")
     else:
         Image.fromarray(array).save(stream, "PNG", compress_level=1)
     return stream.getvalue()
@@ -183,6 +184,7 @@ def take(
     """Takes a picture and writes its layers into folder/<split>; samples/<id>.json is last: with it, all is there."""
     motion = Motion(pose.v_m_s, pose.w_rad_s, keys.exposure_time_s, keys.readout_time_s)
     camera = _camera(keys, pose, motion)
+    stamp_ns = scenery.simulation.time_ns  # before the lidars step on
     taken = scenery.simulation.picture(
         **camera, exposure=keys.exposure, white_balance=keys.white_balance
     )
@@ -208,7 +210,7 @@ def take(
         "scene": scene.name,
         "split": scene.keys.split,
         "camera": name,
-        "stamp_ns": 0,
+        "stamp_ns": stamp_ns,
         "field_seed": scene.seed,
         "light": asdict(scenery.light) if scenery.light else None,
         "shot_seed": shot.seed,

@@ -12,10 +12,13 @@ from ardee_sim.world import Placement, Plant
 from scipy.spatial.transform import Rotation
 
 from ardee_common.errors import GeneratorError
-from ardee_datasets.camera import CameraKeys, Range
+from ardee_datasets.camera import CameraKeys
+from ardee_datasets.field_options import FIELD, WIDEST_LANE_M
 from ardee_datasets.lens import Lens
-from ardee_datasets.plan import Scene, stream
+from ardee_datasets.plan import Scene
+from ardee_datasets.ranges import Range
 from ardee_datasets.rows import read_rows
+from ardee_datasets.seeds import stream
 from ardee_models.lookup import search_path
 from ardee_models.terrain.ground import ground_model
 from ardee_world.generate_field import make_configured
@@ -26,7 +29,6 @@ from ardee_world.writers.world import world_text
 _TERRAIN = "heightmap_ground"
 # Axes of the optical frame (x right, y down, z ahead) in those of a body (x ahead, y left, z up), REP 103
 _OPTICAL = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-_WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of plots
 
 
 @dataclass(frozen=True)
@@ -89,10 +91,10 @@ class Scenery:
     def __init__(self, scene: Scene, folder: Path) -> None:
         options = scene.options()
         shipped = [Path(name) for name in packages.model_folders()]
-        terrain = options.setdefault("terrain", _TERRAIN)
+        terrain = options["terrain"] = options.get("terrain") or _TERRAIN
         values = {
             **options,
-            "name": "field",
+            "name": FIELD,
             "output": str(folder),
             "seed": scene.seed,
             "format": "sdf",
@@ -100,7 +102,7 @@ class Scenery:
         }
         self.folder = make_configured(values, has_map=False)
         self._ground = ground_model(terrain, search_path(shipped))
-        text = world_text(terrain, "field")
+        text = world_text(terrain, FIELD)
         world = World.from_string(text, base_dir=folder, model_paths=[folder, *shipped])
         plants = {plant.instance: plant for plant in world.plants()}
         self.rows = read_rows(self.folder / "truth.json", self._ground)
@@ -125,7 +127,7 @@ class Scenery:
             middle = a.at(a.length_m / 2)
             seen = b.project(middle.x_m, middle.y_m)
             is_beside = abs(math.sin(seen.direction_rad - middle.yaw_rad)) < 0.5
-            if is_beside and abs(seen.left_m) < _WIDEST_LANE_M:
+            if is_beside and abs(seen.left_m) < WIDEST_LANE_M:
                 lanes.append((left, right))
         if not lanes:
             raise GeneratorError("found no two rows side by side, expected a lane for the camera")

@@ -40,20 +40,42 @@ double reserve_m(const LocalScene& local) {
 
 double LocalSceneCache::slack_m() const { return kSpareShare * options_.local_scene_radius_m; }
 
+double LocalSceneCache::wanted_half_size_m() const {
+  // A picture sees farther than a scan.
+  const double radius_m = options_.local_scene_radius_m;
+  return slack_m() + (for_pictures_ ? std::max(radius_m, kPictureRadius_m) : radius_m);
+}
+
 LocalSceneInUse LocalSceneCache::make(const StillInstances& still,
                                       const Eigen::Vector2d& center_W) const {
   LocalSceneRequest request{
       center_W, options_.local_scene_radius_m, {options_.local_scene_budget_bytes / kBudgetShare}};
   if (for_pictures_) {
-    // A picture sees farther than a scan, but the triangles take the most room.
-    request.half_size_m = std::max(request.half_size_m, kPictureRadius_m);
+    // The triangles take the most room.
     request.budget.triangle_bytes = options_.local_scene_budget_bytes / 2;
   }
-  request.half_size_m += slack_m();
+  request.half_size_m = wanted_half_size_m();
   auto scene = still.bodies.empty()
                    ? store_.fixed()->local_scene(request)
                    : std::make_shared<const LocalScene>(store_.fixed(), still, request);
   return {std::move(scene), ModelsBeside(still.time)};
+}
+
+LocalSceneInUse LocalSceneCache::make_about(const Eigen::Vector3d& eye_W) {
+  const StillInstances still = still_instances();
+  const Bounds all = store_.fixed()->places().bounds_W();
+  if (for_pictures_ && still.bodies.empty() && !is_whole_tried_ && !all.empty()) {
+    is_whole_tried_ = true;
+    const Eigen::Vector2d half = 0.5 * (all.upper - all.lower).head<2>();
+    if (half.maxCoeff() <= wanted_half_size_m()) {
+      LocalSceneInUse made = make(still, all.center().head<2>());
+      if (made.scene->holds_all()) whole_ = made.scene;
+    }
+  }
+  if (still.bodies.empty() && whole_ != nullptr && whole_->depth_m(eye_W) > 0.0) {
+    return {whole_, ModelsBeside(still.time)};
+  }
+  return make(still, eye_W.head<2>());
 }
 
 /// Returns the models at rest, which only pictures treat as scenery.
@@ -73,10 +95,51 @@ bool LocalSceneCache::is_served(const Eigen::Vector3d& eye_W, double share) cons
                      [&](const auto& kept) { return serves(kept, eye_W, share); });
 }
 
-void LocalSceneCache::clear() {
+void LocalSceneCache::drop() {
   if (next_.valid()) next_.wait();
   next_ = {};
   kept_.clear();
+}
+
+void LocalSceneCache::clear() {
+  drop();
+  whole_.reset();
+  is_whole_tried_ = false;
+}
+
+PicturePlaces LocalSceneCache::picture_places() const {
+  if (places_) return *places_;
+  PicturePlaces places;
+  if (!for_pictures_) return places;
+  places.has_pictures = true;
+  places.time = tick_;
+  for (const LocalSceneInUse& kept : kept_) {
+    places.kept.emplace_back(kept.scene->center_W(), kept.last_used);
+  }
+  if (next_.valid()) places.next = next_center_W_;
+  return places;
+}
+
+void LocalSceneCache::set_picture_places(PicturePlaces places) {
+  if (for_pictures_ || places.has_pictures || places_) places_ = std::move(places);
+}
+
+void LocalSceneCache::go_to_places() {
+  const PicturePlaces places = *std::exchange(places_, std::nullopt);
+  drop();
+  for_pictures_ = places.has_pictures;
+  tick_ = places.time;
+  for (const auto& [center_W, last_used] : places.kept) {
+    kept_.push_back(make(still_instances(), center_W));
+    kept_.back().last_used = last_used;
+  }
+  if (places.next) ask_for_next(*places.next);
+}
+
+void LocalSceneCache::ask_for_next(const Eigen::Vector2d& center_W) {
+  next_center_W_ = center_W;
+  next_ = std::async(std::launch::async,
+                     [this, still = still_instances(), center_W] { return make(still, center_W); });
 }
 
 const LocalSceneInUse* LocalSceneCache::find(const Eigen::Vector3d& eye_W) const {
@@ -127,7 +190,7 @@ void LocalSceneCache::collect(const std::vector<Eigen::Vector3d>& eyes_W) {
 void LocalSceneCache::prepare(const Eigen::Vector3d& eye_W) {
   const LocalSceneInUse* local = find(eye_W);
   if (local == nullptr || (for_pictures_ && !local->scene->is_for_pictures())) {
-    keep(make(still_instances(), eye_W.head<2>()));
+    keep(make_about(eye_W));
     return;
   }
   const LocalScene& scene = *local->scene;
@@ -140,17 +203,16 @@ void LocalSceneCache::prepare(const Eigen::Vector3d& eye_W) {
   if (for_pictures_ && serves(*local, eye_W, kLatest)) {
     ahead_m += kLatest * reserve_m(scene) - way.norm();
   }
-  const Eigen::Vector2d center = eye_W.head<2>() + ahead_m * way.normalized();
-  next_ = std::async(std::launch::async,
-                     [this, still = still_instances(), center] { return make(still, center); });
+  ask_for_next(eye_W.head<2>() + ahead_m * way.normalized());
 }
 
 void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures) {
+  if (places_) go_to_places();
   ++tick_;
   collect(eyes_W);
   if (pictures && !for_pictures_) {
     // Those of scans may have come from another simulation, and pictures must not depend on that.
-    clear();
+    drop();
     for_pictures_ = true;
   }
   const bool any = !store_.fixed()->places().empty() || (for_pictures_ && !moving_.tree().empty());

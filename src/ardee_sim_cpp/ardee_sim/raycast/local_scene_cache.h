@@ -3,10 +3,12 @@
 
 #include <future>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "ardee_sim/raycast/local_scene.h"
 #include "ardee_sim/raycast/models_beside.h"
+#include "ardee_sim/raycast/picture_places.h"
 #include "ardee_sim/raycast/ray_options.h"
 #include "ardee_sim/raycast/scenery_store.h"
 
@@ -22,6 +24,8 @@ struct LocalSceneInUse {
 /// Keeps a local scene about each place with sensors. A sensor's first local scene is made at once;
 /// while it drives, a background thread makes the next one, which replaces the first once it is
 /// ready; for pictures, once the sensor is far enough. Rays return the same with either, or none.
+/// Where all scenery fits into a local scene for pictures, that one lies about its middle, wherever
+/// the camera is.
 class LocalSceneCache {
  public:
   LocalSceneCache(const SceneryStore& store, const MovingModels& moving, const RayOptions& options)
@@ -30,6 +34,9 @@ class LocalSceneCache {
 
   /// Waits for the background thread and drops all local scenes: the scenery is about to change.
   void clear();
+  PicturePlaces picture_places() const;
+  /// Makes the local scenes of pictures anew about other places, at the next prepare().
+  void set_picture_places(PicturePlaces places);
   /// Makes local scenes about these points; with `pictures`, also triangle scenes.
   void prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures);
   /// Returns the local scene in which the point lies deepest, or nullptr.
@@ -43,6 +50,12 @@ class LocalSceneCache {
  private:
   double slack_m() const;
   LocalSceneInUse make(const StillInstances& still, const Eigen::Vector2d& center_W) const;
+  double wanted_half_size_m() const;
+  /// Returns the local scene in which a camera's first pictures are traced.
+  LocalSceneInUse make_about(const Eigen::Vector3d& eye_W);
+  void ask_for_next(const Eigen::Vector2d& center_W);
+  void drop();
+  void go_to_places();
   StillInstances still_instances() const;
   /// Returns whether the point is less far from the centre than `share` of the way at which the
   /// next local scene is asked for.
@@ -58,6 +71,10 @@ class LocalSceneCache {
   const RayOptions options_;
   std::vector<LocalSceneInUse> kept_;
   std::future<LocalSceneInUse> next_;
+  Eigen::Vector2d next_center_W_{0, 0};
+  std::shared_ptr<const LocalScene> whole_;  // that holds all scenery, as long as it stays
+  bool is_whole_tried_ = false;
+  std::optional<PicturePlaces> places_;  // to go to
   std::uint64_t tick_ = 0;
   std::size_t taken_ = 0;
   bool for_pictures_ = false;

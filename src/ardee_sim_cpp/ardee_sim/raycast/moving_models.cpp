@@ -33,7 +33,8 @@ void make_room(MovingModel& model) {
 
 }  // namespace
 
-void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model) {
+void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model,
+                       std::uint32_t label) {
   if (model == nullptr) throw Error("a moving model needs a description");
   if (models_.count(entity) != 0) {
     throw Error("model '" + model->name + "': entity " + std::to_string(entity) + " is in use");
@@ -47,6 +48,7 @@ void MovingModels::add(std::uint32_t entity, std::shared_ptr<const Model> model)
     TraceableInstance placed;
     placed.body = &body;
     placed.entity = entity;
+    placed.label = label;
     made.placed.push_back(placed);
     made.links.push_back(link);
   }

@@ -19,7 +19,7 @@ class MovingModels {
  public:
   MovingModels(SceneKind kind, Log& log) : kind_(kind), log_(log) {}
 
-  void add(std::uint32_t entity, std::shared_ptr<const Model> model);
+  void add(std::uint32_t entity, std::shared_ptr<const Model> model, std::uint32_t label);
   void remove(std::uint32_t entity);
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
   /// Moves models at rest into the tree, once they are many. Call it before rays are cast among new

@@ -75,8 +75,9 @@ void RayScene::remove_scenery(std::uint32_t first_entity) {
   impl_->scene.scenery.remove(first_entity);
 }
 
-void RayScene::add_model(std::uint32_t entity, std::shared_ptr<const Model> model) {
-  impl_->scene.moving.add(entity, std::move(model));
+void RayScene::add_model(std::uint32_t entity, std::shared_ptr<const Model> model,
+                         std::uint32_t label) {
+  impl_->scene.moving.add(entity, std::move(model), label);
 }
 
 void RayScene::remove_model(std::uint32_t entity) { impl_->scene.moving.remove(entity); }
@@ -92,6 +93,14 @@ void RayScene::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool pictures
   if (!impl_->scene.scenery.committed()) impl_->scene.scenery.commit();
   impl_->scene.moving.prepare();
   impl_->scene.local_scenes.prepare(eyes_W, pictures);
+}
+
+PicturePlaces RayScene::picture_places() const {
+  return impl_->scene.local_scenes.picture_places();
+}
+
+void RayScene::set_picture_places(const PicturePlaces& places) {
+  impl_->scene.local_scenes.set_picture_places(places);
 }
 
 namespace {

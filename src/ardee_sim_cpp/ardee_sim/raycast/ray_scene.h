@@ -9,6 +9,7 @@
 #include "ardee_sim/core/pose.h"
 #include "ardee_sim/description/scenery.h"
 #include "ardee_sim/raycast/bounds.h"
+#include "ardee_sim/raycast/picture_places.h"
 #include "ardee_sim/raycast/picture_tracer.h"
 #include "ardee_sim/raycast/ray_hit.h"
 #include "ardee_sim/raycast/ray_options.h"
@@ -28,8 +29,8 @@ class RayScene {
   /// Removes all scenery that was added with that first entity.
   void remove_scenery(std::uint32_t first_entity);
 
-  /// Adds a moving model; set_link_poses() places its links.
-  void add_model(std::uint32_t entity, std::shared_ptr<const Model> model);
+  /// Adds a moving model with a class for label pictures; set_link_poses() places its links.
+  void add_model(std::uint32_t entity, std::shared_ptr<const Model> model, std::uint32_t label = 0);
   void remove_model(std::uint32_t entity);
   /// Sets X_WL of each link of the description, in its order.
   void set_link_poses(std::uint32_t entity, const std::vector<Pose>& X_WL);
@@ -50,6 +51,10 @@ class RayScene {
   /// Does the same with one moving model alone, without its link `own_link`.
   void cast_at_model(const std::vector<SceneRay>& rays, std::uint32_t entity,
                      std::uint32_t own_link, std::vector<RayHit>& hits) const;
+
+  /// Where the local scenes of pictures lie, which depends on where earlier pictures were taken.
+  PicturePlaces picture_places() const;
+  void set_picture_places(const PicturePlaces& places);
 
   /// Traces rays for pictures of this scene.
   const PictureTracer& pictures() const;

@@ -31,7 +31,7 @@ void RaySceneSet::add_to(raycast::RayScene& scene, const Entity& entity) {
   if (entity.is_static()) {
     scene.add_scenery(entity.robot->entity(), entity.placements);
   } else {
-    scene.add_model(entity.robot->entity(), entity.robot->shared_model());
+    scene.add_model(entity.robot->entity(), entity.robot->shared_model(), entity.instance.label);
   }
 }
 
@@ -72,7 +72,21 @@ const raycast::RayScene& RaySceneSet::for_pictures() {
   return now(raycast::SceneKind::kVisual);
 }
 
-const raycast::RayScene& RaySceneSet::now(raycast::SceneKind kind) {
+raycast::PicturePlaces RaySceneSet::picture_places() {
+  const View& visual = view(raycast::SceneKind::kVisual);
+  return visual.scene ? visual.scene->picture_places() : raycast::PicturePlaces{};
+}
+
+void RaySceneSet::set_picture_places(const raycast::PicturePlaces& places) {
+  View& visual = view(raycast::SceneKind::kVisual);
+  visual.pictures = places.has_pictures;
+  visual.current = false;
+  if (visual.scene || places.has_pictures) {
+    made(raycast::SceneKind::kVisual).set_picture_places(places);
+  }
+}
+
+raycast::RayScene& RaySceneSet::made(raycast::SceneKind kind) {
   View& wanted = view(kind);
   if (!wanted.scene) {
     auto made = std::make_unique<raycast::RayScene>(kind, options_, log_);
@@ -80,6 +94,12 @@ const raycast::RayScene& RaySceneSet::now(raycast::SceneKind kind) {
     wanted.rests.clear();
     wanted.scene = std::move(made);  // only after complete success
   }
+  return *wanted.scene;
+}
+
+const raycast::RayScene& RaySceneSet::now(raycast::SceneKind kind) {
+  View& wanted = view(kind);
+  made(kind);
   if (!wanted.current) {
     for (const auto& entity : entities_) {
       if (entity->is_static()) continue;

@@ -25,6 +25,9 @@ class RaySceneSet : public devices::RaySceneProvider {
   void remove(const Entity& entity);
   /// Marks the scenes as outdated: the next use updates them.
   void invalidate();
+  /// Where pictures are traced, as a part of a simulation's state.
+  raycast::PicturePlaces picture_places();
+  void set_picture_places(const raycast::PicturePlaces& places);
 
  private:
   struct View {
@@ -36,6 +39,7 @@ class RaySceneSet : public devices::RaySceneProvider {
     bool pictures = false;
   };
   static void add_to(raycast::RayScene& scene, const Entity& entity);
+  raycast::RayScene& made(raycast::SceneKind kind);
   View& view(raycast::SceneKind kind) { return views_[static_cast<std::size_t>(kind)]; }
 
   raycast::RayOptions options_;

@@ -38,6 +38,7 @@ SimulationState Simulation::save() {
   serialize_commands(commands);
   state.dynamics = dynamics.bytes();
   state.commands = commands.bytes();
+  state.picture_places = scenes_.picture_places();
   state.readings = latest_.save();
   return state;
 }
@@ -106,6 +107,7 @@ void Simulation::restore(const SimulationState& state) {
   lights_ = state.lights;
   daylight_ = state.daylight;
   pictures_.relight();
+  scenes_.set_picture_places(state.picture_places);
   scenes_.invalidate();
   latest_.restore(state.readings);
 }

@@ -300,6 +300,7 @@ void Simulation::reset_entities() {
   for (const auto& entity : entities_) {
     for (const auto& device : entity->devices) device->reset(now_ns_);
   }
+  scenes_.set_picture_places({});
   scenes_.invalidate();
   latest_.clear();
 }

@@ -8,6 +8,7 @@
 
 #include "ardee_sim/description/daylight.h"
 #include "ardee_sim/description/world.h"
+#include "ardee_sim/raycast/picture_places.h"
 #include "ardee_sim/simulation/handles.h"
 
 namespace ardee {
@@ -33,6 +34,7 @@ struct SimulationState {
   std::vector<EntityState> entities;
   std::string dynamics;
   std::string commands;  // wrenches and efforts
+  raycast::PicturePlaces picture_places;
   LatestReadings::Saved readings;
 };
 

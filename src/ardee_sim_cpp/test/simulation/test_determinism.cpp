@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "ardee_sim/core/rng.h"
@@ -71,40 +72,74 @@ TEST(Determinism, SameBytesForAnyThreadsAndForTilesAndInstances) {
   EXPECT_EQ(hash_of_run(2, false, 5), reference);
 }
 
-/// Returns a hash of the pictures of a robot that drives far enough to renew its camera's local
-/// scene.
-std::uint64_t hash_of_pictures(int threads) {
-  SimulationOptions options;
-  options.rays.threads = threads;
-  TestWorld world(ground_plane() + field(40.0), 0.005, options);
-  const std::string camera =
-      "<link name='camera'/><joint name='camera_joint' type='fixed'><parent link='base'/>"
-      "<child link='camera'/><origin xyz='0 0 0.1'/></joint><gazebo reference='camera'>"
-      "<sensor type='camera' name='camera'><update_rate>10</update_rate><camera>"
-      "<horizontal_fov>1.2</horizontal_fov><image><width>96</width><height>72</height>"
-      "<format>R8G8B8</format></image><clip><near>0.05</near><far>50</far></clip></camera>"
-      "<plugin name='camera' filename='libgazebo_ros_camera.so'><cameraName>cam</cameraName>"
-      "<frameName>camera</frameName></plugin></sensor></gazebo>";
-  Entity& robot =
-      world.spawn(rover("", camera), "rover", Pose::from_xyz_rpy({-3, 0, 0.151}, {0, 0, 0}));
-  world.command(robot, 1.5, 0.0);
-  world.run(10.0);
-  EXPECT_GT(robot.robot->pose().p.x(), 8.0);
-  std::uint64_t hash = 0;
-  const auto pictures = world.recorder().on<ImageReading>("/cam/image_raw");
-  EXPECT_EQ(pictures.size(), 100u);
-  for (const ImageReading& picture : pictures) {
-    const auto* bytes = reinterpret_cast<const char*>(picture.data.data());
-    hash = mix_bits(hash ^ stream_key(0, {bytes, picture.data.size()}));
-  }
-  return hash;
+std::string camera_on_base() {
+  return "<link name='camera'/><joint name='camera_joint' type='fixed'><parent link='base'/>"
+         "<child link='camera'/><origin xyz='0 0 0.1'/></joint><gazebo reference='camera'>"
+         "<sensor type='camera' name='camera'><update_rate>10</update_rate><camera>"
+         "<horizontal_fov>1.2</horizontal_fov><image><width>96</width><height>72</height>"
+         "<format>R8G8B8</format></image><clip><near>0.05</near><far>50</far></clip></camera>"
+         "<plugin name='camera' filename='libgazebo_ros_camera.so'><cameraName>cam</cameraName>"
+         "<frameName>camera</frameName></plugin></sensor></gazebo>";
 }
 
+/// A robot with a camera before a field so wide that its camera renews its local scene on the way,
+/// or so narrow that all of it is in one.
+struct CameraDrive {
+  TestWorld world;
+  Entity& robot;
+
+  explicit CameraDrive(double field_m, const SimulationOptions& options = {})
+      : world(ground_plane() + field(field_m), 0.005, options),
+        robot(world.spawn(rover("", camera_on_base()), "rover",
+                          Pose::from_xyz_rpy({-3, 0, 0.151}, {0, 0, 0}))) {}
+
+  /// Drives on, and returns a hash of the pictures on the way.
+  std::uint64_t hash_of_pictures(double duration_s) {
+    world.command(robot, 1.5, 0.0);
+    world.recorder().clear();
+    world.run(duration_s);
+    std::uint64_t hash = 0;
+    const auto pictures = world.recorder().on<ImageReading>("/cam/image_raw");
+    EXPECT_EQ(pictures.size(), static_cast<std::size_t>(std::lround(10.0 * duration_s)));
+    for (const ImageReading& picture : pictures) {
+      const auto* bytes = reinterpret_cast<const char*>(picture.data.data());
+      hash = mix_bits(hash ^ stream_key(0, {bytes, picture.data.size()}));
+    }
+    return hash;
+  }
+};
+
 TEST(Determinism, PicturesOfADriveAreTheSameBytesForAnyThreads) {
-  const std::uint64_t reference = hash_of_pictures(1);
-  EXPECT_EQ(hash_of_pictures(1), reference);
-  EXPECT_EQ(hash_of_pictures(2), reference);
-  EXPECT_EQ(hash_of_pictures(5), reference);
+  const auto hash_with = [](int threads) {
+    SimulationOptions options;
+    options.rays.threads = threads;
+    CameraDrive drive(40.0, options);
+    const std::uint64_t hash = drive.hash_of_pictures(10.0);
+    EXPECT_GT(drive.robot.robot->pose().p.x(), 8.0);
+    return hash;
+  };
+  const std::uint64_t reference = hash_with(1);
+  EXPECT_EQ(hash_with(1), reference);
+  EXPECT_EQ(hash_with(2), reference);
+  EXPECT_EQ(hash_with(5), reference);
+}
+
+class PicturesAgain : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(FieldsOf, PicturesAgain, testing::Values(40.0, 20.0));
+
+TEST_P(PicturesAgain, AreTheSameBytesAfterAResetAndFromARestoredMoment) {
+  CameraDrive drive(GetParam());
+  const SimulationState begin = drive.world->save();
+  const std::uint64_t first = drive.hash_of_pictures(5.0);
+  const SimulationState middle = drive.world->save();
+  const std::uint64_t second = drive.hash_of_pictures(5.0);
+  drive.world->restore(middle);
+  EXPECT_EQ(drive.hash_of_pictures(5.0), second);
+  drive.world->restore(begin);
+  EXPECT_EQ(drive.hash_of_pictures(5.0), first);
+  EXPECT_EQ(drive.hash_of_pictures(5.0), second);
+  drive.world->reset_simulation();
+  EXPECT_EQ(drive.hash_of_pictures(5.0), first);
 }
 
 TEST(Determinism, AnotherSeedGivesOtherBytes) {

@@ -13,6 +13,28 @@ from ardee_common.errors import GeneratorError
 Parameters = Union[Mapping[str, Any], str, Path]
 
 
+_MOST_LEVELS = 20  # a group that holds itself has no end
+
+
+def _grouped(tree: Mapping[str, Any], level: int = 0) -> Dict[str, Any]:
+    """Returns parameters in which a name such as a/b stands for b in the group a, as for `rosparam load`."""
+    made: Dict[str, Any] = {}
+    for name, value in tree.items():
+        if isinstance(value, Mapping) and level < _MOST_LEVELS:
+            value = _grouped(value, level + 1)
+        first, *others = [part for part in str(name).split("/") if part] or [name]
+        for other in reversed(others):
+            value = {other: value}
+        made[first] = _merged(made.get(first), value)
+    return made
+
+
+def _merged(base: Any, over: Any) -> Any:
+    if not (isinstance(base, dict) and isinstance(over, dict)):
+        return over
+    return {**base, **{name: _merged(base.get(name), value) for name, value in over.items()}}
+
+
 def below(namespace: str, given: Parameters) -> Dict[str, Any]:
     """Returns parameters, or those of a YAML file, in groups of the namespace's names."""
     try:
@@ -23,6 +45,7 @@ def below(namespace: str, given: Parameters) -> Dict[str, Any]:
         )
     except GeneratorError as error:
         raise ArdeeError(str(error)) from None
+    tree = _grouped(tree)
     for name in reversed(checks.text(namespace, "namespace").split("/")):
         tree = {name: tree} if name else tree
     return tree

@@ -82,7 +82,7 @@ class Simulation:
 
         model : URDF or SDF text, as robot() returns it, or the path of such a file
         xyz_m, rpy_rad : pose in the world; roll, pitch, yaw about the fixed axes
-        namespace : of the robot's topics
+        namespace : of the robot's topics, if its URDF names none; of shipped robots: robot("tsv1_default", ns="robot2")
         joint_positions : initial ones, rad or m, by the joint's name; others as described
         scale : of a static model
         label : class in label pictures

@@ -6,6 +6,7 @@ row detection by global energy minimization, Pattern Recognition 55, 2016): a li
 with offset c and period d of the crop rows in pixels: row m passes at u = width / 2 + c + m d.
 """
 import argparse
+import math
 import sys
 from pathlib import Path
 from typing import Dict, Optional, Sequence, Tuple
@@ -23,22 +24,42 @@ from ardee_navigation.vision.vegetation import excess_green
 _WIDTH_PX = 160  # to which pictures are shrunk
 _TOLERANCE = 0.1  # of the period: an error that large counts nothing
 _GREEN = 0.2  # excess green of a plant
+_LEAST_PERIOD_PX = 1.0
 _WORST = 12  # pictures of the sheet
 
 
 def read_rows(path: Path, height_px: int) -> FieldRows:
-    """Returns the rows of a .crp file, NaN in picture rows above its first."""
+    """Returns the rows of a .crp file, NaN in picture rows above its first. Raises GeneratorError."""
     try:
-        numbers = np.loadtxt(path, ndmin=2)
+        lines = path.read_text().splitlines()
     except (OSError, ValueError) as error:
         raise GeneratorError(f"{path}: {error}") from None
-    if numbers.shape[1:] != (2,) or not 0 < len(numbers) <= height_px or (numbers[:, 1] <= 0).any():
-        found = f"{numbers.shape[0]} x {numbers.shape[1]} numbers"
-        expected = f"an offset and a positive period in each of up to {height_px} lines"
-        raise GeneratorError(f"{path}: found {found}, expected {expected}")
+    numbers = [_pair(line, f"{path}:{n}") for n, line in enumerate(lines, 1) if line.strip()]
+    if not 0 < len(numbers) <= height_px:
+        expected = f"1 to {height_px}, each with an offset and a period"
+        raise GeneratorError(f"{path}: found {len(numbers)} lines, expected {expected}")
     filled = np.full((height_px, 2), np.nan)
     filled[-len(numbers) :] = numbers
     return FieldRows(filled[:, 0], filled[:, 1])
+
+
+def _pair(line: str, where: str) -> Tuple[float, float]:
+    """Returns offset and period of a line of a .crp file."""
+    try:
+        offset, period = (float(word) for word in line.split())
+        if math.isfinite(offset) and math.isfinite(period) and period >= _LEAST_PERIOD_PX:
+            return offset, period
+    except ValueError:  # another count, or no numbers
+        pass
+    expected = f"an offset and a period of at least {_LEAST_PERIOD_PX:g}, in pixels"
+    raise GeneratorError(f"{where}: found {line.strip()[:40]!r}, expected {expected}")
+
+
+def _passes(rows: FieldRows, v: int, width_px: int) -> np.ndarray:
+    """Returns where crop rows pass picture row v, in pixels from the picture's middle."""
+    offset, period = rows.offset_px[v], rows.period_px[v]
+    first, last = (np.array([-0.5, 0.5]) * width_px - offset) / period
+    return offset + period * np.arange(np.ceil(first), np.floor(last) + 1)
 
 
 def accuracy(found: FieldRows, true: FieldRows, width_px: int) -> float:
@@ -49,9 +70,7 @@ def accuracy(found: FieldRows, true: FieldRows, width_px: int) -> float:
     """
     marks = []
     for v in np.flatnonzero(np.isfinite(true.period_px)):
-        offset, period = true.offset_px[v], true.period_px[v]
-        first, last = (np.array([-0.5, 0.5]) * width_px - offset) / period
-        u = offset + period * np.arange(np.ceil(first), np.floor(last) + 1)
+        u, period = _passes(true, v, width_px), true.period_px[v]
         rows = np.round((u - found.offset_px[v]) / found.period_px[v])
         error = u - found.offset_px[v] - rows * found.period_px[v]
         marks.append(np.maximum(1.0 - (error / (_TOLERANCE * period)) ** 2, 0.0))
@@ -83,7 +102,11 @@ def judged(path: Path, ways: Ways, fitters: Dict[Tuple[int, int], FieldFitter]) 
     if size not in fitters:
         fitters[size] = FieldFitter(*size)
     rgb = np.ascontiguousarray(bgr[:, :, ::-1])
-    true = read_rows(path.with_suffix(".crp"), height_px)
+    truth = path.with_suffix(".crp")
+    true = read_rows(truth, height_px)
+    known = np.flatnonzero(np.isfinite(true.period_px))
+    if not any(len(_passes(true, v, width_px)) for v in known):
+        raise GeneratorError(f"{truth}: found no crop row in the picture, expected at least one")
     found = {way: find_rows(rgb, look(rgb), fitters[size]) for way, look in ways.items()}
     marks = {way: accuracy(rows, true, width_px) for way, rows in found.items()}
     return Judged(path.name, rgb, true, found, marks)

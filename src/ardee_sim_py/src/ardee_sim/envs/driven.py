@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Mapping, Optional, Sequence
 
 from ardee_sim import checks
+from ardee_sim.envs.arguments import names, refusals
 from ardee_sim.envs.randomise import with_noise
 from ardee_sim.errors import ArdeeError
 from ardee_sim.parameters import Parameters
@@ -34,11 +35,10 @@ class DrivenRobot:
     ) -> None:
         self._text = robot_text(robot, **(xacro or {}))
         self._parameters = parameters or {}
-        if isinstance(controllers, str):
-            raise ArdeeError(f"controllers: found '{controllers}', expected a list of names")
-        self._controllers = [checks.text(name, "controllers") for name in controllers]
-        self._topic = checks.text(command_topic, "command_topic")
-        self.rise_m = checks.number(stand_m, "stand_m") - STAND_M  # above where a TerraSentia's is
+        self._controllers = names(controllers, "controllers")
+        with refusals():
+            self._topic = checks.text(command_topic, "command_topic")
+            self.rise_m = checks.number(stand_m, "stand_m") - STAND_M  # above a TerraSentia's
 
     def spawn(self, sim: Simulation, file: Path, noise_scale: float) -> None:
         """Spawns the robot in the origin, by way of a file, and starts its controllers."""

@@ -61,7 +61,7 @@ class RowFollowEnv(FieldEnv):
     """
 
     def __init__(self, *, topics: Tuple[str, ...] = ("ardee/hokuyo",), **arguments: Any) -> None:
-        super().__init__(RowFollowTask(tuple(topics)), **_in_corn(arguments))
+        super().__init__(RowFollowTask(topics), **_in_corn(arguments))
 
 
 class RowFollowCameraEnv(FieldEnv):
@@ -185,7 +185,7 @@ class GoToEnv(FieldEnv):
 
     Observation Space
     -----------------
-    `Box(-1, 1, (7,), float32)`: the goal's distance ahead and to the left / 20 m, from the last fix (5 a second) and
+    `Box(-1, 1, (7,), float32)`: the goal's distance ahead and to the left / 20 m, from the last fix (10 a second) and
     the IMU's yaw; sine and cosine of that yaw; angular velocities about x, y, z / 10 rad/s.
 
     Rewards

@@ -8,10 +8,13 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, SupportsFloat, 
 
 import gymnasium
 import numpy as np
+from ardee_sim import checks
+from ardee_sim.envs.field_env import FieldEnv
 from ardee_sim.errors import ArdeeError
 from ardee_sim.world import PathLike, read_text
 
 _KEYS = ("environment", "arguments", "replay", "actions")
+_LIMIT = "max_episode_steps"  # which older files have not
 
 
 def _plain(value: Any) -> Any:
@@ -37,12 +40,14 @@ class Episode:
     arguments : of gymnasium.make
     replay : of the info of reset()
     actions : of each step, lists of numbers
+    max_episode_steps : of gymnasium.make; None: as registered, -1: no truncation
     """
 
     environment: str
     arguments: Dict[str, Any]
     replay: Dict[str, Any]
     actions: List[List[float]]
+    max_episode_steps: Optional[int] = None
 
     def save(self, path: PathLike) -> None:
         """Writes a JSON file. Raises ArdeeError if an argument is neither number, text nor path."""
@@ -55,7 +60,7 @@ class Episode:
             given = json.loads(read_text(Path(path)))
         except json.JSONDecodeError as error:
             raise ArdeeError(f"{path}: {error}, expected JSON") from None
-        if not isinstance(given, dict) or sorted(given) != sorted(_KEYS):
+        if not isinstance(given, dict) or given.keys() - {_LIMIT} != {*_KEYS}:
             raise ArdeeError(f"{path}: found no episode, expected the keys {', '.join(_KEYS)}")
         for key, kind in zip(_KEYS, (str, dict, dict, list)):
             if not isinstance(given[key], kind):
@@ -67,12 +72,19 @@ class Episode:
                 raise ArdeeError(
                     f"{path}: actions[{number}]: found {action!r:.60}, expected a list of numbers"
                 )
+        limit = given.get(_LIMIT)
+        if limit is not None and (type(limit) is not int or limit < -1 or limit == 0):
+            raise ArdeeError(
+                f"{path}: {checks.found(limit, _LIMIT)}, expected null, -1 or a positive whole number"
+            )
         return cls(**given)
 
     def make(self) -> gymnasium.Env:
         """Makes the environment."""
         try:
-            return gymnasium.make(self.environment, **self.arguments)
+            return gymnasium.make(
+                self.environment, max_episode_steps=self.max_episode_steps, **self.arguments
+            )
         except (gymnasium.error.Error, TypeError) as error:
             raise ArdeeError(f"found environment '{self.environment}': {error}") from error
 
@@ -90,6 +102,9 @@ class RecordEpisode(gymnasium.Wrapper):
         super().__init__(env)
         if env.spec is None:
             raise ArdeeError("found an environment without id, expected one of gymnasium.make")
+        if not isinstance(env.unwrapped, FieldEnv):
+            raise ArdeeError(f"found environment '{env.spec.id}', expected one of ardee's")
+        self._limit = env.spec.max_episode_steps or -1
         self._id, self._arguments = env.spec.id, dict(env.spec.kwargs)
         self._replay: Dict[str, Any] = {}
         self._actions: List[List[float]] = []
@@ -103,9 +118,10 @@ class RecordEpisode(gymnasium.Wrapper):
         return observation, info
 
     def step(self, action: Any) -> Tuple[Any, SupportsFloat, bool, bool, Dict[str, Any]]:
-        """Records an action."""
-        result = self.env.step(action)
-        self._actions.append(np.asarray(action, np.float32).tolist())
+        """Drives by the action as it is recorded, in float32."""
+        driven = checks.vector(action, "action", 2).astype(np.float32)
+        result = self.env.step(driven)
+        self._actions.append(driven.tolist())
         return result
 
     @property
@@ -113,4 +129,4 @@ class RecordEpisode(gymnasium.Wrapper):
         """The episode since the last reset()."""
         if not self._replay:
             raise RuntimeError("found no episode, expected reset() first")
-        return Episode(self._id, self._arguments, self._replay, list(self._actions))
+        return Episode(self._id, self._arguments, self._replay, list(self._actions), self._limit)

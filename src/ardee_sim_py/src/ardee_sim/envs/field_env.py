@@ -7,8 +7,10 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import gymnasium
 import numpy as np
+from ardee_sim import checks
+from ardee_sim.envs.arguments import a_seed, mapping, names, refusals
 from ardee_sim.envs.driven import ROBOT, DrivenRobot
-from ardee_sim.envs.fields import FieldSource, SownField
+from ardee_sim.envs.fields import FieldSource
 from ardee_sim.envs.randomise import STAGE, Ranges, check_ranges
 from ardee_sim.envs.task import Scene, Task
 from ardee_sim.errors import ArdeeError
@@ -17,6 +19,7 @@ from ardee_sim.simulation import Simulation
 from ardee_sim.world import PathLike, World
 from gymnasium import spaces
 
+from ardee_common.errors import known_names
 from ardee_world.row_truth import Field, Pose
 from ardee_world.start import STAND_M
 
@@ -28,7 +31,7 @@ class FieldEnv(gymnasium.Env):
     """A robot that is driven through a field by speed and turn rate; the task observes and rewards.
 
     task : of ardee_sim.envs, or one of yours
-    scenario, world : name of a scenario, or path of a world instead
+    scenario, world : name of a scenario; or path of a world, or name of a shipped one such as corn.world, instead
     robot : name of a shipped robot, or a file, as ardee_sim.robot() takes it
     xacro : values of the arguments of the robot's xacro file
     parameters, controllers : of ros_control, as Simulation.set_parameters() and start_controllers() take them
@@ -73,18 +76,22 @@ class FieldEnv(gymnasium.Env):
             if not (isinstance(value, Real) and 0 < value < math.inf):
                 raise ArdeeError(f"{name}: found {value}, expected a positive number")
         self.render_mode = render_mode
-        self.metadata = {**self.metadata, "render_fps": round(1 / control_period_s)}
+        self.metadata = {**self.metadata, "render_fps": max(1, round(1 / control_period_s))}
         self._task, self._period_s = task, control_period_s
         self._limits = v_max_m_s, w_max_rad_s
-        self._ranges = dict(randomise or {})
-        self._field_seed = field_seed
+        self._field_seed = a_seed(field_seed, "field_seed")
+        with refusals():
+            seed_field = checks.flag(seed_field, "seed_field")
+        ranges = {} if randomise is None else randomise
         self._sim: Optional[Simulation] = None
         self._scene: Optional[Scene] = None
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self._source = FieldSource(scenario, world)
         self._sows = seed_field and self._source.is_sown
         try:
-            check_ranges(self._ranges, self._sows)
+            check_ranges(ranges, self._sows)
+            self._ranges = dict(ranges)
+            self._source.check_plan(self._ranges)
             self._source.check_stages(self._ranges.get(STAGE, ()))
             self._robot = DrivenRobot(
                 robot,
@@ -94,15 +101,15 @@ class FieldEnv(gymnasium.Env):
                 command_topic=command_topic,
                 stand_m=stand_m,
             )
-            self._probe(field_seed)
+            self._probe()
         except BaseException:
             self.close()
             raise
 
-    def _probe(self, field_seed: int) -> None:
+    def _probe(self) -> None:
         """Finds the steps of a period, the observations' space, and how long the slowest sensor takes for a reading."""
         numbers = {name: (low + high) / 2 for name, (low, high) in self._ranges.items()}
-        self._sow(field_seed, numbers)
+        self._sow(self._field_seed, numbers)
         assert self._sim is not None and self._sown is not None
         steps = self._period_s * 1e9 / self._sim.step_ns
         if steps < 1 or abs(steps - round(steps)) > 1e-6:
@@ -111,6 +118,7 @@ class FieldEnv(gymnasium.Env):
                 f"{self._sim.step_ns * 1e-9:g} s"
             )
         self._steps = round(steps)
+        self._check_topics()
         scene = self._place(self._task.start(self._sown, np.random.default_rng(0)), 0)
         self._sim.demand(*self._task.topics, keep=1000)
         self._sim.step(math.ceil(1e9 / self._sim.step_ns))
@@ -123,17 +131,30 @@ class FieldEnv(gymnasium.Env):
         self._task.begin(scene)
         self.observation_space = self._task.space(scene)
 
+    def _check_topics(self) -> None:
+        topics = self.simulation.topics().items()
+        known = [name.strip("/") for name, info in topics if info.role == "reading"]
+        for topic in names(self._task.topics, "topics"):
+            if topic.strip("/") not in known:
+                raise ArdeeError(f"topics: found '{topic}', {known_names(topic, known)}")
+
     def _sow(self, seed: int, numbers: Mapping[str, float]) -> None:
-        """Loads the field of a seed with drawn numbers, and spawns the robot in its origin."""
+        """Loads the field of a seed with drawn numbers, and spawns the robot in its origin; if refused, all stays."""
+        sown = self._source.load(seed, numbers)
+        plants = frozenset(plant.name for plant in sown.world.plants())
+        sim = Simulation(sown.world)
+        try:
+            file = self._source.folder / "robot.urdf"
+            self._robot.spawn(sim, file, numbers.get("noise_scale", 1.0))
+            first = sim.snapshot()
+        except BaseException:
+            sim.close()
+            raise
         if self._sim is not None:
             self._sim.close()
-        self._sown: SownField = self._source.load(seed, numbers)
-        self._plants = frozenset(plant.name for plant in self._sown.world.plants())
-        self._sim = Simulation(self._sown.world)
-        file = self._source.folder / "robot.urdf"
-        self._robot.spawn(self._sim, file, numbers.get("noise_scale", 1.0))
-        self._first = self._sim.snapshot()
+        self._sim, self._sown, self._plants, self._first = sim, sown, plants, first
         self._present = seed, dict(numbers)
+        self._scene = None
 
     def _place(self, pose: Pose, noise_seed: int) -> Scene:
         """Puts the robot, as it was spawned, to its start, with the noise of an episode."""
@@ -171,7 +192,7 @@ class FieldEnv(gymnasium.Env):
     def _draw(self, given: Mapping[str, Any]) -> Episode:
         """Draws an episode from np_random; `given` replaces parts of it."""
         known = ("field_seed", "numbers", "noise_seed", "start_seed")
-        for name in given:
+        for name in mapping(given, "options"):
             if name not in known:
                 raise ArdeeError(f"options: found '{name}', expected one of: {', '.join(known)}")
         seeds = [int(seed) for seed in self.np_random.integers(2**31, size=3)]
@@ -184,8 +205,12 @@ class FieldEnv(gymnasium.Env):
         if not self._sows:
             drawn["field_seed"] = self._field_seed
         episode = {**drawn, **given}
-        check_ranges({name: (n, n) for name, n in episode["numbers"].items()}, self._source.is_sown)
-        return episode
+        with refusals():
+            episode["numbers"] = numbers = checks.named_numbers(episode["numbers"], "numbers")
+        fixed = {name: (number, number) for name, number in numbers.items()}
+        check_ranges(fixed, self._source.is_sown, "numbers")
+        seeds_of = ("field_seed", "noise_seed", "start_seed")
+        return {**episode, **{name: a_seed(episode[name], name) for name in seeds_of}}
 
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None
@@ -193,7 +218,7 @@ class FieldEnv(gymnasium.Env):
         """Begins an episode; `options` = info["replay"] of an earlier reset repeats that one."""
         super().reset(seed=seed)
         self.simulation  # raises if closed
-        episode = self._draw(options or {})
+        episode = self._draw({} if options is None else options)
         if self._present != (episode["field_seed"], episode["numbers"]):
             self._sow(episode["field_seed"], episode["numbers"])
         rng = np.random.default_rng(np.random.SeedSequence(episode["start_seed"]))
@@ -220,9 +245,7 @@ class FieldEnv(gymnasium.Env):
         scene = self._scene
         if scene is None:
             raise RuntimeError("found a step before reset(), expected reset() first")
-        wanted = np.asarray(action, dtype=float)
-        if wanted.shape != (2,) or not np.isfinite(wanted).all():
-            raise ArdeeError(f"action: found {action!r}, expected 2 finite numbers")
+        wanted = checks.vector(action, "action", 2)
         v_m_s, w_rad_s = np.clip(wanted, -1.0, 1.0) * self._limits
         self._robot.command(scene.sim, v_m_s, w_rad_s)
         self._step_and_measure(scene, self._steps)

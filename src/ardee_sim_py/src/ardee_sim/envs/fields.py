@@ -3,11 +3,13 @@
 
 import tempfile
 from dataclasses import dataclass
+from itertools import combinations_with_replacement, product
 from pathlib import Path
-from typing import Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Sequence, Tuple
 
-from ardee_sim import packages
-from ardee_sim.envs.randomise import STAGE, Numbers, plan_values, with_scene
+from ardee_sim import checks, packages
+from ardee_sim.envs.arguments import refusals
+from ardee_sim.envs.randomise import SCENE, STAGE, Numbers, Ranges, plan_values, with_scene
 from ardee_sim.errors import ArdeeError
 from ardee_sim.world import PathLike, World
 
@@ -15,7 +17,7 @@ from ardee_common.errors import GeneratorError
 from ardee_models.lookup import crop_model, search_path
 from ardee_models.plant.crops import make_crop
 from ardee_models.plant.species import load_params, load_species
-from ardee_world.request import yaml_values
+from ardee_world.request import configure, yaml_values
 from ardee_world.trial import Trial, prepare, scenario_paths
 
 
@@ -31,7 +33,8 @@ class FieldSource:
     """Makes the fields of an environment, in a temporary folder.
 
     scenario : name in config/scenarios.yaml of ardee_world
-    world : path of a world of yours instead, with its .start.yaml beside it; it is never sown anew
+    world : path of a world of yours instead, with its .start.yaml beside it, or the name of a shipped one such as
+        corn.world; it is never sown anew
     """
 
     def __init__(self, scenario: Optional[str], world: Optional[PathLike]) -> None:
@@ -40,7 +43,10 @@ class FieldSource:
         self._folder = tempfile.TemporaryDirectory(prefix="ardee_env_")
         self._plan: Optional[Path] = None
         if world is not None:
-            self._world = Path(world).resolve()
+            with refusals():
+                name = checks.path(world, "world")
+            found = name if Path(name).is_file() else World.from_file(name).path
+            self._world = Path(found).resolve()
             return
         try:
             share = packages.find_package("ardee_world")
@@ -73,6 +79,21 @@ class FieldSource:
                     load_params(species, stage)
         except GeneratorError as error:
             raise ArdeeError(f"randomise: {STAGE}: {error}") from error
+
+    def check_plan(self, ranges: Ranges) -> None:
+        """Raises ArdeeError unless the field's plan can have the ends of each range, and of each two ranges."""
+        ranges = {name: ends for name, ends in ranges.items() if name not in (*SCENE, STAGE)}
+        if self._plan is None or not ranges:
+            return
+        plan: Dict[str, Any] = {**yaml_values(self._plan), "name": self._plan.stem}
+        middle = {name: (low + high) / 2 for name, (low, high) in ranges.items()}
+        try:
+            for one, other in combinations_with_replacement(ranges, 2):
+                for ends in product(ranges[one], ranges[other]):
+                    drawn = {**middle, **dict(zip((one, other), ends))}
+                    configure({**plan, **plan_values(drawn)})
+        except GeneratorError as error:
+            raise ArdeeError(f"randomise: {error}") from error
 
     def _grow(self, leaves: float) -> Tuple[str, ...]:
         """Returns the names of a pool of plants with that many leaves, and makes those that are not there."""

@@ -8,6 +8,7 @@ import numpy as np
 from ardee_sim.envs.fields import SownField
 from ardee_sim.envs.observations import as_array
 from ardee_sim.envs.task import Scene, near_lane
+from ardee_sim.readings import FixReading, GpsQualityReading, ImuReading
 from gymnasium import spaces
 
 from ardee_common.geodesy import to_metres
@@ -41,10 +42,12 @@ class GoToTask:
 
     def begin(self, scene: Scene) -> None:
         """Remembers the first fix and where it places the robot."""
+        scene.check_kinds(fix_topic=(self._fix, FixReading), imu_topic=(self._imu, ImuReading))
         fix = scene.reading(self._fix)
         self._origin_deg = fix.latitude_deg, fix.longitude_deg
         self._origin_m = scene.state().xyz_m[:2]
         if self._error:
+            scene.check_kinds(error_topic=(self._error, GpsQualityReading))
             self._origin_m = self._origin_m + scene.reading(self._error).error_m[:2]
         self._left_m = self._limit_m = self._distance_m(scene)
         self._limit_m += LOST_M

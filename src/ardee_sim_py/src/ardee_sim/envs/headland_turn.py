@@ -9,7 +9,7 @@ from ardee_sim.envs.fields import SownField
 from ardee_sim.envs.observations import as_array, space_of
 from ardee_sim.envs.task import Scene, has_left, near_lane
 from ardee_sim.errors import ArdeeError
-from ardee_sim.readings import OdometryReading
+from ardee_sim.readings import LidarReading, OdometryReading
 from gymnasium import spaces
 
 from ardee_common.errors import GeneratorError
@@ -45,6 +45,10 @@ class HeadlandTurnTask:
 
     def begin(self, scene: Scene) -> None:
         """Remembers where the turn begins."""
+        scene.check_kinds(
+            scan_topic=(self._scan, LidarReading),
+            odometry_topic=(self._odometry, OdometryReading),
+        )
         self._first = _plan(scene.reading(self._odometry))
         self._left_m = self._distance_m(scene)
 

@@ -57,6 +57,8 @@ def observation(readings: Dict[str, Reading]) -> Any:
 
 def observation_space(readings: Dict[str, Reading]) -> spaces.Space:
     """Returns the space of observation()."""
+    if not readings:
+        raise ArdeeError("topics: found none, expected one or more names")
     made: Dict[str, spaces.Space] = {
         topic.rsplit("/", 1)[-1]: space_of(as_array(reading), isinstance(reading, ImuReading))
         for topic, reading in readings.items()

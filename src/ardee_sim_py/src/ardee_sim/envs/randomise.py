@@ -5,11 +5,14 @@ import math
 import re
 import shutil
 from dataclasses import replace
+from numbers import Real
 from pathlib import Path
-from typing import Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
 from xml.etree import ElementTree
 
 import numpy as np
+from ardee_sim import checks
+from ardee_sim.envs.arguments import mapping
 from ardee_sim.errors import ArdeeError
 
 from ardee_common.errors import known_names
@@ -46,20 +49,26 @@ def plan_names() -> Sequence[str]:
     return sorted(numbers - {"seed", "emergence_min", "emergence_max"} | {"emergence", STAGE})
 
 
-def check_ranges(ranges: Ranges, is_sown: bool) -> None:
+def check_ranges(ranges: Ranges, is_sown: bool, argument: str = "randomise") -> None:
     """Raises ArdeeError unless each name is one of SCENE or of a sown field's plan, and each range is one."""
     known = [*SCENE, *plan_names()]
-    for name, given in ranges.items():
+    for name, given in mapping(ranges, argument).items():
         if name not in known:
-            raise ArdeeError(f"randomise: found '{name}', {known_names(name, known)}")
+            raise ArdeeError(f"{argument}: found '{name}', {known_names(str(name), known)}")
         if name not in SCENE and not is_sown:
-            raise ArdeeError(f"randomise: found '{name}' for a field that is not sown anew")
+            raise ArdeeError(f"{argument}: found '{name}' for a field that is not sown anew")
         least, greatest = SCENE.get(name, (-math.inf, math.inf))
-        if np.shape(given) != (2,) or not least <= given[0] <= given[1] <= greatest:
+        if not _is_range(given) or not least <= given[0] <= given[1] <= greatest:
             bounds = f" within {least:g} and {greatest:g}" if name in SCENE else ""
             raise ArdeeError(
-                f"randomise: {name}: found {given}, expected least and greatest value{bounds}"
+                f"{argument}: {checks.found(given, name)}, expected least and greatest value{bounds}"
             )
+
+
+def _is_range(given: Any) -> bool:
+    ends = given.tolist() if isinstance(given, np.ndarray) else given
+    is_pair = isinstance(ends, (list, tuple)) and len(ends) == 2
+    return is_pair and all(isinstance(end, Real) and math.isfinite(end) for end in ends)
 
 
 def plan_values(drawn: Numbers) -> Dict[str, object]:

@@ -4,6 +4,7 @@
 from typing import Any, Dict, Tuple
 
 import numpy as np
+from ardee_sim.envs.arguments import names
 from ardee_sim.envs.fields import SownField
 from ardee_sim.envs.observations import observation, observation_space, scaled_depths, space_of
 from ardee_sim.envs.task import Scene, has_left
@@ -22,7 +23,7 @@ class RowFollowTask:
     """Follows the lane before which the robot starts."""
 
     def __init__(self, topics: Tuple[str, ...] = ("ardee/hokuyo",)) -> None:
-        self.topics = topics
+        self.topics = names(topics, "topics")
 
     def start(self, sown: SownField, rng: np.random.Generator) -> Pose:
         """Returns the world's start pose with a person's inaccuracy."""

@@ -3,10 +3,12 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, Dict, FrozenSet, Protocol, Tuple
+from typing import Any, Dict, FrozenSet, Protocol, Tuple, Type
 
 import numpy as np
 from ardee_sim.envs.fields import SownField
+from ardee_sim.errors import ArdeeError
+from ardee_sim.readings import Reading
 from ardee_sim.simulation import Simulation
 from ardee_sim.state import State
 from gymnasium import spaces
@@ -36,8 +38,17 @@ class Scene:
         """Returns the last reading of a topic of the task; its class is that of the topic."""
         reading = self.sim.latest(topic)
         if reading is None:
-            raise RuntimeError(f"{topic}: found no reading in a control period, expected one")
+            raise ArdeeError(f"{topic}: found no reading in a control period, expected one")
         return reading
+
+    def check_kinds(self, **arguments: Tuple[str, Type[Reading]]) -> None:
+        """Raises ArdeeError unless the topic of each argument of the task has readings of its class."""
+        for name, (topic, kind) in arguments.items():
+            found = type(self.reading(topic)).__name__
+            if found != kind.__name__:
+                raise ArdeeError(
+                    f"{name}: found '{topic}' of {found}, expected a topic of {kind.__name__}"
+                )
 
     def touches_plant(self) -> bool:
         """Returns whether the robot has touched a plant since the last call."""
