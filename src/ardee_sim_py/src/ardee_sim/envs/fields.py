@@ -33,8 +33,7 @@ class FieldSource:
     """Makes the fields of an environment, in a temporary folder.
 
     scenario : name in config/scenarios.yaml of ardee_world
-    world : path of a world of yours instead, with its .start.yaml beside it, or the name of a shipped one such as
-        corn.world; it is never sown anew
+    world : path of a world of yours instead, with its .start.yaml beside it, or a shipped one's name; never resown
     """
 
     def __init__(self, scenario: Optional[str], world: Optional[PathLike]) -> None:
