@@ -245,6 +245,7 @@ def test_a_world_or_measure_that_fails_is_a_failed_row(tmp_path: Path) -> None:
 
 def test_two_campaigns_do_not_share_a_folder(tmp_path: Path) -> None:
     output = tmp_path / "out"
+    (tmp_path / "other.yaml").touch()
     note_file(output, tmp_path / "other.yaml")
     (output / "runs").mkdir()
     (output / "runs" / "0123456789abcdef.parquet").touch()

@@ -22,13 +22,13 @@ def judged(
 ) -> Tuple[str, float, List[str]]:
     """Returns end and its time of a robot on the centre line, at one x after the other, and why a person stepped in.
 
-    finished_at_s : when the controller says that it is finished; None if it never says so
+    finished_at_s : when the controller says that it is finished; None: never
     """
     keys = TaskKeys(most_interventions=3, slowest_m_s=slowest_m_s)
     judge, reasons = Judge(keys, LANE, limit_s=60.0), []
     for number, x_m in enumerate(xs):
         pose, time_s = Pose(x_m, 0.0, 0.0), number * 0.1
-        is_finished = None if finished_at_s is None else time_s >= finished_at_s
+        is_finished = finished_at_s is not None and time_s >= finished_at_s
         why, _ = judge.look(time_s, pose, LANE.deviation(pose), is_finished)
         reasons += [why] if why else []
         if judge.end:

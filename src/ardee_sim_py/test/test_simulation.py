@@ -5,7 +5,7 @@ import subprocess
 import sys
 import threading
 import time
-from typing import Iterator, List
+from typing import Dict, Iterator, List
 
 import ardee_sim
 import numpy as np
@@ -163,6 +163,18 @@ def test_pictures_are_the_same_bytes_after_a_restore_and_a_reset(corn: ardee_sim
         for again in (sim, other):
             again.restore(middle)
             assert pictures(again, -5.0, -3.0) == second
+
+
+def test_pictures_of_a_small_world_do_not_depend_on_their_order() -> None:
+    world = ardee_sim.World.from_file("farm.world")
+    x_m, y_m, _ = world.start["xyz_m"]
+
+    def pictures(*ways: float) -> Dict[float, bytes]:
+        lens = {"quat_xyzw": (0, 0, 1, 0), "width_px": 160, "height_px": 120}
+        with ardee_sim.Simulation(world) as sim:
+            return {way: sim.render((x_m - way, y_m, 0.5), **lens).tobytes() for way in ways}
+
+    assert pictures(0.0, 2.0, 5.0) == pictures(5.0, 2.0, 0.0)
 
 
 def test_a_noise_seed_changes_the_noise_alone_and_is_part_of_a_snapshot(

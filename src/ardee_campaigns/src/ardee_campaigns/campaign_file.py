@@ -243,7 +243,7 @@ class _NotPlain(GeneratorError):
 
 
 def plain(value: Any) -> Any:
-    """Returns the value of a file without the places of its mappings. Raises _NotPlain for one that JSON has not."""
+    """Returns a file's value without the places of its mappings. Raises _NotPlain for one that JSON cannot hold."""
     if isinstance(value, dict):
         return {key: plain(item) for key, item in value.items()}
     if isinstance(value, list):
@@ -301,7 +301,7 @@ def read_campaign(file: Path) -> Campaign:
     for needed in ("name", "worlds", "controllers"):
         if not getattr(keys, needed):
             raise mapping.error(needed, f"{needed}: found none, expected some")
-    if Path(keys.name).name != keys.name:
+    if Path(keys.name).name != keys.name or keys.name == "..":
         raise mapping.error("name", f"name: found {keys.name!r}, expected the name of a folder")
     if not keys.measures:
         raise mapping.error("measures", "measures: found none, expected at least one")
@@ -334,7 +334,7 @@ def read_campaign(file: Path) -> Campaign:
     controllers = _entries(ControllerKeys, mapping, "controllers", lambda value: "factory")
     for name, world in worlds.items():
         for controller, params in (world.params or {}).items():
-            if not isinstance(params, dict):
+            if params is not None and not isinstance(params, dict):
                 found = f"{name}: params: {controller}: found {params!r}"
                 raise mapping["worlds"].error(name, f"{found}, expected a mapping of parameters")
             if controller not in controllers:

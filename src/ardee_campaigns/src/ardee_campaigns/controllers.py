@@ -11,7 +11,7 @@ import importlib
 import importlib.util
 import math
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping, Optional, Tuple
+from typing import Any, Callable, Iterable, Mapping, Tuple
 
 import ardee_sim
 
@@ -106,7 +106,6 @@ def seen(controller: Any) -> Tuple[float, float]:
     return float(left), float(right)
 
 
-def is_finished(controller: Any) -> Optional[bool]:
-    """Returns whether a controller says that it has come to its end; None if it never says so."""
-    said = getattr(controller, "is_finished", None)
-    return None if said is None else bool(said)
+def is_finished(controller: Any) -> bool:
+    """Returns whether a controller says that it has come to its end."""
+    return bool(getattr(controller, "is_finished", False))

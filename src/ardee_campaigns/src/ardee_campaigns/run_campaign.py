@@ -6,7 +6,7 @@ import math
 import os
 import sys
 from pathlib import Path
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence, Set
 
 import numpy as np
 
@@ -133,6 +133,13 @@ class Session:
             self._jobs[key] = self.planner.job(cell, replicate, self.folder / ROBOTS)
         return self._jobs[key]
 
+    def possible_ids(self) -> Set[str]:
+        """Returns the ids of all runs that the plan may come to."""
+        keys, planner = self.campaign.keys, self.planner
+        most = keys.plan.most_replicates if keys.plan.kind == "until" else keys.replicates
+        jobs = (planner.job(cell, n, self.folder) for cell in planner.cells for n in range(most))
+        return {job.run_id for job in jobs}
+
     def all_jobs(self) -> List[Job]:
         """Returns the runs that were planned so far."""
         return list(self._jobs.values())
@@ -232,7 +239,7 @@ def _work(session: Session, args: argparse.Namespace) -> int:
         _check_folder(session, jobs)
         note_file(folder, session.campaign.file)
         if args.retry_failed:
-            _forget_failed(session, jobs)
+            _forget_failed(session)
         try:
             with Workers(folder, args.scheduler, keys.workers) as workers:
                 _rounds(session, workers, jobs)
@@ -264,14 +271,15 @@ def _rounds(session: Session, workers: Any, jobs: List[Job]) -> None:
 def _check_folder(session: Session, jobs: Sequence[Job]) -> None:
     """Raises GeneratorError if the folder holds runs of another campaign's file alone."""
     there, file = set(tables.finished(session.folder)), noted_file(session.folder)
-    if there and file and file != session.campaign.file and not there & {j.run_id for j in jobs}:
+    is_other = file is not None and file != session.campaign.file and file.is_file()  # not moved
+    if is_other and there and not there & {job.run_id for job in jobs}:
         found = f"--output: found the runs of {file} in {session.folder}"
         raise GeneratorError(f"{found}, expected another folder")
 
 
-def _forget_failed(session: Session, jobs: Sequence[Job]) -> None:
-    there = set(tables.finished(session.folder))
-    for run_id in there & {job.run_id for job in jobs}:
+def _forget_failed(session: Session) -> None:
+    """Deletes the files of the campaign's failed runs; those of other campaigns stay."""
+    for run_id in set(tables.finished(session.folder)) & session.possible_ids():
         head = tables.read_run_head(session.folder, run_id)
         if head.row.status == tables.FAILED:
             tables.run_path(session.folder, run_id).unlink()

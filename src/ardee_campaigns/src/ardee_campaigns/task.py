@@ -32,7 +32,7 @@ class Judge:
         self.end = ""
 
     def look(
-        self, time_s: float, pose: Pose, here: Deviation, is_finished: Optional[bool]
+        self, time_s: float, pose: Pose, here: Deviation, is_finished: bool
     ) -> Tuple[str, Optional[Pose]]:
         """Returns why a person steps in, or nothing, and where the robot is set down; time from the start [s].
 
@@ -42,8 +42,8 @@ class Judge:
             self.end = FINISHED if is_finished else OUT_OF_TIME if time_s > self._limit_s else ""
             return "", None
         stands = self._stands(time_s, pose)
-        why = self._why_step_in(here, stands, bool(is_finished))
-        self._note_end(time_s, here, stands or bool(is_finished), why)
+        why = self._why_step_in(here, stands, is_finished)
+        self._note_end(time_s, here, is_finished or (stands and here.along_m > 0.0), why)
         if not why or self.end:
             return "", None
         self._interventions += 1

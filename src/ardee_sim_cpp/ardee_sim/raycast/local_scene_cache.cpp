@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace ardee::raycast {
 namespace {
@@ -65,12 +66,12 @@ LocalSceneInUse LocalSceneCache::make_about(const Eigen::Vector3d& eye_W) {
   const StillInstances still = still_instances();
   const Bounds all = store_.fixed()->places().bounds_W();
   if (for_pictures_ && still.bodies.empty() && !is_whole_tried_ && !all.empty()) {
-    is_whole_tried_ = true;
     const Eigen::Vector2d half = 0.5 * (all.upper - all.lower).head<2>();
     if (half.maxCoeff() <= wanted_half_size_m()) {
       LocalSceneInUse made = make(still, all.center().head<2>());
       if (made.scene->holds_all()) whole_ = made.scene;
     }
+    is_whole_tried_ = true;
   }
   if (still.bodies.empty() && whole_ != nullptr && whole_->depth_m(eye_W) > 0.0) {
     return {whole_, ModelsBeside(still.time)};
@@ -125,15 +126,16 @@ void LocalSceneCache::set_picture_places(PicturePlaces places) {
 }
 
 void LocalSceneCache::go_to_places() {
-  const PicturePlaces places = *std::exchange(places_, std::nullopt);
+  const auto before = std::exchange(kept_, {});  // so that equal ones are found, not made
   drop();
-  for_pictures_ = places.has_pictures;
-  tick_ = places.time;
-  for (const auto& [center_W, last_used] : places.kept) {
+  for_pictures_ = places_->has_pictures;
+  tick_ = places_->time;
+  for (const auto& [center_W, last_used] : places_->kept) {
     kept_.push_back(make(still_instances(), center_W));
     kept_.back().last_used = last_used;
   }
-  if (places.next) ask_for_next(*places.next);
+  if (places_->next) ask_for_next(*places_->next);
+  places_.reset();
 }
 
 void LocalSceneCache::ask_for_next(const Eigen::Vector2d& center_W) {
@@ -226,8 +228,12 @@ void LocalSceneCache::prepare(const std::vector<Eigen::Vector3d>& eyes_W, bool p
 
 std::size_t LocalSceneCache::bytes() const {
   std::size_t sum = 0;
-  for (const LocalSceneInUse& kept : kept_) sum += kept.scene->bytes();
-  return sum;
+  bool is_whole_kept = whole_ == nullptr;
+  for (const LocalSceneInUse& kept : kept_) {
+    sum += kept.scene->bytes();
+    is_whole_kept = is_whole_kept || kept.scene == whole_;
+  }
+  return is_whole_kept ? sum : sum + whole_->bytes();
 }
 
 std::size_t LocalSceneCache::triangles() const {

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any, Mapping, Optional, Sequence
 
 from ardee_sim import checks
-from ardee_sim.envs.arguments import names, refusals
+from ardee_sim.envs.arguments import mapping, names, refusals
 from ardee_sim.envs.randomise import with_noise
 from ardee_sim.errors import ArdeeError
 from ardee_sim.parameters import Parameters
@@ -33,7 +33,7 @@ class DrivenRobot:
         command_topic: str,
         stand_m: float,
     ) -> None:
-        self._text = robot_text(robot, **(xacro or {}))
+        self._text = robot_text(robot, **mapping({} if xacro is None else xacro, "xacro"))
         self._parameters = parameters or {}
         self._controllers = names(controllers, "controllers")
         with refusals():
