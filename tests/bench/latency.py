@@ -22,7 +22,7 @@ from ardee_bridge.nodes.settings import KINDS, Source
 from ardee_bridge.wire import codec
 from ardee_bridge.wire.pairing import Message
 from ardee_bridge.wire.udp import BUFFER_BYTES, MAX_DATAGRAM, open_socket
-from ardee_common.process import RosMaster, end_put_off, start_child
+from ardee_common.process import Ended, RosMaster, end_put_off, start_child
 
 START_LIMIT_S = 30.0
 # Time for the last messages to arrive.
@@ -104,16 +104,20 @@ def own_master() -> Iterator[Dict[str, str]]:
 
 @contextlib.contextmanager
 def node(env: Dict[str, str], name: str, *parameters: str) -> Iterator[subprocess.Popen]:
-    """Runs a node of this package during the block."""
+    """Runs a node of this package during the block; prints what it complained of, if it failed."""
     command = ["rosrun", "ardee_bridge", name, *parameters]
     child = start_child(command, env, stderr=subprocess.PIPE, text=True)
+    interrupted = False
     try:
         yield child
+    except Ended:
+        interrupted = True  # the node may be in its imports, where Ctrl-C is a failure
+        raise
     finally:
         if child.poll() is None:
             os.killpg(child.pid, signal.SIGINT)
         _, complaints = child.communicate(timeout=START_LIMIT_S)
-        if child.returncode != 0:
+        if child.returncode != 0 and not interrupted:
             print(complaints)
 
 
