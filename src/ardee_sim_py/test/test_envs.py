@@ -18,6 +18,7 @@ from gymnasium.utils.env_checker import check_env
 IDS = ("RowFollow", "RowFollowCamera", "HeadlandTurn", "GoTo")
 AHEAD = np.array([0.6, 0.0], dtype=np.float32)
 STEPS = 300
+SMALL_PICTURE = {"width_px": 32, "height_px": 24}
 Make = Callable[..., FieldEnv]
 
 
@@ -266,37 +267,48 @@ def to_and_fro(number: int) -> np.ndarray:
 
 def long_rollout(env: FieldEnv) -> bytes:
     """Returns all bytes of STEPS steps."""
-    said = [env.reset(seed=5)[0].tobytes()]
+    said = [bytes_of(env.reset(seed=5)[0])]
     for number in range(STEPS):
         observation, reward, terminated, *_ = env.step(to_and_fro(number))
         assert not terminated
-        said.append(observation.tobytes() + np.float64(reward).tobytes())
+        said.append(bytes_of(observation) + np.float64(reward).tobytes())
     return b"".join(said)
 
 
+def one_of(observations: Any, i: int) -> Any:
+    """Returns the observation of an environment among those of a vector environment."""
+    if isinstance(observations, dict):
+        return {name: array[i] for name, array in observations.items()}
+    return observations[i]
+
+
 @pytest.mark.slow
-def test_workers_change_no_byte(make: Make) -> None:
+@pytest.mark.parametrize("name", IDS)
+def test_workers_change_no_byte(name: str, make: Make) -> None:
     def run(num_envs: int) -> List[bytes]:
         """Returns what each environment said."""
-        envs = gymnasium.make_vec("ardee/RowFollow-v0", num_envs=num_envs, seed_field=False)
+        arguments = {"seed_field": False, **(SMALL_PICTURE if "Camera" in name else {})}
+        envs = gymnasium.make_vec(f"ardee/{name}-v0", num_envs=num_envs, **arguments)
         try:
-            said = [[each.tobytes()] for each in envs.reset(seed=5)[0]]
+            begun = envs.reset(seed=5)[0]
+            said = [[bytes_of(one_of(begun, i))] for i in range(num_envs)]
             for number in range(STEPS):
                 observations, rewards, *_ = envs.step(np.tile(to_and_fro(number), (num_envs, 1)))
                 for i in range(num_envs):
-                    said[i].append(observations[i].tobytes() + rewards[i].tobytes())
+                    said[i].append(bytes_of(one_of(observations, i)) + rewards[i].tobytes())
         finally:
             envs.close()
         return [b"".join(each) for each in said]
 
     four = run(4)
-    assert [long_rollout(make())] == run(1) == four[:1] and run(2) == four[:2]
+    assert [long_rollout(make(name))] == run(1) == four[:1] and run(2) == four[:2]
     assert len(set(four)) == 4
 
 
 @pytest.mark.slow
-def test_threads_and_a_restored_beginning_change_no_byte(make: Make) -> None:
-    envs = [make(), make()]
+@pytest.mark.parametrize("name", IDS)
+def test_threads_and_a_restored_beginning_change_no_byte(name: str, make: Make) -> None:
+    envs = [make(name), make(name)]
     with concurrent.futures.ThreadPoolExecutor() as pool:
         one, other = pool.map(long_rollout, envs)
     assert one == other == long_rollout(envs[0])  # a reset restores a snapshot
