@@ -37,14 +37,15 @@ def test_the_season_has_all_scenarios_that_a_lidar_tells_apart_with_their_parame
 @pytest.mark.slow
 def test_a_shortened_season_runs(tmp_path: Path) -> None:
     season = yaml.safe_load((FOLDER / "season.yaml").read_text())
-    worlds = {name: season["worlds"][name] for name in ("artificial", "tobacco")}
-    season.update(worlds=worlds, replicates=1, limit_sim_s=4, workers=1)
+    season.update(replicates=1, limit_sim_s=4, workers=2)
     (tmp_path / "short.yaml").write_text(yaml.safe_dump(season, sort_keys=False))
     run(tmp_path / "short.yaml", "--output", tmp_path / "out")
-    for row in tables.read_runs(tmp_path / "out").to_pylist():
+    rows = tables.read_runs(tmp_path / "out").to_pylist()
+    assert {row["world"] for row in rows} == set(season["worlds"])
+    for row in rows:
         assert (row["status"], row["end_reason"]) == (tables.OK, "out of time")
         assert 0.3 < row["way_m"] < 2.0 and row["interventions"] == 0
-        assert abs(row["row_width_m"] - (1.0 if row["world"] == "tobacco" else 0.762)) < 0.1
+        assert abs(row["row_width_m"] - (1.0 if row["world"] == "tobacco" else 0.762)) < 0.15
         assert row["energy_j"] > 0
 
 
