@@ -142,7 +142,7 @@ def test_ctrl_c_while_workers_start_ends_in_a_line(
 ) -> None:
     """All processes of a terminal get it."""
     child = start(*small_campaign.command(write(tmp_path), "--output", tmp_path / "out"))
-    until(lambda: list(scratch.glob("ardee_campaign_*/*")), "the first worker")
+    until(lambda: list(scratch.glob("ardee_workers_*/*")), "the first worker")
     os.killpg(child.pid, signal.SIGINT)
     _, said = child.communicate(timeout=60)
     assert (child.returncode, said.count("\n")) == (130, 1) and "interrupted" in said, said

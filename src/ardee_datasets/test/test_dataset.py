@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from distributed import LocalCluster
 from small_sets import MOVING, RECIPE, generated, pixels, samples
 
 from ardee_datasets import rle, show_dataset
@@ -288,6 +289,39 @@ def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, m
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
     assert not (folder / ".sown").exists()
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
+
+
+def a_worker_of(parent: int) -> int:
+    """Returns a worker process of the command, which starts each in a thread of its own."""
+    children = Path(f"/proc/{parent}/task").glob("*/children")
+    pids = [pid for file in children for pid in file.read_text().split()]
+    return next(
+        int(pid) for pid in pids if "spawn_main" in Path(f"/proc/{pid}/cmdline").read_text()
+    )
+
+
+@pytest.mark.slow
+def test_a_killed_worker_costs_its_field_another_attempt(recipe: Path, made: Path) -> None:
+    folder = recipe.parent / "retried"
+    with subprocess.Popen(command(recipe, folder, 4)) as child:
+        while child.poll() is None and not list(folder.glob("*/samples/*.json")):
+            time.sleep(0.01)
+        os.kill(a_worker_of(child.pid), signal.SIGKILL)
+    assert child.returncode == 0 and not (folder / ".sown").exists()
+    assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
+
+
+@pytest.mark.slow
+def test_a_schedulers_workers_give_the_same_manifest(
+    recipe: Path, made: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(recipe.parent)
+    local = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0"}
+    with LocalCluster(n_workers=1, threads_per_worker=1, **local) as cluster:
+        words = ["--output", "clustered", "--scheduler", cluster.scheduler_address]
+        assert main([str(recipe), *words]) == 0
+    manifest = (recipe.parent / "clustered" / "manifest.json").read_bytes()
+    assert manifest == (made / "manifest.json").read_bytes()
 
 
 def test_pycocotools_reads_the_masks(made: Path) -> None:

@@ -141,3 +141,18 @@ def test_an_exposure_may_be_automatic(tmp_path: Path) -> None:
     recipe = read(tmp_path, "width_px", "exposure: auto, width_px")
     assert recipe.cameras["front"].exposure is None
     assert read(tmp_path, "width_px", "exposure: 2, width_px").cameras["front"].exposure == 2.0
+
+
+@pytest.mark.parametrize(
+    "labels, message",
+    [
+        ("{soybean: 12}", "recipe.yaml:15: labels: soybean: found 12, expected .* 13 and 65535"),
+        ("{soybean: true}", "soybean: found True, expected a whole number"),
+        ("{corn: 13}", "found corn: 13 twice"),
+        ("{soybean: 20, pea: 20}", "found pea: 20 twice"),
+        ("[20]", "labels: found \\[20\\]"),
+    ],
+)
+def test_own_labels_that_cannot_be_are_refused(tmp_path: Path, labels: str, message: str) -> None:
+    with pytest.raises(GeneratorError, match=message):
+        read(tmp_path, "lidars:\n", f"labels: {labels}\nlidars:\n")

@@ -16,7 +16,7 @@ from ardee_campaigns.page_view import Page
 from ardee_campaigns.plan import Cell, Job, Planner, about
 from ardee_campaigns.replay import ROBOTS, ScanLog, in_lane, note_file, noted_file
 from ardee_common.cli import Parser, say, whole_in
-from ardee_common.errors import GeneratorError, known_names
+from ardee_common.errors import GeneratorError, WorkersError, known_names
 from ardee_common.output import locked
 from ardee_common.process import Ended, end_by_signals
 
@@ -306,7 +306,6 @@ def _bag_writer() -> Any:
 def _write_bag(folder: Path, job: Job, done: tables.RunFile, write: Any) -> None:
     from ardee_campaigns.ros.process import Lost, apart
     from ardee_campaigns.ros.simulator import SimulationError
-    from ardee_campaigns.workers import WorkersError
 
     path = folder / f"{job.run_id}.bag"
     try:
@@ -372,9 +371,7 @@ def exit_code(prog: str, work: Callable[[], int], interrupted: str = "") -> int:
     except (GeneratorError, OSError) as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 2
-    except Exception as error:
-        if type(error).__name__ != "WorkersError":
-            raise
+    except WorkersError as error:
         print(f"{prog}: {error}", file=sys.stderr)
         return 1
 

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Works off the runs of a campaign on dask.distributed: processes of this machine, or those of a scheduler."""
 import contextlib
-import logging
 import os
-import shutil
-import tempfile
 from pathlib import Path
-from typing import Any, Callable, Iterator, List, Optional, Sequence
+from typing import Any, Callable, List, Optional, Sequence
 
-import dask
-from distributed import Client, LocalCluster, as_completed
+from distributed import Client, as_completed
 from distributed.comm import CommClosedError
 from distributed.scheduler import KilledWorker
 
@@ -17,81 +13,11 @@ from ardee_campaigns import tables
 from ardee_campaigns.attempts import Attempts
 from ardee_campaigns.plan import Job
 from ardee_campaigns.run import FULL, FullDisk, failed, work
-from ardee_common.errors import GeneratorError
-from ardee_common.process import end_put_off
+from ardee_common.cluster import LOST, connected
+from ardee_common.errors import WorkersError
 
 _MOST_LOSSES = 3  # of a run's workers: then it has failed
-_PATIENCE_S = 30.0  # for a scheduler and its first worker
 Told = Callable[[Job, str], None]
-
-
-class WorkersError(Exception):
-    """Error of the cluster or the disk: the campaign cannot go on, what is finished stays."""
-
-
-_LOST = WorkersError("the scheduler was lost; start again to go on")
-
-
-@contextlib.contextmanager
-def _client(address: Optional[str], workers: int) -> Iterator[Client]:
-    """Connects to a scheduler, or starts one with worker processes that end with this one."""
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    settings = {
-        "distributed.scheduler.allowed-failures": 0,  # _outcome() counts them, a run at a time
-        "distributed.scheduler.work-stealing": True,
-        "distributed.worker.memory.terminate": False,  # a run's own limit is in work()
-        "distributed.admin.tick.limit": "1h",
-        # Callbacks for dask's dashboard, 10 to 100 times a second in each process, interrupt the runs.
-        "distributed.admin.tick.interval": "1s",
-        "distributed.admin.system-monitor.interval": "10s",
-        "distributed.worker.profile.enabled": False,
-        "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
-    }
-    with dask.config.set(settings), contextlib.ExitStack() as stack:
-        with contextlib.nullcontext() if address else end_put_off():
-            target: Any = address or _local(workers, stack)
-            try:
-                client = stack.enter_context(Client(target, set_as_default=False))
-            except (OSError, TimeoutError, ValueError) as error:
-                why = " ".join(str(error).split())
-                found = f"found {address!r}, no scheduler: {why}"
-                raise GeneratorError(f"--scheduler: {found}") from None
-            _check_workers(client, address)
-        yield client
-
-
-def _local(workers: int, stack: contextlib.ExitStack) -> LocalCluster:
-    """Returns a scheduler with worker processes; it ends with the stack."""
-    # Ended workers leave their temporary files: in a folder that goes with the cluster.
-    scratch = tempfile.mkdtemp(prefix="ardee_campaign_")
-    stack.callback(shutil.rmtree, scratch, ignore_errors=True)
-    return stack.enter_context(
-        LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            processes=True,
-            memory_limit=0,
-            dashboard_address="127.0.0.1:0",  # None would be all addresses
-            worker_dashboard_address="127.0.0.1:0",
-            host="127.0.0.1",
-            silence_logs=logging.CRITICAL,
-            local_directory=scratch,
-            env={"TMPDIR": scratch},
-        )
-    )
-
-
-def _check_workers(client: Client, address: Optional[str]) -> None:
-    try:
-        client.wait_for_workers(1, timeout=_PATIENCE_S)
-    except TimeoutError:
-        raise WorkersError(f"{address}: waited {_PATIENCE_S:.0f} s for a worker") from None
-    for name, info in client.scheduler_info()["workers"].items():
-        if info["nthreads"] != 1:
-            raise GeneratorError(
-                f"--scheduler: found worker {name} of {info['nthreads']} threads, expected"
-                " dask-worker --nthreads 1: a run is a process's only one"
-            )
 
 
 class Workers:
@@ -112,7 +38,9 @@ class Workers:
 
     def _connected(self) -> Client:
         if self._opened is None:
-            self._opened = self._stack.enter_context(_client(self._address, self._workers))
+            self._opened = self._stack.enter_context(
+                connected(self._address, self._workers, losses=0)
+            )
         return self._opened
 
     def work_off(self, jobs: Sequence[Job], told: Told) -> None:
@@ -122,7 +50,7 @@ class Workers:
         try:
             self._work_off(jobs, told)
         except CommClosedError:
-            raise _LOST from None
+            raise LOST from None
 
     def _work_off(self, jobs: Sequence[Job], told: Told) -> None:
         client, by_key = self._connected(), {}
@@ -145,10 +73,10 @@ class Workers:
     def _outcome(self, job: Job, future: Any) -> Optional[str]:
         """Returns the error of a job that has ended, empty if it went well; None if it is to be tried again."""
         if future.cancelled() or future.status == "lost":
-            raise _LOST
+            raise LOST
         error = future.exception()
         if isinstance(error, CommClosedError):
-            raise _LOST
+            raise LOST
         if error is None:
             return future.result()
         if isinstance(error, KilledWorker):  # dask blames all jobs that waited for the worker

@@ -12,7 +12,7 @@ import time
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterator, NoReturn, Optional, Sequence
 
-from ardee_common.errors import GeneratorError, known_names
+from ardee_common.errors import GeneratorError, WorkersError, known_names
 from ardee_common.options import range_text
 from ardee_common.process import Ended, end_by_signals, end_if_told
 
@@ -181,7 +181,7 @@ def run(
 ) -> int:
     """Parses, works, prints the result if there is one; returns 0.
 
-    Exits with one line and 2 for bad input, and with 130 after Ctrl-C, once the work has cleaned up behind itself.
+    Exits with one line: with 2 for bad input, 1 if the work cannot go on, and 130 after Ctrl-C, once it has cleaned up.
     """
     args = parser.parse_args(arguments)
     end_by_signals()
@@ -192,6 +192,8 @@ def run(
         parser.exit(ended.code, f"{parser.prog}: interrupted\n")
     except (GeneratorError, OSError) as error:
         parser.exit(2, f"{parser.prog}: {error}\n")
+    except WorkersError as error:
+        parser.exit(1, f"{parser.prog}: {error}\n")
     if result is not None:
         _print(result)
     return 0

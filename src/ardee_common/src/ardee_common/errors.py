@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The one error the generators raise for bad input."""
+"""The errors that every command prints in one line."""
 
 import difflib
 from pathlib import Path
@@ -10,6 +10,10 @@ _NAMES_SHOWN = 5
 
 class GeneratorError(Exception):
     """Bad input: says where, what was found and what was expected."""
+
+
+class WorkersError(Exception):
+    """Error of worker processes or the disk: the work cannot go on, what is finished stays."""
 
 
 def known_names(name: str, known: Iterable[str]) -> str:

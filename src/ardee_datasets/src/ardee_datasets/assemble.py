@@ -7,24 +7,15 @@ import io
 import json
 import os
 from pathlib import Path
-from typing import Any, Collection, Dict, List, Optional
+from typing import Any, Collection, Dict, List, Optional, Sequence
 
 import yaml
 
 from ardee_common.output import write_file
+from ardee_datasets.categories import Category, categories
 from ardee_datasets.recipe import SPLITS, Recipe
 from ardee_datasets.sample import LAYERS, ORGANS, json_bytes
 
-_CROP = {"supercategory": "crop", "keypoints": ["foot"], "skeleton": []}
-CATEGORIES = (
-    {"id": 1, "name": "corn", **_CROP},
-    {"id": 2, "name": "sorghum", **_CROP},
-    {"id": 3, "name": "tobacco", **_CROP},
-    {"id": 10, "name": "weed", "supercategory": "weed"},
-    {"id": 11, "name": "stone", "supercategory": "clutter"},
-    {"id": 12, "name": "litter", "supercategory": "clutter"},
-)
-_YOLO_CLASS = {category["id"]: number for number, category in enumerate(CATEGORIES)}
 _POSE = ("x_m", "y_m", "z_m")
 # Files of a data set; what others put there, such as ultralytics its *.cache, is not in the manifest
 _WRITTEN = (
@@ -78,7 +69,7 @@ def _samples(folder: Path, split: str) -> List[Dict[str, Any]]:
     ]
 
 
-def coco(samples: List[Dict[str, Any]], licence: str) -> Dict[str, Any]:
+def coco(samples: List[Dict[str, Any]], recipe: Recipe) -> Dict[str, Any]:
     """Returns a COCO data set of samples; images and annotations are numbered from 1."""
     images, annotations = [], []
     for image_id, sample in enumerate(samples, 1):
@@ -95,10 +86,10 @@ def coco(samples: List[Dict[str, Any]], licence: str) -> Dict[str, Any]:
             annotations.append({"id": len(annotations) + 1, "image_id": image_id, **made})
     return {
         "info": {"description": "simulated by ARDEE"},
-        "licenses": [{"id": 1, "name": licence}],
+        "licenses": [{"id": 1, "name": recipe.licence}],
         "images": images,
         "annotations": annotations,
-        "categories": list(CATEGORIES),
+        "categories": categories(recipe.labels),
     }
 
 
@@ -125,9 +116,9 @@ def data_card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]
             category = one["category_id"]
             objects[category] = objects.get(category, 0) + 1
             pixels[category] = pixels.get(category, 0) + one["area"]
-    categories = [
+    counts = [
         f"| {c['name']} | {objects[c['id']]} | {pixels[c['id']]} |"
-        for c in CATEGORIES
+        for c in categories(recipe.labels)
         if c["id"] in objects
     ]
     lack = yolo_lack(by_split)
@@ -138,7 +129,7 @@ def data_card(name: str, recipe: Recipe, by_split: Dict[str, List[Dict[str, Any]
         sun=_DRAWN_SUN if recipe.light else "each picture has the same sun",
         yolo="" if lack is None else f"{lack[0].upper()}{lack[1:]}.\n",
         rows="\n".join(rows),
-        categories="\n".join(categories),
+        categories="\n".join(counts),
     )
 
 
@@ -159,22 +150,25 @@ def _manifest(folder: Path) -> Dict[str, str]:
     }
 
 
-def yolo_text(sample: Dict[str, Any]) -> str:
+def yolo_text(sample: Dict[str, Any], known: Sequence[Category]) -> str:
     """Returns the boxes of a sample in YOLO's form: class, middle and size in parts of the picture."""
+    class_of = {category["id"]: number for number, category in enumerate(known)}
     lines = []
     for one in sample["annotations"]:
         x, y, width, height = one["bbox"]
         box = (x + width / 2, y + height / 2, width, height)
         size = (sample["width_px"], sample["height_px"]) * 2
         parts = " ".join(f"{value / all_px:.6f}" for value, all_px in zip(box, size))
-        lines.append(f"{_YOLO_CLASS[one['category_id']]} {parts}\n")
+        lines.append(f"{class_of[one['category_id']]} {parts}\n")
     return "".join(lines)
 
 
-def _write_yolo(folder: Path, by_split: Dict[str, List[Dict[str, Any]]]) -> None:
+def _write_yolo(
+    folder: Path, by_split: Dict[str, List[Dict[str, Any]]], known: Sequence[Category]
+) -> None:
     """Writes yolo/: labels, data.yaml, and links to the pictures, which ultralytics expects in images/."""
     data: Dict[str, Any] = {split: f"images/{split}" for split in by_split}
-    data["names"] = {number: category["name"] for number, category in enumerate(CATEGORIES)}
+    data["names"] = {number: category["name"] for number, category in enumerate(known)}
     for split, samples in by_split.items():
         images = folder / "yolo" / "images" / split
         images.mkdir(parents=True, exist_ok=True)
@@ -182,7 +176,7 @@ def _write_yolo(folder: Path, by_split: Dict[str, List[Dict[str, Any]]]) -> None
             name = f"{sample['id']}.png"
             if not (images / name).exists():
                 _link(folder / split / "rgb" / name, images / name)
-            text = yolo_text(sample)
+            text = yolo_text(sample, known)
             write_file(folder / "yolo" / "labels" / split / f"{sample['id']}.txt", text.encode())
     write_file(folder / "yolo" / "data.yaml", yaml.safe_dump(data, sort_keys=False).encode())
 
@@ -198,11 +192,12 @@ def assemble(folder: Path, recipe: Recipe) -> None:
     """Writes all that needs every sample; manifest.json is last."""
     by_split = {split: samples for split in SPLITS if (samples := _samples(folder, split))}
     for split, samples in by_split.items():
-        annotations = json.dumps(coco(samples, recipe.licence), sort_keys=True)
+        annotations = json.dumps(coco(samples, recipe), sort_keys=True)
         write_file(folder / split / "annotations.json", annotations.encode())
         write_file(folder / split / "poses.csv", _poses(samples).encode())
-    _write_yolo(folder, by_split)
-    write_file(folder / "categories.json", json_bytes(list(CATEGORIES)))
+    known = categories(recipe.labels)
+    _write_yolo(folder, by_split, known)
+    write_file(folder / "categories.json", json_bytes(known))
     organs = [{"id": number, "name": name} for number, name in ORGANS.items()]
     write_file(folder / "organs.json", json_bytes(organs))
     write_file(folder / "README.md", data_card("Data set", recipe, by_split).encode())

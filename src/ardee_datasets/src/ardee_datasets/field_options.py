@@ -10,6 +10,7 @@ from ardee_sim import packages
 from ardee_common.config import Mapping, unknown_key, value_of
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of
+from ardee_datasets.categories import CATEGORIES
 from ardee_datasets.seeds import stream
 from ardee_models.lookup import crop_model, find_model, search_path
 from ardee_models.terrain.ground import is_ground
@@ -27,8 +28,13 @@ Values = Dict[str, Any]
 Ranges = Dict[str, Tuple[float, float]]
 
 
-def checked_options(options: Optional[Mapping], ranges: Optional[Mapping]) -> Tuple[Values, Ranges]:
-    """Returns the options of fields, each checked, and the ranges that others are drawn from. Raises GeneratorError."""
+def checked_options(
+    options: Optional[Mapping], ranges: Optional[Mapping], labels: Dict[str, int]
+) -> Tuple[Values, Ranges]:
+    """Returns the options of fields, each checked, and the ranges that others are drawn from.
+
+    `labels` are those of models of the recipe's own, by name. Raises GeneratorError.
+    """
     options, ranges = options or Mapping(""), ranges or Mapping("")
     fixed = {key: _checked(options, key, options[key]) for key in options}
     drawn = {key: _range(ranges, key) for key in ranges}
@@ -38,7 +44,7 @@ def checked_options(options: Optional[Mapping], ranges: Optional[Mapping]) -> Tu
         raise GeneratorError("options: found row_length_m and stalks_per_row, expected one of them")
     if "models" not in fixed:
         raise GeneratorError("options: found no models, expected names of crop models")
-    _check_models(options, fixed)
+    _check_models(options, fixed, labels)
     return fixed, drawn
 
 
@@ -70,17 +76,21 @@ def _range(given: Mapping, key: str) -> Tuple[float, float]:
     return least, most
 
 
-def _check_models(given: Mapping, options: Values) -> None:
-    """Raises GeneratorError for a model that is not there or of another kind."""
+def _check_models(given: Mapping, options: Values, labels: Dict[str, int]) -> None:
+    """Raises GeneratorError for a model that is not there, of another kind, or with a label that has no name."""
+    named = {0, *(category["id"] for category in CATEGORIES), *labels.values()}
     folders = search_path([Path(folder) for folder in packages.model_folders()])
     for key in (key for key in _POOLS if key in options):
         if not options[key]:
             raise given.error(key, f"{key}: found none, expected names of models")
         for name in options[key]:
             try:
-                crop_model(name, folders)
+                label = crop_model(name, folders).label
             except GeneratorError as error:
                 raise given.error(key, f"{key}: {error}") from None
+            if label not in named:
+                expected = f"expected a name for it: labels: {{NAME: {label}}}"
+                raise given.error(key, f"{key}: found {name} with label {label}, {expected}")
     terrain = options.get("terrain")
     if terrain is None:
         return

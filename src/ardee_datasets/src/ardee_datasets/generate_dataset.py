@@ -2,12 +2,9 @@
 """The command `generate_dataset`: labelled pictures of the fields of a recipe."""
 
 import argparse
-import multiprocessing
 import os
 import shutil
 import tempfile
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Iterator, Optional, Sequence, Tuple
 
@@ -16,7 +13,6 @@ from ardee_sim import ArdeeError
 from ardee_common.cli import Parser, run, say, whole_in
 from ardee_common.errors import GeneratorError
 from ardee_common.output import locked, output_folder, write_file
-from ardee_common.process import Ended, end_by_signals, end_if_told, end_put_off
 from ardee_datasets.assemble import assemble, yolo_lack
 from ardee_datasets.camera import CameraKeys
 from ardee_datasets.drive import Drive
@@ -64,7 +60,6 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
 
     All in order, also those that are there: a picture may depend on the ones that its simulation took before.
     """
-    end_if_told()  # of a worker whose last field was ended
     try:
         with tempfile.TemporaryDirectory(dir=folder / _SOWN) as temporary:
             scenery = Scenery(scene, Path(temporary))
@@ -83,33 +78,27 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
     return scene.name
 
 
-def _start_worker(parent: int) -> None:
-    end_by_signals()
-    if os.getppid() != parent:
-        os._exit(1)
+def _work_off(
+    folder: Path, recipe: Recipe, todo: Sequence[Scene], args: argparse.Namespace
+) -> None:
+    """Makes the scenes, in any order. Raises WorkersError if it cannot go on."""
+    for number, name in enumerate(_made(folder, recipe, todo, args), 1):
+        say("generate_dataset", f"{name}: {number} of {len(todo)} fields")
 
 
-def _work_off(folder: Path, recipe: Recipe, todo: Sequence[Scene], workers: int) -> None:
-    if workers == 1:
-        for number, scene in enumerate(todo, 1):
-            make_scene(folder, recipe, scene)
-            say("generate_dataset", f"{scene.name}: {number} of {len(todo)} fields")
+def _made(
+    folder: Path, recipe: Recipe, todo: Sequence[Scene], args: argparse.Namespace
+) -> Iterator[str]:
+    """Makes the scenes; yields the name of each."""
+    workers = min(args.workers, len(todo))
+    if workers <= 1 and not args.scheduler:
+        yield from (make_scene(folder, recipe, scene) for scene in todo)
         return
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, context, _start_worker, (os.getpid(),)) as pool:
-        try:
-            with end_put_off():
-                futures = [pool.submit(make_scene, folder, recipe, scene) for scene in todo]
-            for number, future in enumerate(as_completed(futures), 1):
-                say("generate_dataset", f"{future.result()}: {number} of {len(todo)} fields")
-        except BrokenProcessPool:
-            raise GeneratorError("a worker ended; start again to go on") from None
-        except Ended:
-            for worker in multiprocessing.active_children():
-                worker.terminate()  # which ends its field half done
-            raise
-        finally:
-            pool.shutdown(cancel_futures=True)
+    from ardee_common.cluster import worked_off
+
+    yield from worked_off(
+        make_scene, [(folder.resolve(), recipe, scene) for scene in todo], args.scheduler, workers
+    )
 
 
 def _check_same(folder: Path, recipe_file: Path) -> None:
@@ -151,7 +140,7 @@ def generate(args: argparse.Namespace) -> Optional[str]:
         shutil.rmtree(folder / _SOWN, ignore_errors=True)
         (folder / _SOWN).mkdir()
         try:
-            _work_off(folder, recipe, todo, min(args.workers, max(len(todo), 1)))
+            _work_off(folder, recipe, todo, args)
         finally:
             shutil.rmtree(folder / _SOWN, ignore_errors=True)
         assemble(folder, recipe)
@@ -173,6 +162,11 @@ def make_parser() -> argparse.ArgumentParser:
         default=len(os.sched_getaffinity(0)),
         metavar="N",
         help="number of processes, which share the fields (default: that of the processors)",
+    )
+    parser.add_argument(
+        "--scheduler",
+        metavar="tcp://HOST:PORT",
+        help="dask scheduler whose workers take the pictures; the output folder has the same path on all of them",
     )
     return parser
 

@@ -13,6 +13,7 @@ from ardee_common.config import Mapping, build, read_yaml_lines
 from ardee_common.errors import GeneratorError, known_names
 from ardee_common.options import option
 from ardee_datasets.camera import CameraKeys
+from ardee_datasets.categories import CATEGORIES, OWN_LABELS
 from ardee_datasets.field_options import FIELD, check_field, checked_options, drawn_options
 from ardee_datasets.light import LightKeys
 from ardee_datasets.ranges import check_ranges
@@ -56,6 +57,10 @@ class Recipe:
     robots: Optional[dict] = option(None, "robots that drive with their cameras, by name")
     lidars: Optional[dict] = option(None, "3D lidars, by name")
     light: Optional[dict] = option(None, "light of sun and sky; none: each field has the same noon")
+    labels: Optional[dict] = option(
+        None,
+        f"labels of crop models of your own, {OWN_LABELS[0]} to {OWN_LABELS[1]}, by their category's name",
+    )
     seed: int = option(0, "root of all random numbers", (0, 2**63))
     licence: str = option("CC0-1.0", "licence of the data set, an SPDX identifier")
 
@@ -79,7 +84,7 @@ def _fields(recipe: Recipe, path: Path) -> Dict[str, FieldKeys]:
     fields = {}
     for name, keys in _named(FieldKeys, recipe.fields, "fields").items():
         try:
-            options, ranges = checked_options(keys.options, keys.ranges)
+            options, ranges = checked_options(keys.options, keys.ranges, recipe.labels)
             for number in range(keys.fields if ranges else 1):
                 seed = field_seed(recipe.seed, scene_name(name, number))
                 check_field(drawn_options(options, ranges, seed))
@@ -155,6 +160,22 @@ def _light(given: Mapping) -> LightKeys:
     return build(LightKeys, given)
 
 
+def _labels(given: Mapping) -> Dict[str, int]:
+    """Returns the recipe's own labels by name."""
+    least, greatest = OWN_LABELS
+    taken = {category["name"]: category["id"] for category in CATEGORIES}
+    for name, label in given.items():
+        if not isinstance(label, int) or isinstance(label, bool) or not least <= label <= greatest:
+            expected = f"expected a whole number within {least} and {greatest}"
+            raise given.error(name, f"labels: {name}: found {label!r}, {expected}")
+        if name in taken or label in taken.values():
+            raise given.error(
+                name, f"labels: found {name}: {label} twice, expected each name and label once"
+            )
+        taken[name] = label
+    return dict(given)
+
+
 def _check_names(recipe: Recipe) -> None:
     """Raises GeneratorError for a name of two things, which samples or the simulation would mix up."""
     for key, others in (
@@ -173,6 +194,7 @@ def read_recipe(path: Path) -> Recipe:
     given = read_yaml_lines(path)
     recipe = build(Recipe, given)
     _check_names(recipe)
+    recipe = dataclasses.replace(recipe, labels=_labels(recipe.labels or Mapping("")))
     fields = _fields(recipe, path)
     cameras, robots = _cameras(recipe), _robots(recipe, path.parent)
     if not cameras and not robots:

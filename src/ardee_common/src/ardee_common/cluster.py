@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""Worker processes on dask.distributed: those of this machine, or of a scheduler elsewhere."""
+import contextlib
+import logging
+import shutil
+import tempfile
+from typing import Any, Callable, Iterator, Optional, Sequence, Tuple
+
+import dask
+from distributed import Client, LocalCluster, as_completed
+from distributed.comm import CommClosedError
+from distributed.scheduler import KilledWorker
+
+from ardee_common.errors import GeneratorError, WorkersError
+from ardee_common.process import end_put_off
+
+_MOST_LOSSES = 3  # of workers at a task, before it is given up
+_PATIENCE_S = 30.0  # for a scheduler and its first worker
+LOST = WorkersError("the scheduler was lost; start again to go on")
+
+
+@contextlib.contextmanager
+def connected(address: Optional[str], workers: int, losses: int) -> Iterator[Client]:
+    """Connects to a scheduler, or starts one with worker processes that end with this one.
+
+    address : of a scheduler, tcp://HOST:PORT, whose workers have one thread each; None: this machine's processes
+    workers : number of processes on this machine
+    losses : of workers after which the scheduler gives up the task they were at
+    """
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    settings = {
+        "distributed.scheduler.allowed-failures": losses,
+        "distributed.scheduler.work-stealing": True,
+        "distributed.worker.memory.terminate": False,  # a task sets its own limit
+        "distributed.admin.tick.limit": "1h",
+        # Callbacks for dask's dashboard, 10 to 100 times a second in each process, interrupt the tasks.
+        "distributed.admin.tick.interval": "1s",
+        "distributed.admin.system-monitor.interval": "10s",
+        "distributed.worker.profile.enabled": False,
+        "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
+    }
+    with dask.config.set(settings), contextlib.ExitStack() as stack:
+        with contextlib.nullcontext() if address else end_put_off():
+            target: Any = address or _local(workers, stack)
+            try:
+                client = stack.enter_context(Client(target, set_as_default=False))
+            except (OSError, TimeoutError, ValueError) as error:
+                why = " ".join(str(error).split())
+                found = f"found {address!r}, no scheduler: {why}"
+                raise GeneratorError(f"--scheduler: {found}") from None
+            _check_workers(client, address)
+        yield client
+
+
+def _local(workers: int, stack: contextlib.ExitStack) -> LocalCluster:
+    """Returns a scheduler with worker processes; it ends with the stack."""
+    # Ended workers leave their temporary files: in a folder that goes with the cluster.
+    scratch = tempfile.mkdtemp(prefix="ardee_workers_")
+    stack.callback(shutil.rmtree, scratch, ignore_errors=True)
+    return stack.enter_context(
+        LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=0,
+            dashboard_address="127.0.0.1:0",  # None would be all addresses
+            worker_dashboard_address="127.0.0.1:0",
+            host="127.0.0.1",
+            silence_logs=logging.CRITICAL,
+            local_directory=scratch,
+            env={"TMPDIR": scratch},
+        )
+    )
+
+
+def _check_workers(client: Client, address: Optional[str]) -> None:
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE_S)
+    except TimeoutError:
+        raise WorkersError(f"{address}: waited {_PATIENCE_S:.0f} s for a worker") from None
+    for name, info in client.scheduler_info()["workers"].items():
+        if info["nthreads"] != 1:
+            raise GeneratorError(
+                f"--scheduler: found worker {name} of {info['nthreads']} threads, expected"
+                " dask-worker --nthreads 1: a task is a process's only one"
+            )
+
+
+def worked_off(
+    task: Callable[..., Any],
+    inputs: Sequence[Tuple[Any, ...]],
+    address: Optional[str],
+    workers: int,
+) -> Iterator[Any]:
+    """Yields what task(*each) of the inputs returns, as each is done; raises what the task raises, or WorkersError."""
+    with connected(address, workers, _MOST_LOSSES) as client:
+        try:
+            futures = [client.submit(task, *each, pure=False) for each in inputs]
+            for future in as_completed(futures, loop=client.loop):
+                if future.cancelled() or future.status == "lost":
+                    raise LOST
+                yield future.result()
+                future.release()
+        except CommClosedError:
+            raise LOST from None
+        except KilledWorker:
+            what = f"{_MOST_LOSSES + 1} workers ended at one task, perhaps for want of memory"
+            raise WorkersError(f"{what}; start again to go on") from None

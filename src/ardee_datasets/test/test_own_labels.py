@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""A crop model of a user's own, with a label of its own, among the categories of a data set."""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from small_sets import generated, pixels, samples
+
+from ardee_common.errors import GeneratorError
+from ardee_datasets.recipe import read_recipe
+from ardee_models.lookup import find_model, search_path
+from ardee_models.plant.plant_metrics import METRICS_FILE
+
+LABEL = 20
+RECIPE = """
+fields:
+  mixed: {frames: 2, options: {models: [soybean, corn_variant_1], row_length_m: 3.0}}
+cameras:
+  front: {width_px: 96, height_px: 72, horizontal_fov_deg: 70, height_m: [0.4, 0.6], pitch_deg: [10, 30]}
+"""
+
+
+@pytest.fixture(autouse=True)
+def own_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Puts a model `soybean` on the models' path."""
+    soybean = tmp_path / "models" / "soybean"
+    shutil.copytree(find_model("corn_variant_2", search_path()), soybean)
+    metrics = json.loads((soybean / METRICS_FILE).read_text())
+    (soybean / METRICS_FILE).write_text(json.dumps({**metrics, "label": LABEL}))
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(soybean.parent), prepend=":")
+
+
+def test_a_named_label_is_a_category(tmp_path: Path) -> None:
+    made = generated(tmp_path, f"{RECIPE}labels: {{soybean: {LABEL}}}\n")
+    assert json.loads((made / "categories.json").read_text())[-1]["name"] == "soybean"
+    coco = json.loads((made / "train" / "annotations.json").read_text())
+    assert {"id": LABEL, "name": "soybean"}.items() <= coco["categories"][-1].items()
+    assert {one["category_id"] for one in coco["annotations"]} == {1, LABEL}
+    for sample in samples(made):
+        labels = pixels(made / "train" / "labels" / f"{sample['id']}.png")
+        own = sum(one["area"] for one in sample["annotations"] if one["category_id"] == LABEL)
+        assert np.count_nonzero(labels == LABEL) == own
+    names = yaml.safe_load((made / "yolo" / "data.yaml").read_text())["names"]
+    classes = {line.split()[0] for path in made.glob("yolo/labels/train/*") for line in path.open()}
+    assert {names[int(number)] for number in classes} == {"corn", "soybean"}
+    assert "| soybean |" in (made / "README.md").read_text()
+
+
+def test_a_label_without_a_name_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "recipe.yaml"
+    path.write_text(RECIPE)
+    message = "recipe.yaml:3: models: found soybean with label 20, .*labels: {NAME: 20}"
+    with pytest.raises(GeneratorError, match=message):
+        read_recipe(path)
