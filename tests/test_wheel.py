@@ -75,7 +75,7 @@ def shell(wheel: pathlib.Path) -> Iterator[Shell]:
         return checked(*apart, *enter, f"cd; {line}", timeout=300)
 
     run("python3 -m venv venv")
-    run(f"pip install -q '{wheel.name}[campaign,gym,view]'")
+    run(f"pip install -q '{wheel.name}[campaign,data,gym,view]'")
     yield run
     checked(*as_root, "rm", "-rf", home)
 
@@ -133,6 +133,15 @@ def test_a_campaign_runs(shell: Shell) -> None:
     shell("python3 -m ardee_campaigns run_campaign small --csv --output small")
     said = shell("head -n 1 small/runs.csv; tail -n +2 small/runs.csv | wc -l")
     assert said.startswith('"run_id"') and said.split()[-1] == "12"
+
+
+def test_a_data_set_is_made(shell: Shell) -> None:
+    shell(
+        "printf 'fields: {corn: {fields: 2, frames: 1, options: {models: [corn_variant_1], row_length_m: 3}}}\\n"
+        "cameras: {front: {width_px: 96, height_px: 72, horizontal_fov_deg: 70}}\\n' >recipe.yaml"
+    )
+    shell("python3 -m ardee_datasets generate_dataset recipe.yaml --output set --workers 2")
+    assert shell("ls set/train/rgb | wc -l").strip() == "2"
 
 
 def test_libraries_come_with_their_licences(shell: Shell) -> None:

@@ -5,6 +5,7 @@ import dataclasses
 import json
 import math
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -262,13 +263,25 @@ def test_points_of_clouds_lead_to_the_truth(made: Path) -> None:
     assert len(away_m) > 20 and max(away_m) < 0.6 and np.median(away_m) < 0.2
 
 
-def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Popen:
-    """Sends all processes of the command a signal once files of a pattern are there; returns the command at its end."""
-    pipes = {"stderr": subprocess.PIPE, "text": True, "process_group": 0}
-    first = subprocess.Popen(command(recipe, folder, 2), **pipes)
+def until_there(folder: Path, pattern: str, child: subprocess.Popen) -> None:
+    """Waits until there is a file of a pattern in a folder."""
     limit = time.monotonic() + 60
-    while not list(folder.glob(when)) and time.monotonic() < limit:
+    while not list(folder.glob(pattern)):
+        assert child.poll() is None and time.monotonic() < limit, pattern
         time.sleep(0.01)
+
+
+def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Popen:
+    """Sends all processes of the command a signal once there is a file of a pattern; returns the command at its end.
+
+    Temporary files are in recipe.parent/scratch.
+    """
+    scratch = recipe.parent / "scratch"
+    scratch.mkdir(exist_ok=True)
+    pipes = {"stderr": subprocess.PIPE, "text": True, "process_group": 0}
+    env = {**os.environ, "TMPDIR": str(scratch)}
+    first = subprocess.Popen(command(recipe, folder, 2), env=env, **pipes)
+    until_there(recipe.parent, when, first)
     os.killpg(first.pid, number)
     first.wait(60)
     return first
@@ -276,50 +289,57 @@ def ended(recipe: Path, folder: Path, number: int, when: str) -> subprocess.Pope
 
 @pytest.mark.slow
 def test_any_number_of_workers_and_an_end_give_the_same_manifest(recipe: Path, made: Path) -> None:
-    folder = recipe.parent / "killed"
+    folder = recipe.parent / "ended"
     folder.mkdir()
     (folder / "dataset.yaml").write_text("of a recipe that was refused")
-    interrupted = ended(recipe, folder, signal.SIGINT, ".sown")  # while its workers start
-    assert interrupted.returncode == 130
-    warning, last = interrupted.stderr.read().splitlines()
-    assert "warning: ultralytics" in warning and last == "generate_dataset: interrupted"
-    assert [file.name for file in folder.iterdir()] == ["dataset.yaml"]
-    ended(recipe, folder, signal.SIGKILL, "*/samples/*.json")
+    for number, when in (
+        (signal.SIGINT, "scratch/ardee_workers_*/*"),  # while workers start
+        (signal.SIGKILL, "scratch/ardee_workers_*/ardee_field_*/*"),
+        (signal.SIGINT, "ended/*/samples/*.json"),
+    ):
+        command_ended = ended(recipe, folder, number, when)
+        if number == signal.SIGINT:
+            assert command_ended.returncode == 130
+            warning, *_, last = command_ended.stderr.read().splitlines()
+            assert "warning: ultralytics" in warning and last == "generate_dataset: interrupted"
+            assert not list((recipe.parent / "scratch").iterdir())
+        shutil.rmtree(recipe.parent / "scratch")
     assert not (folder / "manifest.json").exists()
     assert subprocess.run(command(recipe, folder, 2), check=False).returncode == 0
-    assert not (folder / ".sown").exists()
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
 
 
-def a_worker_of(parent: int) -> int:
-    """Returns a worker process of the command, which starts each in a thread of its own."""
+def workers_of(parent: int) -> list:
+    """Returns the worker processes of the command, which starts each in a thread of its own."""
     children = Path(f"/proc/{parent}/task").glob("*/children")
-    pids = [pid for file in children for pid in file.read_text().split()]
-    return next(
-        int(pid) for pid in pids if "spawn_main" in Path(f"/proc/{pid}/cmdline").read_text()
-    )
+    pids = [int(pid) for file in children for pid in file.read_text().split()]
+    return [pid for pid in pids if "spawn_main" in Path(f"/proc/{pid}/cmdline").read_text()]
 
 
 @pytest.mark.slow
-def test_a_killed_worker_costs_its_field_another_attempt(recipe: Path, made: Path) -> None:
+def test_killed_workers_cost_their_fields_another_attempt(recipe: Path, made: Path) -> None:
     folder = recipe.parent / "retried"
     with subprocess.Popen(command(recipe, folder, 4)) as child:
-        while child.poll() is None and not list(folder.glob("*/samples/*.json")):
-            time.sleep(0.01)
-        os.kill(a_worker_of(child.pid), signal.SIGKILL)
-    assert child.returncode == 0 and not (folder / ".sown").exists()
+        until_there(folder, "*/samples/*.json", child)
+        before = workers_of(child.pid)
+        for pid in before:
+            os.kill(pid, signal.SIGKILL)
+        time.sleep(1.0)
+        assert len(before) == 3 and not set(before) & set(workers_of(child.pid))
+    assert child.returncode == 0
     assert (folder / "manifest.json").read_bytes() == (made / "manifest.json").read_bytes()
 
 
 @pytest.mark.slow
-def test_a_schedulers_workers_give_the_same_manifest(
+def test_a_schedulers_workers_make_the_same_set(
     recipe: Path, made: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.chdir(recipe.parent)
     local = {"host": "127.0.0.1", "dashboard_address": "127.0.0.1:0"}
     with LocalCluster(n_workers=1, threads_per_worker=1, **local) as cluster:
+        monkeypatch.chdir(recipe.parent)  # which the workers do not know
         words = ["--output", "clustered", "--scheduler", cluster.scheduler_address]
         assert main([str(recipe), *words]) == 0
+        assert cluster.scheduler.transition_counter > 0
     manifest = (recipe.parent / "clustered" / "manifest.json").read_bytes()
     assert manifest == (made / "manifest.json").read_bytes()
 

@@ -27,11 +27,16 @@ cameras:
 @pytest.fixture(autouse=True)
 def own_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Puts a model `soybean` on the models' path."""
-    soybean = tmp_path / "models" / "soybean"
-    shutil.copytree(find_model("corn_variant_2", search_path()), soybean)
-    metrics = json.loads((soybean / METRICS_FILE).read_text())
-    (soybean / METRICS_FILE).write_text(json.dumps({**metrics, "label": LABEL}))
-    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(soybean.parent), prepend=":")
+    models = tmp_path / "models"
+    shutil.copytree(find_model("corn_variant_2", search_path()), models / "soybean")
+    label_soybean(tmp_path, LABEL)
+    monkeypatch.setenv("GAZEBO_MODEL_PATH", str(models), prepend=":")
+
+
+def label_soybean(folder: Path, label: int) -> None:
+    """Gives the model another label."""
+    file = folder / "models" / "soybean" / METRICS_FILE
+    file.write_text(json.dumps({**json.loads(file.read_text()), "label": label}))
 
 
 def test_a_named_label_is_a_category(tmp_path: Path) -> None:
@@ -50,9 +55,13 @@ def test_a_named_label_is_a_category(tmp_path: Path) -> None:
     assert "| soybean |" in (made / "README.md").read_text()
 
 
-def test_a_label_without_a_name_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "label, instead", [(LABEL, "labels: {NAME: 20}"), (5, "13 to 65535"), (0, "13 to 65535")]
+)
+def test_a_label_without_a_name_is_refused(tmp_path: Path, label: int, instead: str) -> None:
+    label_soybean(tmp_path, label)
     path = tmp_path / "recipe.yaml"
     path.write_text(RECIPE)
-    message = "recipe.yaml:3: models: found soybean with label 20, .*labels: {NAME: 20}"
+    message = f"recipe.yaml:3: models: found soybean with label {label}, expected .*{instead}"
     with pytest.raises(GeneratorError, match=message):
         read_recipe(path)

@@ -148,8 +148,9 @@ def test_an_exposure_may_be_automatic(tmp_path: Path) -> None:
     [
         ("{soybean: 12}", "recipe.yaml:15: labels: soybean: found 12, expected .* 13 and 65535"),
         ("{soybean: true}", "soybean: found True, expected a whole number"),
-        ("{corn: 13}", "found corn: 13 twice"),
-        ("{soybean: 20, pea: 20}", "found pea: 20 twice"),
+        ("{corn: 13}", "found corn: 13, of which one stands for another category"),
+        ("{soybean: 20, pea: 20}", "found pea: 20, of which one"),
+        ("{a|b: 20}", r"labels 'a\|b': expected letters"),
         ("[20]", "labels: found \\[20\\]"),
     ],
 )

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One run of a campaign: a pure function of its job, and the task of a worker process that writes its file."""
 import contextlib
-import errno
 import faulthandler
 import math
 import os
@@ -24,11 +23,11 @@ from ardee_campaigns.recorder import Recorder
 from ardee_campaigns.robot import Driven, Observation
 from ardee_campaigns.task import Judge
 from ardee_common.errors import GeneratorError
+from ardee_common.output import FULL
 from ardee_common.process import end_if_told
 from ardee_world.row_truth import lane_of
 from ardee_world.trial import Trial
 
-FULL = (errno.ENOSPC, errno.EDQUOT)  # error numbers of a full disk
 _ADDRESS = re.compile(r"0x[0-9a-f]{6,}")  # of an object: differs from run to run
 _LONGEST_ERROR = 500
 Watch = Callable[[Observation], None]

@@ -12,9 +12,10 @@ from distributed.scheduler import KilledWorker
 from ardee_campaigns import tables
 from ardee_campaigns.attempts import Attempts
 from ardee_campaigns.plan import Job
-from ardee_campaigns.run import FULL, FullDisk, failed, work
+from ardee_campaigns.run import FullDisk, failed, work
 from ardee_common.cluster import LOST, connected
 from ardee_common.errors import WorkersError
+from ardee_common.output import FULL
 
 _MOST_LOSSES = 3  # of a run's workers: then it has failed
 Told = Callable[[Job, str], None]
@@ -33,8 +34,7 @@ class Workers:
         return self
 
     def __exit__(self, *_: object) -> None:
-        with contextlib.suppress(CommClosedError):  # of a scheduler that is lost already
-            self._stack.close()
+        self._stack.close()
 
     def _connected(self) -> Client:
         if self._opened is None:
@@ -72,7 +72,7 @@ class Workers:
 
     def _outcome(self, job: Job, future: Any) -> Optional[str]:
         """Returns the error of a job that has ended, empty if it went well; None if it is to be tried again."""
-        if future.cancelled() or future.status == "lost":
+        if future.cancelled():
             raise LOST
         error = future.exception()
         if isinstance(error, CommClosedError):

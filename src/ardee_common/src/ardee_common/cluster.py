@@ -4,7 +4,9 @@ import contextlib
 import logging
 import shutil
 import tempfile
-from typing import Any, Callable, Iterator, Optional, Sequence, Tuple
+import uuid
+from concurrent.futures import CancelledError
+from typing import Any, Callable, Dict, Iterator, Optional, Tuple
 
 import dask
 from distributed import Client, LocalCluster, as_completed
@@ -14,7 +16,9 @@ from distributed.scheduler import KilledWorker
 from ardee_common.errors import GeneratorError, WorkersError
 from ardee_common.process import end_put_off
 
-_MOST_LOSSES = 3  # of workers at a task, before it is given up
+_LOSSES = (
+    3  # of workers at a task, and one for each worker: if all end at once, it is passed on to each
+)
 _PATIENCE_S = 30.0  # for a scheduler and its first worker
 LOST = WorkersError("the scheduler was lost; start again to go on")
 
@@ -25,7 +29,7 @@ def connected(address: Optional[str], workers: int, losses: int) -> Iterator[Cli
 
     address : of a scheduler, tcp://HOST:PORT, whose workers have one thread each; None: this machine's processes
     workers : number of processes on this machine
-    losses : of workers after which the scheduler gives up the task they were at
+    losses : of workers at a task that this machine's scheduler bears before it gives the task up
     """
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     settings = {
@@ -39,17 +43,29 @@ def connected(address: Optional[str], workers: int, losses: int) -> Iterator[Cli
         "distributed.worker.profile.enabled": False,
         "distributed.comm.timeouts.connect": f"{_PATIENCE_S}s",
     }
-    with dask.config.set(settings), contextlib.ExitStack() as stack:
-        with contextlib.nullcontext() if address else end_put_off():
+    with dask.config.set(settings):
+        stack = contextlib.ExitStack()
+        try:
+            yield _begun(address, workers, stack)
+        finally:
+            with contextlib.suppress(CommClosedError):  # of a scheduler that is lost already
+                stack.close()
+
+
+def _begun(address: Optional[str], workers: int, stack: contextlib.ExitStack) -> Client:
+    """Returns the client of a scheduler that has workers; it ends with the stack, and so do the workers made here."""
+    with contextlib.nullcontext() if address else end_put_off():
+        try:
             target: Any = address or _local(workers, stack)
-            try:
-                client = stack.enter_context(Client(target, set_as_default=False))
-            except (OSError, TimeoutError, ValueError) as error:
-                why = " ".join(str(error).split())
-                found = f"found {address!r}, no scheduler: {why}"
-                raise GeneratorError(f"--scheduler: {found}") from None
-            _check_workers(client, address)
-        yield client
+            client = stack.enter_context(Client(target, set_as_default=False))
+        except (OSError, TimeoutError, ValueError, RuntimeError) as error:
+            why = " ".join(str(error).split())
+            if address is None:
+                raise WorkersError(f"the worker processes did not start: {why}") from None
+            found = f"found {address!r}, no scheduler: {why}"
+            raise GeneratorError(f"--scheduler: {found}") from None
+        _check_workers(client, address or "this machine")
+    return client
 
 
 def _local(workers: int, stack: contextlib.ExitStack) -> LocalCluster:
@@ -73,7 +89,7 @@ def _local(workers: int, stack: contextlib.ExitStack) -> LocalCluster:
     )
 
 
-def _check_workers(client: Client, address: Optional[str]) -> None:
+def _check_workers(client: Client, address: str) -> None:
     try:
         client.wait_for_workers(1, timeout=_PATIENCE_S)
     except TimeoutError:
@@ -88,21 +104,25 @@ def _check_workers(client: Client, address: Optional[str]) -> None:
 
 def worked_off(
     task: Callable[..., Any],
-    inputs: Sequence[Tuple[Any, ...]],
+    inputs: Dict[str, Tuple[Any, ...]],
     address: Optional[str],
     workers: int,
 ) -> Iterator[Any]:
-    """Yields what task(*each) of the inputs returns, as each is done; raises what the task raises, or WorkersError."""
-    with connected(address, workers, _MOST_LOSSES) as client:
+    """Yields what task(*each) of the inputs, by name, returns, as each is done.
+
+    Raises what the task raises, and WorkersError if it cannot go on.
+    """
+    with connected(address, workers, _LOSSES + workers) as client:
         try:
-            futures = [client.submit(task, *each, pure=False) for each in inputs]
+            # A key of dask's is that of a result: the same name may be asked for again.
+            keys = {f"{name}-{uuid.uuid4().hex}": each for name, each in inputs.items()}
+            futures = [client.submit(task, *each, key=key) for key, each in keys.items()]
             for future in as_completed(futures, loop=client.loop):
-                if future.cancelled() or future.status == "lost":
-                    raise LOST
                 yield future.result()
                 future.release()
-        except CommClosedError:
+        except (CommClosedError, CancelledError):
             raise LOST from None
-        except KilledWorker:
-            what = f"{_MOST_LOSSES + 1} workers ended at one task, perhaps for want of memory"
-            raise WorkersError(f"{what}; start again to go on") from None
+        except KilledWorker as error:
+            name = error.task.rpartition("-")[0]
+            what = f"{name}: {error.allowed_failures + 1} workers ended at it, perhaps for want of memory"
+            raise WorkersError(f"{what}; start again, with fewer workers, to go on") from None

@@ -2,16 +2,19 @@
 """Writes output completely or not at all: written to a temporary place, then renamed."""
 
 import contextlib
+import errno
 import fcntl
 import os
 import re
 import shutil
+import socket
 import tempfile
 from pathlib import Path
 from typing import Iterator
 
 from ardee_common.errors import GeneratorError
 
+FULL = (errno.ENOSPC, errno.EDQUOT)  # error numbers of a full disk
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
@@ -98,9 +101,9 @@ def output_folder(folder: Path) -> Iterator[Path]:
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Replaces one file in one step."""
+    """Replaces one file in one step, while other processes, on other machines too, may do the same."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.new")
+    temporary = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}.new")
     try:
         temporary.write_bytes(data)
         os.replace(temporary, path)

@@ -10,7 +10,7 @@ from ardee_sim import packages
 from ardee_common.config import Mapping, unknown_key, value_of
 from ardee_common.errors import GeneratorError
 from ardee_common.options import kind_of
-from ardee_datasets.categories import CATEGORIES
+from ardee_datasets.categories import CATEGORIES, OWN_LABELS
 from ardee_datasets.seeds import stream
 from ardee_models.lookup import crop_model, find_model, search_path
 from ardee_models.terrain.ground import is_ground
@@ -23,6 +23,7 @@ from ardee_world.request import all_fields, configure
 WIDEST_LANE_M = 2.5  # beyond that, two rows are neighbours across an alley of plots
 FIELD = "field"  # name of the field's model in the simulation
 _OF_THE_RECIPE = ("name", "output", "seed", "format", "centers", "model_path", "world_pose")
+_IMAGES = tuple(f"{kind}_image" for kind in KINDS)  # paths relative to the recipe
 _POOLS = ("models", *(f"{kind}_models" for kind in KINDS))
 Values = Dict[str, Any]
 Ranges = Dict[str, Tuple[float, float]]
@@ -61,7 +62,10 @@ def _checked(given: Mapping, key: str, value: Any) -> Any:
     """Returns the value of an option, checked as generate_field checks it."""
     one = Mapping(given.place)
     one.line[key], one[key] = given.line[key], value
-    return value_of(*_option(given, key), one, key)
+    checked = value_of(*_option(given, key), one, key)
+    if key in _IMAGES and checked is not None:
+        return str(Path(given.place).resolve().parent / Path(checked).expanduser())
+    return checked
 
 
 def _range(given: Mapping, key: str) -> Tuple[float, float]:
@@ -78,7 +82,7 @@ def _range(given: Mapping, key: str) -> Tuple[float, float]:
 
 def _check_models(given: Mapping, options: Values, labels: Dict[str, int]) -> None:
     """Raises GeneratorError for a model that is not there, of another kind, or with a label that has no name."""
-    named = {0, *(category["id"] for category in CATEGORIES), *labels.values()}
+    named = {*(category["id"] for category in CATEGORIES), *labels.values()}
     folders = search_path([Path(folder) for folder in packages.model_folders()])
     for key in (key for key in _POOLS if key in options):
         if not options[key]:
@@ -89,8 +93,7 @@ def _check_models(given: Mapping, options: Values, labels: Dict[str, int]) -> No
             except GeneratorError as error:
                 raise given.error(key, f"{key}: {error}") from None
             if label not in named:
-                expected = f"expected a name for it: labels: {{NAME: {label}}}"
-                raise given.error(key, f"{key}: found {name} with label {label}, {expected}")
+                raise given.error(key, f"{key}: found {name} with label {label}, {_instead(label)}")
     terrain = options.get("terrain")
     if terrain is None:
         return
@@ -101,6 +104,14 @@ def _check_models(given: Mapping, options: Values, labels: Dict[str, int]) -> No
     if not found:
         expected = "expected a model with a heightmap, mesh or plane to collide with"
         raise given.error("terrain", f"terrain: found {terrain!r}, {expected}")
+
+
+def _instead(label: int) -> str:
+    """Returns in words what is expected instead of a label that has no name."""
+    least, greatest = OWN_LABELS
+    if least <= label <= greatest:
+        return f"expected a name for it: labels: {{NAME: {label}}}"
+    return f"expected one of {least} to {greatest} (prepare_crop --label), or one of ARDEE's"
 
 
 def drawn_options(options: Values, ranges: Ranges, seed: int) -> Values:

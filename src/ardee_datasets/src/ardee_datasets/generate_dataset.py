@@ -3,7 +3,7 @@
 
 import argparse
 import os
-import shutil
+import socket
 import tempfile
 from pathlib import Path
 from typing import Iterator, Optional, Sequence, Tuple
@@ -11,8 +11,9 @@ from typing import Iterator, Optional, Sequence, Tuple
 from ardee_sim import ArdeeError
 
 from ardee_common.cli import Parser, run, say, whole_in
-from ardee_common.errors import GeneratorError
-from ardee_common.output import locked, output_folder, write_file
+from ardee_common.errors import GeneratorError, WorkersError
+from ardee_common.output import FULL, locked, output_folder, write_file
+from ardee_common.process import end_if_told
 from ardee_datasets.assemble import assemble, yolo_lack
 from ardee_datasets.camera import CameraKeys
 from ardee_datasets.drive import Drive
@@ -22,7 +23,6 @@ from ardee_datasets.recipe import Recipe, read_recipe
 from ardee_datasets.sample import take
 from ardee_datasets.scenery import CameraPose, Scenery
 
-_SOWN = ".sown"  # folder of the fields at work; what a killed worker left goes with the next start
 _TRUTH = ("truth.csv", "truth.json", "clutter.csv")
 
 
@@ -60,29 +60,42 @@ def make_scene(folder: Path, recipe: Recipe, scene: Scene) -> str:
 
     All in order, also those that are there: a picture may depend on the ones that its simulation took before.
     """
+    host = socket.gethostname()
+    if not folder.is_dir():
+        expected = "expected the folder of the data set under the same path on all workers"
+        raise GeneratorError(f"{folder}: found no such folder on {host}, {expected}")
     try:
-        with tempfile.TemporaryDirectory(dir=folder / _SOWN) as temporary:
-            scenery = Scenery(scene, Path(temporary))
-            for name in _TRUTH:
-                if (scenery.folder / name).is_file():
-                    truth = (scenery.folder / name).read_bytes()
-                    write_file(folder / "truth" / scene.name / name, truth)
-            lidars = {
-                name: Lidar(scenery.simulation, name, keys)
-                for name, keys in sorted((recipe.lidars or {}).items())
-            }
-            for shot, camera, pose in _views(recipe, scene, scenery):
-                take(scene, shot, camera, pose, scenery, lidars, folder)
+        with tempfile.TemporaryDirectory(prefix="ardee_field_") as temporary:
+            _take_pictures(folder, recipe, scene, Scenery(scene, Path(temporary)))
     except (GeneratorError, ArdeeError) as error:
         raise GeneratorError(f"{scene.name}: {error}") from None
+    except OSError as error:
+        if error.errno not in FULL:
+            raise
+        disk = f"{error.filename or folder} on {host}: {error.strerror}"
+        raise WorkersError(f"{disk}; free some and start again to go on") from None
     return scene.name
+
+
+def _take_pictures(folder: Path, recipe: Recipe, scene: Scene, scenery: Scenery) -> None:
+    for name in _TRUTH:
+        if (scenery.folder / name).is_file():
+            truth = (scenery.folder / name).read_bytes()
+            write_file(folder / "truth" / scene.name / name, truth)
+    lidars = {
+        name: Lidar(scenery.simulation, name, keys)
+        for name, keys in sorted((recipe.lidars or {}).items())
+    }
+    for shot, camera, pose in _views(recipe, scene, scenery):
+        take(scene, shot, camera, pose, scenery, lidars, folder)
 
 
 def _work_off(
     folder: Path, recipe: Recipe, todo: Sequence[Scene], args: argparse.Namespace
 ) -> None:
     """Makes the scenes, in any order. Raises WorkersError if it cannot go on."""
-    for number, name in enumerate(_made(folder, recipe, todo, args), 1):
+    for number, name in enumerate(_made(folder.resolve(), recipe, todo, args), 1):
+        end_if_told()
         say("generate_dataset", f"{name}: {number} of {len(todo)} fields")
 
 
@@ -91,21 +104,23 @@ def _made(
 ) -> Iterator[str]:
     """Makes the scenes; yields the name of each."""
     workers = min(args.workers, len(todo))
-    if workers <= 1 and not args.scheduler:
+    if not todo or (workers == 1 and not args.scheduler):
         yield from (make_scene(folder, recipe, scene) for scene in todo)
         return
-    from ardee_common.cluster import worked_off
-
-    yield from worked_off(
-        make_scene, [(folder.resolve(), recipe, scene) for scene in todo], args.scheduler, workers
-    )
+    try:
+        from ardee_common.cluster import worked_off
+    except ImportError as error:
+        expected = "expected dask (pip install 'ardee[data]'), or --workers 1"
+        raise GeneratorError(f"found {error}, {expected}") from None
+    inputs = {scene.name: (folder, recipe, scene) for scene in todo}
+    yield from worked_off(make_scene, inputs, args.scheduler, workers)
 
 
 def _check_same(folder: Path, recipe_file: Path) -> None:
     """Refuses a folder that holds another data set, or something else."""
     kept = folder / "dataset.yaml"
     text = recipe_file.read_bytes()
-    if not [each for each in folder.iterdir() if each.name not in (kept.name, _SOWN)]:
+    if not [each for each in folder.iterdir() if each != kept]:
         write_file(kept, text)  # new, or of a recipe that was refused
     elif not kept.is_file():
         raise GeneratorError(f"--output: found files in {folder}, expected an empty folder")
@@ -137,12 +152,7 @@ def generate(args: argparse.Namespace) -> Optional[str]:
         if lack:
             say("generate_dataset", f"warning: {lack}")
         todo = [scene for scene in scenes(recipe) if not is_complete(folder, recipe, scene)]
-        shutil.rmtree(folder / _SOWN, ignore_errors=True)
-        (folder / _SOWN).mkdir()
-        try:
-            _work_off(folder, recipe, todo, args)
-        finally:
-            shutil.rmtree(folder / _SOWN, ignore_errors=True)
+        _work_off(folder, recipe, todo, args)
         assemble(folder, recipe)
     return str(args.output)
 
@@ -161,12 +171,13 @@ def make_parser() -> argparse.ArgumentParser:
         type=whole_in(1, 1024),
         default=len(os.sched_getaffinity(0)),
         metavar="N",
-        help="number of processes, which share the fields (default: that of the processors)",
+        help="number of processes of this machine, which share the fields (default: that of its processors)",
     )
     parser.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="dask scheduler whose workers take the pictures; the output folder has the same path on all of them",
+        help="dask scheduler whose workers take the pictures instead of this machine's; the output folder has the same"
+        " path on all of them",
     )
     return parser
 

@@ -59,18 +59,22 @@ class Recipe:
     light: Optional[dict] = option(None, "light of sun and sky; none: each field has the same noon")
     labels: Optional[dict] = option(
         None,
-        f"labels of crop models of your own, {OWN_LABELS[0]} to {OWN_LABELS[1]}, by their category's name",
+        f"labels of models of your own, {OWN_LABELS[0]} to {OWN_LABELS[1]}, by the name of their category",
     )
     seed: int = option(0, "root of all random numbers", (0, 2**63))
     licence: str = option("CC0-1.0", "licence of the data set, an SPDX identifier")
+
+
+def _check_name(given: Mapping, name: str, what: str) -> None:
+    if not name.replace("_", "").isalnum() or not name.isascii():
+        raise given.error(name, f"{what} {name!r}: expected letters, digits and '_'")
 
 
 def _named(cls: type, given: Mapping, what: str) -> Dict[str, Any]:
     """Returns the groups of options below names that are safe in file names."""
     made = {}
     for name, keys in given.items():
-        if not name.replace("_", "").isalnum() or not name.isascii():
-            raise given.error(name, f"{what} {name!r}: expected letters, digits and '_'")
+        _check_name(given, name, what)
         if not isinstance(keys, Mapping):
             raise given.error(name, f"{name}: found {keys!r}, expected a mapping of keys to values")
         check_ranges(cls, keys)
@@ -165,13 +169,13 @@ def _labels(given: Mapping) -> Dict[str, int]:
     least, greatest = OWN_LABELS
     taken = {category["name"]: category["id"] for category in CATEGORIES}
     for name, label in given.items():
+        _check_name(given, name, "labels")
         if not isinstance(label, int) or isinstance(label, bool) or not least <= label <= greatest:
             expected = f"expected a whole number within {least} and {greatest}"
             raise given.error(name, f"labels: {name}: found {label!r}, {expected}")
         if name in taken or label in taken.values():
-            raise given.error(
-                name, f"labels: found {name}: {label} twice, expected each name and label once"
-            )
+            found = f"found {name}: {label}, of which one stands for another category"
+            raise given.error(name, f"labels: {found}; expected a new name and a new label")
         taken[name] = label
     return dict(given)
 
