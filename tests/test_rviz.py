@@ -124,8 +124,8 @@ def test_world_alone(graph: RosGraph) -> None:
     assert displays["Scenery"]["messages"] > 0
 
 
-@pytest.mark.parametrize("crashes, code", [(1, 0), (2, 1)])
-def test_a_crash_of_rviz_is_forgiven_once(graph: RosGraph, crashes: int, code: int) -> None:
+@pytest.mark.parametrize("crashes, code", [(1, 0), (3, 1)])
+def test_crashes_of_rviz_are_forgiven_twice(graph: RosGraph, crashes: int, code: int) -> None:
     picture = graph.folder / "again.png"
     command = str(PICTURE), str(WORLD_VIEW), "--output", str(picture), "--timeout-s", "1"
     process = graph.spawn(*command)
@@ -134,8 +134,11 @@ def test_a_crash_of_rviz_is_forgiven_once(graph: RosGraph, crashes: int, code: i
         os.kill(child_of(process.pid), signal.SIGSEGV)
     assert process.wait(60.0) == code
     notes = [line for line in process.output().splitlines() if line.startswith("rviz_picture:")]
-    said = ["rviz_picture: rviz ended by signal 11 and is started again"]
-    assert notes == said + ["rviz_picture: rviz ended by signal 11"] * code
+    again = [line for line in notes if line.endswith(" and is started again")]
+    assert 1 <= len(again) <= 2  # it may crash by itself, too
+    assert "rviz_picture: rviz ended by signal 11 and is started again" in again
+    assert [line.startswith("rviz_picture: rviz ended") for line in notes] == [True] * len(notes)
+    assert len(notes) == len(again) + code
     assert picture.exists() == (code == 0)
 
 
