@@ -13,9 +13,8 @@ from ardee_world.row_truth import Pose
 
 STEPS = 300
 SMALL = {"RowFollowCamera": dict(width_px=32, height_px=24)}
-Said = List[
-    Dict[str, Tuple[int, bytes]]
-]  # of each control period: stamp [ns] and bytes of each topic's reading
+# Of each control period: stamp [ns] and bytes of each topic's reading
+Said = List[Dict[str, Tuple[int, bytes]]]
 
 
 def to_and_fro(number: int) -> Tuple[float, float]:

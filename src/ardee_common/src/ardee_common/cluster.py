@@ -16,9 +16,8 @@ from distributed.scheduler import KilledWorker
 from ardee_common.errors import GeneratorError, WorkersError
 from ardee_common.process import end_put_off
 
-_LOSSES = (
-    3  # of workers at a task, and one for each worker: if all end at once, it is passed on to each
-)
+# Of workers at a task, beside one for each worker: if all end at once, the task is passed on to each.
+_LOSSES = 3
 _PATIENCE_S = 30.0  # for a scheduler and its first worker
 LOST = WorkersError("the scheduler was lost; start again to go on")
 
